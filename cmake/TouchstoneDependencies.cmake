@@ -1,0 +1,30 @@
+# Every library we stand on, as an imported target. All are Debian 12 packages: tools/dependencies.txt.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(Vulkan 1.3 REQUIRED)
+find_package(glfw3 3.3 REQUIRED)
+find_package(glm REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(embree 3.13 REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(draco REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+
+# OpenImageIO's own CMake config demands the tools package; pkg-config does not.
+pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
+
+# Debian ships Dear ImGui as one static library that already holds the GLFW and Vulkan backends and
+# leaves stb undefined.
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+add_library(imgui::imgui STATIC IMPORTED)
+set_target_properties(imgui::imgui PROPERTIES
+    IMPORTED_LOCATION ${IMGUI_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES "/usr/include/imgui;/usr/include/imgui/backends"
+    INTERFACE_LINK_LIBRARIES "glfw;Vulkan::Vulkan;${STB_LIBRARY};${CMAKE_DL_LIBS}")
+
+find_path(READERWRITERQUEUE_INCLUDE readerwriterqueue/readerwriterqueue.h REQUIRED)

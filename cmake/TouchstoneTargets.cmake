@@ -1,0 +1,21 @@
+# Flags that all of our own code shares, and the one way to add a library.
+add_library(touchstone_flags INTERFACE)
+target_compile_options(touchstone_flags INTERFACE
+    -march=x86-64-v3 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    -Wnon-virtual-dtor -Werror -fno-math-errno)
+# Foreign headers are system headers, so warnings stay ours.
+target_compile_definitions(touchstone_flags INTERFACE
+    GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL
+    TOUCHSTONE_VERSION="${PROJECT_VERSION}")
+target_include_directories(touchstone_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+if(TOUCHSTONE_SANITIZE)
+    target_compile_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
+endif()
+
+# touchstone_library(NAME SOURCES... ) makes touchstone_NAME, the one static library of the folder NAME.
+function(touchstone_library name)
+    add_library(touchstone_${name} STATIC ${ARGN})
+    add_library(touchstone::${name} ALIAS touchstone_${name})
+    target_link_libraries(touchstone_${name} PUBLIC touchstone_flags)
+endfunction()

@@ -1,0 +1,44 @@
+#pragma once
+// The two plain structs through which the haptic step and a device talk. Neither side links the other.
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace touchstone {
+
+class ForceLimiter;
+
+/// Inputs in the device frame: m, right-handed, y up, z towards the user.
+struct DeviceSample {
+    glm::dvec3 position{0.0};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    uint32_t buttons = 0;
+    double age = 0.0;      ///< s since the device measured it
+    bool valid = false;    ///< false: nothing is known of the hand (unplugged, not started)
+};
+
+/// What may be sent to a device, in the device frame. Only the safety stage can make one that is not zero.
+class DeviceCommand {
+  public:
+    DeviceCommand() = default; ///< zero force
+    [[nodiscard]] const glm::dvec3& force() const { return force_; }   ///< N
+    [[nodiscard]] const glm::dvec3& torque() const { return torque_; } ///< N·m
+
+  private:
+    friend class ForceLimiter;
+    DeviceCommand(const glm::dvec3& force, const glm::dvec3& torque) : force_(force), torque_(torque) {}
+    glm::dvec3 force_{0.0}, torque_{0.0};
+};
+
+/// What a device can do; the safety stage never exceeds it.
+struct DeviceLimits {
+    double maxForce = 8.5;             ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
+    double maxForceRate = 8500.0;      ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
+    double recommendedStiffness = 600.0; ///< N/m, used where a material states none
+    double maxStiffness = 3500.0;      ///< N/m, above it the closed loop may buzz
+    double positionResolution = 3e-5;  ///< m
+};
+
+} // namespace touchstone

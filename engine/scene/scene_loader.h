@@ -1,0 +1,30 @@
+#pragma once
+// glTF and GLB in: read, validate, build. Any thread; throws touchstone::Error.
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+
+#include "engine/scene/scene.h"
+
+namespace touchstone {
+
+/// Which images to decode. What nobody uses is not decoded (DESIGN §7).
+struct ImageUse {
+    bool visual = true;   ///< base colour, metallic-roughness, normal, occlusion, emissive
+    bool haptic = true;   ///< normal maps that are felt, height, friction, stiffness, damping
+};
+
+struct LoadOptions {
+    ImageUse images;
+    /// Called from the loading thread with 0..1 and what is being done. May be empty.
+    std::function<void(double fraction, const char* what)> progress;
+    /// Set it to stop: loadScene then throws Error with problem "cancelled". May be null.
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+/// Reads the file, follows its URIs inside its own folder, validates everything before use and builds the
+/// immutable scene. Broken images become warnings and grey; broken geometry, structure or references throw.
+[[nodiscard]] ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+} // namespace touchstone

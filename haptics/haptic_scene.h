@@ -1,0 +1,40 @@
+#pragma once
+// The scene as the hand knows it: welded objects with their BVH, haptic maps and the effect plan.
+// Immutable after compileHapticScene; read by the servo, the oracle and the studies alike.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/device_io/device_io.h"
+#include "engine/math/similarity.h"
+#include "engine/scene/scene.h"
+#include "haptics/contact/haptic_object.h"
+#include "haptics/effect_plan.h"
+#include "haptics/texture/haptic_material.h"
+
+namespace touchstone {
+
+/// Vertices of an object nearer than this fraction of its diagonal are one vertex; counted in HapticObject.
+/// A crack narrower than this is closed at any proxy radius, also at zero.
+inline constexpr double kWeldTolerance = 1e-6;
+
+class HapticScene {
+  public:
+    HapticScene() = default;
+    HapticScene(const HapticScene&) = delete;
+    HapticScene& operator=(const HapticScene&) = delete;
+
+    std::vector<std::unique_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
+    std::vector<HapticMaterialData> materials;                ///< index = Scene material
+    EffectPlan plan;
+    Similarity workspaceFromScene;
+    DeviceLimits limits;
+    std::vector<Warning> warnings;
+};
+
+/// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error.
+[[nodiscard]] std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene,
+                                                                    const DeviceLimits& limits = {});
+
+} // namespace touchstone

@@ -1,0 +1,49 @@
+#pragma once
+// What a person may choose while touching. Plain data: copied to the servo by a triple buffer.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace touchstone {
+
+enum class ContactMethod : uint8_t { Sweep };
+enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction };
+enum class TextureMode : uint8_t { Off, Law };
+enum class FrictionMode : uint8_t { Off, Zilles };
+
+/// Defaults are what the program starts with. SI units; lengths in workspace metres.
+struct HapticSettings {
+    ContactMethod contact = ContactMethod::Sweep;
+    ShadingMode forceShading = ShadingMode::TwoPass; ///< where the material and the model's normals allow it
+    TextureMode texture = TextureMode::Law;
+    FrictionMode friction = FrictionMode::Zilles;
+    double proxyRadius = 0.5e-3;      ///< m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves.
+    double stiffness = 0.0;           ///< N/m; 0: material's, else the device's recommendation
+    double damping = -1.0;            ///< N·s/m; < 0: material's, else 0
+    double staticFriction = -1.0;     ///< < 0: material's, else 0
+    double dynamicFriction = -1.0;    ///< < 0: material's, else 0
+    double shadingTiltLimit = 0.5235987755982988; ///< rad, 30°: the papers' stable range [000 §4]
+    double textureTiltLimit = 0.4363323129985824; ///< rad, 25°: steeper felt normals are compressed below it; >= pi/2: no limit
+    double textureStrength = 1.0;     ///< 0..1, scales height and the normal map's tilt
+    int iterationBudget = 64;         ///< proxy moves a tick; fewer is safe and merely feels sticky [000 §7]
+    bool forceEnabled = true;         ///< false: the force-off key; contact goes on, commands are zero
+
+    bool operator==(const HapticSettings&) const = default;
+};
+
+/// One row for `--set`, `--help` and the panel.
+struct SettingInfo {
+    std::string_view name, unit, values, meaning;
+};
+[[nodiscard]] std::span<const SettingInfo> settingInfos();
+
+/// Sets NAME to VALUE. Returns an empty string, or what is wrong with it and which values are allowed; then
+/// `settings` is unchanged. Not for the servo thread.
+[[nodiscard]] std::string setSetting(HapticSettings& settings, std::string_view name, std::string_view value);
+
+/// The value of NAME as `--set` would take it; empty if there is no such setting.
+[[nodiscard]] std::string settingValue(const HapticSettings& settings, std::string_view name);
+
+} // namespace touchstone

@@ -1,0 +1,93 @@
+#pragma once
+// One tick of touch. Read haptic_step.cpp: it tells the whole story in order.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "engine/device_io/device_io.h"
+#include "engine/math/similarity.h"
+#include "haptics/device_state.h"
+#include "haptics/haptic_settings.h"
+#include "haptics/stopwatch.h"
+
+namespace touchstone {
+
+class HapticScene;
+
+/// Pose and motion of one object at this tick, in the workspace. Index = HapticScene object index.
+struct ObjectMotion {
+    Similarity workspaceFromObject;
+};
+
+/// Everything that comes from outside in one tick. The step reads no clock.
+struct TickInput {
+    uint64_t tick = 0;
+    double time = 0.0;                         ///< s since start
+    double dt = 1e-3;                          ///< s, > 0
+    std::span<const DeviceSample> devices;     ///< one per device
+    /// Poses at this tick; empty: every object rests where HapticScene placed it.
+    std::span<const ObjectMotion> objects;
+};
+
+/// What touch itself changes (persistent textures, field edits). Written by the servo only.
+struct WorldState {};
+
+/// Hard facts about a tick, as bits.
+enum class TickFlag : uint32_t {
+    None = 0,
+    InputInvalid = 1u << 0,       ///< no sample, stale or not finite: no force
+    StartedInside = 1u << 1,      ///< the HIP was inside a closed object when touch began: feels nothing until out
+    BudgetReached = 1u << 2,      ///< proxy solve stopped at the iteration budget: sticky, still safe
+    CandidatesFull = 1u << 3,     ///< more triangles near the proxy than the tick has room for; motion was cut short
+    ShadingNotConverged = 1u << 4,
+    TiltCompressed = 1u << 5,     ///< the texture's normal was steeper than textureTiltLimit
+    ForceLimited = 1u << 6,       ///< safety clamped magnitude or slew
+    ForceFault = 1u << 7,         ///< safety saw NaN or infinity: command is zero
+    Teleported = 1u << 8,         ///< the HIP jumped farther than a hand can: the proxy swept there all the same
+};
+[[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) { return flags | static_cast<uint32_t>(flag); }
+[[nodiscard]] constexpr bool has(uint32_t flags, TickFlag flag) { return (flags & static_cast<uint32_t>(flag)) != 0; }
+
+enum class FrictionState : uint8_t { Free, Sticking, Sliding };
+
+/// What one device gets from one tick. Workspace frame, SI, unless said otherwise.
+struct HapticOutput {
+    glm::dvec3 hip{0.0};              ///< haptic interface point
+    glm::dvec3 hipVelocity{0.0};      ///< m/s, filtered
+    glm::dvec3 proxy{0.0};            ///< centre of the proxy sphere (IHIP, god-object)
+    glm::dvec3 normal{0.0};           ///< unit normal of the felt surface (shaded, textured); zero without contact
+    glm::dvec3 force{0.0};            ///< N, stage 7, before safety
+    DeviceCommand command;            ///< device frame, after safety
+    glm::dvec3 commandInWorkspace{0.0};
+    double penetration = 0.0;         ///< |proxy - HIP|, m
+    uint32_t contacts = 0;            ///< touching features in the last solve
+    uint32_t iterations = 0;          ///< proxy moves
+    FrictionState friction = FrictionState::Free;
+    uint32_t flags = 0;               ///< TickFlag bits
+    int object = -1;                  ///< touched object, -1 without contact
+    int triangle = -1;                ///< touched triangle of that object's mesh
+    std::array<glm::dvec3, 3> planes{}; ///< active constraint planes' normals, `planeCount` of them
+    uint32_t planeCount = 0;
+    glm::dvec3 stictionPoint{0.0};    ///< valid while friction is not Free
+    double height = 0.0;              ///< felt height H, m
+};
+
+/// One tick: sample, contact, proxy, shading, texture, friction, force, safety (DESIGN §2). Deterministic; no
+/// clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per device of `input`.
+/// Stopwatch: NoStopwatch on the servo, StageStopwatch where cost is studied.
+template <class Stopwatch>
+void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,
+                Stopwatch& stopwatch) noexcept;
+
+extern template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                             WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                             NoStopwatch&) noexcept;
+extern template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                                WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                                StageStopwatch&) noexcept;
+
+} // namespace touchstone
