@@ -36,6 +36,8 @@ class DeviceCommand {
 struct DeviceLimits {
     double maxForce = 8.5;             ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
     double maxForceRate = 8500.0;      ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
+    double maxTorque = 0.0;              ///< N·m, magnitude; 0: the device takes no torque
+    double maxTorqueRate = 0.0;          ///< N·m/s
     double recommendedStiffness = 600.0; ///< N/m, used where a material states none
     double maxStiffness = 3500.0;      ///< N/m, above it the closed loop may buzz
     double positionResolution = 3e-5;  ///< m

@@ -1,0 +1,72 @@
+#pragma once
+// Stage 8: the only thing that may reach a device (DESIGN §9). Pure: all memory is in ForceLimiterState.
+
+#include "engine/device_io/device_io.h"
+#include "engine/math/similarity.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace touchstone {
+
+/// s from no force to full force after enabling, after a start and after a scene swap. Longer is gentler to a
+/// hand that happens to be inside the new surface, but the first touch feels soft for that long.
+inline constexpr double kForceRampInTime = 0.1;
+
+/// s from full force to none once the input is stale. Shorter stops sooner, longer avoids the kick of a force
+/// that vanishes under a pressing hand.
+inline constexpr double kForceRampOutTime = 0.05;
+
+/// s: a sample older than this is stale. Twenty periods at 1 kHz: longer than any USB poll or scheduling
+/// hiccup, shorter than a hand's reaction. Larger keeps pushing longer on what may no longer be true.
+inline constexpr double kStaleInputAge = 0.02;
+
+/// Late ticks in a row after which the loop counts as broken: the force fades out and stays off (latched).
+/// Fewer trips on a busy desktop; more lets a loop that runs at half its rate go unstable for longer.
+inline constexpr uint32_t kLateTicksToLatch = 20;
+
+/// What the limiter remembers from tick to tick. Device frame.
+struct ForceLimiterState {
+    glm::dvec3 lastForce{0.0};  ///< N, the last command
+    glm::dvec3 lastTorque{0.0}; ///< N·m
+    glm::dvec3 heldForce{0.0};  ///< N, last force from fresh input: what fades out when the input goes stale
+    glm::dvec3 heldTorque{0.0}; ///< N·m
+    double ramp = 0.0;          ///< 0..1, share of the force that passes
+    uint32_t lateInARow = 0;    ///< late ticks
+    uint32_t faults = 0;        ///< ticks with a force that was not finite, since the start
+    bool latched = false;       ///< no force until it is switched off and on again
+};
+
+/// What the limiter must know about this tick besides the force.
+struct SafetyInputs {
+    DeviceLimits limits;
+    double dt = 1e-3;         ///< s since the last command
+    bool inputValid = false;  ///< the device sample is valid and finite
+    double sampleAge = 0.0;   ///< s
+    bool forceEnabled = true; ///< false: the force-off key
+    bool late = false;        ///< the previous tick ended after its next deadline
+};
+
+/// Makes every DeviceCommand there is. What always holds, for any input whatever:
+/// - the command is finite and |force| <= limits.maxForce (torque likewise with maxTorque);
+/// - |force - previous force| <= limits.maxForceRate * dt, with one exception: a force, a dt or a limit that
+/// is
+///   not a finite number is a fault, and a fault drops the command to zero at once.
+class ForceLimiter {
+  public:
+    /// Servo thread. `force` in N and `torque` in N·m in the workspace; the command is in the device frame,
+    /// to which `workspaceFromDevice` turns it (its scale and translation do not act on forces: zooming a
+    /// model changes how far one moves, not how hard it pushes). Sets ForceLimited, ForceFault, ForceRamping,
+    /// SafetyLatched and InputInvalid in `flags`.
+    [[nodiscard]] static DeviceCommand limit(const glm::dvec3& force, const glm::dvec3& torque,
+                                             const SafetyInputs& inputs,
+                                             const Similarity& workspaceFromDevice, ForceLimiterState& state,
+                                             uint32_t& flags) noexcept;
+
+    /// Servo thread, at a scene swap: the force fades in anew. The last command is kept, since the device
+    /// still holds it and the slew limit must start from there; so is a latch.
+    static void restartRamp(ForceLimiterState& state) noexcept;
+};
+
+} // namespace touchstone

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+namespace touchstone {
+
+/// Hard facts about a tick, as bits.
+enum class TickFlag : uint32_t {
+    None = 0,
+    InputInvalid = 1u << 0,  ///< no sample, stale or not finite: no force
+    StartedInside = 1u << 1, ///< the HIP was inside a closed object when touch began: feels nothing until out
+    BudgetReached = 1u << 2, ///< proxy solve stopped at the iteration budget: sticky, still safe
+    CandidatesFull =
+        1u << 3, ///< more triangles near the proxy than the tick has room for; motion was cut short
+    ShadingNotConverged = 1u << 4,
+    TiltCompressed = 1u << 5, ///< the texture's normal was steeper than textureTiltLimit
+    ForceLimited = 1u << 6,   ///< safety clamped magnitude or slew
+    ForceFault = 1u << 7,     ///< safety saw NaN or infinity in this tick: command is zero
+    Teleported = 1u << 8,     ///< the HIP jumped farther than a hand can: the proxy swept there all the same
+    ForceRamping = 1u << 9,   ///< safety fades the force in (enabled, scene swapped) or out (input stale)
+    SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
+};
+[[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) {
+    return flags | static_cast<uint32_t>(flag);
+}
+[[nodiscard]] constexpr bool has(uint32_t flags, TickFlag flag) {
+    return (flags & static_cast<uint32_t>(flag)) != 0;
+}
+
+} // namespace touchstone
