@@ -1,0 +1,61 @@
+#pragma once
+
+#include "assets/shapes.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace touchstone::assets {
+
+using Json = nlohmann::ordered_json;
+
+enum class Packing {
+    Plain,  ///< vertex arrays as core glTF has them: any viewer opens the file
+    Meshopt ///< EXT_meshopt_compression, lossless (codecs without filters), no fallback data: half the size
+};
+
+/// Collects a scene and lays it out as one GLB (glTF 2.0 §4, binary container). The same calls give the same
+/// bytes. Every `add` returns the index that glTF uses. Not for several threads.
+class GlbWriter {
+  public:
+    explicit GlbWriter(std::string sceneName, Packing packing = Packing::Plain);
+
+    /// A texture of its own on a PNG file image in memory, with a repeating, trilinear sampler.
+    int addTexture(const std::string& name, const std::vector<std::byte>& png);
+    int addMaterial(Json material);
+    int addMesh(const std::string& name, const Shape& shape, int material);
+    /// One mesh of several primitives, each with its own material.
+    int addMesh(const std::string& name, const std::vector<std::pair<Shape, int>>& parts);
+    /// A node without transform at the root of the scene.
+    int addNode(const std::string& name, int mesh);
+    void useExtension(const std::string& extension);
+
+    /// The finished file. Call once.
+    [[nodiscard]] std::vector<std::byte> finish();
+
+  private:
+    struct View {
+        size_t count, stride;
+        int target; ///< 34962 vertices, 34963 indices
+    };
+    int addView(const void* data, const View& view);
+    int addAccessor(const void* data, const View& view, int componentType, const char* type);
+    int addPositions(const std::vector<glm::vec3>& positions);
+    int addIndices(const std::vector<uint32_t>& indices, size_t vertexCount);
+    Json addPrimitive(const Shape& shape, int material);
+    size_t append(const void* data, size_t size);
+
+    Packing packing_;
+    Json gltf_;
+    std::vector<std::byte> binary_;
+    size_t unpackedSize_ = 0; ///< of the fallback buffer that Packing::Meshopt leaves out
+};
+
+/// Writes the file beside itself and renames it, so that nothing is half written. Throws std::runtime_error.
+void writeFile(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
+
+} // namespace touchstone::assets

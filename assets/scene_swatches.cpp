@@ -1,0 +1,182 @@
+#include "assets/glb_writer.h"
+#include "assets/picture.h"
+#include "assets/scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace touchstone::assets {
+
+namespace {
+
+constexpr int kColumns = 5, kRows = 2;
+constexpr double kTile = 0.040, kGap = 0.004, kThickness = 0.012; // m
+constexpr int kMapSize = 256;                                     // 0.16 mm a texel
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+constexpr double kBumpHeight = 0.0006, kRibHeight = 0.0004, kGrainHeight = 0.00015; // m
+
+/// Round bumps 8 mm apart, flat between them.
+double bumps(double u, double v) {
+    const auto fromCentre = [](double t) { return 5.0 * t - std::floor(5.0 * t) - 0.5; };
+    const double distance = std::min(1.0, 2.4 * std::hypot(fromCentre(u), fromCentre(v)));
+    return 0.5 + 0.5 * std::cos(std::numbers::pi * distance);
+}
+
+/// Upright ribs, 4 mm apart.
+double ribs(double u, double) {
+    return 0.5 + 0.5 * std::sin(kTurn * 10.0 * u);
+}
+
+/// Grains of 0.4 to 1.2 mm.
+double grains(double u, double v) {
+    return 0.6 * tilingNoise(u, v, 32, 1) + 0.4 * tilingNoise(u, v, 80, 2);
+}
+
+/// Smooth stripes between two friction or stiffness values, 10 mm apart.
+double stripes(double u, double) {
+    return std::clamp(0.5 + 1.5 * std::sin(kTurn * 4.0 * u), 0.0, 1.0);
+}
+
+struct Swatch {
+    const char* name;
+    glm::ivec3 colour; ///< sRGB
+    Json haptic;
+    HeightFunction relief = {};      ///< empty: flat
+    double reliefHeight = 0.0;       ///< m
+    bool reliefAsHeight = false;     ///< felt through a height map; else through the normal map alone
+    const char* factorMap = nullptr; ///< the haptic field that the stripes drive
+    double factorMin = 0.0, factorMax = 0.0;
+};
+
+std::array<Swatch, kColumns * kRows> palette() {
+    return {{
+        {.name = "SLIPPERY",
+         .colour = {150, 205, 225},
+         .haptic = {{"staticFriction", 0.05}, {"dynamicFriction", 0.03}}},
+        {.name = "GRIPPY",
+         .colour = {205, 95, 75},
+         .haptic = {{"staticFriction", 0.9}, {"dynamicFriction", 0.7}}},
+        {.name = "SAND",
+         .colour = {222, 196, 140},
+         .haptic = {{"staticFriction", 0.4}, {"dynamicFriction", 0.35}},
+         .relief = grains,
+         .reliefHeight = kGrainHeight},
+        {.name = "BUMPS",
+         .colour = {140, 180, 110},
+         .haptic = {{"staticFriction", 0.2}, {"dynamicFriction", 0.15}},
+         .relief = bumps,
+         .reliefHeight = kBumpHeight,
+         .reliefAsHeight = true},
+        {.name = "RIBS",
+         .colour = {115, 150, 190},
+         .haptic = {{"staticFriction", 0.2}, {"dynamicFriction", 0.15}, {"normalTextureInfluence", 0.0}},
+         .relief = ribs,
+         .reliefHeight = kRibHeight,
+         .reliefAsHeight = true},
+        {.name = "SOFT", .colour = {235, 175, 190}, .haptic = {{"stiffness", 120.0}, {"damping", 0.5}}},
+        {.name = "HARD", .colour = {120, 120, 128}, .haptic = {{"stiffness", 1500.0}}},
+        {.name = "VISCOUS",
+         .colour = {170, 130, 185},
+         .haptic = {{"stiffness", 500.0},
+                    {"damping", 2.0},
+                    {"staticFriction", 0.1},
+                    {"dynamicFriction", 0.1},
+                    {"viscousFriction", 4.0}}},
+        {.name = "STRIPES",
+         .colour = {230, 150, 80},
+         .haptic = {{"staticFriction", 1.0}, {"dynamicFriction", 0.8}},
+         .factorMap = "frictionTexture",
+         .factorMin = 0.05,
+         .factorMax = 1.0},
+        {.name = "SPRINGS",
+         .colour = {95, 175, 165},
+         .haptic = {{"stiffness", 1200.0}},
+         .factorMap = "stiffnessTexture",
+         .factorMin = 0.15,
+         .factorMax = 1.0},
+    }};
+}
+
+int addSwatchMaterial(GlbWriter& glb, const Swatch& swatch) {
+    const std::string name = swatch.name;
+    const glm::ivec3 ink = swatch.colour / 3;
+    Json material{
+        {"name", name},
+        {"pbrMetallicRoughness",
+         {{"baseColorTexture", {{"index", glb.addTexture(name, png(label(name, 128, swatch.colour, ink)))}}},
+          {"metallicFactor", 0.0},
+          {"roughnessFactor", 0.6}}}};
+    Json haptic = swatch.haptic;
+    if (swatch.relief) {
+        const int normals = glb.addTexture(
+            name + ", normals", png(normalMap(swatch.relief, kMapSize, kTile, swatch.reliefHeight)));
+        material["normalTexture"] = {{"index", normals}};
+    }
+    if (swatch.reliefAsHeight)
+        haptic["heightTexture"] = {
+            {"index", glb.addTexture(name + ", heights", png(heightMap(swatch.relief, kMapSize)))},
+            {"scale", swatch.reliefHeight},
+            {"midLevel", 0.0}};
+    if (swatch.factorMap != nullptr)
+        haptic[swatch.factorMap] = {
+            {"index", glb.addTexture(name + ", factors", png(factorMap(stripes, 128)))},
+            {"min", swatch.factorMin},
+            {"max", swatch.factorMax}};
+    material["extensions"]["TOUCHSTONE_materials_haptic"] = haptic;
+    return glb.addMaterial(material);
+}
+
+/// Gap, tile, gap, tile, ..., gap, centred.
+std::vector<double> cuts(int tiles) {
+    std::vector<double> result;
+    const double start = -0.5 * (tiles * kTile + (tiles + 1) * kGap);
+    for (int i = 0; i <= tiles; ++i) {
+        result.push_back(start + i * (kTile + kGap));
+        result.push_back(start + i * (kTile + kGap) + kGap);
+    }
+    return result;
+}
+
+} // namespace
+
+SceneFile swatches() {
+    // One closed box whose front (+z) is cut into tiles and the frame between them, each tile a primitive
+    // with its own material: a stroke from tile to tile meets no edge, only another material.
+    GlbWriter glb("swatches");
+    const std::vector<double> x = cuts(kColumns), y = cuts(kRows), z{-0.5 * kThickness, 0.5 * kThickness};
+    const Face front{2, 1.0, z[1], x, y};
+    const auto isTile = [](size_t i, size_t j) { return i % 2 == 1 && j % 2 == 1; };
+    const auto everywhere = [](size_t, size_t) { return true; };
+
+    Shape frame;
+    appendFace(frame, front, [&](size_t i, size_t j) { return !isTile(i, j); });
+    appendFace(frame, Face{2, -1.0, z[0], x, y}, everywhere);
+    for (const double sign : {-1.0, 1.0}) {
+        appendFace(frame, Face{0, sign, sign < 0.0 ? x.front() : x.back(), y, z}, everywhere);
+        appendFace(frame, Face{1, sign, sign < 0.0 ? y.front() : y.back(), z, x}, everywhere);
+    }
+    const int wood = glb.addMaterial({{"name", "board"},
+                                      {"pbrMetallicRoughness",
+                                       {{"baseColorFactor", {0.10, 0.09, 0.08, 1.0}},
+                                        {"metallicFactor", 0.0},
+                                        {"roughnessFactor", 0.8}}}});
+    std::vector<std::pair<Shape, int>> parts{{frame, wood}};
+    const auto palette10 = palette();
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column) {
+            Shape tile;
+            appendCell(tile, front, static_cast<size_t>(2 * column + 1),
+                       static_cast<size_t>(2 * (kRows - 1 - row) + 1));
+            tile.uv = {{0.0f, 1.0f}, {1.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
+            tile.tangents.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+            parts.emplace_back(
+                tile, addSwatchMaterial(glb, palette10[static_cast<size_t>(row * kColumns + column)]));
+        }
+    glb.addNode("swatches", glb.addMesh("swatches", parts));
+    return {"swatches.glb", glb.finish()};
+}
+
+} // namespace touchstone::assets

@@ -1,0 +1,33 @@
+#pragma once
+// Every scene that is committed in assets/scenes/: its file name and how it is made. One file per family.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace touchstone::assets {
+
+struct SceneFile {
+    std::string name; ///< "doughnut.glb"
+    std::vector<std::byte> bytes;
+};
+
+/// The doughnut of [000 Fig. 8a]: 64,800 triangles with waves as normal and height map.
+[[nodiscard]] SceneFile doughnut();
+/// The four objects of [000 Table I]: 12, 456, 1800 and 64,800 triangles.
+[[nodiscard]] std::vector<SceneFile> tableOneObjects();
+/// Bare shapes for closed forms and benchmarks: torus_64800, prism_flat, prism_smooth [000 Fig. 6], plane,
+/// box.
+[[nodiscard]] std::vector<SceneFile> plainShapes();
+/// A board of tiles that look alike in shape and feel different.
+[[nodiscard]] SceneFile swatches();
+
+/// All of them.
+[[nodiscard]] std::vector<SceneFile> allScenes();
+
+/// A bare mesh of about `triangles` triangles (the nearest the shape allows), for benchmarks.
+/// `shape`: torus, sphere, box, plane or prism. Throws std::invalid_argument on another name or a count that
+/// the shape cannot have or that exceeds 20 million.
+[[nodiscard]] SceneFile bareShape(const std::string& shape, size_t triangles);
+
+} // namespace touchstone::assets
