@@ -28,6 +28,7 @@ struct TickInput {
     uint64_t tick = 0;
     double time = 0.0;                         ///< s since start
     double dt = 1e-3;                          ///< s, > 0
+    bool late = false;                         ///< the previous tick ended after its next deadline
     std::span<const DeviceSample> devices;     ///< one per device
     /// Poses at this tick; empty: every object rests where HapticScene placed it.
     std::span<const ObjectMotion> objects;

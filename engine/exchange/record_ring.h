@@ -1,32 +1,71 @@
 #pragma once
 
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-
-#include <readerwriterqueue/readerwriterqueue.h>
+#include <type_traits>
+#include <vector>
 
 namespace touchstone {
 
 /// Every tick's record from the servo to one reader. When the reader falls behind, records are dropped and
 /// counted, never waited for. Capacity is allocated up front.
+///
+/// Two free-running counters over a power of two of slots (Lamport 1983). A library queue would do as well,
+/// but the ones at hand synchronise by fences, which g++'s thread sanitizer cannot follow: here every
+/// hand-over is an acquire that reads a release, so the sanitizer proves it.
 template <class Record>
 class RecordRing {
-  public:
-    explicit RecordRing(size_t capacity) : queue_(capacity) {}
+    static_assert(std::is_nothrow_copy_assignable_v<Record>,
+                  "a record that can throw has no place in the tick");
 
-    /// Servo thread only.
+  public:
+    /// `capacity` is rounded up to a power of two, at least 2.
+    explicit RecordRing(size_t capacity)
+        : slots_(std::bit_ceil(capacity < 2 ? size_t{2} : capacity)), mask_(slots_.size() - 1) {}
+    RecordRing(const RecordRing&) = delete;
+    RecordRing& operator=(const RecordRing&) = delete;
+
+    /// Writer (servo) thread only.
     void push(const Record& record) noexcept {
-        if (!queue_.try_enqueue(record)) dropped_.fetch_add(1, std::memory_order_relaxed);
+        const size_t end = end_.load(std::memory_order_relaxed);
+        if (end - knownBegin_ > mask_) {
+            knownBegin_ = begin_.load(std::memory_order_acquire);
+            if (end - knownBegin_ > mask_) {
+                dropped_.fetch_add(1, std::memory_order_relaxed);
+                return;
+            }
+        }
+        slots_[end & mask_] = record;
+        end_.store(end + 1, std::memory_order_release);
     }
+
     /// Reader thread only.
-    bool pop(Record& record) noexcept { return queue_.try_dequeue(record); }
+    bool pop(Record& record) noexcept {
+        const size_t begin = begin_.load(std::memory_order_relaxed);
+        if (begin == knownEnd_) {
+            knownEnd_ = end_.load(std::memory_order_acquire);
+            if (begin == knownEnd_)
+                return false;
+        }
+        record = slots_[begin & mask_];
+        begin_.store(begin + 1, std::memory_order_release);
+        return true;
+    }
+
     /// Any thread.
     [[nodiscard]] uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+    [[nodiscard]] size_t capacity() const noexcept { return slots_.size(); }
 
   private:
-    moodycamel::ReaderWriterQueue<Record> queue_;
+    std::vector<Record> slots_;
+    size_t mask_;
+    alignas(64) std::atomic<size_t> end_{0}; // writer's line
+    size_t knownBegin_ = 0;
     std::atomic<uint64_t> dropped_{0};
+    alignas(64) std::atomic<size_t> begin_{0}; // reader's line
+    size_t knownEnd_ = 0;
 };
 
 } // namespace touchstone

@@ -1,47 +1,41 @@
 #pragma once
 // The haptic thread: absolute deadlines, read - step - write - publish, nothing else (DESIGN §8).
 
-#include <array>
-#include <atomic>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <string>
-#include <thread>
-
 #include "engine/exchange/handover.h"
 #include "engine/exchange/record_ring.h"
 #include "engine/exchange/triple_buffer.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_step.h"
+#include "haptics/servo/realtime_thread.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
 
 namespace touchstone {
 
 /// One tick as the servo lived it; streamed to the other side.
 struct TickRecord {
-    uint64_t tick = 0;
-    double time = 0.0;           ///< s since the loop started, of the deadline
-    int32_t wakeLatencyNs = 0;   ///< wake-up against the deadline
-    int32_t stepNs = 0;
-    bool missed = false;         ///< the step ended after the next deadline
-    HapticOutput output;         ///< device 0
-};
-
-/// What the servo was granted, for an honest report.
-struct ServoScheduling {
-    std::string policy;          ///< "SCHED_FIFO 80", "EEVDF slice 100 us", "normal"
-    bool memoryLocked = false;
-    int pinnedCpu = -1;
+    uint64_t tick = 0;         ///< number of the deadline: skips those that were slept through
+    double time = 0.0;         ///< s since the loop started, of the deadline
+    int32_t wakeLatencyNs = 0; ///< wake-up against the deadline; what does not fit is saturated
+    int32_t stepNs = 0;        ///< time of the whole step
+    bool missed = false;       ///< the step ended after the next deadline
+    HapticOutput output;       ///< device 0
 };
 
 struct ServoConfig {
-    double rateHz = 1000.0;      ///< 100..4000
+    double rateHz = 1000.0; ///< kLeastServoRate..kMostServoRate
     size_t ringCapacity = 1 << 14;
-    bool wantRealtime = true;
+    bool wantRealtime = true; ///< false: ask the system for nothing (tests, sanitizers)
 };
 
-/// Reads one sample and takes one command; both are called on the servo thread and must not block, allocate or
-/// throw. Two plain functions, so that haptics links no device.
+inline constexpr double kLeastServoRate = 100.0; ///< Hz; below it a stiff wall can no longer be stable
+inline constexpr double kMostServoRate = 4000.0; ///< Hz; above it wake-up latency is no longer small
+
+/// Reads one sample and takes one command; both are called on the servo thread and must not block, allocate
+/// or throw. Two plain functions, so that haptics links no device.
 struct DevicePort {
     void* context = nullptr;
     DeviceSample (*sample)(void* context, double time) noexcept = nullptr;
@@ -51,33 +45,43 @@ struct DevicePort {
 /// Owner thread constructs, starts and stops; everything else says its thread.
 class ServoLoop {
   public:
+    /// Throws Error if the rate is outside kLeastServoRate..kMostServoRate or the port is incomplete.
     explicit ServoLoop(DevicePort port, const ServoConfig& config = {});
     ~ServoLoop();
     ServoLoop(const ServoLoop&) = delete;
     ServoLoop& operator=(const ServoLoop&) = delete;
 
-    void start();
-    void stop(); ///< joins; the last command sent is zero
+    void start(); ///< returns once the thread has its scheduling; no-op while running
+    void stop(); ///< joins; the last command sent is zero. May be started again: time and ticks go on from 0.
 
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
     void offerScene(std::shared_ptr<const HapticScene> scene);
     void setSettings(const HapticSettings& settings) { settings_.write(settings); }
 
-    /// Owner thread: newest tick.
-    bool updateSnapshot() { return snapshot_.update(); }
+    /// Owner thread: newest tick. Also frees the scene that the servo let go.
+    bool updateSnapshot() {
+        scene_.collect();
+        return snapshot_.update();
+    }
     [[nodiscard]] const TickRecord& snapshot() const { return snapshot_.value(); }
     /// Owner thread: every tick in order.
     bool popRecord(TickRecord& record) { return records_.pop(record); }
 
     struct Counters {
-        uint64_t ticks = 0, missed = 0, droppedRecords = 0;
+        uint64_t ticks = 0;          ///< steps made
+        uint64_t missed = 0;         ///< steps that ended after the next deadline
+        uint64_t skipped = 0;        ///< deadlines that passed meanwhile and got no step: ticks never bunch
+        uint64_t droppedRecords = 0; ///< ticks whose record found the ring full
     };
-    [[nodiscard]] Counters counters() const;            ///< any thread
-    [[nodiscard]] ServoScheduling scheduling() const;   ///< after start
+    [[nodiscard]] Counters counters() const;          ///< any thread
+    [[nodiscard]] ServoScheduling scheduling() const; ///< after start
     [[nodiscard]] double rateHz() const { return config_.rateHz; }
 
   private:
+    struct Touch; // what the loop carries from tick to tick
+
     void run() noexcept;
+    TickRecord tick(Touch& touch, uint64_t number, double dt) noexcept;
 
     DevicePort port_;
     ServoConfig config_;
@@ -86,7 +90,7 @@ class ServoLoop {
     RecordRing<TickRecord> records_;
     Handover<HapticScene> scene_;
     std::atomic<bool> stopping_{false};
-    std::atomic<uint64_t> ticks_{0}, missed_{0};
+    std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;
     std::atomic<bool> scheduled_{false};
     std::thread thread_;

@@ -1,0 +1,40 @@
+#pragma once
+// Says which code is inside a tick, so that a program can count what must never happen there.
+
+#include <cstdint>
+
+namespace touchstone {
+
+/// What the real-time code of this process did that it must not do. Any thread may read.
+struct RealtimeViolations {
+    uint64_t allocations = 0;   ///< malloc, operator new and their kin inside a tick
+    uint64_t deallocations = 0; ///< free, operator delete inside a tick
+};
+
+namespace realtime {
+
+/// True on a thread that is inside a tick. Costs one store to enter and one to leave.
+extern constinit thread_local bool inTick;
+
+/// Called by an interposed allocator (workbench/allocation_guard.cpp) for every call on any thread.
+void noteAllocation() noexcept;
+void noteDeallocation() noexcept;
+
+/// Whether an interposed allocator is linked into this program; without one nothing is ever counted.
+void announceInterposer() noexcept;
+[[nodiscard]] bool allocationsAreCounted() noexcept;
+
+[[nodiscard]] RealtimeViolations violations() noexcept;
+void resetViolations() noexcept;
+
+/// Everything within this scope must not allocate, lock or throw.
+class TickScope {
+  public:
+    TickScope() noexcept { inTick = true; }
+    ~TickScope() { inTick = false; }
+    TickScope(const TickScope&) = delete;
+    TickScope& operator=(const TickScope&) = delete;
+};
+
+} // namespace realtime
+} // namespace touchstone
