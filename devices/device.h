@@ -1,19 +1,20 @@
 #pragma once
 
-#include <string>
-
 #include "engine/device_io/device_io.h"
+
+#include <string>
 
 namespace touchstone {
 
-/// A thing that has a position and may take a force. `sample` and `apply` are called on the servo thread: they
-/// must not block, allocate, lock or throw (a device whose I/O blocks keeps its own thread and mailbox).
+/// A thing that has a position and may take a force. `sample` and `apply` are called on the servo thread:
+/// they must not block, allocate, lock or throw (a device whose I/O blocks keeps its own thread and mailbox).
 class Device {
   public:
     virtual ~Device() = default;
-    [[nodiscard]] virtual std::string name() const = 0;           ///< owner thread
-    [[nodiscard]] virtual DeviceLimits limits() const = 0;        ///< owner thread
-    [[nodiscard]] virtual DeviceSample sample(double time) noexcept = 0; ///< servo thread; time in s since start
+    [[nodiscard]] virtual std::string name() const = 0;    ///< owner thread
+    [[nodiscard]] virtual DeviceLimits limits() const = 0; ///< owner thread
+    [[nodiscard]] virtual DeviceSample
+    sample(double time) noexcept = 0;                              ///< servo thread; time in s since start
     virtual void apply(const DeviceCommand& command) noexcept = 0; ///< servo thread
 };
 

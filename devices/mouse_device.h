@@ -1,0 +1,61 @@
+#pragma once
+// The mouse as a device: positions in, no force out.
+
+#include "devices/device.h"
+#include "engine/exchange/triple_buffer.h"
+
+namespace touchstone {
+
+/// How goals that come with the frames of a window become motion of a hand.
+struct MouseSmoothing {
+    /// rad/s. The hand follows its goal like a critically damped spring of this frequency: 2 / frequency
+    /// behind a steady drag, and the steps of 30 Hz events come out 24 times smaller. Higher follows closer
+    /// and lets the rhythm of the frames be felt as a rattle.
+    double frequency = 40.0;
+    /// m/s. A goal further away than the hand can follow at this speed is approached at this speed. A hand
+    /// that explores moves below 0.5 m/s.
+    double maxSpeed = 0.5;
+};
+
+/// Turns goals given at the rate of a window into smooth motion at the rate of the servo: position and
+/// velocity are continuous, |velocity| <= maxSpeed, and a stalled servo resumes where it was instead of
+/// jumping.
+class MouseDevice final : public Device {
+  public:
+    explicit MouseDevice(const MouseSmoothing& smoothing = {});
+
+    /// Main thread, once every frame even when the mouse rests: what the servo sees ages from here, so that a
+    /// frozen window counts as stale input. `goal` in the device frame, m; a goal that is not finite is
+    /// ignored.
+    void moveTo(const glm::dvec3& goal, uint32_t buttons = 0) noexcept;
+    /// Main thread: the hand is gone (samples become invalid) until the next moveTo, which it starts from.
+    void release() noexcept;
+
+    [[nodiscard]] std::string name() const override { return "mouse"; }
+    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    /// Servo thread. `time` must not run backwards (then the hand stands still).
+    [[nodiscard]] DeviceSample sample(double time) noexcept override;
+    void apply(const DeviceCommand&) noexcept override {}
+
+    /// Longest time the hand moves on in one sample, s: what a stall may cost in distance is maxSpeed times
+    /// this.
+    static constexpr double kLongestStep = 0.010;
+
+  private:
+    struct Goal {
+        glm::dvec3 position{0.0};
+        uint32_t buttons = 0;
+        bool held = false;
+    };
+
+    void follow(const glm::dvec3& goal, double dt) noexcept;
+
+    MouseSmoothing smoothing_;
+    TripleBuffer<Goal> goal_;
+    // Servo thread:
+    glm::dvec3 position_{0.0}, velocity_{0.0};
+    double lastTime_ = 0.0, goalTime_ = 0.0;
+    bool moving_ = false;
+};
+
+} // namespace touchstone

@@ -1,0 +1,12 @@
+#include "devices/simulated_hand.h"
+
+namespace touchstone {
+
+DeviceSample SimulatedHand::sample(double time) noexcept {
+    DeviceSample sample;
+    sample.position = path_->position(time);
+    sample.valid = true;
+    return sample;
+}
+
+} // namespace touchstone

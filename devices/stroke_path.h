@@ -1,0 +1,63 @@
+#pragma once
+// Paths on which a simulated hand strokes a model that nobody has seen before.
+
+#include "engine/math/similarity.h"
+#include "engine/scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// How the hand strokes; lengths in m of the device frame.
+struct StrokeOptions {
+    double speed = 0.1; ///< m/s along the path, the bound as well. People explore texture at 0.02..0.2 m/s.
+    double depth =
+        0.001; ///< m below the surface, along its normal. 1 mm at 600 N/m is 0.6 N, a light finger.
+    double clearance = 0.01; ///< m above the model's highest point while not in touch
+    /// Side from which the hand comes, unit: towards the viewer. Another side of the box is taken when the
+    /// model has nothing to offer from there (a sheet seen edge-on).
+    glm::dvec3 front{0.0, 0.0, 1.0};
+};
+
+/// A closed path through space in time: a uniform cubic B-spline, so position, velocity and acceleration are
+/// continuous, and the speed nowhere exceeds the one asked for (its velocity is a convex combination of the
+/// chords between control points, which are at most speed * kKnotInterval long). It cuts corners by less than
+/// a control interval. Immutable; `position` and `velocity` may be called from any thread, allocate nothing.
+class StrokePath {
+  public:
+    /// s between control points; at 0.1 m/s they are 1 mm apart.
+    static constexpr double kKnotInterval = 0.010;
+
+    /// Around the closed polygon of `waypoints` at `speed`, for ever. Throws Error without a finite waypoint.
+    [[nodiscard]] static StrokePath around(std::span<const glm::dvec3> waypoints, double speed);
+
+    [[nodiscard]] glm::dvec3 position(double time) const noexcept; ///< m, device frame; time in s
+    [[nodiscard]] glm::dvec3 velocity(double time) const noexcept; ///< m/s
+    [[nodiscard]] double period() const {
+        return kKnotInterval * static_cast<double>(control_.size());
+    } ///< s
+
+  private:
+    explicit StrokePath(std::vector<glm::dvec3> control) : control_(std::move(control)) {}
+    [[nodiscard]] const glm::dvec3& control(size_t knot, size_t offset) const noexcept {
+        return control_[(knot + offset) % control_.size()];
+    }
+    std::vector<glm::dvec3> control_;
+};
+
+/// A stroke over whatever `scene` holds (rest pose), placed by `deviceFromScene`: from above the model down
+/// onto it, `depth` below its surface around a wavy ellipse on the side that faces `front`, lifted where
+/// there is nothing underneath, then off and again. Where no such ellipse meets the model (wires, sparse
+/// parts), it presses on single triangles one after the other. Owner thread; time grows with the triangles
+/// (about 0.1 s a million). Throws Error when there is no triangle to touch.
+[[nodiscard]] StrokePath strokeOver(const Scene& scene, const Similarity& deviceFromScene,
+                                    const StrokeOptions& options = {});
+/// The same over triangles given by their corners, three each, in the device frame.
+[[nodiscard]] StrokePath strokeOver(std::span<const glm::dvec3> corners, const StrokeOptions& options = {});
+
+} // namespace touchstone

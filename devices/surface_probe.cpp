@@ -1,0 +1,114 @@
+#include "devices/surface_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace touchstone {
+
+namespace {
+
+/// The probed points sorted into the cells of a square grid, so that a triangle asks only those near it.
+class PointGrid {
+  public:
+    explicit PointGrid(std::span<const glm::dvec2> points) {
+        low_ = glm::dvec2(std::numeric_limits<double>::max());
+        glm::dvec2 high = -low_;
+        for (const glm::dvec2& p : points) {
+            low_ = glm::min(low_, p);
+            high = glm::max(high, p);
+        }
+        perMetre_ = static_cast<double>(kSide) / glm::max(high - low_, glm::dvec2(1e-12));
+        start_.assign(kSide * kSide + 1, 0);
+        for (const glm::dvec2& p : points)
+            ++start_[cell(p) + 1];
+        for (size_t i = 0; i < kSide * kSide; ++i)
+            start_[i + 1] += start_[i];
+        members_.resize(points.size());
+        std::vector<uint32_t> next(start_.begin(), start_.end() - 1);
+        for (uint32_t i = 0; i < points.size(); ++i)
+            members_[next[cell(points[i])]++] = i;
+    }
+
+    template <class Visit>
+    void near(const glm::dvec2& low, const glm::dvec2& high, Visit visit) const {
+        if (high.x < low_.x || high.y < low_.y)
+            return;
+        const glm::uvec2 first = coordinates(low), last = coordinates(high);
+        for (uint32_t y = first.y; y <= last.y; ++y)
+            for (uint32_t i = start_[y * kSide + first.x]; i < start_[y * kSide + last.x + 1]; ++i)
+                visit(members_[i]);
+    }
+
+  private:
+    static constexpr uint32_t kSide = 64;
+
+    [[nodiscard]] glm::uvec2 coordinates(const glm::dvec2& p) const {
+        return glm::uvec2(glm::clamp((p - low_) * perMetre_, glm::dvec2(0.0), glm::dvec2(kSide - 1)));
+    }
+    [[nodiscard]] size_t cell(const glm::dvec2& p) const {
+        const glm::uvec2 at = coordinates(p);
+        return size_t{at.y} * kSide + at.x;
+    }
+
+    glm::dvec2 low_, perMetre_;
+    std::vector<uint32_t> start_, members_;
+};
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+} // namespace
+
+View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
+    View view;
+    view.centre = bounds.centre();
+    view.towards = towardsViewer;
+    const glm::dvec3 upright = std::abs(towardsViewer.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    view.right = glm::normalize(glm::cross(upright, view.towards));
+    view.up = glm::cross(view.towards, view.right);
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    view.half = {glm::dot(glm::abs(view.right), half), glm::dot(glm::abs(view.up), half),
+                 glm::dot(glm::abs(view.towards), half)};
+    return view;
+}
+
+std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const View& view,
+                                             std::span<const glm::dvec2> points) {
+    std::vector<std::optional<SurfaceHit>> hits(points.size());
+    if (points.empty())
+        return hits;
+    const PointGrid grid(points);
+    std::vector<double> highest(points.size(), -std::numeric_limits<double>::infinity());
+
+    triangles([&](const glm::dvec3& a3, const glm::dvec3& b3, const glm::dvec3& c3) {
+        const glm::dvec3 a = view.viewed(a3), b = view.viewed(b3), c = view.viewed(c3);
+        const glm::dvec2 a2(a), b2(b), c2(c);
+        const double area = cross(b2 - a2, c2 - a2);
+        if (area == 0.0)
+            return; // seen edge-on
+        grid.near(glm::min(a2, glm::min(b2, c2)), glm::max(a2, glm::max(b2, c2)), [&](uint32_t i) {
+            // Barycentric weights, borders included: no point falls between two triangles that share an edge.
+            const double wa = cross(b2 - points[i], c2 - points[i]) / area;
+            const double wb = cross(c2 - points[i], a2 - points[i]) / area;
+            const double wc = 1.0 - wa - wb;
+            if (wa < 0.0 || wb < 0.0 || wc < 0.0)
+                return;
+            const double height = wa * a.z + wb * b.z + wc * c.z;
+            if (height <= highest[i])
+                return;
+            const glm::dvec3 normal = glm::cross(b3 - a3, c3 - a3);
+            const double length = glm::length(normal);
+            if (!(length > 0.0))
+                return;
+            highest[i] = height;
+            hits[i] = SurfaceHit{view.point({points[i].x, points[i].y, height}),
+                                 normal * ((area > 0.0 ? 1.0 : -1.0) / length)};
+        });
+    });
+    return hits;
+}
+
+} // namespace touchstone

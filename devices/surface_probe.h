@@ -1,0 +1,47 @@
+#pragma once
+// Looks down on a triangle soup along one direction: enough to plan a path, once, before the servo starts.
+
+#include "engine/math/similarity.h"
+
+#include <glm/glm.hpp>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+using TriangleVisitor = std::function<void(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)>;
+/// Calls its visitor with every triangle, always in the same order. m, device frame.
+using TriangleSource = std::function<void(const TriangleVisitor&)>;
+
+/// A view without perspective of what lies in some bounds. Coordinates (right, up, height) are m from the
+/// bounds' centre, height towards the viewer.
+struct View {
+    glm::dvec3 centre{0.0};
+    glm::dvec3 right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, towards{0.0, 0.0, 1.0}; ///< unit, perpendicular
+    glm::dvec3 half{0.0}; ///< half the bounds' extent along right, up, towards
+
+    [[nodiscard]] glm::dvec3 point(const glm::dvec3& viewed) const {
+        return centre + viewed.x * right + viewed.y * up + viewed.z * towards;
+    }
+    [[nodiscard]] glm::dvec3 viewed(const glm::dvec3& p) const {
+        return {glm::dot(p - centre, right), glm::dot(p - centre, up), glm::dot(p - centre, towards)};
+    }
+};
+
+/// `towardsViewer`: unit. Up is as near to +y as it can be, else to -z.
+[[nodiscard]] View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer);
+
+struct SurfaceHit {
+    glm::dvec3 point;  ///< m
+    glm::dvec3 normal; ///< unit, of the flat triangle, facing the viewer
+};
+
+/// The first surface under each of `points` (right, up). Goes through the triangles once and keeps none of
+/// them, so that a model of ten million costs no memory here.
+[[nodiscard]] std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const View& view,
+                                                           std::span<const glm::dvec2> points);
+
+} // namespace touchstone
