@@ -15,9 +15,6 @@
 
 namespace touchstone {
 
-/// Vertices of an object nearer than this fraction of its diagonal are one vertex; counted in HapticObject.
-/// A crack narrower than this is closed at any proxy radius, also at zero.
-inline constexpr double kWeldTolerance = 1e-6;
 
 class HapticScene {
   public:

@@ -1,0 +1,60 @@
+#pragma once
+// One touchable object: a welded triangle soup in its own frame, and Embree's BVH over it.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "engine/math/similarity.h"
+#include "engine/scene/scene.h"
+
+struct RTCSceneTy;
+
+namespace touchstone {
+
+/// Vertices of an object nearer than this fraction of its diagonal are one vertex; counted in HapticObject.
+/// A crack narrower than this is closed at any proxy radius, also at zero.
+inline constexpr double kWeldTolerance = 1e-6;
+
+/// Immutable. Object frame: centred on the object, longest side 1, so that float vertices are good to 6e-8 of
+/// the object wherever it stands and however large it is. Triangle t is triangle t of the source mesh; its
+/// corners are turned over where the node mirrors, so that the winding always shows outwards.
+struct HapticObject {
+    std::string name;
+    int instance = -1;                    ///< Scene::instances
+    int material = 0;                     ///< Scene::materials
+    std::vector<glm::vec3> vertices;      ///< welded, object frame; one spare entry for Embree's 16-byte reads
+    std::vector<uint32_t> indices;        ///< 3 per triangle into `vertices`
+    std::vector<uint32_t> sourceIndices;  ///< 3 per triangle into the mesh's vertex attributes, same corner order
+    std::vector<glm::vec3> normals;       ///< per source vertex, object frame, unit
+    std::vector<glm::vec4> tangents;      ///< per source vertex, object frame; may be empty
+    std::vector<glm::vec2> uv[2];         ///< per source vertex; may be empty
+    std::vector<float> stiffness, damping, friction; ///< per source vertex; may be empty
+    std::vector<uint8_t> smooth;          ///< per triangle: 1 where the vertex normals differ from the face's
+    Similarity workspaceFromObject;       ///< rest pose
+    glm::dmat4 objectFromMesh{1.0};       ///< what was baked into the vertices
+    double diagonal = 0.0;                ///< of the bounds, object units
+    double boundingRadius = 0.0;          ///< about the object's origin, object units
+    uint32_t weldedVertices = 0;          ///< vertices that became another one (DESIGN §4)
+    uint32_t droppedTriangles = 0;        ///< triangles with two equal corners after welding
+    bool closed = false;                  ///< every edge has an even number of triangles
+    bool anySmooth = false;
+    std::shared_ptr<RTCSceneTy> bvh;
+
+    [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
+    [[nodiscard]] uint64_t memoryBytes() const;
+};
+
+/// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails.
+[[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,
+                                                                    const Similarity& workspaceFromScene);
+
+/// True where `point` (object frame) lies inside the closed object: parity of crossings, majority of three
+/// directions. Bounded; safe on the servo thread. Always false for open objects.
+[[nodiscard]] bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept;
+
+} // namespace touchstone
