@@ -11,6 +11,7 @@
 #include "engine/scene/scene.h"
 #include "haptics/contact/haptic_object.h"
 #include "haptics/effect_plan.h"
+#include "haptics/object_motion.h"
 #include "haptics/texture/haptic_material.h"
 
 namespace touchstone {
@@ -23,6 +24,7 @@ class HapticScene {
     HapticScene& operator=(const HapticScene&) = delete;
 
     std::vector<std::unique_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
+    std::vector<ObjectMotion> restMotions;                    ///< one per object: at rest
     std::vector<HapticMaterialData> materials;                ///< index = Scene material
     EffectPlan plan;
     Similarity workspaceFromScene;

@@ -11,17 +11,13 @@
 #include "engine/math/similarity.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_settings.h"
+#include "haptics/object_motion.h"
 #include "haptics/stopwatch.h"
 #include "haptics/tick_flags.h"
 
 namespace touchstone {
 
 class HapticScene;
-
-/// Pose and motion of one object at this tick, in the workspace. Index = HapticScene object index.
-struct ObjectMotion {
-    Similarity workspaceFromObject;
-};
 
 /// Everything that comes from outside in one tick. The step reads no clock.
 struct TickInput {
@@ -30,14 +26,13 @@ struct TickInput {
     double dt = 1e-3;                          ///< s, > 0
     bool late = false;                         ///< the previous tick ended after its next deadline
     std::span<const DeviceSample> devices;     ///< one per device
+    Similarity workspaceFromDevice;            ///< clutch and zoom
     /// Poses at this tick; empty: every object rests where HapticScene placed it.
-    std::span<const ObjectMotion> objects;
+    ObjectMotions objects;
 };
 
 /// What touch itself changes (persistent textures, field edits). Written by the servo only.
 struct WorldState {};
-
-enum class FrictionState : uint8_t { Free, Sticking, Sliding };
 
 /// What one device gets from one tick. Workspace frame, SI, unless said otherwise.
 struct HapticOutput {

@@ -1,0 +1,21 @@
+#include "haptics/force/spring_damper.h"
+
+#include <algorithm>
+
+namespace touchstone {
+
+glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
+                             const glm::dvec3& velocity) noexcept {
+    if (!feel.touching) return glm::dvec3(0.0);
+    const double d = feel.depth, height = feel.height;
+    const glm::dvec3& n = feel.normal;
+    const glm::dvec3& m = feel.textured;
+    const glm::dvec3 elastic = feel.stiffness * (d >= height ? (d - height) * n + height * m : d * m);
+    const double into = glm::dot(velocity, n);
+    const double wall = glm::dot(elastic, n);
+    const double damping = std::max(-feel.damping * into, -std::max(wall, 0.0)); // a wall does not pull
+    const glm::dvec3 along = velocity - into * n;
+    return elastic + feel.stiffness * frictionStretch + damping * n - feel.viscousFriction * along;
+}
+
+} // namespace touchstone

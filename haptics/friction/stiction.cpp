@@ -1,0 +1,32 @@
+#include "haptics/friction/stiction.h"
+
+namespace touchstone {
+
+void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor, MeshProxy& proxy,
+                   DeviceState& state) noexcept {
+    if (!feel.touching || !(feel.staticFriction > 0.0)) {
+        state.friction = FrictionState::Free;
+        return;
+    }
+    const glm::dvec3 frictionless = state.proxy;
+    if (state.friction == FrictionState::Free) {
+        // First touch: the stiction point is where the surface was met.
+        state.friction = FrictionState::Sticking;
+        state.stictionPoint = frictionless;
+        return;
+    }
+    const double depth = feel.depth / workspacePerAnchor;
+    const glm::dvec3 stretch = held - frictionless;
+    const double length = glm::length(stretch);
+    if (length <= feel.staticFriction * depth) {
+        state.friction = FrictionState::Sticking;
+        proxy.placeAt(held);
+        state.stictionPoint = held;
+        return;
+    }
+    state.friction = FrictionState::Sliding;
+    proxy.moveTowards(frictionless + feel.dynamicFriction * depth / length * stretch);
+    state.stictionPoint = state.proxy;
+}
+
+} // namespace touchstone

@@ -1,0 +1,151 @@
+#include "haptics/haptic_step.h"
+
+#include "haptics/force/spring_damper.h"
+#include "haptics/friction/stiction.h"
+#include "haptics/haptic_scene.h"
+#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/place_proxy.h"
+#include "haptics/safety/force_limiter.h"
+#include "haptics/sample/hip_sample.h"
+#include "haptics/shading/force_shading.h"
+#include "haptics/texture/surface_feel.h"
+
+namespace touchstone {
+
+namespace {
+
+/// The felt shape at the final proxy: which way it pushes and how deep the HIP is, for each shading model.
+struct FeltShape {
+    glm::dvec3 normal{0.0}; ///< unit, anchor frame
+    double depth = 0.0;     ///< anchor units
+};
+
+FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                    const glm::dvec3& hip, const DeviceState& state, const ProxyRest& rest) {
+    if (rest.contactCount == 0) return {};
+    const glm::dvec3 offset = state.proxy - hip;
+    const double depth = glm::length(offset);
+    const Contact& holder = rest.contacts[rest.hold.count > 0 ? static_cast<size_t>(rest.hold.active[0]) : 0];
+    const glm::dvec3 direct = depth > 100.0 * kContactGap ? offset / depth : holder.normal;
+    if (settings.forceShading == ShadingMode::Direction || settings.forceShading == ShadingMode::Projected) {
+        const glm::dvec3 m = interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
+        // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the facet
+        // along the interpolated normal [000 §4.1].
+        if (settings.forceShading == ShadingMode::Direction) return {m, depth};
+        return {m, glm::dot(offset, holder.normal) / glm::dot(m, holder.normal)};
+    }
+    return {direct, depth};
+}
+
+void publish(const ObjectMotions motions, const DeviceState& state, const ProxyRest& rest, const SurfaceFeel& feel,
+             HapticOutput& output) {
+    const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
+    output.proxy = workspaceFromAnchor.point(state.proxy);
+    output.penetration = glm::length(output.proxy - output.hip);
+    output.contacts = rest.contactCount;
+    output.iterations = rest.iterations;
+    output.friction = state.friction;
+    if (!feel.touching) return;
+    output.object = feel.object;
+    output.triangle = static_cast<int>(feel.triangle);
+    output.normal = workspaceFromAnchor.direction(feel.textured);
+    output.height = feel.height;
+    output.planeCount = static_cast<uint32_t>(rest.hold.count);
+    for (size_t i = 0; i < output.planeCount; ++i)
+        output.planes[i] = workspaceFromAnchor.direction(rest.contacts[static_cast<size_t>(rest.hold.active[i])].normal);
+    output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
+}
+
+/// Stages 2 to 7 for a hand whose place is known.
+template <class Stopwatch>
+void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input, DeviceState& state,
+           HapticOutput& output, Stopwatch& stopwatch) {
+    const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
+
+    // 2. Contact query: the proxy goes with its object and meets what moved towards it.
+    ProxyRest rest;
+    if (state.anchor < 0) state.anchor = nearestObject(scene, motions, state.hip);
+    MeshProxy proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
+    if (!placeProxy(scene, motions, state.hip, proxy, state)) {
+        state.friction = FrictionState::Free;
+        state.shaded = false;
+        output.proxy = output.hip;
+        output.flags = output.flags | TickFlag::StartedInside;
+        return;
+    }
+    proxy.carry();
+    const Similarity workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
+    const glm::dvec3 hip = workspaceFromAnchor.inverse().point(state.hip);
+    const glm::dvec3 held = state.proxy;
+    stopwatch.lap(Stage::Contact);
+
+    // 3. Proxy solve: as near to the goal as free space allows.
+    const bool shading = scene.plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
+    const glm::dvec3 goal = shading ? warmGoal(state, hip) : hip;
+    proxy.moveTowards(goal);
+    stopwatch.lap(Stage::Proxy);
+
+    // 4. Force shading: the same solve against the interpolated planes.
+    if (shading) shadeTwoPass(scene, motions, settings, hip, goal, proxy, state, rest);
+    const FeltShape shape = feltShape(scene, motions, settings, hip, state, rest);
+    stopwatch.lap(Stage::Shading);
+
+    // 5. Texture: what the maps say there.
+    const double speed = glm::length(state.velocity - glm::dot(state.velocity, shape.normal) * shape.normal);
+    const SurfaceFeel feel = readSurface(scene, motions, settings, state.anchor, rest, shape.normal,
+                                         shape.depth * workspaceFromAnchor.scale, speed, input.dt);
+    if (feel.tiltCompressed) output.flags = output.flags | TickFlag::TiltCompressed;
+    stopwatch.lap(Stage::Texture);
+
+    // 6. Friction: the proxy held back inside the cone.
+    const glm::dvec3 frictionless = state.proxy;
+    applyStiction(feel, held, workspaceFromAnchor.scale, proxy, state);
+    stopwatch.lap(Stage::Friction);
+
+    // 7. Force.
+    const glm::dvec3 stretch = workspaceFromAnchor.scale * (state.proxy - frictionless);
+    const glm::dvec3 velocity = glm::conjugate(workspaceFromAnchor.rotation) * state.velocity;
+    output.force = workspaceFromAnchor.direction(springDamperForce(feel, stretch, velocity));
+    output.flags |= rest.flags;
+    publish(motions, state, rest, feel, output);
+    stopwatch.lap(Stage::Force);
+}
+
+} // namespace
+
+template <class Stopwatch>
+void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input, WorldState&,
+                std::span<DeviceState> states, std::span<HapticOutput> outputs, Stopwatch& stopwatch) noexcept {
+    for (size_t i = 0; i < states.size(); ++i) {
+        stopwatch.start();
+        DeviceState& state = states[i];
+        HapticOutput& output = outputs[i];
+        output = HapticOutput{};
+
+        // 1. Sample.
+        const DeviceSample& sample = input.devices[i];
+        const Similarity& workspaceFromDevice = input.workspaceFromDevice;
+        const bool sampled = takeSample(sample, workspaceFromDevice, input.dt, state, output.flags);
+        output.hip = output.proxy = state.hip;
+        output.hipVelocity = state.velocity;
+        stopwatch.lap(Stage::Sample);
+
+        // 2. to 7.
+        if (sampled && !scene.objects.empty()) touch(scene, settings, input, state, output, stopwatch);
+
+        // 8. Safety: the only thing that may reach a device.
+        const SafetyInputs safety{.limits = scene.limits, .dt = input.dt, .inputValid = sampled,
+                                  .sampleAge = sample.age, .forceEnabled = settings.forceEnabled, .late = input.late};
+        output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice, state.limiter,
+                                             output.flags);
+        output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
+        stopwatch.lap(Stage::Safety);
+    }
+}
+
+template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&, WorldState&,
+                                      std::span<DeviceState>, std::span<HapticOutput>, NoStopwatch&) noexcept;
+template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&, WorldState&,
+                                         std::span<DeviceState>, std::span<HapticOutput>, StageStopwatch&) noexcept;
+
+} // namespace touchstone

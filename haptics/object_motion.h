@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+
+#include "engine/math/similarity.h"
+
+namespace touchstone {
+
+/// Where one object stands at this tick and where it stood at the last, in the workspace.
+struct ObjectMotion {
+    Similarity workspaceFromObject;
+    Similarity before;
+};
+
+/// Index = HapticScene::objects.
+using ObjectMotions = std::span<const ObjectMotion>;
+
+} // namespace touchstone

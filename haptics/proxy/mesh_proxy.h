@@ -1,0 +1,90 @@
+#pragma once
+// The mesh contact model: stages 2 and 3. A sphere moves towards a goal and never through a surface
+// (Ruspini, Kolarov and Khatib [000, 001]).
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "haptics/device_state.h"
+#include "haptics/haptic_scene.h"
+#include "haptics/object_motion.h"
+#include "haptics/proxy/sub_goal.h"
+
+namespace touchstone {
+
+/// Lengths of the solve in object units (the object's longest side is 1).
+/// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding (1e-16),
+/// far below anything felt (0.02 nm on a fitted model).
+inline constexpr double kContactGap = 1e-10;
+/// A triangle nearer than the radius and this is touched.
+inline constexpr double kContactReach = 4.0 * kContactGap;
+/// A move shorter than this ends the solve.
+inline constexpr double kRestLength = 1e-11;
+
+/// A place where the proxy touches.
+struct Contact {
+    glm::dvec3 normal{0.0};    ///< unit, from the surface to the proxy's centre, anchor frame
+    glm::dvec3 point{0.0};     ///< on the surface, anchor frame
+    double gap = 0.0;          ///< distance minus radius, object units
+    int object = -1;           ///< HapticScene::objects
+    uint32_t triangle = 0;     ///< of that object
+};
+
+/// Where the last move ended and what holds the proxy there.
+struct ProxyRest {
+    static constexpr size_t kMaxContacts = 64;
+    std::array<Contact, kMaxContacts> contacts;
+    std::array<ConstraintPlane, kMaxContacts> planes;   ///< of the contacts, relative to the proxy
+    uint32_t contactCount = 0;
+    SubGoal hold;                 ///< which planes hold the proxy from its goal; indices into contacts
+    uint32_t iterations = 0;
+    uint32_t flags = 0;           ///< TickFlag bits
+};
+
+/// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object units.
+class MeshProxy {
+  public:
+    /// `radius`: workspace metres. The proxy is at least half the weld tolerance of the anchor: a god-object that
+    /// closes every crack narrower than that, and knows its side of a sheet by standing on it.
+    MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
+              ProxyRest& rest) noexcept;
+
+    /// Sweeps the proxy along what the objects did since the last tick. An object that runs into it becomes
+    /// the anchor and carries it.
+    void carry() noexcept;
+
+    /// Moves the proxy to a rest: the point nearest to `goal` (anchor frame) that can be reached by sliding
+    /// without leaving free space. Anytime: every move ends in free space and none goes away from the goal.
+    void moveTowards(const glm::dvec3& goal) noexcept;
+
+    /// Puts the proxy at `p` (anchor frame) without a sweep. Only for places that are known to be free: where
+    /// the proxy stood before, or where isFree says so.
+    void placeAt(const glm::dvec3& p) noexcept;
+
+    /// True when the proxy, where it stands, is farther than its radius from every surface.
+    [[nodiscard]] bool isFree() noexcept;
+
+    [[nodiscard]] double radius() const noexcept { return radius_; }
+
+  private:
+    void adoptAnchor(int anchor) noexcept;
+    double sweepObject(size_t object, const glm::dvec3& from, const glm::dvec3& move, double reach,
+                       double limit) noexcept;
+    void findContacts() noexcept;
+    bool cover(const glm::dvec3& move) noexcept;
+    double sweep(const glm::dvec3& move, double limit) noexcept;
+    void buildPlanes() noexcept;
+
+    const HapticScene& scene_;
+    ObjectMotions motions_;
+    double workspaceRadius_;
+    double radius_ = 0.0;
+    int budget_;
+    DeviceState& state_;
+    ProxyRest& rest_;
+};
+
+} // namespace touchstone

@@ -1,0 +1,31 @@
+#include "haptics/proxy/place_proxy.h"
+
+#include <cmath>
+
+namespace touchstone {
+
+int nearestObject(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
+    int nearest = 0;
+    double least = INFINITY;
+    for (size_t k = 0; k < scene.objects.size(); ++k) {
+        const Similarity& pose = motions[k].workspaceFromObject;
+        const double distance = glm::length(hip - pose.translation) - pose.scale * scene.objects[k]->boundingRadius;
+        if (distance < least) {
+            least = distance;
+            nearest = static_cast<int>(k);
+        }
+    }
+    return nearest;
+}
+
+bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip, MeshProxy& proxy,
+                DeviceState& state) noexcept {
+    if (state.placed) return true;
+    proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inverse().point(hip));
+    for (size_t k = 0; k < scene.objects.size(); ++k)
+        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inverse().point(hip))) return false;
+    state.placed = proxy.isFree();
+    return state.placed;
+}
+
+} // namespace touchstone

@@ -1,0 +1,42 @@
+#include "haptics/sample/hip_sample.h"
+
+#include <cmath>
+
+#include "haptics/tick_flags.h"
+
+namespace touchstone {
+
+namespace {
+
+/// Farther than any workspace: such a number is a broken reading, not a place, m.
+constexpr double kFarthestSample = 1e7;
+
+bool usable(const glm::dvec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::abs(p.x) < kFarthestSample &&
+           std::abs(p.y) < kFarthestSample && std::abs(p.z) < kFarthestSample;
+}
+
+} // namespace
+
+bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevice, double dt, DeviceState& state,
+                uint32_t& flags) noexcept {
+    if (!sample.valid || !usable(sample.position)) {
+        flags = flags | TickFlag::InputInvalid;
+        return false;
+    }
+    const glm::dvec3 hip = workspaceFromDevice.point(sample.position);
+    if (state.sampled) {
+        const glm::dvec3 velocity = (hip - state.hip) / dt;
+        if (glm::length(velocity) > kFastestHand) flags = flags | TickFlag::Teleported;
+        constexpr double kTwoPi = 6.283185307179586;
+        const double share = 1.0 - std::exp(-kTwoPi * kVelocityCutoff * dt);
+        state.velocity += share * (velocity - state.velocity);
+    } else {
+        state.velocity = glm::dvec3(0.0);
+    }
+    state.sampled = true;
+    state.hip = hip;
+    return true;
+}
+
+} // namespace touchstone
