@@ -2,13 +2,13 @@
 // What one device's touch remembers from tick to tick. Owned by the servo (or by an offline run); reset at a
 // scene swap.
 
-#include <cstdint>
-
-#include <glm/glm.hpp>
-
 #include "engine/math/similarity.h"
 #include "haptics/contact/candidates.h"
 #include "haptics/safety/force_limiter.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
 
 namespace touchstone {
 
@@ -17,26 +17,26 @@ enum class FrictionState : uint8_t { Free, Sticking, Sliding };
 /// Construct before the servo starts (it allocates); the step only writes into it.
 struct DeviceState {
     // Stage 1
-    bool sampled = false;             ///< a valid sample has been seen since the reset
-    glm::dvec3 hip{0.0};              ///< workspace, last tick
-    glm::dvec3 velocity{0.0};         ///< m/s, workspace, filtered
+    bool sampled = false;     ///< a valid sample has been seen since the reset
+    glm::dvec3 hip{0.0};      ///< workspace, last tick
+    glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
 
-    // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor moves
-    // it carries the proxy along.
-    bool placed = false;              ///< the proxy is in free space or on a surface; false: not yet outside
-    int anchor = -1;                  ///< HapticScene::objects
-    glm::dvec3 proxy{0.0};            ///< anchor frame, object units
+    // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor
+    // moves it carries the proxy along.
+    bool placed = false;   ///< the proxy is in free space or on a surface; false: not yet outside
+    int anchor = -1;       ///< HapticScene::objects
+    glm::dvec3 proxy{0.0}; ///< anchor frame, object units
     CandidateCache candidates;
-    CandidateCache carryCandidates;   ///< of one object that moves towards the proxy
-    double gatherMargin = 1e-3;       ///< object units; adapts to the density of triangles
+    CandidateCache carryCandidates; ///< of one object that moves towards the proxy
+    double gatherMargin = 1e-3;     ///< object units; adapts to the density of triangles
 
     // Stage 4: the goal that the shaded planes gave, relative to the HIP, to start the next tick from.
     bool shaded = false;
-    glm::dvec3 shadedNormal{0.0};     ///< anchor frame
+    glm::dvec3 shadedNormal{0.0}; ///< anchor frame
 
     // Stage 6, anchor frame.
     FrictionState friction = FrictionState::Free;
-    glm::dvec3 stictionPoint{0.0};    ///< a proxy position
+    glm::dvec3 stictionPoint{0.0}; ///< a proxy position
 
     // Stage 8
     ForceLimiterState limiter;

@@ -6,15 +6,23 @@
 
 namespace touchstone {
 
-enum class Effect : uint8_t { ForceShading, NormalMap, HeightMap, Friction, ViscousFriction, Damping, StiffnessMap };
+enum class Effect : uint8_t {
+    ForceShading,
+    NormalMap,
+    HeightMap,
+    Friction,
+    ViscousFriction,
+    Damping,
+    StiffnessMap
+};
 
 /// Why an effect is on or off for one material, as `inspect` prints it.
 struct PlannedEffect {
     Effect effect;
-    int material;           ///< Scene material
+    int material; ///< Scene material
     bool on;
-    std::string reason;     ///< "normal map of the PBR material, influence 1"
-    uint64_t memoryBytes;   ///< what it holds besides the geometry
+    std::string reason;   ///< "normal map of the PBR material, influence 1"
+    uint64_t memoryBytes; ///< what it holds besides the geometry
 };
 
 /// What the scene calls for. What no material needs costs nothing in the tick (DESIGN §7).

@@ -2,10 +2,6 @@
 // The scene as the hand knows it: welded objects with their BVH, haptic maps and the effect plan.
 // Immutable after compileHapticScene; read by the servo, the oracle and the studies alike.
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "engine/device_io/device_io.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
@@ -14,8 +10,11 @@
 #include "haptics/object_motion.h"
 #include "haptics/texture/haptic_material.h"
 
-namespace touchstone {
+#include <memory>
+#include <string>
+#include <vector>
 
+namespace touchstone {
 
 class HapticScene {
   public:
@@ -33,7 +32,7 @@ class HapticScene {
 };
 
 /// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error.
-[[nodiscard]] std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene,
-                                                                    const DeviceLimits& limits = {});
+[[nodiscard]] std::shared_ptr<const HapticScene>
+compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, const DeviceLimits& limits = {});
 
 } // namespace touchstone

@@ -42,7 +42,8 @@ bool setChoice(Enum& field, std::string_view value, const std::array<std::string
 bool setNumber(double& field, std::string_view value, double low, double high, double unit = 1.0) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc{} || end != value.data() + value.size() || !(number >= low && number <= high)) return false;
+    if (error != std::errc{} || end != value.data() + value.size() || !(number >= low && number <= high))
+        return false;
     field = number * unit;
     return true;
 }
@@ -54,27 +55,41 @@ constexpr std::array<std::string_view, 2> kFrictionNames{"off", "zilles"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 bool assign(HapticSettings& s, std::string_view name, std::string_view value) {
-    if (name == "contact") return setChoice(s.contact, value, kContactNames);
-    if (name == "forceShading") return setChoice(s.forceShading, value, kShadingNames);
-    if (name == "texture") return setChoice(s.texture, value, kTextureNames);
-    if (name == "friction") return setChoice(s.friction, value, kFrictionNames);
-    if (name == "proxyRadius") return setNumber(s.proxyRadius, value, 0.0, 0.05);
-    if (name == "stiffness") return setNumber(s.stiffness, value, 0.0, 1e5);
-    if (name == "damping") return setNumber(s.damping, value, -1.0, 1e3);
-    if (name == "staticFriction") return setNumber(s.staticFriction, value, -1.0, 100.0);
-    if (name == "dynamicFriction") return setNumber(s.dynamicFriction, value, -1.0, 100.0);
-    if (name == "shadingTiltLimit") return setNumber(s.shadingTiltLimit, value, 0.0, 90.0, kDegree);
-    if (name == "textureTiltLimit") return setNumber(s.textureTiltLimit, value, 0.0, 90.0, kDegree);
-    if (name == "textureStrength") return setNumber(s.textureStrength, value, 0.0, 1.0);
+    if (name == "contact")
+        return setChoice(s.contact, value, kContactNames);
+    if (name == "forceShading")
+        return setChoice(s.forceShading, value, kShadingNames);
+    if (name == "texture")
+        return setChoice(s.texture, value, kTextureNames);
+    if (name == "friction")
+        return setChoice(s.friction, value, kFrictionNames);
+    if (name == "proxyRadius")
+        return setNumber(s.proxyRadius, value, 0.0, 0.05);
+    if (name == "stiffness")
+        return setNumber(s.stiffness, value, 0.0, 1e5);
+    if (name == "damping")
+        return setNumber(s.damping, value, -1.0, 1e3);
+    if (name == "staticFriction")
+        return setNumber(s.staticFriction, value, -1.0, 100.0);
+    if (name == "dynamicFriction")
+        return setNumber(s.dynamicFriction, value, -1.0, 100.0);
+    if (name == "shadingTiltLimit")
+        return setNumber(s.shadingTiltLimit, value, 0.0, 90.0, kDegree);
+    if (name == "textureTiltLimit")
+        return setNumber(s.textureTiltLimit, value, 0.0, 90.0, kDegree);
+    if (name == "textureStrength")
+        return setNumber(s.textureStrength, value, 0.0, 1.0);
     if (name == "iterationBudget") {
         double number = 0.0;
-        if (!setNumber(number, value, 1.0, 1000.0) || number != std::floor(number)) return false;
+        if (!setNumber(number, value, 1.0, 1000.0) || number != std::floor(number))
+            return false;
         s.iterationBudget = static_cast<int>(number);
         return true;
     }
     if (name == "forceEnabled") {
         int on = 0;
-        if (!setChoice(on, value, kSwitchNames)) return false;
+        if (!setChoice(on, value, kSwitchNames))
+            return false;
         s.forceEnabled = on != 0;
         return true;
     }
@@ -89,39 +104,60 @@ std::string text(double number) {
 
 } // namespace
 
-std::span<const SettingInfo> settingInfos() { return kInfos; }
+std::span<const SettingInfo> settingInfos() {
+    return kInfos;
+}
 
 std::string setSetting(HapticSettings& settings, std::string_view name, std::string_view value) {
     for (const SettingInfo& info : kInfos) {
-        if (info.name != name) continue;
+        if (info.name != name)
+            continue;
         HapticSettings changed = settings;
         if (!assign(changed, name, value))
-            return "'" + std::string(value) + "' is not a value of " + std::string(name) + "; allowed: " +
-                   std::string(info.values) + (info.unit.empty() ? "" : " " + std::string(info.unit));
+            return "'" + std::string(value) + "' is not a value of " + std::string(name) +
+                   "; allowed: " + std::string(info.values) +
+                   (info.unit.empty() ? "" : " " + std::string(info.unit));
         settings = changed;
         return {};
     }
     std::string known;
-    for (const SettingInfo& info : kInfos) known += (known.empty() ? "" : ", ") + std::string(info.name);
+    for (const SettingInfo& info : kInfos)
+        known += (known.empty() ? "" : ", ") + std::string(info.name);
     return "there is no setting '" + std::string(name) + "'; known: " + known;
 }
 
 std::string settingValue(const HapticSettings& s, std::string_view name) {
-    const auto choice = [](const auto& names, auto value) { return std::string(names[static_cast<size_t>(value)]); };
-    if (name == "contact") return choice(kContactNames, s.contact);
-    if (name == "forceShading") return choice(kShadingNames, s.forceShading);
-    if (name == "texture") return choice(kTextureNames, s.texture);
-    if (name == "friction") return choice(kFrictionNames, s.friction);
-    if (name == "proxyRadius") return text(s.proxyRadius);
-    if (name == "stiffness") return text(s.stiffness);
-    if (name == "damping") return text(s.damping);
-    if (name == "staticFriction") return text(s.staticFriction);
-    if (name == "dynamicFriction") return text(s.dynamicFriction);
-    if (name == "shadingTiltLimit") return text(s.shadingTiltLimit / kDegree);
-    if (name == "textureTiltLimit") return text(s.textureTiltLimit / kDegree);
-    if (name == "textureStrength") return text(s.textureStrength);
-    if (name == "iterationBudget") return text(s.iterationBudget);
-    if (name == "forceEnabled") return choice(kSwitchNames, s.forceEnabled ? 1 : 0);
+    const auto choice = [](const auto& names, auto value) {
+        return std::string(names[static_cast<size_t>(value)]);
+    };
+    if (name == "contact")
+        return choice(kContactNames, s.contact);
+    if (name == "forceShading")
+        return choice(kShadingNames, s.forceShading);
+    if (name == "texture")
+        return choice(kTextureNames, s.texture);
+    if (name == "friction")
+        return choice(kFrictionNames, s.friction);
+    if (name == "proxyRadius")
+        return text(s.proxyRadius);
+    if (name == "stiffness")
+        return text(s.stiffness);
+    if (name == "damping")
+        return text(s.damping);
+    if (name == "staticFriction")
+        return text(s.staticFriction);
+    if (name == "dynamicFriction")
+        return text(s.dynamicFriction);
+    if (name == "shadingTiltLimit")
+        return text(s.shadingTiltLimit / kDegree);
+    if (name == "textureTiltLimit")
+        return text(s.textureTiltLimit / kDegree);
+    if (name == "textureStrength")
+        return text(s.textureStrength);
+    if (name == "iterationBudget")
+        return text(s.iterationBudget);
+    if (name == "forceEnabled")
+        return choice(kSwitchNames, s.forceEnabled ? 1 : 0);
     return {};
 }
 

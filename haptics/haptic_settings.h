@@ -19,16 +19,18 @@ struct HapticSettings {
     ShadingMode forceShading = ShadingMode::TwoPass; ///< where the material and the model's normals allow it
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
-    double proxyRadius = 0.5e-3;      ///< m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves.
-    double stiffness = 0.0;           ///< N/m; 0: material's, else the device's recommendation
-    double damping = -1.0;            ///< N·s/m; < 0: material's, else 0
-    double staticFriction = -1.0;     ///< < 0: material's, else 0
-    double dynamicFriction = -1.0;    ///< < 0: material's, else 0
+    double proxyRadius =
+        0.5e-3;             ///< m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves.
+    double stiffness = 0.0; ///< N/m; 0: material's, else the device's recommendation
+    double damping = -1.0;  ///< N·s/m; < 0: material's, else 0
+    double staticFriction = -1.0;                 ///< < 0: material's, else 0
+    double dynamicFriction = -1.0;                ///< < 0: material's, else 0
     double shadingTiltLimit = 0.5235987755982988; ///< rad, 30°: the papers' stable range [000 §4]
-    double textureTiltLimit = 0.4363323129985824; ///< rad, 25°: steeper felt normals are compressed below it; >= pi/2: no limit
-    double textureStrength = 1.0;     ///< 0..1, scales height and the normal map's tilt
-    int iterationBudget = 64;         ///< proxy moves a tick; fewer is safe and merely feels sticky [000 §7]
-    bool forceEnabled = true;         ///< false: the force-off key; contact goes on, commands are zero
+    double textureTiltLimit =
+        0.4363323129985824; ///< rad, 25°: steeper felt normals are compressed below it; >= pi/2: no limit
+    double textureStrength = 1.0; ///< 0..1, scales height and the normal map's tilt
+    int iterationBudget = 64;     ///< proxy moves a tick; fewer is safe and merely feels sticky [000 §7]
+    bool forceEnabled = true;     ///< false: the force-off key; contact goes on, commands are zero
 
     bool operator==(const HapticSettings&) const = default;
 };

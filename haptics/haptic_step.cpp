@@ -22,49 +22,55 @@ struct FeltShape {
 
 FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                     const glm::dvec3& hip, const DeviceState& state, const ProxyRest& rest) {
-    if (rest.contactCount == 0) return {};
+    if (rest.contactCount == 0)
+        return {};
     const glm::dvec3 offset = state.proxy - hip;
     const double depth = glm::length(offset);
     const Contact& holder = rest.contacts[rest.hold.count > 0 ? static_cast<size_t>(rest.hold.active[0]) : 0];
     const glm::dvec3 direct = depth > 100.0 * kContactGap ? offset / depth : holder.normal;
     if (settings.forceShading == ShadingMode::Direction || settings.forceShading == ShadingMode::Projected) {
-        const glm::dvec3 m = interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
-        // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the facet
-        // along the interpolated normal [000 §4.1].
-        if (settings.forceShading == ShadingMode::Direction) return {m, depth};
+        const glm::dvec3 m =
+            interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
+        // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the
+        // facet along the interpolated normal [000 §4.1].
+        if (settings.forceShading == ShadingMode::Direction)
+            return {m, depth};
         return {m, glm::dot(offset, holder.normal) / glm::dot(m, holder.normal)};
     }
     return {direct, depth};
 }
 
-void publish(const ObjectMotions motions, const DeviceState& state, const ProxyRest& rest, const SurfaceFeel& feel,
-             HapticOutput& output) {
+void publish(const ObjectMotions motions, const DeviceState& state, const ProxyRest& rest,
+             const SurfaceFeel& feel, HapticOutput& output) {
     const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
     output.proxy = workspaceFromAnchor.point(state.proxy);
     output.penetration = glm::length(output.proxy - output.hip);
     output.contacts = rest.contactCount;
     output.iterations = rest.iterations;
     output.friction = state.friction;
-    if (!feel.touching) return;
+    if (!feel.touching)
+        return;
     output.object = feel.object;
     output.triangle = static_cast<int>(feel.triangle);
     output.normal = workspaceFromAnchor.direction(feel.textured);
     output.height = feel.height;
     output.planeCount = static_cast<uint32_t>(rest.hold.count);
     for (size_t i = 0; i < output.planeCount; ++i)
-        output.planes[i] = workspaceFromAnchor.direction(rest.contacts[static_cast<size_t>(rest.hold.active[i])].normal);
+        output.planes[i] =
+            workspaceFromAnchor.direction(rest.contacts[static_cast<size_t>(rest.hold.active[i])].normal);
     output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
 }
 
 /// Stages 2 to 7 for a hand whose place is known.
 template <class Stopwatch>
-void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input, DeviceState& state,
-           HapticOutput& output, Stopwatch& stopwatch) {
+void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+           DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
 
     // 2. Contact query: the proxy goes with its object and meets what moved towards it.
     ProxyRest rest;
-    if (state.anchor < 0) state.anchor = nearestObject(scene, motions, state.hip);
+    if (state.anchor < 0)
+        state.anchor = nearestObject(scene, motions, state.hip);
     MeshProxy proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
     if (!placeProxy(scene, motions, state.hip, proxy, state)) {
         state.friction = FrictionState::Free;
@@ -86,7 +92,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Proxy);
 
     // 4. Force shading: the same solve against the interpolated planes.
-    if (shading) shadeTwoPass(scene, motions, settings, hip, goal, proxy, state, rest);
+    if (shading)
+        shadeTwoPass(scene, motions, settings, hip, goal, proxy, state, rest);
     const FeltShape shape = feltShape(scene, motions, settings, hip, state, rest);
     stopwatch.lap(Stage::Shading);
 
@@ -94,7 +101,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     const double speed = glm::length(state.velocity - glm::dot(state.velocity, shape.normal) * shape.normal);
     const SurfaceFeel feel = readSurface(scene, motions, settings, state.anchor, rest, shape.normal,
                                          shape.depth * workspaceFromAnchor.scale, speed, input.dt);
-    if (feel.tiltCompressed) output.flags = output.flags | TickFlag::TiltCompressed;
+    if (feel.tiltCompressed)
+        output.flags = output.flags | TickFlag::TiltCompressed;
     stopwatch.lap(Stage::Texture);
 
     // 6. Friction: the proxy held back inside the cone.
@@ -115,7 +123,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
 
 template <class Stopwatch>
 void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input, WorldState&,
-                std::span<DeviceState> states, std::span<HapticOutput> outputs, Stopwatch& stopwatch) noexcept {
+                std::span<DeviceState> states, std::span<HapticOutput> outputs,
+                Stopwatch& stopwatch) noexcept {
     for (size_t i = 0; i < states.size(); ++i) {
         stopwatch.start();
         DeviceState& state = states[i];
@@ -131,21 +140,28 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         stopwatch.lap(Stage::Sample);
 
         // 2. to 7.
-        if (sampled && !scene.objects.empty()) touch(scene, settings, input, state, output, stopwatch);
+        if (sampled && !scene.objects.empty())
+            touch(scene, settings, input, state, output, stopwatch);
 
         // 8. Safety: the only thing that may reach a device.
-        const SafetyInputs safety{.limits = scene.limits, .dt = input.dt, .inputValid = sampled,
-                                  .sampleAge = sample.age, .forceEnabled = settings.forceEnabled, .late = input.late};
-        output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice, state.limiter,
-                                             output.flags);
+        const SafetyInputs safety{.limits = scene.limits,
+                                  .dt = input.dt,
+                                  .inputValid = sampled,
+                                  .sampleAge = sample.age,
+                                  .forceEnabled = settings.forceEnabled,
+                                  .late = input.late};
+        output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
+                                             state.limiter, output.flags);
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
         stopwatch.lap(Stage::Safety);
     }
 }
 
-template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&, WorldState&,
-                                      std::span<DeviceState>, std::span<HapticOutput>, NoStopwatch&) noexcept;
-template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&, WorldState&,
-                                         std::span<DeviceState>, std::span<HapticOutput>, StageStopwatch&) noexcept;
+template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                      WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                      NoStopwatch&) noexcept;
+template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                         WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                         StageStopwatch&) noexcept;
 
 } // namespace touchstone

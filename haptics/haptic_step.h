@@ -1,12 +1,6 @@
 #pragma once
 // One tick of touch. Read haptic_step.cpp: it tells the whole story in order.
 
-#include <array>
-#include <cstdint>
-#include <span>
-
-#include <glm/glm.hpp>
-
 #include "engine/device_io/device_io.h"
 #include "engine/math/similarity.h"
 #include "haptics/device_state.h"
@@ -15,6 +9,12 @@
 #include "haptics/stopwatch.h"
 #include "haptics/tick_flags.h"
 
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
 namespace touchstone {
 
 class HapticScene;
@@ -22,11 +22,11 @@ class HapticScene;
 /// Everything that comes from outside in one tick. The step reads no clock.
 struct TickInput {
     uint64_t tick = 0;
-    double time = 0.0;                         ///< s since start
-    double dt = 1e-3;                          ///< s, > 0
-    bool late = false;                         ///< the previous tick ended after its next deadline
-    std::span<const DeviceSample> devices;     ///< one per device
-    Similarity workspaceFromDevice;            ///< clutch and zoom
+    double time = 0.0;                     ///< s since start
+    double dt = 1e-3;                      ///< s, > 0
+    bool late = false;                     ///< the previous tick ended after its next deadline
+    std::span<const DeviceSample> devices; ///< one per device
+    Similarity workspaceFromDevice;        ///< clutch and zoom
     /// Poses at this tick; empty: every object rests where HapticScene placed it.
     ObjectMotions objects;
 };
@@ -36,24 +36,24 @@ struct WorldState {};
 
 /// What one device gets from one tick. Workspace frame, SI, unless said otherwise.
 struct HapticOutput {
-    glm::dvec3 hip{0.0};              ///< haptic interface point
-    glm::dvec3 hipVelocity{0.0};      ///< m/s, filtered
-    glm::dvec3 proxy{0.0};            ///< centre of the proxy sphere (IHIP, god-object)
-    glm::dvec3 normal{0.0};           ///< unit normal of the felt surface (shaded, textured); zero without contact
-    glm::dvec3 force{0.0};            ///< N, stage 7, before safety
-    DeviceCommand command;            ///< device frame, after safety
+    glm::dvec3 hip{0.0};         ///< haptic interface point
+    glm::dvec3 hipVelocity{0.0}; ///< m/s, filtered
+    glm::dvec3 proxy{0.0};       ///< centre of the proxy sphere (IHIP, god-object)
+    glm::dvec3 normal{0.0};      ///< unit normal of the felt surface (shaded, textured); zero without contact
+    glm::dvec3 force{0.0};       ///< N, stage 7, before safety
+    DeviceCommand command;       ///< device frame, after safety
     glm::dvec3 commandInWorkspace{0.0};
-    double penetration = 0.0;         ///< |proxy - HIP|, m
-    uint32_t contacts = 0;            ///< touching features in the last solve
-    uint32_t iterations = 0;          ///< proxy moves
+    double penetration = 0.0; ///< |proxy - HIP|, m
+    uint32_t contacts = 0;    ///< touching features in the last solve
+    uint32_t iterations = 0;  ///< proxy moves
     FrictionState friction = FrictionState::Free;
-    uint32_t flags = 0;               ///< TickFlag bits
-    int object = -1;                  ///< touched object, -1 without contact
-    int triangle = -1;                ///< touched triangle of that object's mesh
+    uint32_t flags = 0;                 ///< TickFlag bits
+    int object = -1;                    ///< touched object, -1 without contact
+    int triangle = -1;                  ///< touched triangle of that object's mesh
     std::array<glm::dvec3, 3> planes{}; ///< active constraint planes' normals, `planeCount` of them
     uint32_t planeCount = 0;
-    glm::dvec3 stictionPoint{0.0};    ///< valid while friction is not Free
-    double height = 0.0;              ///< felt height H, m
+    glm::dvec3 stictionPoint{0.0}; ///< valid while friction is not Free
+    double height = 0.0;           ///< felt height H, m
 };
 
 /// One tick: sample, contact, proxy, shading, texture, friction, force, safety (DESIGN §2). Deterministic; no

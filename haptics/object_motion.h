@@ -1,8 +1,8 @@
 #pragma once
 
-#include <span>
-
 #include "engine/math/similarity.h"
+
+#include <span>
 
 namespace touchstone {
 

@@ -20,7 +20,8 @@ struct NoStopwatch {
     void lap(Stage) noexcept {}
 };
 
-/// Nanoseconds by stage of the last step, for studies and benchmarks. Reading the clock costs 20..30 ns a lap.
+/// Nanoseconds by stage of the last step, for studies and benchmarks. Reading the clock costs 20..30 ns a
+/// lap.
 struct StageStopwatch {
     std::array<int64_t, kStageCount> nanoseconds{};
 

@@ -11,10 +11,10 @@ struct CandidateCache::Visit {
     CandidateCache* cache;
     const HapticObject* object;
     int objectIndex;
-    bool sameFrame;             ///< the object is the anchor
+    bool sameFrame; ///< the object is the anchor
     Similarity anchorFromObject;
-    glm::vec3 centre;           ///< of the ball, object frame
-    float radiusSquared;        ///< with the float margin
+    glm::vec3 centre;    ///< of the ball, object frame
+    float radiusSquared; ///< with the float margin
     bool overflow = false;
 
     bool add(uint32_t triangle) {
@@ -25,10 +25,13 @@ struct CandidateCache::Visit {
         const glm::vec3 low = glm::min(corner[0], glm::min(corner[1], corner[2]));
         const glm::vec3 high = glm::max(corner[0], glm::max(corner[1], corner[2]));
         const glm::vec3 outside = glm::max(glm::max(low - centre, centre - high), glm::vec3(0.0f));
-        if (glm::dot(outside, outside) > radiusSquared) return true;
+        if (glm::dot(outside, outside) > radiusSquared)
+            return true;
         const uint32_t* index = &object->indices[3 * triangle];
-        if (index[0] == index[1] || index[1] == index[2] || index[2] == index[0]) return true;
-        if (cache->count_ == kCapacity) return false;
+        if (index[0] == index[1] || index[1] == index[2] || index[2] == index[0])
+            return true;
+        if (cache->count_ == kCapacity)
+            return false;
         Candidate& item = cache->items_[cache->count_];
         if (sameFrame)
             item.triangle = Triangle(glm::dvec3(corner[0]), glm::dvec3(corner[1]), glm::dvec3(corner[2]));
@@ -52,8 +55,12 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
     const Similarity& workspaceFromAnchor = poses[static_cast<size_t>(anchor)].workspaceFromObject;
     for (size_t k = 0; k < objects.size(); ++k) {
         const HapticObject& object = *objects[k];
-        Visit visit{.cache = this, .object = &object, .objectIndex = static_cast<int>(k),
-                    .sameFrame = static_cast<int>(k) == anchor, .anchorFromObject = {}, .centre = glm::vec3(centre),
+        Visit visit{.cache = this,
+                    .object = &object,
+                    .objectIndex = static_cast<int>(k),
+                    .sameFrame = static_cast<int>(k) == anchor,
+                    .anchorFromObject = {},
+                    .centre = glm::vec3(centre),
                     .radiusSquared = 0.0f};
         glm::dvec3 local = centre;
         double localRadius = radius;
@@ -63,8 +70,10 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
             localRadius *= objectFromAnchor.scale;
         }
         const double gap = glm::length(local) - object.boundingRadius;
-        if (gap > localRadius) continue;
-        if (!visit.sameFrame) visit.anchorFromObject = workspaceFromAnchor.inverse() * poses[k].workspaceFromObject;
+        if (gap > localRadius)
+            continue;
+        if (!visit.sameFrame)
+            visit.anchorFromObject = workspaceFromAnchor.inverse() * poses[k].workspaceFromObject;
         // Embree works in float on vertices of magnitude one: widen the ball by more than their rounding.
         const double magnitude = 1.0 + glm::length(local);
         const float floatRadius = static_cast<float>(localRadius + 4e-7 * magnitude);
@@ -80,7 +89,8 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
         rtcInitPointQueryContext(&context);
         const auto collect = [](RTCPointQueryFunctionArguments* arguments) -> bool {
             auto& v = *static_cast<Visit*>(arguments->userPtr);
-            if (v.overflow || v.add(arguments->primID)) return false;
+            if (v.overflow || v.add(arguments->primID))
+                return false;
             v.overflow = true;
             arguments->query->radius = 0.0f; // nothing more is wanted: let the traversal end
             return true;

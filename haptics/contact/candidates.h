@@ -1,29 +1,30 @@
 #pragma once
-// The triangles near the proxy: gathered once with Embree, reused by every move until the proxy leaves the ball.
-
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
-#include <glm/glm.hpp>
+// The triangles near the proxy: gathered once with Embree, reused by every move until the proxy leaves the
+// ball.
 
 #include "engine/math/similarity.h"
 #include "haptics/contact/haptic_object.h"
 #include "haptics/contact/triangle.h"
 #include "haptics/object_motion.h"
 
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
 namespace touchstone {
 
 /// One triangle near the proxy, in the frame of the anchor object (object units, double).
 struct Candidate {
     Triangle triangle;
-    int object = -1;          ///< HapticScene::objects
-    uint32_t index = 0;       ///< triangle of that object
+    int object = -1;    ///< HapticScene::objects
+    uint32_t index = 0; ///< triangle of that object
 };
 
-/// Every triangle that meets the ball (centre, radius) is in `items`; those alone can stop a proxy that stays in
-/// it. Preallocated; gather neither allocates nor throws.
+/// Every triangle that meets the ball (centre, radius) is in `items`; those alone can stop a proxy that stays
+/// in it. Preallocated; gather neither allocates nor throws.
 class CandidateCache {
   public:
     /// Room for the densest neighbourhood in which the proxy still moves; beyond it the ball is made smaller.
@@ -31,8 +32,8 @@ class CandidateCache {
 
     CandidateCache() : items_(kCapacity), lowerBounds_(kCapacity) {}
 
-    /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then the
-    /// cache is empty and invalid. 
+    /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
+    /// the cache is empty and invalid.
     bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses, int anchor,
                 const glm::dvec3& centre, double radius) noexcept;
 
@@ -54,7 +55,8 @@ class CandidateCache {
     void setDistance(size_t i, double distance) noexcept { lowerBounds_[i] = distance; }
     /// The proxy moved by `length`: every bound shrinks by it.
     void moved(double length) noexcept {
-        for (size_t i = 0; i < count_; ++i) lowerBounds_[i] -= length;
+        for (size_t i = 0; i < count_; ++i)
+            lowerBounds_[i] -= length;
     }
 
   private:

@@ -1,12 +1,12 @@
 #include "haptics/contact/haptic_object.h"
 
+#include "engine/core/error.h"
+#include "haptics/contact/weld.h"
+
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "engine/core/error.h"
-#include "haptics/contact/weld.h"
 
 namespace touchstone {
 
@@ -16,7 +16,8 @@ namespace {
 RTCDevice embreeDevice() {
     static const std::shared_ptr<RTCDeviceTy> device = [] {
         RTCDevice made = rtcNewDevice("threads=2");
-        if (made == nullptr) throw Error("Embree", "", "no device could be made", "check that libembree3-3 is intact");
+        if (made == nullptr)
+            throw Error("Embree", "", "no device could be made", "check that libembree3-3 is intact");
         return std::shared_ptr<RTCDeviceTy>(made, rtcReleaseDevice);
     }();
     return device.get();
@@ -29,8 +30,8 @@ std::shared_ptr<RTCSceneTy> buildBvh(const HapticObject& object) {
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, object.vertices.data(), 0,
-                               sizeof(glm::vec3), object.vertices.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, object.vertices.data(),
+                               0, sizeof(glm::vec3), object.vertices.size() - 1);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, object.indices.data(), 0,
                                3 * sizeof(uint32_t), object.triangleCount());
     rtcCommitGeometry(geometry);
@@ -43,8 +44,8 @@ std::shared_ptr<RTCSceneTy> buildBvh(const HapticObject& object) {
     return scene;
 }
 
-/// A triangle is smooth where a vertex normal leaves the face normal by more than this. Below it shading would
-/// turn the force by less than 0.11 degrees: under every published threshold of force direction.
+/// A triangle is smooth where a vertex normal leaves the face normal by more than this. Below it shading
+/// would turn the force by less than 0.11 degrees: under every published threshold of force direction.
 constexpr double kSmoothCosine = 0.999998;
 
 void markSmoothTriangles(HapticObject& object) {
@@ -55,10 +56,12 @@ void markSmoothTriangles(HapticObject& object) {
         const glm::dvec3 c(object.vertices[object.indices[3 * t + 2]]);
         const glm::dvec3 area = glm::cross(b - a, c - a);
         const double length = glm::length(area);
-        if (!(length > 0.0)) continue;
+        if (!(length > 0.0))
+            continue;
         for (size_t k = 0; k < 3; ++k) {
             const glm::dvec3 normal(object.normals[object.sourceIndices[3 * t + k]]);
-            if (glm::dot(normal, area) < kSmoothCosine * length) object.smooth[t] = 1;
+            if (glm::dot(normal, area) < kSmoothCosine * length)
+                object.smooth[t] = 1;
         }
         object.anySmooth |= object.smooth[t] != 0;
     }
@@ -73,7 +76,8 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, H
     for (size_t v = 0; v < mesh.normals.size(); ++v) {
         const glm::dvec3 normal = normalFrom * glm::dvec3(mesh.normals[v]);
         const double length = glm::length(normal);
-        if (length > 0.0) object.normals[v] = glm::vec3(normal / length);
+        if (length > 0.0)
+            object.normals[v] = glm::vec3(normal / length);
     }
     object.tangents.resize(mesh.tangents.size());
     for (size_t v = 0; v < mesh.tangents.size(); ++v) {
@@ -97,10 +101,12 @@ void weldGeometry(const std::vector<glm::vec3>& local, HapticObject& object) {
     object.vertices.emplace_back(0.0f); // spare, for Embree's 16-byte reads
     object.weldedVertices = weld.merged;
     object.indices.resize(object.sourceIndices.size());
-    for (size_t i = 0; i < object.indices.size(); ++i) object.indices[i] = weld.remap[object.sourceIndices[i]];
+    for (size_t i = 0; i < object.indices.size(); ++i)
+        object.indices[i] = weld.remap[object.sourceIndices[i]];
     for (size_t t = 0; t < object.triangleCount(); ++t) {
         const uint32_t* i = &object.indices[3 * t];
-        if (i[0] == i[1] || i[1] == i[2] || i[2] == i[0]) ++object.droppedTriangles;
+        if (i[0] == i[1] || i[1] == i[2] || i[2] == i[0])
+            ++object.droppedTriangles;
     }
     object.closed = isClosed(object.indices);
 }
@@ -162,7 +168,8 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
 }
 
 bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept {
-    if (!object.closed || glm::length(point) > object.boundingRadius) return false;
+    if (!object.closed || glm::length(point) > object.boundingRadius)
+        return false;
     // Directions without a simple relation to the axes, so that no ray runs along a facet of a box.
     constexpr float kDirections[3][3] = {
         {0.4823f, 0.7617f, 0.4327f}, {-0.8019f, 0.2673f, 0.5345f}, {0.1690f, -0.5071f, -0.8452f}};
@@ -187,7 +194,8 @@ bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept 
             hit.ray.mask = ~0u;
             hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(object.bvh.get(), &context, &hit);
-            if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
+            if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+                break;
             inside = !inside;
             start = hit.ray.tfar + 1e-6f;
         }

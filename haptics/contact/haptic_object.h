@@ -1,16 +1,16 @@
 #pragma once
 // One touchable object: a welded triangle soup in its own frame, and Embree's BVH over it.
 
+#include "engine/math/similarity.h"
+#include "engine/scene/scene.h"
+
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
-
-#include "engine/math/similarity.h"
-#include "engine/scene/scene.h"
 
 struct RTCSceneTy;
 
@@ -25,23 +25,24 @@ inline constexpr double kWeldTolerance = 1e-6;
 /// corners are turned over where the node mirrors, so that the winding always shows outwards.
 struct HapticObject {
     std::string name;
-    int instance = -1;                    ///< Scene::instances
-    int material = 0;                     ///< Scene::materials
-    std::vector<glm::vec3> vertices;      ///< welded, object frame; one spare entry for Embree's 16-byte reads
-    std::vector<uint32_t> indices;        ///< 3 per triangle into `vertices`
-    std::vector<uint32_t> sourceIndices;  ///< 3 per triangle into the mesh's vertex attributes, same corner order
-    std::vector<glm::vec3> normals;       ///< per source vertex, object frame, unit
-    std::vector<glm::vec4> tangents;      ///< per source vertex, object frame; may be empty
-    std::vector<glm::vec2> uv[2];         ///< per source vertex; may be empty
+    int instance = -1;               ///< Scene::instances
+    int material = 0;                ///< Scene::materials
+    std::vector<glm::vec3> vertices; ///< welded, object frame; one spare entry for Embree's 16-byte reads
+    std::vector<uint32_t> indices;   ///< 3 per triangle into `vertices`
+    std::vector<uint32_t>
+        sourceIndices;               ///< 3 per triangle into the mesh's vertex attributes, same corner order
+    std::vector<glm::vec3> normals;  ///< per source vertex, object frame, unit
+    std::vector<glm::vec4> tangents; ///< per source vertex, object frame; may be empty
+    std::vector<glm::vec2> uv[2];    ///< per source vertex; may be empty
     std::vector<float> stiffness, damping, friction; ///< per source vertex; may be empty
-    std::vector<uint8_t> smooth;          ///< per triangle: 1 where the vertex normals differ from the face's
-    Similarity workspaceFromObject;       ///< rest pose
-    glm::dmat4 objectFromMesh{1.0};       ///< what was baked into the vertices
-    double diagonal = 0.0;                ///< of the bounds, object units
-    double boundingRadius = 0.0;          ///< about the object's origin, object units
-    uint32_t weldedVertices = 0;          ///< vertices that became another one (DESIGN §4)
-    uint32_t droppedTriangles = 0;        ///< triangles with two equal corners after welding
-    bool closed = false;                  ///< every edge has an even number of triangles
+    std::vector<uint8_t> smooth;    ///< per triangle: 1 where the vertex normals differ from the face's
+    Similarity workspaceFromObject; ///< rest pose
+    glm::dmat4 objectFromMesh{1.0}; ///< what was baked into the vertices
+    double diagonal = 0.0;          ///< of the bounds, object units
+    double boundingRadius = 0.0;    ///< about the object's origin, object units
+    uint32_t weldedVertices = 0;    ///< vertices that became another one (DESIGN §4)
+    uint32_t droppedTriangles = 0;  ///< triangles with two equal corners after welding
+    bool closed = false;            ///< every edge has an even number of triangles
     bool anySmooth = false;
     std::shared_ptr<RTCSceneTy> bvh;
 

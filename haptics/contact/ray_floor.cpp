@@ -1,14 +1,15 @@
 #include "haptics/contact/ray_floor.h"
 
+#include "haptics/haptic_scene.h"
+
 #include <embree3/rtcore.h>
 
 #include <limits>
 
-#include "haptics/haptic_scene.h"
-
 namespace touchstone {
 
-float castFloorRay(const HapticScene& scene, int object, const glm::dvec3& proxy, const glm::dvec3& hip) noexcept {
+float castFloorRay(const HapticScene& scene, int object, const glm::dvec3& proxy,
+                   const glm::dvec3& hip) noexcept {
     const auto k = static_cast<size_t>(object);
     const Similarity objectFromWorkspace = scene.restMotions[k].workspaceFromObject.inverse();
     const glm::vec3 from(objectFromWorkspace.point(proxy));

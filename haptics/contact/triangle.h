@@ -1,34 +1,35 @@
 #pragma once
 // The distance of a point from a triangle, exact in double, with the direction in which it grows.
 
+#include <glm/glm.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include <glm/glm.hpp>
-
 namespace touchstone {
 
-/// A triangle ready for distance queries; any consistent frame and unit. The normal is zero when the corners are
-/// collinear: then only the edges count, and neighbours or the slab of those edges close the surface.
+/// A triangle ready for distance queries; any consistent frame and unit. The normal is zero when the corners
+/// are collinear: then only the edges count, and neighbours or the slab of those edges close the surface.
 struct Triangle {
     glm::dvec3 a, b, c;
-    glm::dvec3 normal{0.0};       ///< unit, counter-clockwise
+    glm::dvec3 normal{0.0}; ///< unit, counter-clockwise
 
     Triangle() = default;
     Triangle(const glm::dvec3& a_, const glm::dvec3& b_, const glm::dvec3& c_) : a(a_), b(b_), c(c_) {
         const glm::dvec3 area = glm::cross(b - a, c - a);
         const double squared = glm::dot(area, area);
-        if (squared > 0.0) normal = area / std::sqrt(squared);
+        if (squared > 0.0)
+            normal = area / std::sqrt(squared);
     }
 };
 
 /// Distance from a point: convex along any line, because a triangle is convex.
 struct TriangleDistance {
     double distance = 0.0;
-    glm::dvec3 gradient{0.0};     ///< unit, from the triangle to the point
+    glm::dvec3 gradient{0.0}; ///< unit, from the triangle to the point
     glm::dvec3 closest{0.0};
-    bool face = false;            ///< the closest point lies inside the face, not on an edge or vertex
+    bool face = false; ///< the closest point lies inside the face, not on an edge or vertex
 };
 
 namespace detail {
@@ -38,8 +39,10 @@ inline glm::dvec3 closestOnSegment(const glm::dvec3& p, const glm::dvec3& a, con
     const double squared = glm::dot(ab, ab);
     const double t = squared > 0.0 ? glm::dot(p - a, ab) / squared : 0.0;
     // Ends are returned to the last bit, so that triangles that share a vertex agree on it.
-    if (t <= 0.0) return a;
-    if (t >= 1.0) return b;
+    if (t <= 0.0)
+        return a;
+    if (t >= 1.0)
+        return b;
     return a + t * ab;
 }
 
@@ -74,9 +77,12 @@ inline TriangleDistance distanceTo(const Triangle& triangle, const glm::dvec3& p
             result.gradient = away;
         }
     };
-    if (sideAb <= 0.0) tryEdge(triangle.a, triangle.b);
-    if (sideBc <= 0.0) tryEdge(triangle.b, triangle.c);
-    if (sideCa <= 0.0) tryEdge(triangle.c, triangle.a);
+    if (sideAb <= 0.0)
+        tryEdge(triangle.a, triangle.b);
+    if (sideBc <= 0.0)
+        tryEdge(triangle.b, triangle.c);
+    if (sideCa <= 0.0)
+        tryEdge(triangle.c, triangle.a);
     result.distance = std::sqrt(best);
     result.gradient = result.distance > 0.0 ? result.gradient / result.distance : n;
     return result;
@@ -91,10 +97,12 @@ inline glm::dvec3 barycentric(const Triangle& triangle, const glm::dvec3& p) {
     const double areaC = glm::dot(glm::cross(triangle.b - triangle.a, p - triangle.a), n);
     const glm::dvec3 weights(std::max(areaA, 0.0), std::max(areaB, 0.0), std::max(areaC, 0.0));
     const double sum = weights.x + weights.y + weights.z;
-    if (sum > 0.0) return weights / sum;
+    if (sum > 0.0)
+        return weights / sum;
     const double da = glm::dot(p - triangle.a, p - triangle.a), db = glm::dot(p - triangle.b, p - triangle.b),
                  dc = glm::dot(p - triangle.c, p - triangle.c);
-    if (da <= db && da <= dc) return {1.0, 0.0, 0.0};
+    if (da <= db && da <= dc)
+        return {1.0, 0.0, 0.0};
     return db <= dc ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
 }
 

@@ -22,8 +22,8 @@ uint64_t cellKey(int64_t x, int64_t y, int64_t z) {
 WeldResult weldVertices(std::span<const glm::vec3> positions, double tolerance) {
     WeldResult result;
     result.remap.resize(positions.size());
-    // Cells of four tolerances: a vertex looks into a neighbour cell only when it stands near that wall, so most
-    // vertices look into one cell.
+    // Cells of four tolerances: a vertex looks into a neighbour cell only when it stands near that wall, so
+    // most vertices look into one cell.
     const double cell = std::max(4.0 * tolerance, 1e-30);
     std::unordered_multimap<uint64_t, uint32_t> grid;
     grid.reserve(positions.size());
@@ -57,7 +57,8 @@ bool isClosed(std::span<const uint32_t> indices) {
     edges.reserve(indices.size());
     for (size_t t = 0; t + 2 < indices.size(); t += 3) {
         const uint32_t i[3] = {indices[t], indices[t + 1], indices[t + 2]};
-        if (i[0] == i[1] || i[1] == i[2] || i[2] == i[0]) continue;
+        if (i[0] == i[1] || i[1] == i[2] || i[2] == i[0])
+            continue;
         for (int k = 0; k < 3; ++k) {
             const uint64_t a = i[k], b = i[(k + 1) % 3];
             edges.push_back(std::min(a, b) << 32 | std::max(a, b));
@@ -66,8 +67,10 @@ bool isClosed(std::span<const uint32_t> indices) {
     std::sort(edges.begin(), edges.end());
     for (size_t start = 0; start < edges.size();) {
         size_t end = start;
-        while (end < edges.size() && edges[end] == edges[start]) ++end;
-        if ((end - start) % 2 != 0) return false;
+        while (end < edges.size() && edges[end] == edges[start])
+            ++end;
+        if ((end - start) % 2 != 0)
+            return false;
         start = end;
     }
     return !edges.empty();

@@ -1,25 +1,25 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 namespace touchstone {
 
 struct WeldResult {
-    std::vector<glm::vec3> vertices;  ///< one per cluster: the position of its first vertex
-    std::vector<uint32_t> remap;      ///< input vertex -> cluster
-    uint32_t merged = 0;              ///< vertices that moved onto another one of a different position
+    std::vector<glm::vec3> vertices; ///< one per cluster: the position of its first vertex
+    std::vector<uint32_t> remap;     ///< input vertex -> cluster
+    uint32_t merged = 0;             ///< vertices that moved onto another one of a different position
 };
 
 /// Joins vertices nearer than `tolerance` (same unit) to the first such vertex. Positions never move farther
 /// than `tolerance`. O(n) by hashing.
 [[nodiscard]] WeldResult weldVertices(std::span<const glm::vec3> positions, double tolerance);
 
-/// True when every edge has an even number of triangles: the surface bounds a volume whatever its windings say,
-/// and rays cross it an even number of times. Triangles with two equal corners do not count.
+/// True when every edge has an even number of triangles: the surface bounds a volume whatever its windings
+/// say, and rays cross it an even number of times. Triangles with two equal corners do not count.
 [[nodiscard]] bool isClosed(std::span<const uint32_t> indices);
 
 } // namespace touchstone

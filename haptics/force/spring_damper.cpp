@@ -6,7 +6,8 @@ namespace touchstone {
 
 glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
                              const glm::dvec3& velocity) noexcept {
-    if (!feel.touching) return glm::dvec3(0.0);
+    if (!feel.touching)
+        return glm::dvec3(0.0);
     const double d = feel.depth, height = feel.height;
     const glm::dvec3& n = feel.normal;
     const glm::dvec3& m = feel.textured;

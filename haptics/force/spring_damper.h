@@ -1,16 +1,17 @@
 #pragma once
 // Stage 7: what the hand should feel, before safety.
 
-#include <glm/glm.hpp>
-
 #include "haptics/texture/surface_feel.h"
+
+#include <glm/glm.hpp>
 
 namespace touchstone {
 
-/// Force in N in the frame of the arguments' directions. With stiffness k, depth d, height H, normals n and m:
-/// k [(d - H) n + H m] if d >= H, else k d m (the displacement law of [000], continuous at d = H); plus friction
-/// k * (held proxy - frictionless proxy); minus damping of the velocity into the surface (never pulling) and
-/// viscous friction along it. `frictionStretch` in m, `velocity` of the HIP against the surface in m/s.
+/// Force in N in the frame of the arguments' directions. With stiffness k, depth d, height H, normals n and
+/// m: k [(d - H) n + H m] if d >= H, else k d m (the displacement law of [000], continuous at d = H); plus
+/// friction k * (held proxy - frictionless proxy); minus damping of the velocity into the surface (never
+/// pulling) and viscous friction along it. `frictionStretch` in m, `velocity` of the HIP against the surface
+/// in m/s.
 [[nodiscard]] glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
                                            const glm::dvec3& velocity) noexcept;
 

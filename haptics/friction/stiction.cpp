@@ -2,8 +2,8 @@
 
 namespace touchstone {
 
-void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor, MeshProxy& proxy,
-                   DeviceState& state) noexcept {
+void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor,
+                   MeshProxy& proxy, DeviceState& state) noexcept {
     if (!feel.touching || !(feel.staticFriction > 0.0)) {
         state.friction = FrictionState::Free;
         return;

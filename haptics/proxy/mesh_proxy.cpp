@@ -1,9 +1,9 @@
 #include "haptics/proxy/mesh_proxy.h"
 
+#include "haptics/tick_flags.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "haptics/tick_flags.h"
 
 namespace touchstone {
 
@@ -30,11 +30,14 @@ double firstTouch(const Triangle& triangle, const glm::dvec3& start, const glm::
     TriangleDistance here = atStart;
     for (int step = 0; step < kNewtonSteps; ++step) {
         const double rate = glm::dot(here.gradient, move);
-        if (rate >= -kParallel * length) return limit;
+        if (rate >= -kParallel * length)
+            return limit;
         const double gap = here.distance - reach;
-        if (gap <= 0.5 * kContactGap) return t;
+        if (gap <= 0.5 * kContactGap)
+            return t;
         t += gap / -rate;
-        if (t >= limit) return limit;
+        if (t >= limit)
+            return limit;
         here = distanceTo(triangle, start + t * move);
     }
     return t;
@@ -42,9 +45,10 @@ double firstTouch(const Triangle& triangle, const glm::dvec3& start, const glm::
 
 } // namespace
 
-MeshProxy::MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
-                     ProxyRest& rest) noexcept
-    : scene_(scene), motions_(motions), workspaceRadius_(radius), budget_(budget), state_(state), rest_(rest) {
+MeshProxy::MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget,
+                     DeviceState& state, ProxyRest& rest) noexcept
+    : scene_(scene), motions_(motions), workspaceRadius_(radius), budget_(budget), state_(state),
+      rest_(rest) {
     rest_.contactCount = 0;
     rest_.iterations = 0;
     rest_.flags = 0;
@@ -58,25 +62,30 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
     const double skin = 0.5 * kWeldTolerance * scene_.objects[index]->diagonal;
     const double scaled = workspaceRadius_ / motions_[index].workspaceFromObject.scale;
     const double radius = std::max(scaled, skin);
-    if (radius != radius_) state_.candidates.invalidate();
+    if (radius != radius_)
+        state_.candidates.invalidate();
     radius_ = radius;
 }
 
-/// Makes sure that all triangles are known which a proxy moving by `move` could touch. When too many are near, a
-/// shorter stretch is covered; false if not even the place itself can be.
+/// Makes sure that all triangles are known which a proxy moving by `move` could touch. When too many are
+/// near, a shorter stretch is covered; false if not even the place itself can be.
 bool MeshProxy::cover(const glm::dvec3& move) noexcept {
     const double reach = radius_ + kContactReach;
     const double length = glm::length(move);
-    if (state_.candidates.slack(state_.proxy, reach) >= length) return true;
+    if (state_.candidates.slack(state_.proxy, reach) >= length)
+        return true;
     double ahead = std::min(length, kLargestMargin);
     double margin = std::max(state_.gatherMargin, 0.25 * ahead);
     constexpr int kAttempts = 12;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const glm::dvec3 centre = state_.proxy + (length > 0.0 ? 0.5 * ahead / length : 0.0) * move;
-        if (state_.candidates.gather(scene_.objects, motions_, state_.anchor, centre, reach + 0.5 * ahead + margin)) {
+        if (state_.candidates.gather(scene_.objects, motions_, state_.anchor, centre,
+                                     reach + 0.5 * ahead + margin)) {
             const size_t count = state_.candidates.count();
-            if (count > kManyCandidates) margin *= 0.5;
-            if (count < kFewCandidates) margin *= 1.5;
+            if (count > kManyCandidates)
+                margin *= 0.5;
+            if (count < kFewCandidates)
+                margin *= 1.5;
             state_.gatherMargin = std::clamp(margin, kSmallestMargin, kLargestMargin);
             return true;
         }
@@ -93,20 +102,27 @@ void MeshProxy::findContacts() noexcept {
     const double reach = radius_ + kContactReach;
     rest_.contactCount = 0;
     for (size_t i = 0; i < cache.count(); ++i) {
-        if (cache.lowerBound(i) > reach) continue;
+        if (cache.lowerBound(i) > reach)
+            continue;
         const TriangleDistance d = distanceTo(cache.item(i).triangle, state_.proxy);
         cache.setDistance(i, d.distance);
-        if (d.distance > reach) continue;
-        // Coplanar neighbours say the same: one plane for both. The first keeps its place, so ties do not flicker.
+        if (d.distance > reach)
+            continue;
+        // Coplanar neighbours say the same: one plane for both. The first keeps its place, so ties do not
+        // flicker.
         bool known = false;
         for (uint32_t k = 0; k < rest_.contactCount && !known; ++k) {
             const Contact& other = rest_.contacts[k];
             known = glm::dot(other.normal, d.gradient) > 1.0 - 1e-15 &&
                     std::abs(other.gap - (d.distance - radius_)) < 0.25 * kContactGap;
         }
-        if (known || rest_.contactCount == ProxyRest::kMaxContacts) continue;
-        rest_.contacts[rest_.contactCount++] = {.normal = d.gradient, .point = d.closest, .gap = d.distance - radius_,
-                                                .object = cache.item(i).object, .triangle = cache.item(i).index};
+        if (known || rest_.contactCount == ProxyRest::kMaxContacts)
+            continue;
+        rest_.contacts[rest_.contactCount++] = {.normal = d.gradient,
+                                                .point = d.closest,
+                                                .gap = d.distance - radius_,
+                                                .object = cache.item(i).object,
+                                                .triangle = cache.item(i).index};
     }
 }
 
@@ -122,7 +138,8 @@ double MeshProxy::sweep(const glm::dvec3& move, double limit) noexcept {
     const double reach = radius_ + 0.5 * kContactGap;
     double first = limit;
     for (size_t i = 0; i < cache.count(); ++i) {
-        if (cache.lowerBound(i) > reach + first * length) continue;
+        if (cache.lowerBound(i) > reach + first * length)
+            continue;
         const TriangleDistance d = distanceTo(cache.item(i).triangle, state_.proxy);
         cache.setDistance(i, d.distance);
         first = firstTouch(cache.item(i).triangle, state_.proxy, move, reach, d, first);
@@ -136,27 +153,32 @@ void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
 }
 
 bool MeshProxy::isFree() noexcept {
-    if (!cover(glm::dvec3(0.0))) return false;
+    if (!cover(glm::dvec3(0.0)))
+        return false;
     for (size_t i = 0; i < state_.candidates.count(); ++i)
-        if (distanceTo(state_.candidates.item(i).triangle, state_.proxy).distance < radius_ + kContactGap) return false;
+        if (distanceTo(state_.candidates.item(i).triangle, state_.proxy).distance < radius_ + kContactGap)
+            return false;
     return true;
 }
 
 void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
     int withoutProgress = 0;
     for (int iteration = 0;; ++iteration) {
-        if (!cover(glm::dvec3(0.0))) return;
+        if (!cover(glm::dvec3(0.0)))
+            return;
         findContacts();
         buildPlanes();
         rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
         const glm::dvec3 move = rest_.hold.point;
         const double length = glm::length(move);
-        if (length <= kRestLength || withoutProgress > 2) return;
+        if (length <= kRestLength || withoutProgress > 2)
+            return;
         if (iteration == budget_) {
             rest_.flags = rest_.flags | TickFlag::BudgetReached;
             return;
         }
-        if (!cover(move)) return;
+        if (!cover(move))
+            return;
         const double known = state_.candidates.slack(state_.proxy, radius_ + kContactReach);
         const double share = sweep(move, std::min(1.0, known / length));
         state_.proxy += share * move;
@@ -166,8 +188,9 @@ void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
     }
 }
 
-/// Share of `move` (frame of `object`, from `from`) that is free of that one object; at most `limit`. A stretch
-/// with too many triangles is halved; after the last halving the object counts as touched, which is safe.
+/// Share of `move` (frame of `object`, from `from`) that is free of that one object; at most `limit`. A
+/// stretch with too many triangles is halved; after the last halving the object counts as touched, which is
+/// safe.
 double MeshProxy::sweepObject(size_t object, const glm::dvec3& from, const glm::dvec3& move, double reach,
                               double limit) noexcept {
     constexpr int kPieces = 64;
@@ -177,8 +200,8 @@ double MeshProxy::sweepObject(size_t object, const glm::dvec3& from, const glm::
     for (int i = 0; i < kPieces && done < limit; ++i) {
         const glm::dvec3 start = from + done * move;
         const double radius = 0.5 * piece * length + reach + kContactReach;
-        if (!cache.gather({&scene_.objects[object], 1}, motions_.subspan(object, 1), 0, start + 0.5 * piece * move,
-                          radius)) {
+        if (!cache.gather({&scene_.objects[object], 1}, motions_.subspan(object, 1), 0,
+                          start + 0.5 * piece * move, radius)) {
             piece *= 0.5;
             continue;
         }
@@ -187,7 +210,8 @@ double MeshProxy::sweepObject(size_t object, const glm::dvec3& from, const glm::
             const Triangle& triangle = cache.item(c).triangle;
             first = firstTouch(triangle, start, move, reach, distanceTo(triangle, start), first);
         }
-        if (first < piece) return done + first;
+        if (first < piece)
+            return done + first;
         done += piece;
         piece = std::min(piece, limit - done);
     }
@@ -196,15 +220,18 @@ double MeshProxy::sweepObject(size_t object, const glm::dvec3& from, const glm::
 
 void MeshProxy::carry() noexcept {
     // With one object the anchor's own motion is the whole relative motion, and moveTowards sweeps it.
-    if (scene_.objects.size() < 2 || motions_.data() == scene_.restMotions.data()) return;
+    if (scene_.objects.size() < 2 || motions_.data() == scene_.restMotions.data())
+        return;
     state_.candidates.invalidate();
     const ObjectMotion anchor = motions_[static_cast<size_t>(state_.anchor)];
-    const glm::dvec3 before = anchor.before.point(state_.proxy), now = anchor.workspaceFromObject.point(state_.proxy);
+    const glm::dvec3 before = anchor.before.point(state_.proxy),
+                     now = anchor.workspaceFromObject.point(state_.proxy);
     int struck = -1;
     double first = 1.0;
     glm::dvec3 place(0.0);
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
-        if (static_cast<int>(k) == state_.anchor) continue;
+        if (static_cast<int>(k) == state_.anchor)
+            continue;
         const HapticObject& object = *scene_.objects[k];
         const glm::dvec3 from = motions_[k].before.inverse().point(before);
         const glm::dvec3 to = motions_[k].workspaceFromObject.inverse().point(now);
@@ -213,9 +240,11 @@ void MeshProxy::carry() noexcept {
         const double scale = motions_[k].workspaceFromObject.scale;
         const double skin = 0.5 * kWeldTolerance * object.diagonal;
         const double reach = std::max(workspaceRadius_ / scale, skin) + kContactGap;
-        if (length <= kRestLength) continue;
+        if (length <= kRestLength)
+            continue;
         const double nearest = std::min(glm::length(from), glm::length(to)) - length;
-        if (nearest > object.boundingRadius + reach) continue;
+        if (nearest > object.boundingRadius + reach)
+            continue;
         // The object alone, in its own frame, from the old place to the new one.
         const double share = sweepObject(k, from, move, reach, first);
         if (share < first) {
@@ -224,7 +253,8 @@ void MeshProxy::carry() noexcept {
             place = from + share * move;
         }
     }
-    if (struck < 0) return;
+    if (struck < 0)
+        return;
     state_.proxy = place;
     adoptAnchor(struck);
     state_.candidates.invalidate();

@@ -2,22 +2,22 @@
 // The mesh contact model: stages 2 and 3. A sphere moves towards a goal and never through a surface
 // (Ruspini, Kolarov and Khatib [000, 001]).
 
-#include <array>
-#include <cstdint>
-#include <span>
-
-#include <glm/glm.hpp>
-
 #include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/object_motion.h"
 #include "haptics/proxy/sub_goal.h"
 
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
 namespace touchstone {
 
 /// Lengths of the solve in object units (the object's longest side is 1).
-/// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding (1e-16),
-/// far below anything felt (0.02 nm on a fitted model).
+/// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding
+/// (1e-16), far below anything felt (0.02 nm on a fitted model).
 inline constexpr double kContactGap = 1e-10;
 /// A triangle nearer than the radius and this is touched.
 inline constexpr double kContactReach = 4.0 * kContactGap;
@@ -26,29 +26,30 @@ inline constexpr double kRestLength = 1e-11;
 
 /// A place where the proxy touches.
 struct Contact {
-    glm::dvec3 normal{0.0};    ///< unit, from the surface to the proxy's centre, anchor frame
-    glm::dvec3 point{0.0};     ///< on the surface, anchor frame
-    double gap = 0.0;          ///< distance minus radius, object units
-    int object = -1;           ///< HapticScene::objects
-    uint32_t triangle = 0;     ///< of that object
+    glm::dvec3 normal{0.0}; ///< unit, from the surface to the proxy's centre, anchor frame
+    glm::dvec3 point{0.0};  ///< on the surface, anchor frame
+    double gap = 0.0;       ///< distance minus radius, object units
+    int object = -1;        ///< HapticScene::objects
+    uint32_t triangle = 0;  ///< of that object
 };
 
 /// Where the last move ended and what holds the proxy there.
 struct ProxyRest {
     static constexpr size_t kMaxContacts = 64;
     std::array<Contact, kMaxContacts> contacts;
-    std::array<ConstraintPlane, kMaxContacts> planes;   ///< of the contacts, relative to the proxy
+    std::array<ConstraintPlane, kMaxContacts> planes; ///< of the contacts, relative to the proxy
     uint32_t contactCount = 0;
-    SubGoal hold;                 ///< which planes hold the proxy from its goal; indices into contacts
+    SubGoal hold; ///< which planes hold the proxy from its goal; indices into contacts
     uint32_t iterations = 0;
-    uint32_t flags = 0;           ///< TickFlag bits
+    uint32_t flags = 0; ///< TickFlag bits
 };
 
-/// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object units.
+/// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object
+/// units.
 class MeshProxy {
   public:
-    /// `radius`: workspace metres. The proxy is at least half the weld tolerance of the anchor: a god-object that
-    /// closes every crack narrower than that, and knows its side of a sheet by standing on it.
+    /// `radius`: workspace metres. The proxy is at least half the weld tolerance of the anchor: a god-object
+    /// that closes every crack narrower than that, and knows its side of a sheet by standing on it.
     MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
               ProxyRest& rest) noexcept;
 

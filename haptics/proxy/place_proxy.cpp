@@ -9,7 +9,8 @@ int nearestObject(const HapticScene& scene, ObjectMotions motions, const glm::dv
     double least = INFINITY;
     for (size_t k = 0; k < scene.objects.size(); ++k) {
         const Similarity& pose = motions[k].workspaceFromObject;
-        const double distance = glm::length(hip - pose.translation) - pose.scale * scene.objects[k]->boundingRadius;
+        const double distance =
+            glm::length(hip - pose.translation) - pose.scale * scene.objects[k]->boundingRadius;
         if (distance < least) {
             least = distance;
             nearest = static_cast<int>(k);
@@ -20,10 +21,12 @@ int nearestObject(const HapticScene& scene, ObjectMotions motions, const glm::dv
 
 bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip, MeshProxy& proxy,
                 DeviceState& state) noexcept {
-    if (state.placed) return true;
+    if (state.placed)
+        return true;
     proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inverse().point(hip));
     for (size_t k = 0; k < scene.objects.size(); ++k)
-        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inverse().point(hip))) return false;
+        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inverse().point(hip)))
+            return false;
     state.placed = proxy.isFree();
     return state.placed;
 }

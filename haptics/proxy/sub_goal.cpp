@@ -12,8 +12,8 @@ constexpr int kMaxExchanges = 48;
 constexpr double kDependent = 1e-14;
 
 /// Nearest point to the goal on the meet of `count` planes with its Lagrange multipliers; false if dependent.
-bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const std::array<int, 3>& set, int count,
-          SubGoal& result) {
+bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const std::array<int, 3>& set,
+          int count, SubGoal& result) {
     const auto plane = [&](int i) -> const ConstraintPlane& {
         return planes[static_cast<size_t>(set[static_cast<size_t>(i)])];
     };
@@ -27,14 +27,17 @@ bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const
         const double c = glm::dot(plane(0).normal, plane(1).normal);
         const glm::dvec3 line = glm::cross(plane(0).normal, plane(1).normal);
         const double det = glm::dot(line, line); // 1 - c^2 without its cancellation
-        if (det < kDependent) return false;
+        if (det < kDependent)
+            return false;
         const double l0 = lack(0), l1 = lack(1);
         result.multiplier = {(l0 - c * l1) / det, (l1 - c * l0) / det, 0.0};
     } else {
         const glm::dvec3 &n0 = plane(0).normal, &n1 = plane(1).normal, &n2 = plane(2).normal;
         const double det = glm::dot(n0, glm::cross(n1, n2));
-        if (det * det < kDependent * kDependent) return false;
-        const glm::dvec3 r0 = glm::cross(n1, n2) / det, r1 = glm::cross(n2, n0) / det, r2 = glm::cross(n0, n1) / det;
+        if (det * det < kDependent * kDependent)
+            return false;
+        const glm::dvec3 r0 = glm::cross(n1, n2) / det, r1 = glm::cross(n2, n0) / det,
+                         r2 = glm::cross(n0, n1) / det;
         // The corner x solves N x = offset; x - goal = N^T multiplier.
         const glm::dvec3 step = lack(0) * r0 + lack(1) * r1 + lack(2) * r2;
         result.multiplier = {glm::dot(step, r0), glm::dot(step, r1), glm::dot(step, r2)};
@@ -47,26 +50,32 @@ bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const
 
 /// Tries the subsets of `held` together with `entering`, small ones first. Exactly one subset has no negative
 /// multiplier and violates none of the others (Karush-Kuhn-Tucker for a convex problem).
-bool exchange(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const SubGoal& held, int entering,
-              double tolerance, SubGoal& result) {
+bool exchange(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const SubGoal& held,
+              int entering, double tolerance, SubGoal& result) {
     const auto accepted = [&](const std::array<int, 3>& set, int count) {
         SubGoal trial;
-        if (!meet(goal, planes, set, count, trial)) return false;
+        if (!meet(goal, planes, set, count, trial))
+            return false;
         for (int i = 0; i < count; ++i)
-            if (trial.multiplier[static_cast<size_t>(i)] < 0.0) return false;
+            if (trial.multiplier[static_cast<size_t>(i)] < 0.0)
+                return false;
         for (int i = 0; i < held.count; ++i) {
             const ConstraintPlane& other = planes[static_cast<size_t>(held.active[static_cast<size_t>(i)])];
-            if (glm::dot(other.normal, trial.point) < other.offset - tolerance) return false;
+            if (glm::dot(other.normal, trial.point) < other.offset - tolerance)
+                return false;
         }
         result = trial;
         return true;
     };
-    if (accepted({entering, 0, 0}, 1)) return true;
+    if (accepted({entering, 0, 0}, 1))
+        return true;
     for (int i = 0; i < held.count; ++i)
-        if (accepted({entering, held.active[static_cast<size_t>(i)], 0}, 2)) return true;
+        if (accepted({entering, held.active[static_cast<size_t>(i)], 0}, 2))
+            return true;
     for (int i = 0; i < held.count; ++i)
         for (int k = i + 1; k < held.count; ++k)
-            if (accepted({entering, held.active[static_cast<size_t>(i)], held.active[static_cast<size_t>(k)]}, 3))
+            if (accepted({entering, held.active[static_cast<size_t>(i)], held.active[static_cast<size_t>(k)]},
+                         3))
                 return true;
     return false;
 }
@@ -87,9 +96,11 @@ SubGoal nearestFeasible(const glm::dvec3& goal, std::span<const ConstraintPlane>
                 worst = static_cast<int>(i);
             }
         }
-        if (worst < 0) return current;
+        if (worst < 0)
+            return current;
         SubGoal next;
-        if (!exchange(goal, planes, current, worst, tolerance, next)) break;
+        if (!exchange(goal, planes, current, worst, tolerance, next))
+            break;
         current = next;
     }
     SubGoal stay;

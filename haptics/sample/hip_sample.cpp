@@ -1,8 +1,8 @@
 #include "haptics/sample/hip_sample.h"
 
-#include <cmath>
-
 #include "haptics/tick_flags.h"
+
+#include <cmath>
 
 namespace touchstone {
 
@@ -12,14 +12,15 @@ namespace {
 constexpr double kFarthestSample = 1e7;
 
 bool usable(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::abs(p.x) < kFarthestSample &&
-           std::abs(p.y) < kFarthestSample && std::abs(p.z) < kFarthestSample;
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&
+           std::abs(p.x) < kFarthestSample && std::abs(p.y) < kFarthestSample &&
+           std::abs(p.z) < kFarthestSample;
 }
 
 } // namespace
 
-bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevice, double dt, DeviceState& state,
-                uint32_t& flags) noexcept {
+bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevice, double dt,
+                DeviceState& state, uint32_t& flags) noexcept {
     if (!sample.valid || !usable(sample.position)) {
         flags = flags | TickFlag::InputInvalid;
         return false;
@@ -27,7 +28,8 @@ bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevic
     const glm::dvec3 hip = workspaceFromDevice.point(sample.position);
     if (state.sampled) {
         const glm::dvec3 velocity = (hip - state.hip) / dt;
-        if (glm::length(velocity) > kFastestHand) flags = flags | TickFlag::Teleported;
+        if (glm::length(velocity) > kFastestHand)
+            flags = flags | TickFlag::Teleported;
         constexpr double kTwoPi = 6.283185307179586;
         const double share = 1.0 - std::exp(-kTwoPi * kVelocityCutoff * dt);
         state.velocity += share * (velocity - state.velocity);

@@ -11,8 +11,8 @@ inline constexpr double kVelocityCutoff = 80.0;
 /// A hand does not outrun this, m/s: a faster sample is reported as a jump, and swept all the same.
 inline constexpr double kFastestHand = 20.0;
 
-/// Takes a sample (device frame) into state.hip and state.velocity (workspace). False when it is unusable: the
-/// state is then unchanged. Sets InputInvalid and Teleported.
+/// Takes a sample (device frame) into state.hip and state.velocity (workspace). False when it is unusable:
+/// the state is then unchanged. Sets InputInvalid and Teleported.
 [[nodiscard]] bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevice, double dt,
                               DeviceState& state, uint32_t& flags) noexcept;
 

@@ -1,12 +1,14 @@
-#include <string>
-
 #include "haptics/haptic_scene.h"
+
+#include <string>
 
 namespace touchstone {
 
 namespace {
 
-std::string percent(double share) { return std::to_string(static_cast<int>(share * 100.0 + 0.5)) + " %"; }
+std::string percent(double share) {
+    return std::to_string(static_cast<int>(share * 100.0 + 0.5)) + " %";
+}
 
 /// Decides for one material which effects it calls for, with the reason that `inspect` prints.
 void planMaterial(int index, const Material& material, const HapticMaterialData& data, bool smooth, bool used,
@@ -19,29 +21,34 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
         plan.effects.push_back({effect, index, on, std::move(reason), memory});
         return on;
     };
-    plan.anyShading |= add(Effect::ForceShading, data.shading && smooth,
-                           !data.shading ? "the material turns it off"
-                           : smooth      ? "vertex normals leave the face normals: the surface is meant to be smooth"
-                                         : "vertex normals equal the face normals: facets are meant",
-                           0);
+    plan.anyShading |=
+        add(Effect::ForceShading, data.shading && smooth,
+            !data.shading ? "the material turns it off"
+            : smooth      ? "vertex normals leave the face normals: the surface is meant to be smooth"
+                          : "vertex normals equal the face normals: facets are meant",
+            0);
     plan.anyTexture |= add(Effect::NormalMap, !data.normal.empty(),
-                           !data.normal.empty()       ? "normal map, felt share " + percent(data.normalScale)
-                           : material.normalTexture   ? "the normal map is not felt or could not be read"
-                                                      : "no normal map",
+                           !data.normal.empty()     ? "normal map, felt share " + percent(data.normalScale)
+                           : material.normalTexture ? "the normal map is not felt or could not be read"
+                                                    : "no normal map",
                            data.normal.memoryBytes());
     plan.anyTexture |= add(Effect::HeightMap, !data.height.empty(),
                            data.height.empty() ? "no height map"
-                                               : "height map, " + std::to_string(data.heightScale * 1e3) + " mm black to white",
+                                               : "height map, " + std::to_string(data.heightScale * 1e3) +
+                                                     " mm black to white",
                            data.height.memoryBytes());
-    plan.anyFriction |= add(Effect::Friction, data.staticFriction > 0.0,
-                            data.staticFriction > 0.0 ? "static " + std::to_string(data.staticFriction) + ", dynamic " +
-                                                            std::to_string(data.dynamicFriction)
-                                                      : "no coefficient stated or derived",
-                            data.friction.map.memoryBytes());
-    add(Effect::ViscousFriction, data.viscousFriction > 0.0, data.viscousFriction > 0.0 ? "stated" : "none stated", 0);
+    plan.anyFriction |=
+        add(Effect::Friction, data.staticFriction > 0.0,
+            data.staticFriction > 0.0 ? "static " + std::to_string(data.staticFriction) + ", dynamic " +
+                                            std::to_string(data.dynamicFriction)
+                                      : "no coefficient stated or derived",
+            data.friction.map.memoryBytes());
+    add(Effect::ViscousFriction, data.viscousFriction > 0.0,
+        data.viscousFriction > 0.0 ? "stated" : "none stated", 0);
     plan.anyDamping |= add(Effect::Damping, data.damping > 0.0 || !data.dampingMap.map.empty(),
                            data.damping > 0.0 ? "stated" : "none stated", data.dampingMap.map.memoryBytes());
-    add(Effect::StiffnessMap, !data.stiffnessMap.map.empty(), data.stiffnessMap.map.empty() ? "no stiffness map" : "stiffness map",
+    add(Effect::StiffnessMap, !data.stiffnessMap.map.empty(),
+        data.stiffnessMap.map.empty() ? "no stiffness map" : "stiffness map",
         data.stiffnessMap.map.memoryBytes());
 }
 
@@ -67,25 +74,28 @@ const char* effectName(Effect effect) {
     return "";
 }
 
-std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene,
-                                                      const DeviceLimits& limits) {
+std::shared_ptr<const HapticScene>
+compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, const DeviceLimits& limits) {
     auto haptic = std::make_shared<HapticScene>();
     haptic->workspaceFromScene = workspaceFromScene;
     haptic->limits = limits;
     std::vector<bool> used(scene.materials.size()), smooth(scene.materials.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
-        if (mesh.triangleCount() == 0) continue;
+        if (mesh.triangleCount() == 0)
+            continue;
         auto object = buildHapticObject(scene, static_cast<int>(i), workspaceFromScene);
         const auto material = static_cast<size_t>(object->material);
         used[material] = true;
-        if (object->anySmooth) smooth[material] = true;
+        if (object->anySmooth)
+            smooth[material] = true;
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
         haptic->objects.push_back(std::move(object));
     }
     for (size_t m = 0; m < scene.materials.size(); ++m) {
         const int index = static_cast<int>(m);
-        haptic->materials.push_back(used[m] ? buildHapticMaterial(scene, index, haptic->warnings) : HapticMaterialData{});
+        haptic->materials.push_back(used[m] ? buildHapticMaterial(scene, index, haptic->warnings)
+                                            : HapticMaterialData{});
         planMaterial(index, scene.materials[m], haptic->materials.back(), smooth[m], used[m], haptic->plan);
     }
     return haptic;

@@ -85,7 +85,8 @@ int pinToLastCpu() {
 
 [[gnu::noinline]] void touchStack() {
     unsigned char pages[kStackToTouch];
-    for (size_t i = 0; i < kStackToTouch; i += 4096) pages[i] = 0;
+    for (size_t i = 0; i < kStackToTouch; i += 4096)
+        pages[i] = 0;
     asm volatile("" : : "r"(pages) : "memory"); // keeps the stores
 }
 

@@ -1,34 +1,36 @@
 #include "haptics/shading/force_shading.h"
 
-#include <array>
-#include <cmath>
-
 #include "haptics/contact/triangle.h"
 #include "haptics/tick_flags.h"
+
+#include <array>
+#include <cmath>
 
 namespace touchstone {
 
 namespace {
 
-/// The goal contracts by depth over radius of curvature each time (0.04 on a 25 mm torus pressed 1 mm, 0.15 on
-/// the ten-sided prism of [000 Fig. 6]); twelve rounds take the worst of these below a nanometre.
+/// The goal contracts by depth over radius of curvature each time (0.04 on a 25 mm torus pressed 1 mm, 0.15
+/// on the ten-sided prism of [000 Fig. 6]); twelve rounds take the worst of these below a nanometre.
 constexpr int kMaxRounds = 12;
 /// Object units: 1.5 nm on a fitted model, 1.5 µN at 1000 N/m.
 constexpr double kGoalTolerance = 1e-8;
 
 } // namespace
 
-glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor, const Contact& contact,
-                              double tiltLimit) noexcept {
+glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
+                              const Contact& contact, double tiltLimit) noexcept {
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
-    if (object.smooth[contact.triangle] == 0 || !scene.materials[static_cast<size_t>(object.material)].shading)
+    if (object.smooth[contact.triangle] == 0 ||
+        !scene.materials[static_cast<size_t>(object.material)].shading)
         return contact.normal;
     glm::dvec3 point = contact.point, trueNormal = contact.normal;
     Similarity anchorFromObject;
     const bool foreign = contact.object != anchor;
     if (foreign) {
-        anchorFromObject = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverse() * motions[k].workspaceFromObject;
+        anchorFromObject = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverse() *
+                           motions[k].workspaceFromObject;
         const Similarity back = anchorFromObject.inverse();
         point = back.point(point);
         trueNormal = back.direction(trueNormal);
@@ -42,7 +44,8 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
                         weight.y * glm::dvec3(object.normals[object.sourceIndices[first + 1]]) +
                         weight.z * glm::dvec3(object.normals[object.sourceIndices[first + 2]]);
     const double length = glm::length(normal);
-    if (!(length > 1e-6)) return contact.normal; // opposed vertex normals cancel: no shading to be had
+    if (!(length > 1e-6))
+        return contact.normal; // opposed vertex normals cancel: no shading to be had
     normal /= length;
     // The model's normals show outwards; a proxy on the back of a sheet feels the same curve from below.
     double cosine = glm::dot(normal, trueNormal);
@@ -60,7 +63,8 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
 }
 
 glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip) noexcept {
-    if (!state.shaded) return hip;
+    if (!state.shaded)
+        return hip;
     const double depth = glm::dot(state.proxy - hip, state.shadedNormal);
     return depth > 0.0 ? hip + depth * state.shadedNormal : hip;
 }
@@ -73,17 +77,21 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
     for (int round = 0; round < kMaxRounds; ++round) {
         bool anyTilted = false;
         for (uint32_t i = 0; i < rest.contactCount; ++i) {
-            planes[i] = {interpolatedNormal(scene, motions, state.anchor, rest.contacts[i], settings.shadingTiltLimit), 0.0};
+            planes[i] = {
+                interpolatedNormal(scene, motions, state.anchor, rest.contacts[i], settings.shadingTiltLimit),
+                0.0};
             anyTilted |= planes[i].normal != rest.contacts[i].normal;
         }
         state.shaded = anyTilted;
-        if (!anyTilted && lastGoal == hip) return;
+        if (!anyTilted && lastGoal == hip)
+            return;
         const SubGoal pass = nearestFeasible(hip - state.proxy, {planes.data(), rest.contactCount});
         if (anyTilted && pass.count > 0) {
             const glm::dvec3 towards = pass.point - (hip - state.proxy);
             const double length = glm::length(towards);
             state.shaded = length > 0.0;
-            if (state.shaded) state.shadedNormal = towards / length;
+            if (state.shaded)
+                state.shadedNormal = towards / length;
         } else {
             state.shaded = false;
         }
@@ -93,15 +101,18 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
             double nearest = INFINITY;
             glm::dvec3 normal(0.0);
             for (uint32_t i = 0; i < rest.contactCount; ++i) {
-                const double above = glm::dot(rest.contacts[i].normal, pass.point) - (kContactGap - rest.contacts[i].gap);
+                const double above =
+                    glm::dot(rest.contacts[i].normal, pass.point) - (kContactGap - rest.contacts[i].gap);
                 if (above < nearest) {
                     nearest = above;
                     normal = rest.contacts[i].normal;
                 }
             }
-            if (nearest > 0.0) goal -= nearest * normal;
+            if (nearest > 0.0)
+                goal -= nearest * normal;
         }
-        if (glm::length(goal - lastGoal) <= kGoalTolerance) return;
+        if (glm::length(goal - lastGoal) <= kGoalTolerance)
+            return;
         proxy.moveTowards(goal);
         lastGoal = goal;
     }

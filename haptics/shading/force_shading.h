@@ -1,18 +1,18 @@
 #pragma once
-// Stage 4: facets that feel round. Interpolated normals [000 §4.1] move the proxy (Ruspini's two passes), or turn
-// the force (Ho, Morgenbesser).
-
-#include <glm/glm.hpp>
+// Stage 4: facets that feel round. Interpolated normals [000 §4.1] move the proxy (Ruspini's two passes), or
+// turn the force (Ho, Morgenbesser).
 
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_settings.h"
 #include "haptics/proxy/mesh_proxy.h"
 
+#include <glm/glm.hpp>
+
 namespace touchstone {
 
 /// The normal that the model's vertex normals give at a contact (anchor frame, unit), on the proxy's side and
-/// tilted from the true normal by at most `tiltLimit` (rad). The true normal where the triangle is flat or its
-/// material forbids shading.
+/// tilted from the true normal by at most `tiltLimit` (rad). The true normal where the triangle is flat or
+/// its material forbids shading.
 [[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
                                             const Contact& contact, double tiltLimit) noexcept;
 
@@ -20,10 +20,10 @@ namespace touchstone {
 /// Anchor frame. The HIP itself when nothing was shaded.
 [[nodiscard]] glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip) noexcept;
 
-/// Ruspini's two-pass shading run to its fixed point: goal = nearest point to the HIP on the interpolated planes
-/// through the proxy; then the proxy moves to the point of the true surface nearest to that goal; repeated with
-/// the normals of the new place until the goal stands still. There the force is along the interpolated normal of
-/// the final proxy. Sets ShadingNotConverged.
+/// Ruspini's two-pass shading run to its fixed point: goal = nearest point to the HIP on the interpolated
+/// planes through the proxy; then the proxy moves to the point of the true surface nearest to that goal;
+/// repeated with the normals of the new place until the goal stands still. There the force is along the
+/// interpolated normal of the final proxy. Sets ShadingNotConverged.
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                   const glm::dvec3& hip, const glm::dvec3& firstGoal, MeshProxy& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept;

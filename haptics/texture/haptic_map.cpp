@@ -22,8 +22,11 @@ int wrapIndex(int i, int size, Wrap wrap) {
     return ((i % size) + size) % size;
 }
 
-/// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must not harm.
-double bounded(double x) { return std::isfinite(x) ? std::clamp(x, -1e6, 1e6) : 0.0; }
+/// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must not
+/// harm.
+double bounded(double x) {
+    return std::isfinite(x) ? std::clamp(x, -1e6, 1e6) : 0.0;
+}
 
 } // namespace
 
@@ -38,15 +41,18 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
     Level level;
     level.width = pixels.width;
     level.height = pixels.height;
-    level.texels.resize(static_cast<size_t>(level.width) * static_cast<size_t>(level.height) * static_cast<size_t>(channels));
+    level.texels.resize(static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
+                        static_cast<size_t>(channels));
     size_t out = 0;
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x)
-            for (int k = 0; k < channels; ++k) level.texels[out++] = pixels.value(x, y, std::min(k, pixels.channels - 1));
+            for (int k = 0; k < channels; ++k)
+                level.texels[out++] = pixels.value(x, y, std::min(k, pixels.channels - 1));
     least_ = INFINITY;
     greatest_ = -INFINITY;
     for (size_t i = 0; i < level.texels.size(); i += static_cast<size_t>(channels)) {
-        if (!std::isfinite(level.texels[i])) level.texels[i] = 0.0f;
+        if (!std::isfinite(level.texels[i]))
+            level.texels[i] = 0.0f;
         least_ = std::min(least_, level.texels[i]);
         greatest_ = std::max(greatest_, level.texels[i]);
     }
@@ -67,7 +73,8 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
                         return fine.texels[static_cast<size_t>((fy * fine.width + fx) * channels + k)];
                     };
                     coarse.texels[static_cast<size_t>((y * coarse.width + x) * channels + k)] =
-                        0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1));
+                        0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
+                                 at(2 * x + 1, 2 * y + 1));
                 }
         levels_.push_back(std::move(coarse));
     }
@@ -75,11 +82,14 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
 
 uint64_t HapticMap::memoryBytes() const {
     uint64_t bytes = 0;
-    for (const Level& level : levels_) bytes += level.texels.size() * sizeof(float);
+    for (const Level& level : levels_)
+        bytes += level.texels.size() * sizeof(float);
     return bytes;
 }
 
-glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const { return offset_ + jacobian_ * uv; }
+glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
+    return offset_ + jacobian_ * uv;
+}
 
 glm::dvec3 HapticMap::bilinear(const Level& level, const glm::dvec2& uv) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
@@ -104,13 +114,18 @@ glm::dvec3 HapticMap::sample(const glm::dvec2& uv, double level) const {
     const auto fine = static_cast<size_t>(bound);
     const double between = bound - static_cast<double>(fine);
     const glm::dvec3 a = bilinear(levels_[fine], uv);
-    if (between <= 0.0) return a;
+    if (between <= 0.0)
+        return a;
     return (1.0 - between) * a + between * bilinear(levels_[fine + 1], uv);
 }
 
-double HapticMap::scalar(const glm::dvec2& uv, double level) const { return sample(uv, level).x; }
+double HapticMap::scalar(const glm::dvec2& uv, double level) const {
+    return sample(uv, level).x;
+}
 
-glm::dvec3 HapticMap::vector(const glm::dvec2& uv, double level) const { return sample(uv, level); }
+glm::dvec3 HapticMap::vector(const glm::dvec2& uv, double level) const {
+    return sample(uv, level);
+}
 
 glm::dvec2 HapticMap::gradient(const glm::dvec2& uv, double level) const {
     const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include <glm/glm.hpp>
-
 #include "engine/scene/image.h"
 #include "engine/scene/material.h"
 
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
 namespace touchstone {
 
-/// A texture as the hand reads it: float texels with mip levels, wrap modes and UV transform. Immutable; sampling
-/// is safe on the servo thread.
+/// A texture as the hand reads it: float texels with mip levels, wrap modes and UV transform. Immutable;
+/// sampling is safe on the servo thread.
 class HapticMap {
   public:
     HapticMap() = default;
@@ -20,8 +20,10 @@ class HapticMap {
 
     [[nodiscard]] bool empty() const { return levels_.empty(); }
     [[nodiscard]] int texCoord() const { return texCoord_; }
-    [[nodiscard]] glm::dvec2 size() const { return empty() ? glm::dvec2(1.0) : glm::dvec2(levels_[0].width, levels_[0].height); }
-    [[nodiscard]] float least() const { return least_; }   ///< of channel 0 over the finest level
+    [[nodiscard]] glm::dvec2 size() const {
+        return empty() ? glm::dvec2(1.0) : glm::dvec2(levels_[0].width, levels_[0].height);
+    }
+    [[nodiscard]] float least() const { return least_; } ///< of channel 0 over the finest level
     [[nodiscard]] float greatest() const { return greatest_; }
     [[nodiscard]] uint64_t memoryBytes() const;
 

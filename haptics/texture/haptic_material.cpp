@@ -10,19 +10,22 @@ namespace {
 /// The map of a texture reference, or an empty map with a warning when its image could not be read.
 HapticMap mapOf(const Scene& scene, const TextureRef& reference, int channels, const std::string& place,
                 std::vector<Warning>& warnings) {
-    if (!reference) return {};
+    if (!reference)
+        return {};
     const Image& image = scene.images[static_cast<size_t>(reference.image)];
     if (image.pixels.bytes.empty()) {
-        if (!image.problem.empty()) warnings.push_back({place, "not felt: " + image.problem});
+        if (!image.problem.empty())
+            warnings.push_back({place, "not felt: " + image.problem});
         return {};
     }
     return {image.pixels, reference, channels};
 }
 
-HapticFactor factorOf(const Scene& scene, const HapticMaterial::Field<FactorMap>& field, const std::string& place,
-                      std::vector<Warning>& warnings) {
+HapticFactor factorOf(const Scene& scene, const HapticMaterial::Field<FactorMap>& field,
+                      const std::string& place, std::vector<Warning>& warnings) {
     HapticFactor factor;
-    if (!field.value) return factor;
+    if (!field.value)
+        return factor;
     factor.map = mapOf(scene, field.value->texture, 1, place, warnings);
     factor.min = static_cast<double>(field.value->min);
     factor.max = static_cast<double>(field.value->max);
@@ -53,7 +56,8 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, std::vecto
         data.dynamicFriction = data.staticFriction;
     }
     const double influence = numberOr(haptic.normalTextureInfluence, 1.0);
-    if (influence > 0.0) data.normal = mapOf(scene, material.normalTexture, 3, place + ".normalTexture", warnings);
+    if (influence > 0.0)
+        data.normal = mapOf(scene, material.normalTexture, 3, place + ".normalTexture", warnings);
     data.normalScale = static_cast<double>(material.normalScale) * influence;
     if (haptic.height.value) {
         data.height = mapOf(scene, haptic.height.value->texture, 1, place + ".heightTexture", warnings);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-
 #include "engine/scene/scene.h"
 #include "haptics/texture/haptic_map.h"
+
+#include <cmath>
+#include <cstdint>
 
 namespace touchstone {
 
@@ -16,16 +16,16 @@ struct HapticFactor {
 
 /// A material as the step reads it: numbers settled, maps ready. NaN: the material says nothing.
 struct HapticMaterialData {
-    double stiffness = NAN;          ///< N/m
-    double damping = NAN;            ///< N·s/m
+    double stiffness = NAN;                             ///< N/m
+    double damping = NAN;                               ///< N·s/m
     double staticFriction = 0.0, dynamicFriction = 0.0; ///< 1; dynamic <= static
-    double viscousFriction = 0.0;    ///< N·s/m
-    HapticMap normal;                ///< tangent-space xyz as stored, 0..1
-    double normalScale = 1.0;        ///< glTF's scale times normalTextureInfluence
-    HapticMap height;                ///< 0..1
-    double heightScale = 0.0;        ///< model metres, black to white
+    double viscousFriction = 0.0;                       ///< N·s/m
+    HapticMap normal;                                   ///< tangent-space xyz as stored, 0..1
+    double normalScale = 1.0;                           ///< glTF's scale times normalTextureInfluence
+    HapticMap height;                                   ///< 0..1
+    double heightScale = 0.0;                           ///< model metres, black to white
     HapticFactor friction, stiffnessMap, dampingMap;
-    bool shading = true;             ///< the material does not forbid force shading
+    bool shading = true; ///< the material does not forbid force shading
     bool frontOnly = false;
 
     [[nodiscard]] bool textured() const { return !normal.empty() || (!height.empty() && heightScale != 0.0); }
@@ -36,6 +36,7 @@ struct HapticMaterialData {
 };
 
 /// Settles one material; appends what the user should know to `warnings`.
-[[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, int material, std::vector<Warning>& warnings);
+[[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, int material,
+                                                     std::vector<Warning>& warnings);
 
 } // namespace touchstone

@@ -1,11 +1,11 @@
 #pragma once
 // Stage 5: what the maps say at the contact.
 
-#include <glm/glm.hpp>
-
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_settings.h"
 #include "haptics/proxy/mesh_proxy.h"
+
+#include <glm/glm.hpp>
 
 namespace touchstone {
 
@@ -15,21 +15,22 @@ struct SurfaceFeel {
     int object = -1;
     uint32_t triangle = 0;
     int material = 0;
-    glm::dvec3 normal{0.0};      ///< n: the felt shape's unit normal (true or shaded)
-    double depth = 0.0;          ///< d: distance of the HIP from the proxy, workspace m
-    glm::dvec3 textured{0.0};    ///< m: unit normal with the texture's tilt
-    double height = 0.0;         ///< H >= 0, workspace m
+    glm::dvec3 normal{0.0};   ///< n: the felt shape's unit normal (true or shaded)
+    double depth = 0.0;       ///< d: distance of the HIP from the proxy, workspace m
+    glm::dvec3 textured{0.0}; ///< m: unit normal with the texture's tilt
+    double height = 0.0;      ///< H >= 0, workspace m
     bool tiltCompressed = false;
-    double stiffness = 0.0;      ///< N/m
-    double damping = 0.0;        ///< N·s/m
+    double stiffness = 0.0; ///< N/m
+    double damping = 0.0;   ///< N·s/m
     double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
 };
 
-/// Picks the contact that carries most of the load and reads material, vertex attributes and maps there. `normal`
-/// and `depth` are those of the shaded rest. `speed` (m/s along the surface) and `dt` choose the mip level: what
-/// would alias at the servo rate is left out.
-[[nodiscard]] SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                                      int anchor, const ProxyRest& rest, const glm::dvec3& normal, double depth,
-                                      double speed, double dt) noexcept;
+/// Picks the contact that carries most of the load and reads material, vertex attributes and maps there.
+/// `normal` and `depth` are those of the shaded rest. `speed` (m/s along the surface) and `dt` choose the mip
+/// level: what would alias at the servo rate is left out.
+[[nodiscard]] SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions,
+                                      const HapticSettings& settings, int anchor, const ProxyRest& rest,
+                                      const glm::dvec3& normal, double depth, double speed,
+                                      double dt) noexcept;
 
 } // namespace touchstone
