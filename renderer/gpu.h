@@ -1,0 +1,56 @@
+#pragma once
+// The Vulkan device. Create it before the servo thread starts and never on it: Mesa may change the affinity
+// of the thread that creates a device (the constructor restores it) and starts worker threads.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+struct GpuOptions {
+    /// Part of a device's name (any case) or its index as `Gpu::listDevices` counts. Empty: the environment
+    /// variable TOUCHSTONE_GPU, else the best one: discrete, integrated, virtual, software, in this order.
+    std::string device;
+    /// Ask for the validation layer; TOUCHSTONE_VALIDATION=1 in the environment does so too.
+    bool validation = false;
+};
+
+/// One Vulkan 1.3 device with one queue. Owner thread only (the main thread), except validationMessages.
+/// Throws Error where there is no loader, no driver or no fitting device; the remedy names the package.
+class Gpu {
+  public:
+    /// Needs no window system and touches none.
+    [[nodiscard]] static std::unique_ptr<Gpu> headless(const GpuOptions& options = {});
+    ~Gpu();
+    Gpu(const Gpu&) = delete;
+    Gpu& operator=(const Gpu&) = delete;
+
+    [[nodiscard]] const std::string& name() const;
+    [[nodiscard]] bool isSoftware() const; ///< it computes on the CPU: be lean
+    /// "Vulkan 1.3.230, driver llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    [[nodiscard]] const std::string& description() const;
+
+    /// Validation was asked for and the layer is active.
+    [[nodiscard]] bool validationActive() const;
+    /// Empty, or why validation that was asked for is not active, with the package to install.
+    [[nodiscard]] const std::string& validationNote() const;
+    /// Warnings and errors of the validation layer so far. Any thread.
+    [[nodiscard]] std::vector<std::string> validationMessages() const;
+
+    /// Waits until the device is idle.
+    void waitIdle() const;
+
+    /// Names of the devices that Vulkan reports, with their kind and, for those unfit, the reason.
+    [[nodiscard]] static std::vector<std::string> listDevices();
+
+    struct Impl;
+    [[nodiscard]] Impl& impl() const { return *impl_; } ///< for renderer/ only
+    explicit Gpu(std::unique_ptr<Impl> impl);
+
+  private:
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace touchstone

@@ -1,0 +1,65 @@
+#pragma once
+// Draws a Scene and an Overlay into an image of its own. Headless and window share it.
+
+#include "engine/scene/scene.h"
+#include "renderer/gpu.h"
+#include "renderer/overlay.h"
+#include "renderer/view.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <span>
+
+namespace touchstone {
+
+/// Main thread only. Two frames are in flight; `render` waits only when the one before the last is
+/// unfinished.
+class SceneRenderer {
+  public:
+    /// Compiles nothing that the scene does not call for: pipelines are made on first use.
+    explicit SceneRenderer(Gpu& gpu);
+    ~SceneRenderer();
+    SceneRenderer(const SceneRenderer&) = delete;
+    SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+    /// Uploads meshes and textures; waits for the frames in flight. Null: empty scene. Missing or broken base
+    /// colours become grey. Throws Error when the device memory does not hold the scene; then the renderer is
+    /// empty.
+    void setScene(ScenePtr scene);
+
+    /// Where the instances are now, one `sceneFromMesh` for each of Scene::instances; holds until the next
+    /// call. Throws std::invalid_argument on another count.
+    void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
+
+    /// Records and submits one frame; returns without waiting for it. width, height: pixels, 1..16384
+    /// (bounded by the device). Throws Error when the device is lost or out of memory.
+    void render(const View& view, const Overlay& overlay, int width, int height);
+
+    /// Waits for the last frame and reads it: RGBA8, sRGB, rows from the top, alpha 255. Empty before the
+    /// first.
+    [[nodiscard]] PixelData readPixels();
+
+    struct Statistics {
+        uint64_t triangles = 0;   ///< of the scene, over the instances
+        uint64_t drawCalls = 0;   ///< of the last frame
+        uint64_t pipelines = 0;   ///< compiled so far
+        uint64_t deviceBytes = 0; ///< device memory held for the scene
+        double gpuSeconds = 0.0;  ///< of the last finished frame as the device measured it; 0: it cannot
+        double waitSeconds = 0.0; ///< that the last `render` waited for a frame in flight
+    };
+    [[nodiscard]] const Statistics& statistics() const;
+
+    struct Impl;
+    [[nodiscard]] Impl& impl() const { return *impl_; } ///< for renderer/ only
+
+  private:
+    std::unique_ptr<Impl> impl_;
+};
+
+/// One finished picture, anti-aliased by drawing at `supersampling` times the size (1..4, less where the
+/// device's largest image demands it) and averaging in linear light.
+[[nodiscard]] PixelData renderStill(SceneRenderer& renderer, const View& view, const Overlay& overlay,
+                                    int width, int height, int supersampling = 2);
+
+} // namespace touchstone

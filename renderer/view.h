@@ -1,0 +1,55 @@
+#pragma once
+// How a scene is looked at: camera, light, and which quantity is shown. Plain data.
+
+#include "engine/math/similarity.h"
+#include "renderer/camera.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace touchstone {
+
+/// Shaded is what the eye would see; the others are false-colour views of what the hand would feel.
+enum class ViewMode : uint8_t { Shaded, Height, Friction, Stiffness, Damping, Normals, Uv };
+inline constexpr std::array<std::string_view, 7> kViewModeNames{"shaded",  "height",  "friction", "stiffness",
+                                                                "damping", "normals", "uv"};
+[[nodiscard]] constexpr std::string_view viewModeName(ViewMode mode) {
+    return kViewModeNames[static_cast<size_t>(mode)];
+}
+
+struct DirectionalLight {
+    glm::dvec3 toLight{0.0, 0.0, 1.0}; ///< workspace, towards the light; need not be unit
+    glm::vec3 irradiance{0.0f};        ///< linear RGB at normal incidence; zero is off
+};
+
+/// Light from everywhere, a sky above and a floor below (workspace y), linear RGB radiance.
+struct Ambient {
+    glm::vec3 sky{0.62f, 0.66f, 0.72f};
+    glm::vec3 floor{0.30f, 0.28f, 0.26f};
+};
+
+/// Linear RGB at the upper and lower edge of the image; not exposed or tone mapped.
+struct Background {
+    glm::vec3 top{0.30f, 0.33f, 0.37f};
+    glm::vec3 bottom{0.085f, 0.092f, 0.105f};
+};
+
+struct View {
+    glm::dmat4 viewFromWorkspace{1.0};
+    glm::dmat4 clipFromView{1.0}; ///< depth 0..1, y up; must match the aspect of the image
+    Similarity workspaceFromScene;
+    ViewMode mode = ViewMode::Shaded;
+    std::array<DirectionalLight, 2> lights{};
+    Ambient ambient;
+    Background background;
+    float exposure = 1.0f; ///< factor before tone mapping
+};
+
+/// The view of a camera with a key light over its left shoulder and a fill light from the right, both moving
+/// with the camera, so that the side one looks at is always lit.
+[[nodiscard]] View viewOf(const OrbitCamera& camera, const Similarity& workspaceFromScene, double aspect);
+
+} // namespace touchstone

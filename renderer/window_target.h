@@ -1,0 +1,67 @@
+#pragma once
+// A GLFW window as the place where frames end up: swapchain, Dear ImGui, present. The only part of the
+// renderer that knows a window system; headless code does not include it.
+
+#include "engine/scene/image.h"
+#include "renderer/gpu.h"
+#include "renderer/scene_renderer.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <optional>
+
+struct GLFWwindow;
+
+namespace touchstone {
+
+/// A device that can present to this window (made with GLFW_CLIENT_API = GLFW_NO_API). Throws Error.
+[[nodiscard]] std::unique_ptr<Gpu> createGpuForWindow(GLFWwindow* window, const GpuOptions& options = {});
+
+/// Part of the window in framebuffer pixels, from the upper left corner.
+struct PixelRect {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Owns the swapchain and the Dear ImGui context with its GLFW and Vulkan backends. Install own GLFW
+/// callbacks before construction: ImGui's backend chains to them. Main thread only. The window outlives it.
+class WindowTarget {
+  public:
+    WindowTarget(Gpu& gpu, GLFWwindow* window);
+    ~WindowTarget();
+    WindowTarget(const WindowTarget&) = delete;
+    WindowTarget& operator=(const WindowTarget&) = delete;
+
+    /// Framebuffer size in pixels at the last beginFrame.
+    [[nodiscard]] glm::ivec2 size() const;
+
+    /// Starts an ImGui frame. False when the window is minimised or has no area: draw nothing and wait for
+    /// events. The swapchain follows the framebuffer size, which is compared every frame (Xvfb does not
+    /// report resizes).
+    [[nodiscard]] bool beginFrame();
+
+    /// Ends the ImGui frame, draws the last image of `scene` (may be null) bilinearly into `where`, the ImGui
+    /// windows over it, and presents. After every beginFrame that returned true.
+    void endFrame(SceneRenderer* scene, const PixelRect& where);
+
+    /// Ends the ImGui frame that was begun without drawing it; instead of endFrame, on errors.
+    void cancelFrame();
+
+    /// The next endFrame keeps a copy of what it presents.
+    void requestCapture();
+    /// The copy: RGBA8, sRGB; empty until a requested frame was presented. Waits for that frame.
+    [[nodiscard]] std::optional<PixelData> takeCapture();
+
+    struct Statistics {
+        uint64_t framesPresented = 0;
+        uint64_t swapchainsMade = 0;
+        double waitSeconds = 0.0; ///< that the last frame waited for the device and the window system
+    };
+    [[nodiscard]] const Statistics& statistics() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace touchstone
