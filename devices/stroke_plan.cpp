@@ -22,7 +22,7 @@ using Hits = std::vector<std::optional<SurfaceHit>>;
 constexpr double kEllipse = 0.70, kWave = 0.12;
 constexpr int kWaves = 3;
 constexpr double kLargestHalfAxis = 0.5; ///< m: what is larger is stroked near its middle only
-constexpr double kWorthwhile = 0.6; ///< share of the ellipse over the model that ends the search for a side
+constexpr double kWorthwhile = 0.3; ///< share of the ellipse over the model that ends the search for a side
 constexpr double kHardlyAnything = 0.05; ///< share below which single triangles are pressed instead
 constexpr double kBridged = 0.005;       ///< m: gaps shorter than this are crossed without lifting
 constexpr double kDeepest = 0.1;         ///< of the model's diagonal: a small model is not pierced

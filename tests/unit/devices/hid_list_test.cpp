@@ -1,0 +1,80 @@
+#include "devices/hid_list.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace touchstone {
+namespace {
+
+TEST(HidList, KnowsOurDevicesByTheirIds) {
+    ASSERT_NE(knownHid(0x046d, 0xc626), nullptr);
+    EXPECT_EQ(knownHid(0x046d, 0xc626)->kind, HidKind::SpaceMouse);
+    ASSERT_NE(knownHid(0x256f, 0xc635), nullptr);
+    ASSERT_NE(knownHid(0x16c0, 0x0486), nullptr);
+    EXPECT_EQ(knownHid(0x16c0, 0x0486)->kind, HidKind::WoodenHaptics);
+    EXPECT_EQ(knownHid(0x046d, 0xc077), nullptr) << "an ordinary mouse";
+    EXPECT_EQ(knownHid(0x256f, 0xc626), nullptr) << "the product id of another vendor";
+}
+
+TEST(HidList, NamesEveryDeviceOnce) {
+    std::set<std::pair<int, int>> ids;
+    for (const KnownHid& known : knownHids()) {
+        EXPECT_TRUE(ids.emplace(known.vendor, known.product).second) << std::hex << known.product;
+        EXPECT_STRNE(known.model, "");
+    }
+    EXPECT_EQ(ids.size(), 23u);
+}
+
+TEST(HidList, CallsADeviceByTheBestNameThereIs) {
+    HidDevice device;
+    device.vendor = 0x1234;
+    device.product = 0x00ab;
+    EXPECT_EQ(device.name(), "HID device 1234:00ab");
+    device.productName = "Knob";
+    EXPECT_EQ(device.name(), "Knob");
+    device.known = knownHid(0x046d, 0xc626);
+    EXPECT_EQ(device.name(), "SpaceNavigator");
+}
+
+TEST(HidList, TellsWhatTheUserMayDo) {
+    const std::filesystem::path node =
+        std::filesystem::temp_directory_path() / ("touchstone node " + std::to_string(::getpid()));
+    std::ofstream(node) << "x";
+    EXPECT_EQ(hidAccess(node.string()), HidAccess::ReadWrite);
+    if (::geteuid() != 0) { // root may do everything whatever the permissions say
+        std::filesystem::permissions(node, std::filesystem::perms::owner_read);
+        EXPECT_EQ(hidAccess(node.string()), HidAccess::ReadOnly);
+        std::filesystem::permissions(node, std::filesystem::perms::none);
+        EXPECT_EQ(hidAccess(node.string()), HidAccess::None);
+    }
+    std::filesystem::remove(node);
+    EXPECT_EQ(hidAccess(node.string()), HidAccess::Missing);
+}
+
+TEST(HidList, GivesTheUdevRuleWhenPermissionIsMissing) {
+    HidDevice device;
+    device.vendor = 0x256f;
+    device.path = "/dev/hidraw3";
+    device.access = HidAccess::None;
+    EXPECT_NE(hidRemedy(device).find("ATTRS{idVendor}==\"256f\""), std::string::npos) << hidRemedy(device);
+    device.access = HidAccess::ReadWrite;
+    EXPECT_TRUE(hidRemedy(device).empty());
+}
+
+TEST(HidList, ListsEachNodeOnceAndOursFirst) {
+    const std::vector<HidDevice> devices = listHidDevices();
+    std::set<std::string> paths;
+    bool unknownSeen = false;
+    for (const HidDevice& device : devices) {
+        EXPECT_TRUE(paths.insert(device.path).second) << device.path;
+        EXPECT_FALSE(unknownSeen && device.known != nullptr) << device.path;
+        unknownSeen = unknownSeen || device.known == nullptr;
+    }
+}
+
+} // namespace
+} // namespace touchstone
