@@ -1,0 +1,70 @@
+// The exact sub-goal against an exhaustive search over all active sets.
+
+#include "haptics/proxy/sub_goal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace touchstone {
+namespace {
+
+/// Dykstra's alternating projections: slow, independent, converges to the nearest feasible point.
+glm::dvec3 dykstra(const glm::dvec3& goal, const std::vector<ConstraintPlane>& planes) {
+    glm::dvec3 x = goal;
+    std::vector<glm::dvec3> correction(planes.size(), glm::dvec3(0.0));
+    for (int sweep = 0; sweep < 20000; ++sweep)
+        for (size_t i = 0; i < planes.size(); ++i) {
+            const glm::dvec3 y = x + correction[i];
+            const double lack = planes[i].offset - glm::dot(planes[i].normal, y);
+            x = lack > 0.0 ? y + lack * planes[i].normal : y;
+            correction[i] = y - x;
+        }
+    return x;
+}
+
+TEST(SubGoal, AgreesWithAlternatingProjections) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    int byCount[4] = {};
+    for (int trial = 0; trial < 300; ++trial) {
+        std::vector<ConstraintPlane> planes(1 + random() % 7);
+        for (ConstraintPlane& plane : planes) {
+            plane.normal = glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.4));
+            plane.offset = -0.1 * std::abs(normal(random));
+        }
+        const glm::dvec3 goal(normal(random), normal(random), -std::abs(normal(random)));
+        const SubGoal found = nearestFeasible(goal, planes);
+        ASSERT_TRUE(found.exact);
+        ++byCount[found.count];
+        EXPECT_LT(glm::length(found.point - dykstra(goal, planes)), 1e-6) << "trial " << trial;
+        glm::dvec3 rebuilt = goal;
+        for (int i = 0; i < found.count; ++i) {
+            EXPECT_GE(found.multiplier[static_cast<size_t>(i)], 0.0);
+            rebuilt += found.multiplier[static_cast<size_t>(i)] *
+                       planes[static_cast<size_t>(found.active[static_cast<size_t>(i)])].normal;
+        }
+        EXPECT_LT(glm::length(rebuilt - found.point), 1e-12);
+    }
+    EXPECT_GT(byCount[1], 10);
+    EXPECT_GT(byCount[2], 10);
+    EXPECT_GT(byCount[3], 10);
+}
+
+TEST(SubGoal, PlanesAlmostParallelAreSolvedNotGivenUp) {
+    for (double angle : {1e-2, 1e-4, 1.7e-5, 1e-6, 1e-8, 0.0}) {
+        const std::vector<ConstraintPlane> planes{{{0.0, 1.0, 0.0}, 0.0},
+                                                  {{std::sin(angle), std::cos(angle), 0.0}, 0.0}};
+        for (double x : {-1.0, 0.0, 1.0}) {
+            const SubGoal found = nearestFeasible({x, -1.0, 0.5}, planes);
+            EXPECT_TRUE(found.exact) << angle;
+            for (const ConstraintPlane& plane : planes)
+                EXPECT_GE(glm::dot(plane.normal, found.point), -1e-7) << "angle " << angle;
+        }
+    }
+}
+
+} // namespace
+} // namespace touchstone
