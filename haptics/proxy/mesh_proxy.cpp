@@ -22,6 +22,10 @@ constexpr double kLargestMargin = 4.0;
 constexpr size_t kManyCandidates = 48;
 constexpr size_t kFewCandidates = 12;
 
+/// A sweep ends at this gap, short of the resting one: a surface that the proxy rests on at kContactGap and
+/// slides along is then not struck again at once by the rounding of its gradient.
+constexpr double kStrikeGap = 0.5 * kContactGap;
+
 /// Time in 0..limit at which a sphere of radius `reach` around start + t * move first touches, or `limit`.
 double firstTouch(const Triangle& triangle, const glm::dvec3& start, const glm::dvec3& move, double reach,
                   TriangleDistance atStart, double limit) {
@@ -33,7 +37,7 @@ double firstTouch(const Triangle& triangle, const glm::dvec3& start, const glm::
         if (rate >= -kParallel * length)
             return limit;
         const double gap = here.distance - reach;
-        if (gap <= 0.5 * kContactGap)
+        if (gap <= 0.1 * kContactGap)
             return t;
         t += gap / -rate;
         if (t >= limit)
@@ -135,7 +139,7 @@ void MeshProxy::buildPlanes() noexcept {
 double MeshProxy::sweep(const glm::dvec3& move, double limit) noexcept {
     CandidateCache& cache = state_.candidates;
     const double length = glm::length(move);
-    const double reach = radius_ + 0.5 * kContactGap;
+    const double reach = radius_ + kStrikeGap;
     double first = limit;
     for (size_t i = 0; i < cache.count(); ++i) {
         if (cache.lowerBound(i) > reach + first * length)

@@ -17,10 +17,12 @@ namespace touchstone {
 
 /// Lengths of the solve in object units (the object's longest side is 1).
 /// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding
-/// (1e-16), far below anything felt (0.02 nm on a fitted model).
-inline constexpr double kContactGap = 1e-10;
-/// A triangle nearer than the radius and this is touched.
-inline constexpr double kContactReach = 4.0 * kContactGap;
+/// (1e-16), far below anything felt (0.2 pm on a fitted model).
+inline constexpr double kContactGap = 1e-12;
+/// A triangle nearer than the radius and this is touched. Hardly more than the gap itself: a triangle that is
+/// merely near has a tilted distance gradient (a coplanar neighbour seen from beside its edge by as much as
+/// sqrt(2 reach / radius)), and its plane would hold a proxy that nothing holds.
+inline constexpr double kContactReach = 2.0 * kContactGap;
 /// A move shorter than this ends the solve.
 inline constexpr double kRestLength = 1e-11;
 

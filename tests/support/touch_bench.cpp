@@ -11,8 +11,8 @@ Mesh meshOf(const assets::Shape& shape) {
     if (shape.normals.empty()) {
         // Flat: every triangle has its own corners.
         for (size_t t = 0; t < shape.triangleCount(); ++t) {
-            const glm::dvec3 a(shape.positions[shape.indices[3 * t]]), b(shape.positions[shape.indices[3 * t + 1]]),
-                c(shape.positions[shape.indices[3 * t + 2]]);
+            const glm::dvec3 a(shape.positions[shape.indices[3 * t]]),
+                b(shape.positions[shape.indices[3 * t + 1]]), c(shape.positions[shape.indices[3 * t + 2]]);
             const glm::dvec3 area = glm::cross(b - a, c - a);
             const double length = glm::length(area);
             for (size_t k = 0; k < 3; ++k) {
@@ -80,7 +80,8 @@ const HapticOutput& TouchBench::moveTo(const glm::dvec3& to, double speed,
     const int ticks = std::max(1, static_cast<int>(std::ceil(glm::length(to - from) / (speed * dt))));
     for (int i = 1; i <= ticks; ++i) {
         step(from + (to - from) * (static_cast<double>(i) / ticks));
-        if (each) each(output);
+        if (each)
+            each(output);
     }
     return output;
 }

@@ -1,19 +1,19 @@
 #pragma once
 // Puts a shape on the bench and strokes it: scenes in code, offline ticks, no files.
 
-#include <functional>
-#include <memory>
-#include <vector>
-
 #include "assets/shapes.h"
 #include "engine/scene/scene.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_step.h"
 
+#include <functional>
+#include <memory>
+#include <vector>
+
 namespace touchstone::test {
 
-/// A scene of one mesh from a shape, in scene metres; the material is the glTF default. `faceNormals`: where the
-/// shape has no normals, one per triangle.
+/// A scene of one mesh from a shape, in scene metres; the material is the glTF default. `faceNormals`: where
+/// the shape has no normals, one per triangle.
 [[nodiscard]] Scene sceneOf(const assets::Shape& shape, const glm::dmat4& sceneFromMesh = glm::dmat4(1.0));
 /// Adds a second instance with a shape of its own.
 void addShape(Scene& scene, const assets::Shape& shape, const glm::dmat4& sceneFromMesh = glm::dmat4(1.0));
@@ -25,7 +25,8 @@ class TouchBench {
 
     /// One tick with the HIP at `hip` (workspace m).
     const HapticOutput& step(const glm::dvec3& hip);
-    /// Ticks along the straight line from where the HIP is to `to` at `speed` m/s; the first call starts there.
+    /// Ticks along the straight line from where the HIP is to `to` at `speed` m/s; the first call starts
+    /// there.
     const HapticOutput& moveTo(const glm::dvec3& to, double speed,
                                const std::function<void(const HapticOutput&)>& each = {});
 

@@ -1,11 +1,11 @@
-// Touch against closed forms: on a plane, a box, a sphere and a torus the force is stiffness times depth along
-// the outward normal.
+// Touch against closed forms: on a plane, a box, a sphere and a torus the force is stiffness times depth
+// along the outward normal.
+
+#include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "tests/support/touch_bench.h"
 
 namespace touchstone::test {
 namespace {
@@ -66,8 +66,8 @@ TEST_P(ClosedForms, BoxFacesEdgesAndCorners) {
     EXPECT_EQ(bench.output.contacts, 0u);
     bench.moveTo({0.049, 0.0, 0.02}, 0.1);
     EXPECT_NEAR(bench.output.force.x, 1000.0 * (0.001 + skin), 1e-6);
-    // Into an inner corner of two boxes' walls there is no such corner on one box; the outer corner: along the
-    // diagonal the force splits evenly.
+    // Into an inner corner of two boxes' walls there is no such corner on one box; the outer corner: along
+    // the diagonal the force splits evenly.
     bench.moveTo({0.08, 0.08, 0.08}, 0.1);
     bench.moveTo({0.0499, 0.0499, 0.0499}, 0.1);
     EXPECT_GT(bench.output.contacts, 0u);
@@ -101,9 +101,11 @@ TEST_P(ClosedForms, SphereProxyStaysOnTheMeshAndForceIsStiffnessTimesPenetration
     int touched = 0;
     for (int i = 0; i < 2000; ++i) {
         const double a = 0.002 * i;
-        const glm::dvec3 direction = glm::normalize(glm::dvec3(std::sin(a), 0.3 * std::sin(0.7 * a) + 0.2, std::cos(a)));
+        const glm::dvec3 direction =
+            glm::normalize(glm::dvec3(std::sin(a), 0.3 * std::sin(0.7 * a) + 0.2, std::cos(a)));
         bench.step(0.049 * direction);
-        if (i < 50) continue;
+        if (i < 50)
+            continue;
         ASSERT_GT(bench.output.contacts, 0u);
         ++touched;
         const glm::dvec3 f = bench.output.force;
@@ -125,7 +127,8 @@ TEST_P(ClosedForms, TorusHoldsOnItsSaddleForMinutes) {
     for (int i = 0; i < 40000; ++i) {
         const double a = 2.0 * 3.141592653589793 * i / 1000.0;
         bench.step({0.036 * std::cos(a), 0.036 * std::sin(a), 0.004 * std::sin(0.37 * a)});
-        ASSERT_LT(std::hypot(bench.output.proxy.x, bench.output.proxy.y), 0.0362) << "fell through at tick " << i;
+        ASSERT_LT(std::hypot(bench.output.proxy.x, bench.output.proxy.y), 0.0362)
+            << "fell through at tick " << i;
         ASSERT_GT(bench.output.penetration, 1e-4);
     }
 }
@@ -134,7 +137,8 @@ TEST(ClosedForm, AStartInsideFeelsNothingUntilOutside) {
     TouchBench bench(sceneOf(assets::sphere(0.05, 20, 30)), plainSettings(0.5e-3));
     bench.moveTo({0.0, 0.0, 0.0}, 0.1);
     EXPECT_TRUE(has(bench.output.flags, TickFlag::StartedInside));
-    bench.moveTo({0.0, 0.045, 0.0}, 0.1, [](const HapticOutput& out) { EXPECT_EQ(glm::length(out.force), 0.0); });
+    bench.moveTo({0.0, 0.045, 0.0}, 0.1,
+                 [](const HapticOutput& out) { EXPECT_EQ(glm::length(out.force), 0.0); });
     bench.moveTo({0.0, 0.06, 0.0}, 0.1);
     EXPECT_FALSE(has(bench.output.flags, TickFlag::StartedInside));
     bench.moveTo({0.0, 0.048, 0.0}, 0.1);

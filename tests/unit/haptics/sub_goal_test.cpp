@@ -32,7 +32,8 @@ TEST(SubGoal, AgreesWithAlternatingProjections) {
     for (int trial = 0; trial < 300; ++trial) {
         std::vector<ConstraintPlane> planes(1 + random() % 7);
         for (ConstraintPlane& plane : planes) {
-            plane.normal = glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.4));
+            plane.normal =
+                glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.4));
             plane.offset = -0.1 * std::abs(normal(random));
         }
         const glm::dvec3 goal(normal(random), normal(random), -std::abs(normal(random)));

@@ -16,7 +16,8 @@ double searchedDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dve
                 const double u = std::clamp(u0 + i * step, 0.0, 1.0);
                 const double v = std::clamp(v0 + k * step, 0.0, 1.0 - u);
                 const double d = glm::length(a + u * (b - a) + v * (c - a) - p);
-                if (d < best) best = d, bu = u, bv = v;
+                if (d < best)
+                    best = d, bu = u, bv = v;
             }
         u0 = bu, v0 = bv, step *= 0.12;
     }

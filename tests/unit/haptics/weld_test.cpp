@@ -18,7 +18,8 @@ TEST(Weld, NoVertexMovesFartherThanTheTolerance) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> in(-1e-5f, 1e-5f);
     std::vector<glm::vec3> points(5000);
-    for (glm::vec3& p : points) p = {in(random), in(random), in(random)};
+    for (glm::vec3& p : points)
+        p = {in(random), in(random), in(random)};
     const WeldResult weld = weldVertices(points, 1e-6);
     for (size_t i = 0; i < points.size(); ++i)
         EXPECT_LE(glm::distance(glm::dvec3(points[i]), glm::dvec3(weld.vertices[weld.remap[i]])), 1e-6);
