@@ -27,4 +27,3 @@ set_target_properties(imgui::imgui PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES "/usr/include/imgui;/usr/include/imgui/backends"
     INTERFACE_LINK_LIBRARIES "glfw;Vulkan::Vulkan;${STB_LIBRARY};${CMAKE_DL_LIBS}")
 
-find_path(READERWRITERQUEUE_INCLUDE readerwriterqueue/readerwriterqueue.h REQUIRED)
