@@ -32,6 +32,12 @@ void appendTriangle(Shape& shape, uint32_t a, uint32_t b, uint32_t c) {
     shape.indices.insert(shape.indices.end(), {a, b, c});
 }
 
+/// a, b, c, d go around the quad; counter-clockwise if `forwards`.
+void appendQuad(Shape& shape, uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool forwards) {
+    appendTriangle(shape, a, forwards ? b : c, forwards ? c : b);
+    appendTriangle(shape, a, forwards ? c : d, forwards ? d : c);
+}
+
 void demand(bool holds, const char* what) {
     if (!holds)
         throw std::invalid_argument(what);
@@ -129,13 +135,7 @@ void appendCell(Shape& shape, const Face& face, size_t a, size_t b) {
         shape.positions.emplace_back(corner);
         shape.normals.emplace_back(normal);
     }
-    if (face.sign > 0.0) {
-        appendTriangle(shape, first, first + 1, first + 2);
-        appendTriangle(shape, first, first + 2, first + 3);
-    } else {
-        appendTriangle(shape, first, first + 2, first + 1);
-        appendTriangle(shape, first, first + 3, first + 2);
-    }
+    appendQuad(shape, first, first + 1, first + 2, first + 3, face.sign > 0.0);
 }
 
 Shape box(const glm::dvec3& sides, uint32_t cells) {
@@ -146,11 +146,25 @@ Shape box(const glm::dvec3& sides, uint32_t cells) {
             cuts[static_cast<size_t>(axis)].push_back(sides[axis] * (static_cast<double>(i) / cells - 0.5));
     Shape shape;
     for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {-1.0, 1.0})
-            appendFace(shape,
-                       Face{axis, sign, 0.5 * sign * sides[axis], cuts[static_cast<size_t>((axis + 1) % 3)],
-                            cuts[static_cast<size_t>((axis + 2) % 3)]},
-                       [](size_t, size_t) { return true; });
+        for (const double sign : {-1.0, 1.0}) {
+            const int axisA = (axis + 1) % 3, axisB = (axis + 2) % 3;
+            const auto first = static_cast<uint32_t>(shape.positions.size());
+            glm::dvec3 normal(0.0), corner(0.0);
+            normal[axis] = sign;
+            corner[axis] = 0.5 * sign * sides[axis];
+            for (const double a : cuts[static_cast<size_t>(axisA)])
+                for (const double b : cuts[static_cast<size_t>(axisB)]) {
+                    corner[axisA] = a;
+                    corner[axisB] = b;
+                    shape.positions.emplace_back(corner);
+                    shape.normals.emplace_back(normal);
+                }
+            for (uint32_t a = 0; a < cells; ++a)
+                for (uint32_t b = 0; b < cells; ++b) {
+                    const uint32_t here = first + a * (cells + 1) + b, beyond = here + cells + 1;
+                    appendQuad(shape, here, beyond, beyond + 1, here + 1, sign > 0.0);
+                }
+        }
     return shape;
 }
 

@@ -1,0 +1,128 @@
+#include "assets/scenes.h"
+#include "tests/unit/assets/glb_reader.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace touchstone::assets {
+namespace {
+
+using nlohmann::json;
+
+json schema() {
+    std::ifstream in(std::string(TOUCHSTONE_SOURCE) +
+                     "/assets/schema/TOUCHSTONE_materials_haptic.schema.json");
+    return json::parse(in);
+}
+
+bool hasType(const json& value, const std::string& type) {
+    if (type == "object")
+        return value.is_object();
+    if (type == "string")
+        return value.is_string();
+    if (type == "integer")
+        return value.is_number_integer();
+    return type == "number" && value.is_number();
+}
+
+/// As much of JSON Schema as ours uses. Returns the first complaint, or nothing.
+std::string complaint(const json& root, const json& rule, const json& value, const std::string& place) {
+    if (rule.contains("$ref"))
+        return complaint(root, root.at(json::json_pointer(rule["$ref"].get<std::string>().substr(1))), value,
+                         place);
+    if (rule.contains("type") && !hasType(value, rule["type"]))
+        return place + " is not " + rule["type"].dump();
+    if (rule.contains("enum") &&
+        std::find(rule["enum"].begin(), rule["enum"].end(), value) == rule["enum"].end())
+        return place + " is none of " + rule["enum"].dump();
+    if (rule.contains("minimum") && value < rule["minimum"])
+        return place + " is too small";
+    if (rule.contains("maximum") && value > rule["maximum"])
+        return place + " is too large";
+    if (rule.contains("exclusiveMinimum") && value <= rule["exclusiveMinimum"])
+        return place + " is too small";
+    for (const json& name : rule.value("required", json::array()))
+        if (!value.contains(name))
+            return place + " misses " + name.dump();
+    if (!value.is_object())
+        return {};
+    for (const auto& [name, field] : value.items()) {
+        const bool known = rule.contains("properties") && rule["properties"].contains(name);
+        if (!known && !rule.value("additionalProperties", true))
+            return place + " has an unknown field " + name;
+        if (!known)
+            continue;
+        const std::string found = complaint(root, rule["properties"][name], field, place + "." + name);
+        if (!found.empty())
+            return found;
+    }
+    return {};
+}
+
+std::string complaint(const json& value) {
+    const json root = schema();
+    return complaint(root, root, value, "material");
+}
+
+TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
+    int materials = 0;
+    for (const SceneFile& scene : allScenes()) {
+        const json gltf = test::GlbReader(scene.bytes).json();
+        for (const json& material : gltf["materials"]) {
+            if (!material.contains("extensions"))
+                continue;
+            EXPECT_EQ(complaint(material["extensions"]["TOUCHSTONE_materials_haptic"]), "") << scene.name;
+            EXPECT_NE(gltf["extensionsUsed"].dump().find("TOUCHSTONE_materials_haptic"), std::string::npos);
+            ++materials;
+        }
+    }
+    EXPECT_EQ(materials, 11) << "ten swatches and a doughnut";
+}
+
+TEST(MaterialSchema, AcceptsEveryFieldAndRefusesWhatIsWrong) {
+    EXPECT_EQ(complaint(json::parse(R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,
+        "dynamicFriction": 0.4, "viscousFriction": 1, "normalTextureInfluence": 0.5,
+        "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
+        "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
+        "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
+        "representation": "implicit", "voxelSize": 0.001, "shader": {"source": "wood.glsl", "parameters": {"a": 1}},
+        "sides": "front", "extras": 3})")),
+              "");
+    for (const char* wrong : {R"({"stiffness": 0})", R"({"stiffness": "hard"})", R"({"damping": -1})",
+                              R"({"staticFriction": -0.1})", R"({"normalTextureInfluence": 1.5})",
+                              R"({"heightTexture": {"index": 0}})", R"({"heightTexture": {"scale": 0.001}})",
+                              R"({"heightTexture": {"index": -1, "scale": 0.001}})",
+                              R"({"frictionTexture": {"index": 0.5}})", R"({"forceShading": "phong"})",
+                              R"({"sides": "back"})", R"({"shader": {}})", R"({"friction": 0.5})", R"(7)"})
+        EXPECT_NE(complaint(json::parse(wrong)), "") << wrong;
+}
+
+TEST(MaterialSchema, EveryFieldIsExplained) {
+    std::ifstream in(std::string(TOUCHSTONE_SOURCE) + "/docs/materials.md");
+    const std::string page{std::istreambuf_iterator<char>(in), {}};
+    const json fields = schema()["properties"];
+    for (const auto& [name, rule] : fields.items()) {
+        if (name == "extensions" || name == "extras")
+            continue;
+        EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
+    }
+}
+
+TEST(Swatches, EachFeelsDifferent) {
+    const json gltf = test::GlbReader(swatches().bytes).json();
+    std::vector<std::string> feels;
+    for (const json& material : gltf["materials"])
+        if (material.contains("extensions"))
+            feels.push_back(material["extensions"].dump() +
+                            (material.contains("normalTexture") ? "relief" : ""));
+    ASSERT_EQ(feels.size(), 10u);
+    std::sort(feels.begin(), feels.end());
+    EXPECT_TRUE(std::adjacent_find(feels.begin(), feels.end()) == feels.end());
+}
+
+} // namespace
+} // namespace touchstone::assets

@@ -1,0 +1,137 @@
+#include "assets/scenes.h"
+#include "tests/unit/assets/glb_reader.h"
+#include "tests/unit/assets/topology.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+namespace touchstone::assets {
+namespace {
+
+std::vector<std::byte> committed(const std::string& name) {
+    std::ifstream in(std::filesystem::path(TOUCHSTONE_ASSETS) / name, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    return {first, first + text.size()};
+}
+
+/// All primitives of a scene as one surface.
+test::Primitive surfaceOf(const std::string& name) {
+    test::Primitive all;
+    for (const test::Primitive& part : test::GlbReader(committed(name)).primitives()) {
+        const auto first = static_cast<uint32_t>(all.positions.size());
+        for (const uint32_t index : part.indices) {
+            EXPECT_LT(index, part.positions.size()) << name;
+            all.indices.push_back(first + index);
+        }
+        all.positions.insert(all.positions.end(), part.positions.begin(), part.positions.end());
+    }
+    return all;
+}
+
+TEST(Scenes, AreTheBytesThatTheProgramWrites) {
+    uintmax_t total = 0;
+    std::set<std::string> names;
+    for (const SceneFile& scene : allScenes()) {
+        EXPECT_TRUE(scene.bytes == committed(scene.name))
+            << scene.name << ": run touchstone_assets assets/scenes";
+        names.insert(scene.name);
+        total += scene.bytes.size();
+    }
+    EXPECT_LT(total, 3'000'000u);
+    for (const auto& entry : std::filesystem::directory_iterator(TOUCHSTONE_ASSETS))
+        EXPECT_TRUE(names.contains(entry.path().filename().string())) << entry.path() << " is nobody's";
+}
+
+TEST(Scenes, HaveTheSurfacesThatTheirNamesPromise) {
+    struct Promise {
+        size_t triangles, vertices;
+        bool closed;
+        int euler;
+    };
+    const std::map<std::string, Promise> promises{
+        {"doughnut.glb", {64800, 32400, true, 0}},
+        {"torus_64800.glb", {64800, 32400, true, 0}},
+        {"table1_object1.glb", {12, 8, true, 2}},
+        {"table1_object2.glb", {456, 228, true, 0}},
+        {"table1_object3.glb", {1800, 902, true, 2}},
+        {"table1_object4.glb", {64800, 32402, true, 2}},
+        {"prism_flat.glb", {40, 22, true, 2}},
+        {"prism_smooth.glb", {40, 22, true, 2}},
+        {"box.glb", {12, 8, true, 2}},
+        {"plane.glb", {2, 4, false, 1}},
+        {"swatches.glb", {2 * (2 * 11 * 5 + 2 * 11 + 2 * 5), 2 * 12 * 6, true, 2}},
+    };
+    EXPECT_EQ(promises.size(), allScenes().size());
+    for (const auto& [name, promise] : promises) {
+        SCOPED_TRACE(name);
+        const test::Primitive surface = surfaceOf(name);
+        const test::Topology topology = test::topologyOf(surface.positions, surface.indices);
+        EXPECT_EQ(topology.triangles, promise.triangles);
+        EXPECT_EQ(topology.vertices, promise.vertices);
+        EXPECT_EQ(topology.closed(), promise.closed);
+        EXPECT_EQ(topology.euler(), promise.euler);
+        EXPECT_EQ(topology.volume > 0.0, promise.closed);
+    }
+}
+
+TEST(Scenes, AreInMetresAroundTheOrigin) {
+    for (const SceneFile& scene : allScenes()) {
+        glm::vec3 low(1e9f), high(-1e9f);
+        for (const glm::vec3& p : surfaceOf(scene.name).positions) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        EXPECT_LT(glm::length(low + high), 1e-6f) << scene.name;
+        EXPECT_GT(glm::length(high - low), 0.1f) << scene.name;
+        EXPECT_LT(glm::length(high - low), 0.3f) << scene.name;
+    }
+}
+
+TEST(Scenes, NormalsAreUnitAndFaceTheWayOfTheirTriangles) {
+    for (const SceneFile& scene : allScenes())
+        for (const test::Primitive& part : test::GlbReader(committed(scene.name)).primitives()) {
+            if (part.normals.empty())
+                continue;
+            ASSERT_EQ(part.normals.size(), part.positions.size());
+            for (const glm::vec3& n : part.normals)
+                ASSERT_NEAR(glm::length(n), 1.0f, 1e-5f) << scene.name;
+            for (size_t t = 0; t < part.indices.size(); t += 3) {
+                const glm::vec3 a = part.positions[part.indices[t]];
+                const glm::vec3 face = glm::cross(part.positions[part.indices[t + 1]] - a,
+                                                  part.positions[part.indices[t + 2]] - a);
+                for (size_t i = t; i < t + 3; ++i)
+                    ASSERT_GT(glm::dot(face, part.normals[part.indices[i]]), 0.0f) << scene.name;
+            }
+        }
+}
+
+TEST(Scenes, BareShapesComeNearTheCountThatIsAsked) {
+    for (const char* shape : {"torus", "sphere", "box", "plane", "prism"})
+        for (const size_t count : {size_t{5000}, size_t{100'000}}) {
+            const auto parts = test::GlbReader(bareShape(shape, count).bytes).primitives();
+            ASSERT_EQ(parts.size(), 1u);
+            EXPECT_NEAR(static_cast<double>(parts[0].indices.size()) / 3.0 / static_cast<double>(count), 1.0,
+                        0.05)
+                << shape;
+        }
+    EXPECT_EQ(test::GlbReader(bareShape("torus", 64800).bytes).primitives()[0].indices.size(), 3u * 64800u);
+    EXPECT_THROW((void)bareShape("teapot", 1000), std::invalid_argument);
+    EXPECT_THROW((void)bareShape("torus", 1), std::invalid_argument);
+    EXPECT_THROW((void)bareShape("torus", 30'000'000), std::invalid_argument);
+}
+
+TEST(Scenes, PackingLosesNothing) {
+    const auto packed = test::GlbReader(committed("torus_64800.glb")).primitives();
+    const auto plain = test::GlbReader(bareShape("torus", 64800).bytes).primitives();
+    EXPECT_TRUE(packed[0].positions == plain[0].positions);
+    EXPECT_TRUE(packed[0].normals == plain[0].normals);
+}
+
+} // namespace
+} // namespace touchstone::assets
