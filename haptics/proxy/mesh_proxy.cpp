@@ -65,10 +65,7 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
     const auto index = static_cast<size_t>(anchor);
     const double skin = 0.5 * kWeldTolerance * scene_.objects[index]->diagonal;
     const double scaled = workspaceRadius_ / motions_[index].workspaceFromObject.scale;
-    const double radius = std::max(scaled, skin);
-    if (radius != radius_)
-        state_.candidates.invalidate();
-    radius_ = radius;
+    radius_ = std::max(scaled, skin);
 }
 
 /// Makes sure that all triangles are known which a proxy moving by `move` could touch. When too many are
