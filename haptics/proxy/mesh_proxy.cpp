@@ -19,8 +19,8 @@ constexpr double kParallel = 1e-13;
 constexpr double kSmallestMargin = 1e-7;
 constexpr double kLargestMargin = 4.0;
 /// The margin shrinks above and grows below these candidate counts.
-constexpr size_t kManyCandidates = 48;
-constexpr size_t kFewCandidates = 12;
+constexpr size_t kManyCandidates = 24;
+constexpr size_t kFewCandidates = 6;
 
 /// A sweep ends at this gap, short of the resting one: a surface that the proxy rests on at kContactGap and
 /// slides along is then not struck again at once by the rounding of its gradient.
@@ -68,31 +68,35 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
     radius_ = std::max(scaled, skin);
 }
 
-/// Makes sure that all triangles are known which a proxy moving by `move` could touch. When too many are
-/// near, a shorter stretch is covered; false if not even the place itself can be.
-bool MeshProxy::cover(const glm::dvec3& move) noexcept {
+/// Makes sure that all triangles are known which a proxy moving by `length` could touch, or by a quarter of
+/// the usual margin if that is shorter: a long move that a near surface ends must not gather what lies behind
+/// it. False if not even the place itself can be covered.
+bool MeshProxy::cover(double length) noexcept {
     const double reach = radius_ + kContactReach;
-    const double length = glm::length(move);
-    if (state_.candidates.slack(state_.proxy, reach) >= length)
+    if (state_.candidates.slack(state_.proxy, reach) >= std::min(length, 0.25 * state_.gatherMargin))
         return true;
-    double ahead = std::min(length, kLargestMargin);
-    double margin = std::max(state_.gatherMargin, 0.25 * ahead);
-    constexpr int kAttempts = 12;
+    constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        const glm::dvec3 centre = state_.proxy + (length > 0.0 ? 0.5 * ahead / length : 0.0) * move;
-        if (state_.candidates.gather(scene_.objects, motions_, state_.anchor, centre,
-                                     reach + 0.5 * ahead + margin)) {
-            const size_t count = state_.candidates.count();
-            if (count > kManyCandidates)
-                margin *= 0.5;
-            if (count < kFewCandidates)
-                margin *= 1.5;
-            state_.gatherMargin = std::clamp(margin, kSmallestMargin, kLargestMargin);
+        const double margin = state_.gatherMargin;
+        const bool fits =
+            state_.candidates.gather(scene_.objects, motions_, state_.anchor, state_.proxy, reach + margin);
+        const size_t count = state_.candidates.count();
+        double next = margin;
+        if (!fits)
+            next = 0.25 * margin;
+        else if (count > kManyCandidates)
+            next = 0.5 * margin;
+        else if (count == 0)
+            next = 4.0 * margin;
+        else if (count < kFewCandidates)
+            next = 1.5 * margin;
+        // However dense the mesh, a ball that does not last for two ticks of this motion costs more than it
+        // saves.
+        const double least = fits ? std::max(kSmallestMargin, 2.0 * length) : kSmallestMargin;
+        state_.gatherMargin =
+            std::clamp(next, std::min(least, std::max(margin, kSmallestMargin)), kLargestMargin);
+        if (fits)
             return true;
-        }
-        ahead *= 0.25;
-        margin *= 0.25;
-        state_.gatherMargin = std::max(margin, kSmallestMargin);
     }
     rest_.flags = rest_.flags | TickFlag::CandidatesFull;
     return false;
@@ -154,7 +158,7 @@ void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
 }
 
 bool MeshProxy::isFree() noexcept {
-    if (!cover(glm::dvec3(0.0)))
+    if (!cover(0.0))
         return false;
     for (size_t i = 0; i < state_.candidates.count(); ++i)
         if (distanceTo(state_.candidates.item(i).triangle, state_.proxy).distance < radius_ + kContactGap)
@@ -165,7 +169,7 @@ bool MeshProxy::isFree() noexcept {
 void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
     int withoutProgress = 0;
     for (int iteration = 0;; ++iteration) {
-        if (!cover(glm::dvec3(0.0)))
+        if (!cover(0.0))
             return;
         findContacts();
         buildPlanes();
@@ -178,7 +182,7 @@ void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
             rest_.flags = rest_.flags | TickFlag::BudgetReached;
             return;
         }
-        if (!cover(move))
+        if (!cover(length))
             return;
         const double known = state_.candidates.slack(state_.proxy, radius_ + kContactReach);
         const double share = sweep(move, std::min(1.0, known / length));

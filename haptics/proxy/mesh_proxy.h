@@ -77,7 +77,7 @@ class MeshProxy {
     double sweepObject(size_t object, const glm::dvec3& from, const glm::dvec3& move, double reach,
                        double limit) noexcept;
     void findContacts() noexcept;
-    bool cover(const glm::dvec3& move) noexcept;
+    bool cover(double length) noexcept;
     double sweep(const glm::dvec3& move, double limit) noexcept;
     void buildPlanes() noexcept;
 
