@@ -4,6 +4,7 @@
 
 #include "engine/math/similarity.h"
 #include "haptics/contact/candidates.h"
+#include "haptics/proxy/proxy_rest.h"
 #include "haptics/safety/force_limiter.h"
 
 #include <glm/glm.hpp>
@@ -29,6 +30,8 @@ struct DeviceState {
     CandidateCache candidates;
     CandidateCache carryCandidates; ///< of one object that moves towards the proxy
     double gatherMargin = 1e-3;     ///< object units; adapts to the density of triangles
+
+    ProxyRest rest;             ///< of this tick; kept here because clearing it each tick costs more than a sweep
 
     // Stage 4: the goal that the shaded planes gave, relative to the HIP, to start the next tick from.
     bool shaded = false;

@@ -68,7 +68,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
 
     // 2. Contact query: the proxy goes with its object and meets what moved towards it.
-    ProxyRest rest;
+    ProxyRest& rest = state.rest;
     if (state.anchor < 0)
         state.anchor = nearestObject(scene, motions, state.hip);
     MeshProxy proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
