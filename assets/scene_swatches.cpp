@@ -11,7 +11,7 @@ namespace touchstone::assets {
 
 namespace {
 
-constexpr int kColumns = 5, kRows = 2;
+constexpr size_t kColumns = 5, kRows = 2;
 constexpr double kTile = 0.040, kGap = 0.004, kThickness = 0.012; // m
 constexpr int kMapSize = 256;                                     // 0.16 mm a texel
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -130,10 +130,11 @@ int addSwatchMaterial(GlbWriter& glb, const Swatch& swatch) {
 }
 
 /// Gap, tile, gap, tile, ..., gap, centred.
-std::vector<double> cuts(int tiles) {
+std::vector<double> cuts(size_t tiles) {
     std::vector<double> result;
-    const double start = -0.5 * (tiles * kTile + (tiles + 1) * kGap);
-    for (int i = 0; i <= tiles; ++i) {
+    const auto count = static_cast<double>(tiles);
+    const double start = -0.5 * (count * kTile + (count + 1.0) * kGap);
+    for (double i = 0.0; i <= count; i += 1.0) {
         result.push_back(start + i * (kTile + kGap));
         result.push_back(start + i * (kTile + kGap) + kGap);
     }
@@ -164,17 +165,16 @@ SceneFile swatches() {
                                         {"metallicFactor", 0.0},
                                         {"roughnessFactor", 0.8}}}});
     std::vector<std::pair<Shape, int>> parts{{frame, wood}};
-    const auto palette10 = palette();
-    for (int row = 0; row < kRows; ++row)
-        for (int column = 0; column < kColumns; ++column) {
-            Shape tile;
-            appendCell(tile, front, static_cast<size_t>(2 * column + 1),
-                       static_cast<size_t>(2 * (kRows - 1 - row) + 1));
-            tile.uv = {{0.0f, 1.0f}, {1.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
-            tile.tangents.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
-            parts.emplace_back(
-                tile, addSwatchMaterial(glb, palette10[static_cast<size_t>(row * kColumns + column)]));
-        }
+    const auto swatches = palette();
+    for (size_t i = 0; i < swatches.size(); ++i) {
+        // From the upper left, row by row; cell 2 i + 1 of the cuts is tile i, and y grows upwards.
+        const size_t column = i % kColumns, rowFromBelow = kRows - 1 - i / kColumns;
+        Shape tile;
+        appendCell(tile, front, 2 * column + 1, 2 * rowFromBelow + 1);
+        tile.uv = {{0.0f, 1.0f}, {1.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
+        tile.tangents.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+        parts.emplace_back(tile, addSwatchMaterial(glb, swatches[i]));
+    }
     glb.addNode("swatches", glb.addMesh("swatches", parts));
     return {"swatches.glb", glb.finish()};
 }

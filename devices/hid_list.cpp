@@ -45,9 +45,7 @@ std::string utf8(const wchar_t* text) {
     std::string result;
     for (; text != nullptr && *text != L'\0'; ++text) {
         const auto c = static_cast<uint32_t>(*text);
-        const auto put = [&](uint32_t byte) {
-            result.push_back(static_cast<char>(static_cast<unsigned char>(byte)));
-        };
+        const auto put = [&](uint32_t byte) { result.push_back(static_cast<char>(byte & 0xFF)); };
         if (c < 0x80) {
             put(c);
         } else if (c < 0x800) {
