@@ -16,21 +16,28 @@ enum class FrictionMode : uint8_t { Off, Zilles };
 /// Defaults are what the program starts with. SI units; lengths in workspace metres.
 struct HapticSettings {
     ContactMethod contact = ContactMethod::Sweep;
-    ShadingMode forceShading = ShadingMode::TwoPass; ///< where the material and the model's normals allow it
+    /// Where the material and the model's normals allow it.
+    ShadingMode forceShading = ShadingMode::TwoPass;
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
-    double proxyRadius =
-        0.5e-3;             ///< m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves.
-    double stiffness = 0.0; ///< N/m; 0: material's, else the device's recommendation
-    double damping = -1.0;  ///< N·s/m; < 0: material's, else 0
-    double staticFriction = -1.0;                 ///< < 0: material's, else 0
-    double dynamicFriction = -1.0;                ///< < 0: material's, else 0
-    double shadingTiltLimit = 0.5235987755982988; ///< rad, 30°: the papers' stable range [000 §4]
-    double textureTiltLimit =
-        0.4363323129985824; ///< rad, 25°: steeper felt normals are compressed below it; >= pi/2: no limit
-    double textureStrength = 1.0; ///< 0..1, scales height and the normal map's tilt
-    int iterationBudget = 64;     ///< proxy moves a tick; fewer is safe and merely feels sticky [000 §7]
-    bool forceEnabled = true;     ///< false: the force-off key; contact goes on, commands are zero
+    /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves.
+    double proxyRadius = 0.0;
+    /// N/m; 0: the material's, else the device's recommendation.
+    double stiffness = 0.0;
+    /// N·s/m; < 0: the material's, else 0.
+    double damping = -1.0;
+    /// < 0: the material's, else 0.
+    double staticFriction = -1.0, dynamicFriction = -1.0;
+    /// rad, 30°: the papers' stable range [000 §4].
+    double shadingTiltLimit = 0.5235987755982988;
+    /// rad, 25°. Steeper felt normals are compressed below it; >= pi/2: no limit.
+    double textureTiltLimit = 0.4363323129985824;
+    /// 0..1, scales height and the normal map's tilt.
+    double textureStrength = 1.0;
+    /// Proxy moves a tick; fewer is safe and merely feels sticky [000 §7].
+    int iterationBudget = 64;
+    /// false: the force-off key; contact goes on, commands are zero.
+    bool forceEnabled = true;
 
     bool operator==(const HapticSettings&) const = default;
 };
