@@ -159,6 +159,7 @@ void readTexture(const Spot& spot, const HapticSettings& settings, double speed,
         const double least =
             static_cast<double>(risesWithRaw ? material.height.least() : material.height.greatest());
         const double workspacePerModel = spot.workspacePerObject / spot.modelPerObject;
+        feel.hasHeight = true;
         feel.height =
             settings.textureStrength * std::abs((raw - least) * material.heightScale) * workspacePerModel;
         if (material.normal.empty())
