@@ -9,7 +9,7 @@ namespace touchstone {
 /// How goals that come with the frames of a window become motion of a hand.
 struct MouseSmoothing {
     /// rad/s. The hand follows its goal like a critically damped spring of this frequency: 2 / frequency
-    /// behind a steady drag, and the steps of 30 Hz events come out 24 times smaller. Higher follows closer
+    /// behind a steady drag, and the steps of 30 Hz events come out 23 times smaller. Higher follows closer
     /// and lets the rhythm of the frames be felt as a rattle.
     double frequency = 40.0;
     /// m/s. A goal further away than the hand can follow at this speed is approached at this speed. A hand
