@@ -20,6 +20,7 @@ struct DeviceState {
     // Stage 1
     bool sampled = false;     ///< a valid sample has been seen since the reset
     glm::dvec3 hip{0.0};      ///< workspace, last tick
+    double travel = 0.0;      ///< m, of the HIP since the last tick
     glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
 
     // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor
@@ -31,7 +32,7 @@ struct DeviceState {
     CandidateCache carryCandidates; ///< of one object that moves towards the proxy
     double gatherMargin = 1e-3;     ///< object units; adapts to the density of triangles
 
-    ProxyRest rest;             ///< of this tick; kept here because clearing it each tick costs more than a sweep
+    ProxyRest rest; ///< of this tick; kept here because clearing it each tick costs more than a sweep
 
     // Stage 4: the goal that the shaded planes gave, relative to the HIP, to start the next tick from.
     bool shaded = false;

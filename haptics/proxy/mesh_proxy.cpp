@@ -66,6 +66,7 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
     const double skin = 0.5 * kWeldTolerance * scene_.objects[index]->diagonal;
     const double scaled = workspaceRadius_ / motions_[index].workspaceFromObject.scale;
     radius_ = std::max(scaled, skin);
+    travel_ = state_.travel / motions_[index].workspaceFromObject.scale;
 }
 
 /// Makes sure that all triangles are known which a proxy moving by `length` could touch, or by a quarter of
@@ -92,9 +93,8 @@ bool MeshProxy::cover(double length) noexcept {
             next = 1.5 * margin;
         // However dense the mesh, a ball that does not last for two ticks of this motion costs more than it
         // saves.
-        const double least = fits ? std::max(kSmallestMargin, 2.0 * length) : kSmallestMargin;
-        state_.gatherMargin =
-            std::clamp(next, std::min(least, std::max(margin, kSmallestMargin)), kLargestMargin);
+        const double lasting = fits ? std::min(2.0 * travel_, margin) : 0.0;
+        state_.gatherMargin = std::clamp(next, std::max(kSmallestMargin, lasting), kLargestMargin);
         if (fits)
             return true;
     }
@@ -113,12 +113,14 @@ void MeshProxy::findContacts() noexcept {
         cache.setDistance(i, d.distance);
         if (d.distance > reach)
             continue;
-        // Coplanar neighbours say the same: one plane for both. The first keeps its place, so ties do not
-        // flicker.
+        // Coplanar neighbours say the same: one plane for both. The same to the last bits, no less: a
+        // neighbour seen from beside its edge may lean by 1e-8, and what leans is a plane of its own or it
+        // blocks unseen.
         bool known = false;
         for (uint32_t k = 0; k < rest_.contactCount && !known; ++k) {
             const Contact& other = rest_.contacts[k];
-            known = glm::dot(other.normal, d.gradient) > 1.0 - 1e-15 &&
+            const glm::dvec3 lean = other.normal - d.gradient;
+            known = glm::dot(lean, lean) < 1e-30 &&
                     std::abs(other.gap - (d.distance - radius_)) < 0.25 * kContactGap;
         }
         if (known || rest_.contactCount == ProxyRest::kMaxContacts)

@@ -65,6 +65,7 @@ class MeshProxy {
     ObjectMotions motions_;
     double workspaceRadius_;
     double radius_ = 0.0;
+    double travel_ = 0.0;
     int budget_;
     DeviceState& state_;
     ProxyRest& rest_;

@@ -26,7 +26,9 @@ bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevic
         return false;
     }
     const glm::dvec3 hip = workspaceFromDevice.point(sample.position);
+    state.travel = 0.0;
     if (state.sampled) {
+        state.travel = glm::length(hip - state.hip);
         const glm::dvec3 velocity = (hip - state.hip) / dt;
         if (glm::length(velocity) > kFastestHand)
             flags = flags | TickFlag::Teleported;
