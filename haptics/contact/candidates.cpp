@@ -15,37 +15,84 @@ struct CandidateCache::Visit {
     Similarity anchorFromObject;
     glm::vec3 centre;    ///< of the ball, object frame
     float radiusSquared; ///< with the float margin
+    double floatMargin;  ///< what rounding the centre to float may hide, object units
+    double anchorPerObject;
     bool overflow = false;
 
     bool add(uint32_t triangle) {
-        const glm::vec3 corner[3] = {object->vertices[object->indices[3 * triangle]],
-                                     object->vertices[object->indices[3 * triangle + 1]],
-                                     object->vertices[object->indices[3 * triangle + 2]]};
-        // A leaf holds several triangles: drop those whose own box misses the ball.
-        const glm::vec3 low = glm::min(corner[0], glm::min(corner[1], corner[2]));
-        const glm::vec3 high = glm::max(corner[0], glm::max(corner[1], corner[2]));
-        const glm::vec3 outside = glm::max(glm::max(low - centre, centre - high), glm::vec3(0.0f));
-        if (glm::dot(outside, outside) > radiusSquared)
-            return true;
         const uint32_t* index = &object->indices[3 * triangle];
-        if (index[0] == index[1] || index[1] == index[2] || index[2] == index[0])
+        const glm::vec3 &a = object->vertices[index[0]], &b = object->vertices[index[1]],
+                        &c = object->vertices[index[2]];
+        // A leaf holds several triangles: drop those whose own box misses the ball.
+        const glm::vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+        const glm::vec3 outside = glm::max(glm::max(low - centre, centre - high), glm::vec3(0.0f));
+        const float squared = glm::dot(outside, outside);
+        if (squared > radiusSquared || index[0] == index[1] || index[1] == index[2] || index[2] == index[0])
             return true;
         if (cache->count_ == kCapacity)
             return false;
         Candidate& item = cache->items_[cache->count_];
-        if (sameFrame)
-            item.triangle = Triangle(glm::dvec3(corner[0]), glm::dvec3(corner[1]), glm::dvec3(corner[2]));
-        else
-            item.triangle = Triangle(anchorFromObject.point(glm::dvec3(corner[0])),
-                                     anchorFromObject.point(glm::dvec3(corner[1])),
-                                     anchorFromObject.point(glm::dvec3(corner[2])));
+        item.source = object;
         item.object = objectIndex;
         item.index = triangle;
-        cache->lowerBounds_[cache->count_] = 0.0;
+        item.prepared = !sameFrame;
+        if (!sameFrame)
+            item.triangle =
+                Triangle(anchorFromObject.point(glm::dvec3(a)), anchorFromObject.point(glm::dvec3(b)),
+                         anchorFromObject.point(glm::dvec3(c)));
+        const double away = static_cast<double>(std::sqrt(squared)) - floatMargin;
+        cache->lowerBounds_[cache->count_] = away * anchorPerObject;
         ++cache->count_;
         return true;
     }
 };
+
+void CandidateCache::prepare(Candidate& item) noexcept {
+    const HapticObject& object = *item.source;
+    const uint32_t* index = &object.indices[3 * item.index];
+    item.triangle = Triangle(glm::dvec3(object.vertices[index[0]]), glm::dvec3(object.vertices[index[1]]),
+                             glm::dvec3(object.vertices[index[2]]));
+    item.prepared = true;
+}
+
+bool CandidateCache::gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,
+                                  const glm::dvec3& centre, double radius) noexcept {
+    const bool foreign = objectFromAnchor != nullptr;
+    const double scale = foreign ? objectFromAnchor->scale : 1.0;
+    const glm::dvec3 local = foreign ? objectFromAnchor->point(centre) : centre;
+    const double localRadius = scale * radius;
+    if (glm::length(local) - object.boundingRadius > localRadius)
+        return true;
+    // Embree works in float on vertices of magnitude one: widen the ball by more than their rounding.
+    const double floatMargin = 4e-7 * (1.0 + glm::length(local));
+    const float floatRadius = static_cast<float>(localRadius + floatMargin);
+    Visit visit{.cache = this,
+                .object = &object,
+                .objectIndex = index,
+                .sameFrame = !foreign,
+                .anchorFromObject = foreign ? objectFromAnchor->inverse() : Similarity{},
+                .centre = glm::vec3(local),
+                .radiusSquared = floatRadius * floatRadius,
+                .floatMargin = floatMargin,
+                .anchorPerObject = 1.0 / scale};
+    RTCPointQuery query{};
+    query.x = visit.centre.x;
+    query.y = visit.centre.y;
+    query.z = visit.centre.z;
+    query.radius = floatRadius;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    const auto collect = [](RTCPointQueryFunctionArguments* arguments) -> bool {
+        auto& v = *static_cast<Visit*>(arguments->userPtr);
+        if (v.overflow || v.add(arguments->primID))
+            return false;
+        v.overflow = true;
+        arguments->query->radius = 0.0f; // nothing more is wanted: let the traversal end
+        return true;
+    };
+    rtcPointQuery(object.bvh.get(), &query, &context, collect, &visit);
+    return !visit.overflow;
+}
 
 bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses,
                             int anchor, const glm::dvec3& centre, double radius) noexcept {
@@ -54,49 +101,15 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
     radius_ = radius;
     const Similarity& workspaceFromAnchor = poses[static_cast<size_t>(anchor)].workspaceFromObject;
     for (size_t k = 0; k < objects.size(); ++k) {
-        const HapticObject& object = *objects[k];
-        Visit visit{.cache = this,
-                    .object = &object,
-                    .objectIndex = static_cast<int>(k),
-                    .sameFrame = static_cast<int>(k) == anchor,
-                    .anchorFromObject = {},
-                    .centre = glm::vec3(centre),
-                    .radiusSquared = 0.0f};
-        glm::dvec3 local = centre;
-        double localRadius = radius;
-        if (!visit.sameFrame) {
+        const int index = static_cast<int>(k);
+        bool fits = true;
+        if (index == anchor) {
+            fits = gatherObject(*objects[k], index, nullptr, centre, radius);
+        } else {
             const Similarity objectFromAnchor = poses[k].workspaceFromObject.inverse() * workspaceFromAnchor;
-            local = objectFromAnchor.point(centre);
-            localRadius *= objectFromAnchor.scale;
+            fits = gatherObject(*objects[k], index, &objectFromAnchor, centre, radius);
         }
-        const double gap = glm::length(local) - object.boundingRadius;
-        if (gap > localRadius)
-            continue;
-        if (!visit.sameFrame)
-            visit.anchorFromObject = workspaceFromAnchor.inverse() * poses[k].workspaceFromObject;
-        // Embree works in float on vertices of magnitude one: widen the ball by more than their rounding.
-        const double magnitude = 1.0 + glm::length(local);
-        const float floatRadius = static_cast<float>(localRadius + 4e-7 * magnitude);
-        visit.centre = glm::vec3(local);
-        visit.radiusSquared = floatRadius * floatRadius;
-
-        RTCPointQuery query{};
-        query.x = visit.centre.x;
-        query.y = visit.centre.y;
-        query.z = visit.centre.z;
-        query.radius = floatRadius;
-        RTCPointQueryContext context;
-        rtcInitPointQueryContext(&context);
-        const auto collect = [](RTCPointQueryFunctionArguments* arguments) -> bool {
-            auto& v = *static_cast<Visit*>(arguments->userPtr);
-            if (v.overflow || v.add(arguments->primID))
-                return false;
-            v.overflow = true;
-            arguments->query->radius = 0.0f; // nothing more is wanted: let the traversal end
-            return true;
-        };
-        rtcPointQuery(object.bvh.get(), &query, &context, collect, &visit);
-        if (visit.overflow) {
+        if (!fits) {
             invalidate();
             return false;
         }

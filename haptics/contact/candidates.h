@@ -16,11 +16,13 @@
 
 namespace touchstone {
 
-/// One triangle near the proxy, in the frame of the anchor object (object units, double).
+/// One triangle near the proxy.
 struct Candidate {
-    Triangle triangle;
-    int object = -1;    ///< HapticScene::objects
-    uint32_t index = 0; ///< triangle of that object
+    const HapticObject* source = nullptr;
+    int object = -1;       ///< HapticScene::objects
+    uint32_t index = 0;    ///< triangle of that object
+    bool prepared = false; ///< `triangle` is filled in
+    Triangle triangle;     ///< frame of the anchor object, object units
 };
 
 /// Every triangle that meets the ball (centre, radius) is in `items`; those alone can stop a proxy that stays
@@ -32,8 +34,8 @@ class CandidateCache {
 
     CandidateCache() : items_(kCapacity), lowerBounds_(kCapacity) {}
 
-    /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
-    /// the cache is empty and invalid.
+    /// Collects what meets the ball, in the frame of `anchor`; the lower bounds hold for a proxy at `centre`.
+    /// False when there are more than kCapacity: then the cache is empty and invalid.
     bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses, int anchor,
                 const glm::dvec3& centre, double radius) noexcept;
 
@@ -50,6 +52,13 @@ class CandidateCache {
 
     [[nodiscard]] size_t count() const noexcept { return count_; }
     [[nodiscard]] const Candidate& item(size_t i) const noexcept { return items_[i]; }
+    /// Ready for distance queries. Most of a ball's triangles are never come near to, so each is prepared at
+    /// its first use.
+    [[nodiscard]] const Triangle& triangle(size_t i) noexcept {
+        if (!items_[i].prepared)
+            prepare(items_[i]);
+        return items_[i].triangle;
+    }
     /// A distance that triangle i is surely not nearer than, from where the proxy stands now.
     [[nodiscard]] double lowerBound(size_t i) const noexcept { return lowerBounds_[i]; }
     void setDistance(size_t i, double distance) noexcept { lowerBounds_[i] = distance; }
@@ -61,6 +70,10 @@ class CandidateCache {
 
   private:
     struct Visit;
+    static void prepare(Candidate& item) noexcept;
+    bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,
+                      const glm::dvec3& centre, double radius) noexcept;
+
     std::vector<Candidate> items_;
     std::vector<double> lowerBounds_;
     size_t count_ = 0;

@@ -109,7 +109,7 @@ void MeshProxy::findContacts() noexcept {
     for (size_t i = 0; i < cache.count(); ++i) {
         if (cache.lowerBound(i) > reach)
             continue;
-        const TriangleDistance d = distanceTo(cache.item(i).triangle, state_.proxy);
+        const TriangleDistance d = distanceTo(cache.triangle(i), state_.proxy);
         cache.setDistance(i, d.distance);
         if (d.distance > reach)
             continue;
@@ -147,9 +147,9 @@ double MeshProxy::sweep(const glm::dvec3& move, double limit) noexcept {
     for (size_t i = 0; i < cache.count(); ++i) {
         if (cache.lowerBound(i) > reach + first * length)
             continue;
-        const TriangleDistance d = distanceTo(cache.item(i).triangle, state_.proxy);
+        const TriangleDistance d = distanceTo(cache.triangle(i), state_.proxy);
         cache.setDistance(i, d.distance);
-        first = firstTouch(cache.item(i).triangle, state_.proxy, move, reach, d, first);
+        first = firstTouch(cache.triangle(i), state_.proxy, move, reach, d, first);
     }
     return first;
 }
@@ -163,7 +163,7 @@ bool MeshProxy::isFree() noexcept {
     if (!cover(0.0))
         return false;
     for (size_t i = 0; i < state_.candidates.count(); ++i)
-        if (distanceTo(state_.candidates.item(i).triangle, state_.proxy).distance < radius_ + kContactGap)
+        if (distanceTo(state_.candidates.triangle(i), state_.proxy).distance < radius_ + kContactGap)
             return false;
     return true;
 }
@@ -214,7 +214,7 @@ double MeshProxy::sweepObject(size_t object, const glm::dvec3& from, const glm::
         }
         double first = piece;
         for (size_t c = 0; c < cache.count(); ++c) {
-            const Triangle& triangle = cache.item(c).triangle;
+            const Triangle& triangle = cache.triangle(c);
             first = firstTouch(triangle, start, move, reach, distanceTo(triangle, start), first);
         }
         if (first < piece)
