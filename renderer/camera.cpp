@@ -10,6 +10,8 @@ namespace touchstone {
 
 namespace {
 
+constexpr double kFrameMargin = 1.12; ///< air around a framed box
+
 /// Direction from the target to the eye. Yaw turns +z towards +x, pitch lifts towards +y.
 glm::dvec3 back(const OrbitCamera& camera) {
     const double cosPitch = std::cos(camera.pitch);
@@ -73,10 +75,19 @@ void OrbitCamera::frame(const Bounds& bounds, double aspect) {
     sceneRadius = 0.5 * bounds.diagonal();
     if (!(sceneRadius > 0.0))
         sceneRadius = 0.05;
-    // A sphere of radius r just fits a half angle a at distance r / sin a.
-    const double halfY = 0.5 * fovY;
-    const double halfX = std::atan(std::tan(halfY) * aspect);
-    distance = sceneRadius / std::sin(std::min(halfX, halfY));
+    // A corner with (x, y) across and z towards the eye from the centre is inside at distance d when
+    // |x| <= (d - z) tan(halfX) and |y| <= (d - z) tan(halfY).
+    const double slopeY = std::tan(0.5 * fovY), slopeX = slopeY * aspect;
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    distance = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p = half * glm::dvec3((corner & 1) ? 1.0 : -1.0, (corner & 2) ? 1.0 : -1.0,
+                                               (corner & 4) ? 1.0 : -1.0);
+        const double across =
+            std::max(std::abs(glm::dot(p, right())) / slopeX, std::abs(glm::dot(p, up())) / slopeY);
+        distance = std::max(distance, across + glm::dot(p, back(*this)));
+    }
+    distance = std::max(kFrameMargin * distance, sceneRadius);
 }
 
 Ray OrbitCamera::rayThroughPixel(const glm::dvec2& pixel, const glm::dvec2& imageSize) const {

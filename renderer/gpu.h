@@ -2,12 +2,24 @@
 // The Vulkan device. Create it before the servo thread starts and never on it: Mesa may change the affinity
 // of the thread that creates a device (the constructor restores it) and starts worker threads.
 
-#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace touchstone {
+
+/// Warnings and errors of the validation layer; may outlive the Gpu, to hear what its end has to say. Any
+/// thread.
+class ValidationLog {
+  public:
+    void add(std::string message);
+    [[nodiscard]] std::vector<std::string> messages() const;
+
+  private:
+    mutable std::mutex mutex_;
+    std::vector<std::string> messages_;
+};
 
 struct GpuOptions {
     /// Part of a device's name (any case) or its index as `Gpu::listDevices` counts. Empty: the environment
@@ -15,6 +27,11 @@ struct GpuOptions {
     std::string device;
     /// Ask for the validation layer; TOUCHSTONE_VALIDATION=1 in the environment does so too.
     bool validation = false;
+    /// Where validation messages go besides `Gpu::validationMessages`. May be null.
+    std::shared_ptr<ValidationLog> log;
+    /// Threads of a software device (0: draw in the submitting queue's thread). Default: all cores but the
+    /// one that the servo needs. The environment variable LP_NUM_THREADS overrides it.
+    int softwareThreads = -1;
 };
 
 /// One Vulkan 1.3 device with one queue. Owner thread only (the main thread), except validationMessages.

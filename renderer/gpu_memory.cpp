@@ -1,0 +1,135 @@
+#include "renderer/gpu_memory.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace touchstone {
+
+namespace {
+
+constexpr vk::DeviceSize kStagingSize = 16u << 20;
+
+uint32_t memoryType(const Gpu::Impl& gpu, uint32_t allowed, vk::MemoryPropertyFlags wanted,
+                    vk::MemoryPropertyFlags preferred) {
+    for (const vk::MemoryPropertyFlags flags : {wanted | preferred, wanted})
+        for (uint32_t i = 0; i < gpu.memory.memoryTypeCount; ++i)
+            if ((allowed & (1u << i)) != 0 && (gpu.memory.memoryTypes[i].propertyFlags & flags) == flags)
+                return i;
+    throw vk::OutOfDeviceMemoryError("no memory of the wanted kind");
+}
+
+vk::raii::DeviceMemory allocate(const Gpu::Impl& gpu, const vk::MemoryRequirements& needed, MemoryUse use) {
+    using Flag = vk::MemoryPropertyFlagBits;
+    vk::MemoryPropertyFlags wanted = Flag::eHostVisible | Flag::eHostCoherent, preferred;
+    if (use == MemoryUse::Device) {
+        wanted = {};
+        preferred = Flag::eDeviceLocal;
+    } else if (use == MemoryUse::Readback) {
+        preferred = Flag::eHostCached;
+    }
+    return {gpu.device, vk::MemoryAllocateInfo{
+                            .allocationSize = needed.size,
+                            .memoryTypeIndex = memoryType(gpu, needed.memoryTypeBits, wanted, preferred)}};
+}
+
+} // namespace
+
+GpuBuffer createBuffer(const Gpu::Impl& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, MemoryUse use) {
+    GpuBuffer result;
+    result.size = std::max<vk::DeviceSize>(size, 16);
+    result.buffer = vk::raii::Buffer(gpu.device, vk::BufferCreateInfo{.size = result.size, .usage = usage});
+    result.memory = allocate(gpu, result.buffer.getMemoryRequirements(), use);
+    result.buffer.bindMemory(*result.memory, 0);
+    if (use != MemoryUse::Device)
+        result.mapped = static_cast<std::byte*>(result.memory.mapMemory(0, VK_WHOLE_SIZE));
+    return result;
+}
+
+GpuImage createImage(const Gpu::Impl& gpu, const ImageRequest& request) {
+    GpuImage result;
+    result.extent = request.extent;
+    const std::array<vk::Format, 2> formats{request.format, request.otherFormat};
+    const bool twoFormats = request.otherFormat != vk::Format::eUndefined;
+    const vk::ImageFormatListCreateInfo list{.viewFormatCount = 2, .pViewFormats = formats.data()};
+    result.image = vk::raii::Image(
+        gpu.device, vk::ImageCreateInfo{.pNext = twoFormats ? &list : nullptr,
+                                        .flags = twoFormats ? vk::ImageCreateFlagBits::eMutableFormat
+                                                            : vk::ImageCreateFlags{},
+                                        .imageType = vk::ImageType::e2D,
+                                        .format = request.format,
+                                        .extent = {request.extent.width, request.extent.height, 1},
+                                        .mipLevels = request.levels,
+                                        .arrayLayers = 1,
+                                        .usage = request.usage});
+    const vk::MemoryRequirements needed = result.image.getMemoryRequirements();
+    result.size = needed.size;
+    result.memory = allocate(gpu, needed, MemoryUse::Device);
+    result.image.bindMemory(*result.memory, 0);
+    result.view = createView(gpu, result, request.format, request.levels);
+    return result;
+}
+
+vk::raii::ImageView createView(const Gpu::Impl& gpu, const GpuImage& image, vk::Format format,
+                               uint32_t levels) {
+    const vk::ImageAspectFlags aspect =
+        format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+    return {gpu.device, vk::ImageViewCreateInfo{.image = *image.image,
+                                                .viewType = vk::ImageViewType::e2D,
+                                                .format = format,
+                                                .subresourceRange = {aspect, 0, levels, 0, 1}}};
+}
+
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
+                vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 stagesBefore,
+                vk::AccessFlags2 accessBefore, vk::PipelineStageFlags2 stagesAfter,
+                vk::AccessFlags2 accessAfter) {
+    const vk::ImageMemoryBarrier2 barrier{
+        .srcStageMask = stagesBefore,
+        .srcAccessMask = accessBefore,
+        .dstStageMask = stagesAfter,
+        .dstAccessMask = accessAfter,
+        .oldLayout = from,
+        .newLayout = to,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = image,
+        .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+    commands.pipelineBarrier2(
+        vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+}
+
+Uploader::Uploader(const Gpu::Impl& gpu)
+    : gpu_(gpu),
+      staging_(createBuffer(gpu, kStagingSize, vk::BufferUsageFlagBits::eTransferSrc, MemoryUse::Upload)) {}
+
+void Uploader::buffer(const GpuBuffer& target, vk::DeviceSize offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const size_t count = std::min<size_t>(bytes.size(), kStagingSize);
+        std::memcpy(staging_.mapped, bytes.data(), count);
+        runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+            commands.copyBuffer(*staging_.buffer, *target.buffer,
+                                vk::BufferCopy{.srcOffset = 0, .dstOffset = offset, .size = count});
+        });
+        offset += count;
+        bytes = bytes.subspan(count);
+    }
+}
+
+void Uploader::imageLevel(const GpuImage& target, uint32_t level, vk::Extent2D extent,
+                          std::span<const std::byte> bytes) {
+    const size_t rowBytes = bytes.size() / extent.height;
+    const auto rowsAtOnce = static_cast<uint32_t>(std::max<size_t>(1, kStagingSize / rowBytes));
+    for (uint32_t row = 0; row < extent.height; row += rowsAtOnce) {
+        const uint32_t rows = std::min(rowsAtOnce, extent.height - row);
+        std::memcpy(staging_.mapped, bytes.data() + row * rowBytes, rows * rowBytes);
+        runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+            commands.copyBufferToImage(
+                *staging_.buffer, *target.image, vk::ImageLayout::eTransferDstOptimal,
+                vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+                                    .imageOffset = {0, static_cast<int32_t>(row), 0},
+                                    .imageExtent = {extent.width, rows, 1}});
+        });
+    }
+}
+
+} // namespace touchstone

@@ -1,0 +1,66 @@
+#pragma once
+// Descriptor layouts and the pipelines, made on first use and kept. Main thread only, private to renderer/.
+
+#include "renderer/gpu_impl.h"
+#include "renderer/view.h"
+
+#include <map>
+#include <span>
+#include <tuple>
+
+namespace touchstone {
+
+inline constexpr vk::Format kSceneFormat = vk::Format::eR8G8B8A8Srgb; ///< what shaders write: linear, encoded
+inline constexpr vk::Format kSceneByteFormat =
+    vk::Format::eR8G8B8A8Unorm; ///< the same bytes, for copies and the window
+inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+
+/// Which of the overlay's three passes.
+enum class OverlayPass : uint8_t { Hidden, Opaque, Translucent };
+
+/// Vertex layout of scene meshes, binding 0; binding 1 holds one float a vertex in false-colour views.
+struct SceneVertex {
+    glm::vec3 position; ///< mesh frame, relative to the mesh's centre
+    glm::vec3 normal;
+    glm::vec4 tangent;
+    glm::vec2 uv0, uv1;
+    std::array<uint16_t, 4> color; ///< linear, 0..1 as 0..65535
+};
+static_assert(sizeof(SceneVertex) == 64);
+
+class Pipelines {
+  public:
+    explicit Pipelines(const Gpu::Impl& gpu);
+
+    [[nodiscard]] vk::DescriptorSetLayout frameSet() const { return *frameSet_; }
+    [[nodiscard]] vk::DescriptorSetLayout materialSet() const { return *materialSet_; }
+    [[nodiscard]] vk::DescriptorSetLayout falseColorSet() const { return *falseColorSet_; }
+    [[nodiscard]] vk::PipelineLayout sceneLayout() const { return *sceneLayout_; }
+    [[nodiscard]] vk::PipelineLayout falseColorLayout() const { return *falseColorLayout_; }
+    [[nodiscard]] vk::PipelineLayout overlayLayout() const { return *overlayLayout_; }
+
+    /// `features`: kHas... bits of shaders/shared/scene_types.h. Cull mode and front face are dynamic.
+    [[nodiscard]] vk::Pipeline scene(uint32_t features);
+    [[nodiscard]] vk::Pipeline falseColor(uint32_t features, ViewMode mode);
+    [[nodiscard]] vk::Pipeline background();
+    [[nodiscard]] vk::Pipeline shapes(OverlayPass pass);
+    [[nodiscard]] vk::Pipeline lines(OverlayPass pass);
+
+    [[nodiscard]] size_t compiled() const { return pipelines_.size(); }
+
+  private:
+    enum class Kind : uint8_t { Scene, FalseColor, Background, Shapes, Lines };
+    using Key = std::tuple<Kind, uint32_t, uint32_t>;
+    template <class Make>
+    vk::Pipeline cached(const Key& key, Make&& make);
+
+    const Gpu::Impl& gpu_;
+    vk::raii::DescriptorSetLayout frameSet_, materialSet_, falseColorSet_;
+    vk::raii::PipelineLayout sceneLayout_, falseColorLayout_, overlayLayout_;
+    vk::raii::PipelineCache cache_;
+    std::map<Key, vk::raii::Pipeline> pipelines_;
+};
+
+[[nodiscard]] vk::raii::ShaderModule shaderModule(const Gpu::Impl& gpu, std::span<const uint32_t> words);
+
+} // namespace touchstone

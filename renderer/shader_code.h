@@ -1,0 +1,18 @@
+#pragma once
+// The compiled shaders. Include in one .cpp per shader use: the arrays are constants of that file.
+
+#include <cstdint>
+
+namespace touchstone::shaders {
+#include "shaders/background_frag.h"
+#include "shaders/false_color_frag.h"
+#include "shaders/false_color_vert.h"
+#include "shaders/full_screen_vert.h"
+#include "shaders/overlay_frag.h"
+#include "shaders/overlay_line_frag.h"
+#include "shaders/overlay_line_vert.h"
+#include "shaders/overlay_vert.h"
+#include "shaders/scene_frag.h"
+#include "shaders/scene_vert.h"
+#include "shaders/window_frag.h"
+} // namespace touchstone::shaders

@@ -1,0 +1,47 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Mesh vertices into the eye frame. FALSE_COLOR adds the scalar of the false-colour view.
+#include "shared/scene_types.h"
+
+layout(constant_id = 0) const uint kFeatures = 0u;
+layout(set = 0, binding = 0) uniform Frame { FrameUniforms frame; };
+layout(push_constant) uniform Object { ObjectConstants object; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv0;
+layout(location = 4) in vec2 uv1;
+layout(location = 5) in vec4 color;
+#ifdef FALSE_COLOR
+layout(location = 6) in float scalar;
+#endif
+
+layout(location = 0) out vec3 eyePosition;
+layout(location = 1) out vec3 eyeNormal;
+layout(location = 2) out vec4 eyeTangent;
+layout(location = 3) out vec4 uvs;
+layout(location = 4) out vec4 vertexColor;
+#ifdef FALSE_COLOR
+layout(location = 5) out float vertexScalar;
+#endif
+
+void main() {
+    const vec4 p = vec4(position, 1.0);
+    eyePosition = vec3(dot(object.eyeFromMesh[0], p), dot(object.eyeFromMesh[1], p), dot(object.eyeFromMesh[2], p));
+    eyeNormal = vec3(dot(object.normalFromMesh[0].xyz, normal), dot(object.normalFromMesh[1].xyz, normal),
+                     dot(object.normalFromMesh[2].xyz, normal));
+    // A constant where the material needs none: an unused output costs triangle setup on software devices.
+    eyeTangent = vec4(0.0);
+    if ((kFeatures & kHasTangents) != 0u)
+        eyeTangent = vec4(dot(object.eyeFromMesh[0].xyz, tangent.xyz), dot(object.eyeFromMesh[1].xyz, tangent.xyz),
+                          dot(object.eyeFromMesh[2].xyz, tangent.xyz), tangent.w * object.normalFromMesh[0].w);
+    uvs = vec4(uv0, 0.0, 0.0);
+    if ((kFeatures & kHasUvTransform) != 0u) uvs.zw = uv1;
+    vertexColor = vec4(1.0);
+    if ((kFeatures & kHasVertexColor) != 0u) vertexColor = color;
+#ifdef FALSE_COLOR
+    vertexScalar = scalar;
+#endif
+    gl_Position = frame.clipFromEye * vec4(eyePosition, 1.0);
+}

@@ -1,0 +1,92 @@
+// Layouts that the shaders and the renderer share: included by GLSL and by C++. Only vec4 and mat4 members, for
+// which std140 and C++ agree; tests compare the offsets with those in the compiled SPIR-V.
+//
+// Frames: `eye` has the workspace's axes and its origin at the eye, so that float positions stay exact however
+// far the model is from its own origin.
+#ifndef TOUCHSTONE_SHADERS_SHARED_SCENE_TYPES_H
+#define TOUCHSTONE_SHADERS_SHARED_SCENE_TYPES_H
+
+#ifdef __cplusplus
+#include <cstdint>
+
+#include <glm/glm.hpp>
+namespace touchstone::shared {
+using glm::mat4;
+using glm::vec4;
+using uint = uint32_t;
+#define TOUCHSTONE_CONST inline constexpr
+#else
+#define TOUCHSTONE_CONST const
+#endif
+
+/// Once a frame.
+struct FrameUniforms {
+    mat4 clipFromEye;
+    vec4 toLight0;         ///< xyz unit, workspace axes
+    vec4 toLight1;
+    vec4 irradiance0;      ///< rgb, exposed
+    vec4 irradiance1;
+    vec4 sky;              ///< rgb radiance, exposed
+    vec4 floorLight;
+    vec4 backgroundTop;    ///< rgb
+    vec4 backgroundBottom;
+    vec4 image;            ///< width, height in pixels; alpha factor of hidden overlays
+    vec4 toViewer;         ///< xyz unit, workspace axes: opposite of the viewing direction
+};
+
+// Slots of textures in a material.
+TOUCHSTONE_CONST uint kBaseColorSlot = 0u;
+TOUCHSTONE_CONST uint kMetallicRoughnessSlot = 1u;
+TOUCHSTONE_CONST uint kNormalSlot = 2u;
+TOUCHSTONE_CONST uint kOcclusionSlot = 3u;
+TOUCHSTONE_CONST uint kEmissiveSlot = 4u;
+TOUCHSTONE_CONST uint kTextureSlots = 5u;
+
+/// Once a material. uv' = (dot(linear.xy, uv), dot(linear.zw, uv)) + offset.xy of UV set offset.z.
+struct MaterialUniforms {
+    vec4 baseColor;
+    vec4 emissiveCutoff;   ///< rgb emissive, alpha cutoff
+    vec4 factors;          ///< metallic, roughness, normal scale, occlusion strength
+    vec4 uvLinear[5];
+    vec4 uvOffset[5];
+};
+
+/// Once a material and false-colour view. The map's red channel R and the vertex' scalar s give the position on the
+/// colour scale t = (s * (offset + gain * R)) * scale + shift.
+struct FalseColorUniforms {
+    vec4 map;              ///< offset, gain, scale, shift
+    vec4 uvLinear;
+    vec4 uvOffset;
+};
+
+/// Push constants, once an object: the rows of the affine map eyeFromMesh, and those of its cofactor matrix,
+/// which takes normals (its w of the first row: -1 where the object is mirrored, else 1).
+struct ObjectConstants {
+    vec4 eyeFromMesh[3];
+    vec4 normalFromMesh[3];
+};
+
+// What a material needs; the pipelines are specialised on these bits, so that what it lacks costs nothing.
+TOUCHSTONE_CONST uint kHasBaseColorTexture = 1u;
+TOUCHSTONE_CONST uint kHasMetallicRoughnessTexture = 2u;
+TOUCHSTONE_CONST uint kHasNormalTexture = 4u;
+TOUCHSTONE_CONST uint kHasOcclusionTexture = 8u;
+TOUCHSTONE_CONST uint kHasEmissiveTexture = 16u;
+TOUCHSTONE_CONST uint kHasEmission = 32u;
+TOUCHSTONE_CONST uint kHasVertexColor = 64u;
+TOUCHSTONE_CONST uint kHasTangents = 128u;
+TOUCHSTONE_CONST uint kHasUvTransform = 256u;      ///< any texture is transformed or uses the second UV set
+TOUCHSTONE_CONST uint kSharesOcclusion = 512u;     ///< occlusion is R of the metallic-roughness sample
+TOUCHSTONE_CONST uint kIsMasked = 1024u;
+TOUCHSTONE_CONST uint kIsBlended = 2048u;
+TOUCHSTONE_CONST uint kHasSecondLight = 4096u;
+
+// Views of false_color.frag.
+TOUCHSTONE_CONST uint kShowsMap = 0u;
+TOUCHSTONE_CONST uint kShowsNormals = 1u;
+TOUCHSTONE_CONST uint kShowsUv = 2u;
+
+#ifdef __cplusplus
+} // namespace touchstone::shared
+#endif
+#endif
