@@ -1,0 +1,56 @@
+#include "haptics/contact/surface_distance.h"
+
+#include "haptics/contact/triangle.h"
+#include "haptics/haptic_scene.h"
+
+#include <embree3/rtcore.h>
+
+namespace touchstone {
+
+namespace {
+
+struct Nearest {
+    const HapticObject* object;
+    glm::dvec3 point;
+    double distance;
+};
+
+bool visit(RTCPointQueryFunctionArguments* arguments) {
+    auto& nearest = *static_cast<Nearest*>(arguments->userPtr);
+    const HapticObject& object = *nearest.object;
+    const auto corner = [&](size_t k) {
+        return glm::dvec3(object.vertices[object.indices[3 * arguments->primID + k]]);
+    };
+    const double distance = distanceTo(Triangle(corner(0), corner(1), corner(2)), nearest.point).distance;
+    if (distance >= nearest.distance)
+        return false;
+    nearest.distance = distance;
+    return false; // the ball is left as wide as it is: what rounding would cut off may be the nearest
+}
+
+} // namespace
+
+double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
+                       double within) noexcept {
+    if (motions.empty())
+        motions = scene.restMotions;
+    for (size_t k = 0; k < scene.objects.size(); ++k) {
+        const Similarity objectFromWorkspace = motions[k].workspaceFromObject.inverse();
+        const double start = within * objectFromWorkspace.scale;
+        Nearest nearest{scene.objects[k].get(), objectFromWorkspace.point(point), start};
+        // Embree rounds to float: a ball a little wider loses nothing, the double distance decides.
+        RTCPointQuery query{};
+        query.x = static_cast<float>(nearest.point.x);
+        query.y = static_cast<float>(nearest.point.y);
+        query.z = static_cast<float>(nearest.point.z);
+        query.radius = static_cast<float>(start + 4e-7 * (1.0 + glm::length(nearest.point)));
+        RTCPointQueryContext context;
+        rtcInitPointQueryContext(&context);
+        rtcPointQuery(scene.objects[k]->bvh.get(), &query, &context, visit, &nearest);
+        if (nearest.distance < start)
+            within = nearest.distance * motions[k].workspaceFromObject.scale;
+    }
+    return within;
+}
+
+} // namespace touchstone

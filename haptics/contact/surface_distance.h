@@ -1,0 +1,17 @@
+#pragma once
+
+#include "haptics/object_motion.h"
+
+#include <glm/glm.hpp>
+
+namespace touchstone {
+
+class HapticScene;
+
+/// The distance of `point` (workspace, m) from the nearest triangle of the whole scene, in double, or `within`
+/// where there is none so near. For reports and tests: it is not what the tick uses. `motions` as in TickInput,
+/// empty: at rest. Any thread.
+[[nodiscard]] double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
+                                     double within) noexcept;
+
+} // namespace touchstone

@@ -1,0 +1,41 @@
+#include "workbench/model.h"
+
+#include <cstdio>
+
+namespace touchstone {
+
+Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options) {
+    LoadOptions loading = options;
+    if (options.progress)
+        loading.progress = [&](double fraction, const char* what) { options.progress(0.9 * fraction, what); };
+    Model model;
+    model.scene = loadScene(path, loading);
+    model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
+    if (options.progress)
+        options.progress(0.9, "making it touchable");
+    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene);
+    if (options.progress)
+        options.progress(1.0, "ready");
+    return model;
+}
+
+Model loadModelToSee(const std::filesystem::path& path, Fit fit) {
+    Model model;
+    model.scene = loadScene(path);
+    model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
+    return model;
+}
+
+void printWarnings(const Model& model) {
+    const auto print = [&](const Warning& warning) {
+        std::fprintf(stderr, "touchstone: warning: %s: %s: %s\n", model.scene->path.c_str(),
+                     warning.place.c_str(), warning.message.c_str());
+    };
+    for (const Warning& warning : model.scene->warnings)
+        print(warning);
+    if (model.haptic != nullptr)
+        for (const Warning& warning : model.haptic->warnings)
+            print(warning);
+}
+
+} // namespace touchstone

@@ -1,0 +1,26 @@
+#pragma once
+// A model as both eye and hand have it.
+
+#include "engine/scene/scene_loader.h"
+#include "haptics/haptic_scene.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace touchstone {
+
+struct Model {
+    ScenePtr scene;
+    std::shared_ptr<const HapticScene> haptic; ///< null where only the eye was asked for
+    Similarity workspaceFromScene;
+};
+
+/// Loads and compiles. Any thread; throws Error. The hand's share of the progress is its last tenth.
+[[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options = {});
+/// The eye's half only.
+[[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit);
+
+/// Every warning of the model on stderr, one a line.
+void printWarnings(const Model& model);
+
+} // namespace touchstone

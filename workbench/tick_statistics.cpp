@@ -1,0 +1,108 @@
+#include "workbench/tick_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+constexpr std::array<std::pair<TickFlag, std::string_view>, 11> kFlagNames{{
+    {TickFlag::InputInvalid, "input_invalid"},
+    {TickFlag::StartedInside, "started_inside"},
+    {TickFlag::BudgetReached, "budget_reached"},
+    {TickFlag::CandidatesFull, "candidates_full"},
+    {TickFlag::ShadingNotConverged, "shading_not_converged"},
+    {TickFlag::TiltCompressed, "tilt_compressed"},
+    {TickFlag::ForceLimited, "force_limited"},
+    {TickFlag::ForceFault, "force_fault"},
+    {TickFlag::Teleported, "teleported"},
+    {TickFlag::ForceRamping, "force_ramping"},
+    {TickFlag::SafetyLatched, "safety_latched"},
+}};
+
+nlohmann::ordered_json nanoseconds(const Samples& samples) {
+    return {{"count", samples.count()},
+            {"p50_ns", samples.percentile(0.5)},
+            {"p99_ns", samples.percentile(0.99)},
+            {"p999_ns", samples.percentile(0.999)},
+            {"max_ns", samples.most()}};
+}
+
+} // namespace
+
+void TickStatistics::addLive(const TickRecord& record) {
+    wake_.add(record.wakeLatencyNs);
+    add(record.output, record.stepNs);
+}
+
+void TickStatistics::add(const HapticOutput& output, int64_t stepNs) {
+    ++ticks_;
+    step_.add(stepNs);
+    for (size_t i = 0; i < kFlagCount; ++i)
+        if (has(output.flags, kFlagNames[i].first))
+            ++flags_[i];
+    if (output.contacts == 0)
+        return;
+    ++contactTicks_;
+    stepInContact_.add(stepNs);
+    const double force = glm::length(output.force);
+    forceSum_ += force;
+    mostForce_ = std::max(mostForce_, force);
+    mostPenetration_ = std::max(mostPenetration_, output.penetration);
+}
+
+void TickStatistics::addProxyGap(double gap) {
+    constexpr double kOnMesh = 1e-6;
+    ++gaps_;
+    if (std::abs(gap) <= kOnMesh)
+        ++gapsWithinMicrometre_;
+    mostGap_ = std::max(mostGap_, std::abs(gap));
+}
+
+nlohmann::ordered_json TickStatistics::stepJson() const {
+    const bool contact = !stepInContact_.empty();
+    nlohmann::ordered_json json = nanoseconds(contact ? stepInContact_ : step_);
+    json["over"] = contact ? "ticks in contact" : "all ticks: none was in contact";
+    json["all"] = nanoseconds(step_);
+    return json;
+}
+
+nlohmann::ordered_json TickStatistics::wakeJson() const {
+    const auto us = [&](double share) { return static_cast<double>(wake_.percentile(share)) * 1e-3; };
+    return {{"p50_us", us(0.5)},
+            {"p99_us", us(0.99)},
+            {"p999_us", us(0.999)},
+            {"max_us", static_cast<double>(wake_.most()) * 1e-3}};
+}
+
+nlohmann::ordered_json TickStatistics::contactJson() const {
+    nlohmann::ordered_json json{
+        {"ticks", contactTicks_},
+        {"share", ticks_ > 0 ? static_cast<double>(contactTicks_) / static_cast<double>(ticks_) : 0.0},
+        {"max_penetration_m", mostPenetration_},
+        {"proxy_on_mesh_share", nullptr},
+        {"max_proxy_gap_m", nullptr},
+    };
+    if (gaps_ > 0) {
+        json["proxy_on_mesh_share"] = static_cast<double>(gapsWithinMicrometre_) / static_cast<double>(gaps_);
+        json["max_proxy_gap_m"] = mostGap_;
+    }
+    return json;
+}
+
+nlohmann::ordered_json TickStatistics::forceJson() const {
+    return {{"mean_n", contactTicks_ > 0 ? forceSum_ / static_cast<double>(contactTicks_) : 0.0},
+            {"max_n", mostForce_}};
+}
+
+nlohmann::ordered_json TickStatistics::flagsJson() const {
+    nlohmann::ordered_json json;
+    for (size_t i = 0; i < kFlagCount; ++i)
+        json[std::string(kFlagNames[i].second)] = flags_[i];
+    return json;
+}
+
+} // namespace touchstone

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "engine/time/samples.h"
+#include "haptics/haptic_step.h"
+#include "haptics/servo/servo_loop.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace touchstone {
+
+/// What a stream of ticks amounts to, for `--json` and the panel. One thread.
+class TickStatistics {
+  public:
+    /// `window`: ticks that the percentiles look back on; 0: all of them.
+    explicit TickStatistics(size_t window = 0) : wake_(window), step_(window), stepInContact_(window) {}
+
+    /// A tick of the real-time loop: with its wake-up.
+    void addLive(const TickRecord& record);
+    /// A tick of an offline run.
+    void add(const HapticOutput& output, int64_t stepNs);
+    /// In a tick with contact: how far the proxy sphere's surface was from the mesh, m.
+    void addProxyGap(double gap);
+
+    [[nodiscard]] uint64_t ticks() const { return ticks_; }
+    [[nodiscard]] uint64_t contactTicks() const { return contactTicks_; }
+    [[nodiscard]] const Samples& wake() const { return wake_; }
+    [[nodiscard]] const Samples& step() const { return step_; }
+
+    /// {p50_ns, p99_ns, ...} over the ticks in contact (over all where none was), and the same over `all`.
+    [[nodiscard]] nlohmann::ordered_json stepJson() const;
+    /// {p50_us, p99_us, p999_us, max_us}: wake-up against the deadline.
+    [[nodiscard]] nlohmann::ordered_json wakeJson() const;
+    /// {ticks, share, proxy_on_mesh_share, ...}; the share is null where no gap was measured.
+    [[nodiscard]] nlohmann::ordered_json contactJson() const;
+    /// {mean_n, max_n} over the ticks in contact, stage 7.
+    [[nodiscard]] nlohmann::ordered_json forceJson() const;
+    /// Ticks by TickFlag.
+    [[nodiscard]] nlohmann::ordered_json flagsJson() const;
+
+  private:
+    static constexpr size_t kFlagCount = 11;
+
+    Samples wake_, step_, stepInContact_;
+    uint64_t ticks_ = 0, contactTicks_ = 0;
+    uint64_t gaps_ = 0, gapsWithinMicrometre_ = 0;
+    double mostGap_ = 0.0;
+    double forceSum_ = 0.0, mostForce_ = 0.0, mostPenetration_ = 0.0;
+    std::array<uint64_t, kFlagCount> flags_{};
+};
+
+} // namespace touchstone
