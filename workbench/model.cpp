@@ -26,6 +26,16 @@ Model loadModelToSee(const std::filesystem::path& path, Fit fit) {
     return model;
 }
 
+Bounds workspaceBounds(const Model& model) {
+    Bounds bounds;
+    if (model.scene->bounds.empty())
+        return bounds;
+    // Fitting turns nothing, so the box stays a box.
+    bounds.include(model.workspaceFromScene.point(model.scene->bounds.low));
+    bounds.include(model.workspaceFromScene.point(model.scene->bounds.high));
+    return bounds;
+}
+
 void printWarnings(const Model& model) {
     const auto print = [&](const Warning& warning) {
         std::fprintf(stderr, "touchstone: warning: %s: %s: %s\n", model.scene->path.c_str(),

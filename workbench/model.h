@@ -20,6 +20,9 @@ struct Model {
 /// The eye's half only.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit);
 
+/// The scene's bounds as they stand in the workspace (rest pose).
+[[nodiscard]] Bounds workspaceBounds(const Model& model);
+
 /// Every warning of the model on stderr, one a line.
 void printWarnings(const Model& model);
 

@@ -1,5 +1,7 @@
 #include "workbench/tick_statistics.h"
 
+#include "haptics/contact/surface_distance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -103,6 +105,12 @@ nlohmann::ordered_json TickStatistics::flagsJson() const {
     for (size_t i = 0; i < kFlagCount; ++i)
         json[std::string(kFlagNames[i].second)] = flags_[i];
     return json;
+}
+
+double proxyGap(const HapticScene& scene, ObjectMotions motions, const HapticOutput& output,
+                const HapticSettings& settings) {
+    constexpr double kLookedAt = 1e-3;
+    return surfaceDistance(scene, motions, output.proxy, settings.proxyRadius + kLookedAt) - settings.proxyRadius;
 }
 
 } // namespace touchstone

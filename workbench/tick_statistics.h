@@ -51,4 +51,9 @@ class TickStatistics {
     std::array<uint64_t, kFlagCount> flags_{};
 };
 
+/// How far the proxy sphere's surface is from the mesh in a tick with contact, m; at most 1 mm is looked at.
+/// `motions` are the poses of that tick, empty: at rest.
+[[nodiscard]] double proxyGap(const HapticScene& scene, ObjectMotions motions, const HapticOutput& output,
+                              const HapticSettings& settings);
+
 } // namespace touchstone

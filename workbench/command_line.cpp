@@ -1,0 +1,219 @@
+#include "workbench/command_line.h"
+
+#include "haptics/servo/servo_loop.h"
+#include "renderer/view.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+constexpr int kMostPixels = 16384;
+
+/// Every `--set`, for the end of the help.
+std::string settingsHelp() {
+    std::string text = "Settings for --set NAME=VALUE:\n";
+    const HapticSettings defaults;
+    for (const SettingInfo& info : settingInfos()) {
+        std::string line = "  " + std::string(info.name) + "=" + settingValue(defaults, info.name);
+        if (!info.unit.empty())
+            line += " " + std::string(info.unit);
+        line.resize(std::max<size_t>(line.size() + 2, 30), ' ');
+        text += line + std::string(info.meaning) + "  [" + std::string(info.values) + "]\n";
+    }
+    return text;
+}
+
+constexpr const char* kExitHelp = "Exit status: 0 done, 1 bad input or a missing facility, 2 wrong usage.\n";
+
+/// "1280x720"
+bool parseSize(const std::string& text, glm::ivec2& size) {
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    glm::ivec2 parsed{0};
+    const auto width = std::from_chars(begin, end, parsed.x);
+    if (width.ec != std::errc{} || width.ptr == end || *width.ptr != 'x')
+        return false;
+    const auto height = std::from_chars(width.ptr + 1, end, parsed.y);
+    if (height.ec != std::errc{} || height.ptr != end || std::min(parsed.x, parsed.y) < 1 ||
+        std::max(parsed.x, parsed.y) > kMostPixels)
+        return false;
+    size = parsed;
+    return true;
+}
+
+void addSize(CLI::App& app, glm::ivec2& size, const std::string& meaning) {
+    app.add_option_function<std::string>(
+           "--size",
+           [&size](const std::string& text) {
+               if (!parseSize(text, size))
+                   throw CLI::ValidationError("--size", "'" + text + "' is not a size; write WIDTHxHEIGHT, 1.." +
+                                                            std::to_string(kMostPixels) + " pixels each");
+           },
+           meaning)
+        ->type_name("WxH");
+}
+
+void addSettings(CLI::App& app, HapticSettings& settings) {
+    app.add_option_function<std::vector<std::string>>(
+           "--set",
+           [&settings](const std::vector<std::string>& assignments) {
+               for (const std::string& assignment : assignments) {
+                   const size_t equals = assignment.find('=');
+                   if (equals == std::string::npos)
+                       throw CLI::ValidationError("--set", "'" + assignment + "' is not of the form NAME=VALUE");
+                   const std::string problem =
+                       setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+                   if (!problem.empty())
+                       throw CLI::ValidationError("--set", problem);
+               }
+           },
+           "Change a setting of the hand (listed at the end of --help); may be given again")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->take_all();
+}
+
+void addRate(CLI::App& app, double& rate, const std::string& meaning) {
+    app.add_option("--rate", rate, meaning)->type_name("HZ")->check(CLI::Range(kLeastServoRate, kMostServoRate));
+}
+
+void addGpu(CLI::App& app, std::string& gpu) {
+    app.add_option("--gpu", gpu, "Vulkan device to use, by a part of its name")->type_name("NAME");
+}
+
+CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
+    return app.add_option("SCENE", scene, "glTF model: a .gltf or .glb file")->type_name("");
+}
+
+void defineWindow(CLI::App& app, WindowOptions& options) {
+    addScene(app, options.scene)->description("glTF model to open in a window; without it the doughnut");
+    addSettings(app, options.settings);
+    addRate(app, options.rateHz, "Servo rate [1000]");
+    app.add_option_function<std::string>(
+           "--hand", [&options](const std::string& hand) { options.simulatedHand = hand == "simulated"; },
+           "Who moves the hand at first [mouse]")
+        ->check(CLI::IsMember({"mouse", "simulated"}));
+    addSize(app, options.size, "Size of the window [1280x800]");
+    app.add_option("--status-json", options.statusJson,
+                   "Keep this file up to date with what the window shows: servo, force, settings, widgets")
+        ->type_name("FILE");
+    addGpu(app, options.gpu);
+}
+
+void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
+    addScene(app, options.scene)->required();
+    app.add_flag("--headless", headless, "No window (this is what `run` is for)")->required();
+    app.add_option("--seconds", options.seconds, "How long [10]")->type_name("S")->check(CLI::Range(0.1, 86400.0));
+    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
+    app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")->type_name("FILE");
+    app.add_option("--record-ticks", options.recordTicks, "Write every tick here, as CSV")->type_name("FILE");
+    addSize(app, options.size, "Size of the picture [800x450]");
+    addSettings(app, options.settings);
+    addRate(app, options.rateHz, "Servo rate [1000]");
+    addGpu(app, options.gpu);
+}
+
+void defineTouch(CLI::App& app, TouchOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
+        ->type_name("HIP.csv")
+        ->required();
+    app.add_option("--out", options.out, "Every tick: CSV")->type_name("TICKS.csv")->required();
+    app.add_option("--json", options.json, "Write the figures here: step times, Embree's ray floor, contact")
+        ->type_name("FILE");
+    app.add_option_function<std::string>(
+           "--fit", [&options](const std::string& fit) { options.fit = fit == "workspace" ? Fit::Workspace : Fit::None; },
+           "Scene metres as workspace metres, or fitted to the device's workspace [none]")
+        ->check(CLI::IsMember({"none", "workspace"}));
+    addSettings(app, options.settings);
+    addRate(app, options.rateHz, "Resample the path at this rate; without it one tick a row");
+}
+
+void defineRender(CLI::App& app, RenderOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--out", options.out, "The picture, as PNG")->type_name("FILE")->required();
+    addSize(app, options.size, "Size of the picture [1280x720]");
+    std::vector<std::string> views;
+    for (const std::string_view name : kViewModeNames)
+        views.emplace_back(name);
+    app.add_option("--view", options.view, "What is shown: the look, or a map of what is felt [shaded]")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(views));
+    addGpu(app, options.gpu);
+}
+
+void defineInspect(CLI::App& app, InspectOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
+}
+
+} // namespace
+
+std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
+    CLI::App app{"Touchstone: open a glTF model, see it and touch it."};
+    app.name("touchstone");
+    app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
+    app.footer(settingsHelp() + "\n" + kExitHelp);
+    app.require_subcommand(0, 1);
+
+    WindowOptions window;
+    RunOptions run;
+    TouchOptions touch;
+    RenderOptions render;
+    InspectOptions inspect;
+    bool headless = false;
+    defineWindow(app, window);
+    CLI::App* runApp = app.add_subcommand("run", "The same loops without a window: simulated hand, real time");
+    defineRun(*runApp, run, headless);
+    CLI::App* touchApp = app.add_subcommand("touch", "Touch along a path, offline and deterministic");
+    defineTouch(*touchApp, touch);
+    CLI::App* renderApp = app.add_subcommand("render", "Draw a picture of a model");
+    defineRender(*renderApp, render);
+    CLI::App* inspectApp =
+        app.add_subcommand("inspect", "What a model is, what it would feel like, and its problems");
+    defineInspect(*inspectApp, inspect);
+    CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in");
+
+    status = 0;
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        for (CLI::App* command : {runApp, touchApp, renderApp, inspectApp, devicesApp})
+            if (command->parsed()) {
+                if (command == runApp || command == touchApp)
+                    command->footer(settingsHelp());
+                std::cout << command->help();
+                return std::nullopt;
+            }
+        std::cout << app.help("", CLI::AppFormatMode::All);
+        return std::nullopt;
+    } catch (const CLI::CallForVersion&) {
+        std::cout << "touchstone " TOUCHSTONE_VERSION "\n";
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "touchstone: " << error.what() << "\n  remedy: touchstone --help\n";
+        status = 2;
+        return std::nullopt;
+    }
+    if (runApp->parsed())
+        return run;
+    if (touchApp->parsed())
+        return touch;
+    if (renderApp->parsed())
+        return render;
+    if (inspectApp->parsed())
+        return inspect;
+    if (devicesApp->parsed())
+        return DevicesOptions{};
+    return window;
+}
+
+} // namespace touchstone

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "workbench/commands.h"
+
+#include <optional>
+#include <variant>
+
+namespace touchstone {
+
+struct DevicesOptions {};
+
+using Command =
+    std::variant<WindowOptions, RunOptions, TouchOptions, RenderOptions, InspectOptions, DevicesOptions>;
+
+/// Reads the command line. Empty when the program is done: help or version was printed (then `status` is 0), or
+/// the usage was wrong and said so on stderr (`status` is 2).
+[[nodiscard]] std::optional<Command> parseCommandLine(int argc, char** argv, int& status);
+
+} // namespace touchstone

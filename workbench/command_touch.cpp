@@ -1,0 +1,187 @@
+// Offline and deterministic: a path of the hand in, every tick out, as fast as it goes.
+
+#include "devices/replay_device.h"
+#include "engine/core/error.h"
+#include "engine/core/float_mode.h"
+#include "engine/core/realtime_guard.h"
+#include "haptics/contact/ray_floor.h"
+#include "haptics/haptic_step.h"
+#include "haptics/servo/realtime_thread.h"
+#include "workbench/commands.h"
+#include "workbench/model.h"
+#include "workbench/output_file.h"
+#include "workbench/settings_json.h"
+#include "workbench/tick_csv.h"
+#include "workbench/tick_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+constexpr size_t kBlock = 4096; // ticks stepped before they are written: the disk stays out of the step's time
+
+struct PlannedTick {
+    double time = 0.0; // s, as in the path
+    double dt = 0.0;   // s
+    glm::dvec3 hip{0.0};
+};
+
+struct OfflineTick {
+    double time = 0.0;
+    HapticOutput output;
+    int64_t stepNs = 0;
+};
+
+/// The ticks that the path asks for: one a row, or at a rate of its own straight between the rows.
+std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
+    std::vector<PlannedTick> ticks;
+    if (rateHz <= 0.0) {
+        ticks.resize(path.times.size());
+        for (size_t i = 0; i < ticks.size(); ++i) {
+            ticks[i].time = path.times[i];
+            ticks[i].hip = path.positions[i];
+            if (i > 0)
+                ticks[i].dt = path.times[i] - path.times[i - 1];
+        }
+        ticks[0].dt = ticks.size() > 1 ? ticks[1].dt : 1e-3;
+        return ticks;
+    }
+    ReplayDevice replay(path);
+    const auto count = static_cast<size_t>(std::floor(replay.duration() * rateHz * (1.0 + 1e-12))) + 1;
+    ticks.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const double since = static_cast<double>(i) / rateHz;
+        ticks[i].time = path.times.front() + since;
+        ticks[i].dt = 1.0 / rateHz;
+        ticks[i].hip = replay.sample(since).position;
+    }
+    return ticks;
+}
+
+/// The state that one offline run carries from tick to tick.
+class OfflineTouch {
+  public:
+    OfflineTouch(const Model& model, const HapticSettings& settings) : model_(model), settings_(settings) {}
+
+    void step(const PlannedTick& planned, OfflineTick& tick) {
+        DeviceSample sample;
+        sample.position = planned.hip;
+        sample.valid = true;
+        TickInput input;
+        input.tick = number_++;
+        input.time = tick.time = planned.time;
+        input.dt = planned.dt;
+        input.devices = {&sample, 1};
+        NoStopwatch none;
+        const realtime::TickScope scope;
+        const long long begin = monotonicNs();
+        hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, none);
+        tick.stepNs = monotonicNs() - begin;
+    }
+
+  private:
+    const Model& model_;
+    const HapticSettings& settings_;
+    WorldState world_;
+    DeviceState device_;
+    uint64_t number_ = 0;
+};
+
+/// The ray from proxy to HIP in every tick in contact, each timed as the step is (DESIGN §11).
+void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks, Samples& rays) {
+    float sum = 0.0f;
+    for (const OfflineTick& tick : ticks) {
+        if (tick.output.contacts == 0 || tick.output.object < 0)
+            continue;
+        const long long begin = monotonicNs();
+        sum += castFloorRay(scene, tick.output.object, tick.output.proxy, tick.output.hip);
+        rays.add(monotonicNs() - begin);
+    }
+    [[maybe_unused]] static volatile float sink;
+    sink = sum; // so that no ray is left out
+}
+
+/// What reading the clock twice costs: part of every time above.
+int64_t clockCostNs() {
+    Samples costs;
+    for (int i = 0; i < 1000; ++i) {
+        const long long begin = monotonicNs();
+        costs.add(monotonicNs() - begin);
+    }
+    return costs.percentile(0.5);
+}
+
+} // namespace
+
+int touchCommand(const TouchOptions& options) {
+    const HipPath path = readHipPath(options.path);
+    const Model model = loadModel(options.scene, options.fit);
+    printWarnings(model);
+    OutputFile out(options.out);
+    std::optional<OutputFile> report;
+    if (!options.json.empty())
+        report.emplace(options.json);
+    out.write(kTickCsvHeader);
+
+    enterFloatMode();
+    const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
+    OfflineTouch touch(model, options.settings);
+    TickStatistics statistics;
+    Samples rays;
+    std::string rows;
+    std::vector<OfflineTick> ticks(std::min(kBlock, planned.size()));
+    realtime::resetViolations();
+    for (size_t begin = 0; begin < planned.size(); begin += kBlock) {
+        const std::span<OfflineTick> block(ticks.data(), std::min(kBlock, planned.size() - begin));
+        for (size_t i = 0; i < block.size(); ++i)
+            touch.step(planned[begin + i], block[i]);
+        if (report)
+            timeFloorRays(*model.haptic, block, rays);
+        rows.clear();
+        for (const OfflineTick& tick : block) {
+            appendTickRow(rows, tick.time, tick.output, tick.stepNs);
+            statistics.add(tick.output, tick.stepNs);
+            if (report && tick.output.contacts > 0)
+                statistics.addProxyGap(proxyGap(*model.haptic, {}, tick.output, options.settings));
+        }
+        out.write(rows);
+    }
+
+    if (report) {
+        const RealtimeViolations violations = realtime::violations();
+        const nlohmann::ordered_json json{
+            {"command", "touch"},
+            {"scene", options.scene.string()},
+            {"path", options.path.string()},
+            {"fit", options.fit == Fit::None ? "none" : "workspace"},
+            {"settings", settingsJson(options.settings)},
+            {"ticks", planned.size()},
+            {"step", statistics.stepJson()},
+            {"ray_floor",
+             {{"count", rays.count()},
+              {"p50_ns", rays.empty() ? nlohmann::ordered_json() : rays.percentile(0.5)},
+              {"p99_ns", rays.empty() ? nlohmann::ordered_json() : rays.percentile(0.99)}}},
+            {"clock_ns", clockCostNs()},
+            {"contact", statistics.contactJson()},
+            {"force", statistics.forceJson()},
+            {"flags", statistics.flagsJson()},
+            {"allocations_in_tick", violations.allocations},
+            {"deallocations_in_tick", violations.deallocations},
+        };
+        report->write(json.dump(2) + "\n");
+        report->commit();
+    }
+    out.commit();
+    std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
+                static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
+    return 0;
+}
+
+} // namespace touchstone

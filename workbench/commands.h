@@ -1,0 +1,68 @@
+#pragma once
+// What the command line can ask for, one struct and one function a command. The functions return the exit
+// status and throw Error for bad input (status 1).
+
+#include "engine/scene/scene.h"
+#include "haptics/haptic_settings.h"
+
+#include <glm/glm.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace touchstone {
+
+/// touchstone [SCENE]
+struct WindowOptions {
+    std::filesystem::path scene; ///< empty: the default scene
+    HapticSettings settings;
+    double rateHz = 1000.0;
+    bool simulatedHand = false;       ///< start with the simulated hand instead of the mouse
+    glm::ivec2 size{1280, 800};       ///< screen coordinates
+    std::filesystem::path statusJson; ///< written twice a second when given
+    std::string gpu;                  ///< part of a Vulkan device's name
+};
+int windowCommand(const WindowOptions& options);
+
+/// touchstone run SCENE --headless
+struct RunOptions {
+    std::filesystem::path scene;
+    HapticSettings settings;
+    double rateHz = 1000.0;
+    double seconds = 10.0;
+    glm::ivec2 size{800, 450};
+    std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
+    std::string gpu;
+};
+int runCommand(const RunOptions& options);
+
+/// touchstone touch SCENE --path HIP.csv --out TICKS.csv
+struct TouchOptions {
+    std::filesystem::path scene, path, out;
+    std::filesystem::path json; ///< empty: not asked for
+    Fit fit = Fit::None;
+    HapticSettings settings;
+    double rateHz = 0.0; ///< 0: one tick a row of the path
+};
+int touchCommand(const TouchOptions& options);
+
+/// touchstone render SCENE --out F.png --size WxH
+struct RenderOptions {
+    std::filesystem::path scene, out;
+    glm::ivec2 size{1280, 720};
+    std::string view = "shaded";
+    std::string gpu;
+};
+int renderCommand(const RenderOptions& options);
+
+/// touchstone inspect SCENE
+struct InspectOptions {
+    std::filesystem::path scene;
+    std::filesystem::path json; ///< empty: not asked for
+};
+int inspectCommand(const InspectOptions& options);
+
+/// touchstone devices
+int devicesCommand();
+
+} // namespace touchstone

@@ -1,0 +1,38 @@
+#include "engine/core/error.h"
+#include "workbench/command_line.h"
+
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+    using namespace touchstone;
+    try {
+        int status = 0;
+        const std::optional<Command> command = parseCommandLine(argc, argv, status);
+        if (!command)
+            return status;
+        return std::visit(Overloaded{[](const WindowOptions& options) { return windowCommand(options); },
+                                     [](const RunOptions& options) { return runCommand(options); },
+                                     [](const TouchOptions& options) { return touchCommand(options); },
+                                     [](const RenderOptions& options) { return renderCommand(options); },
+                                     [](const InspectOptions& options) { return inspectCommand(options); },
+                                     [](const DevicesOptions&) { return devicesCommand(); }},
+                          *command);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "touchstone: %s\n", error.what());
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "touchstone: out of memory\n  remedy: close other programs, or use a smaller model\n");
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "touchstone: unexpected: %s\n", error.what());
+    }
+    return 1;
+}
