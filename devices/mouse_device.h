@@ -32,7 +32,13 @@ class MouseDevice final : public Device {
     void release() noexcept;
 
     [[nodiscard]] std::string name() const override { return "mouse"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    /// Goals come with the frames of a window, which may stutter: they go stale later than a device's
+    /// samples.
+    [[nodiscard]] DeviceLimits limits() const override {
+        DeviceLimits limits;
+        limits.staleAge = 0.25;
+        return limits;
+    }
     /// Servo thread. `time` must not run backwards (then the hand stands still).
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void apply(const DeviceCommand&) noexcept override {}

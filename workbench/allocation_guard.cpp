@@ -1,6 +1,6 @@
 // Counts what must not happen: allocating or freeing inside a tick. Replaces malloc and its kin for the whole
-// program, which operator new and every library end up in, and passes on to glibc's own. Costs one thread-local
-// test a call. Under a sanitizer, which owns the allocator, its hooks are used instead.
+// program, which operator new and every library end up in, and passes on to glibc's own. Costs one
+// thread-local test a call. Under a sanitizer, which owns the allocator, its hooks are used instead.
 
 #include "engine/core/realtime_guard.h"
 

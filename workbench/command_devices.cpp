@@ -26,7 +26,8 @@ const char* accessName(HidAccess access) {
 int devicesCommand() {
     std::printf("built in\n");
     std::printf("  mouse            position from the window, no force\n");
-    std::printf("  simulated hand   strokes the model on a path of its own (run --headless, --hand simulated)\n");
+    std::printf(
+        "  simulated hand   strokes the model on a path of its own (run --headless, --hand simulated)\n");
     const std::vector<HidDevice> devices = listHidDevices();
     std::printf("plugged in%s\n", devices.empty() ? ": no HID device" : "");
     for (const HidDevice& device : devices) {

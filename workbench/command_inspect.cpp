@@ -62,9 +62,8 @@ Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
     Json fields = Json::object();
     const auto add = [&](const char* name, const auto& field, const char* unit) {
         if (field.value)
-            fields[name] = {{"value", shown(scene, *field.value)},
-                            {"unit", unit},
-                            {"source", sourceName(field.source)}};
+            fields[name] = {
+                {"value", shown(scene, *field.value)}, {"unit", unit}, {"source", sourceName(field.source)}};
     };
     add("stiffness", haptic.stiffness, "N/m");
     add("damping", haptic.damping, "N s/m");
@@ -143,8 +142,8 @@ Json vectorJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// Strokes the model for two seconds of its own time and tells the median cost of each stage of a tick, over the
-/// ticks in contact. Null where there is nothing to touch or the stroke met nothing.
+/// Strokes the model for two seconds of its own time and tells the median cost of each stage of a tick, over
+/// the ticks in contact. Null where there is nothing to touch or the stroke met nothing.
 Json tickCostJson(const Model& model) {
     if (!model.scene->touchable())
         return nullptr;
@@ -195,9 +194,9 @@ Json inspectionJson(const InspectOptions& options, const Model& model) {
             {"nodes", scene.nodes.size()},
             {"triangles", scene.triangleCount()},
             {"touchable", scene.touchable()},
-            {"bounds_m", scene.bounds.empty()
-                             ? Json()
-                             : Json{{"low", vectorJson(scene.bounds.low)}, {"high", vectorJson(scene.bounds.high)}}},
+            {"bounds_m", scene.bounds.empty() ? Json()
+                                              : Json{{"low", vectorJson(scene.bounds.low)},
+                                                     {"high", vectorJson(scene.bounds.high)}}},
             {"workspace_from_scene_scale", model.workspaceFromScene.scale},
             {"extensions_used", scene.extensionsUsed},
             {"animations", animations},
@@ -223,7 +222,8 @@ void printEffects(const Json& material) {
     for (const Json& effect : material["effects"])
         std::printf("    %-3s %-18s %s%s\n", effect["on"].get<bool>() ? "on" : "off",
                     text(effect["effect"]).c_str(), text(effect["reason"]).c_str(),
-                    effect["memory_bytes"] == 0 ? "" : (", " + text(effect["memory_bytes"]) + " bytes").c_str());
+                    effect["memory_bytes"] == 0 ? ""
+                                                : (", " + text(effect["memory_bytes"]) + " bytes").c_str());
     if (material.contains("not_yet_available"))
         print("    not yet available: %s\n", material["not_yet_available"].dump());
 }
@@ -231,8 +231,9 @@ void printEffects(const Json& material) {
 void printInspection(const Json& json) {
     print("%s\n", text(json["scene"]));
     std::printf("  %s triangles in %s meshes, %s instances, %s materials, %s images\n",
-                text(json["triangles"]).c_str(), text(json["meshes"]).c_str(), text(json["instances"]).c_str(),
-                std::to_string(json["materials"].size()).c_str(), std::to_string(json["images"].size()).c_str());
+                text(json["triangles"]).c_str(), text(json["meshes"]).c_str(),
+                text(json["instances"]).c_str(), std::to_string(json["materials"].size()).c_str(),
+                std::to_string(json["images"].size()).c_str());
     if (!json["bounds_m"].is_null())
         print("  bounds %s to %s m", text(json["bounds_m"]["low"]), text(json["bounds_m"]["high"]));
     print(", fitted to the workspace by a factor of %s\n", text(json["workspace_from_scene_scale"]));
@@ -263,7 +264,7 @@ void printInspection(const Json& json) {
 } // namespace
 
 int inspectCommand(const InspectOptions& options) {
-    const Model model = loadModel(options.scene, Fit::Workspace);
+    const Model model = loadModel(options.scene, Fit::Workspace, DeviceLimits{});
     const Json json = inspectionJson(options, model);
     printInspection(json);
     // A name that is not UTF-8 must not cost the answer: it is replaced.

@@ -54,7 +54,8 @@ void addSize(CLI::App& app, glm::ivec2& size, const std::string& meaning) {
            "--size",
            [&size](const std::string& text) {
                if (!parseSize(text, size))
-                   throw CLI::ValidationError("--size", "'" + text + "' is not a size; write WIDTHxHEIGHT, 1.." +
+                   throw CLI::ValidationError("--size", "'" + text +
+                                                            "' is not a size; write WIDTHxHEIGHT, 1.." +
                                                             std::to_string(kMostPixels) + " pixels each");
            },
            meaning)
@@ -68,7 +69,8 @@ void addSettings(CLI::App& app, HapticSettings& settings) {
                for (const std::string& assignment : assignments) {
                    const size_t equals = assignment.find('=');
                    if (equals == std::string::npos)
-                       throw CLI::ValidationError("--set", "'" + assignment + "' is not of the form NAME=VALUE");
+                       throw CLI::ValidationError("--set",
+                                                  "'" + assignment + "' is not of the form NAME=VALUE");
                    const std::string problem =
                        setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
                    if (!problem.empty())
@@ -82,7 +84,9 @@ void addSettings(CLI::App& app, HapticSettings& settings) {
 }
 
 void addRate(CLI::App& app, double& rate, const std::string& meaning) {
-    app.add_option("--rate", rate, meaning)->type_name("HZ")->check(CLI::Range(kLeastServoRate, kMostServoRate));
+    app.add_option("--rate", rate, meaning)
+        ->type_name("HZ")
+        ->check(CLI::Range(kLeastServoRate, kMostServoRate));
 }
 
 void addGpu(CLI::App& app, std::string& gpu) {
@@ -111,9 +115,12 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
 void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     addScene(app, options.scene)->required();
     app.add_flag("--headless", headless, "No window (this is what `run` is for)")->required();
-    app.add_option("--seconds", options.seconds, "How long [10]")->type_name("S")->check(CLI::Range(0.1, 86400.0));
+    app.add_option("--seconds", options.seconds, "How long [10]")
+        ->type_name("S")
+        ->check(CLI::Range(0.1, 86400.0));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
-    app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")->type_name("FILE");
+    app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
+        ->type_name("FILE");
     app.add_option("--record-ticks", options.recordTicks, "Write every tick here, as CSV")->type_name("FILE");
     addSize(app, options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
@@ -130,7 +137,10 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
     app.add_option("--json", options.json, "Write the figures here: step times, Embree's ray floor, contact")
         ->type_name("FILE");
     app.add_option_function<std::string>(
-           "--fit", [&options](const std::string& fit) { options.fit = fit == "workspace" ? Fit::Workspace : Fit::None; },
+           "--fit",
+           [&options](const std::string& fit) {
+               options.fit = fit == "workspace" ? Fit::Workspace : Fit::None;
+           },
            "Scene metres as workspace metres, or fitted to the device's workspace [none]")
         ->check(CLI::IsMember({"none", "workspace"}));
     addSettings(app, options.settings);
@@ -171,7 +181,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     InspectOptions inspect;
     bool headless = false;
     defineWindow(app, window);
-    CLI::App* runApp = app.add_subcommand("run", "The same loops without a window: simulated hand, real time");
+    CLI::App* runApp =
+        app.add_subcommand("run", "The same loops without a window: simulated hand, real time");
     defineRun(*runApp, run, headless);
     CLI::App* touchApp = app.add_subcommand("touch", "Touch along a path, offline and deterministic");
     defineTouch(*touchApp, touch);

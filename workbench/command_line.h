@@ -12,8 +12,8 @@ struct DevicesOptions {};
 using Command =
     std::variant<WindowOptions, RunOptions, TouchOptions, RenderOptions, InspectOptions, DevicesOptions>;
 
-/// Reads the command line. Empty when the program is done: help or version was printed (then `status` is 0), or
-/// the usage was wrong and said so on stderr (`status` is 2).
+/// Reads the command line. Empty when the program is done: help or version was printed (then `status` is 0),
+/// or the usage was wrong and said so on stderr (`status` is 2).
 [[nodiscard]] std::optional<Command> parseCommandLine(int argc, char** argv, int& status);
 
 } // namespace touchstone

@@ -25,7 +25,8 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kBlock = 4096; // ticks stepped before they are written: the disk stays out of the step's time
+constexpr size_t kBlock =
+    4096; // ticks stepped before they are written: the disk stays out of the step's time
 
 struct PlannedTick {
     double time = 0.0; // s, as in the path
@@ -108,6 +109,16 @@ void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks,
     sink = sum; // so that no ray is left out
 }
 
+/// Nulls where no tick was in contact.
+nlohmann::ordered_json floorJson(const Samples& rays) {
+    nlohmann::ordered_json json{{"count", rays.count()}, {"p50_ns", nullptr}, {"p99_ns", nullptr}};
+    if (!rays.empty()) {
+        json["p50_ns"] = rays.percentile(0.5);
+        json["p99_ns"] = rays.percentile(0.99);
+    }
+    return json;
+}
+
 /// What reading the clock twice costs: part of every time above.
 int64_t clockCostNs() {
     Samples costs;
@@ -122,7 +133,7 @@ int64_t clockCostNs() {
 
 int touchCommand(const TouchOptions& options) {
     const HipPath path = readHipPath(options.path);
-    const Model model = loadModel(options.scene, options.fit);
+    const Model model = loadModel(options.scene, options.fit, DeviceLimits{});
     printWarnings(model);
     OutputFile out(options.out);
     std::optional<OutputFile> report;
@@ -164,10 +175,7 @@ int touchCommand(const TouchOptions& options) {
             {"settings", settingsJson(options.settings)},
             {"ticks", planned.size()},
             {"step", statistics.stepJson()},
-            {"ray_floor",
-             {{"count", rays.count()},
-              {"p50_ns", rays.empty() ? nlohmann::ordered_json() : rays.percentile(0.5)},
-              {"p99_ns", rays.empty() ? nlohmann::ordered_json() : rays.percentile(0.99)}}},
+            {"ray_floor", floorJson(rays)},
             {"clock_ns", clockCostNs()},
             {"contact", statistics.contactJson()},
             {"force", statistics.forceJson()},
@@ -175,7 +183,7 @@ int touchCommand(const TouchOptions& options) {
             {"allocations_in_tick", violations.allocations},
             {"deallocations_in_tick", violations.deallocations},
         };
-        report->write(json.dump(2) + "\n");
+        report->write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
         report->commit();
     }
     out.commit();

@@ -30,7 +30,8 @@ int main(int argc, char** argv) {
     } catch (const Error& error) {
         std::fprintf(stderr, "touchstone: %s\n", error.what());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "touchstone: out of memory\n  remedy: close other programs, or use a smaller model\n");
+        std::fprintf(stderr,
+                     "touchstone: out of memory\n  remedy: close other programs, or use a smaller model\n");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "touchstone: unexpected: %s\n", error.what());
     }

@@ -4,7 +4,8 @@
 
 namespace touchstone {
 
-Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options) {
+Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
+                const LoadOptions& options) {
     LoadOptions loading = options;
     if (options.progress)
         loading.progress = [&](double fraction, const char* what) { options.progress(0.9 * fraction, what); };
@@ -13,7 +14,7 @@ Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& o
     model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
     if (options.progress)
         options.progress(0.9, "making it touchable");
-    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene);
+    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene, limits);
     if (options.progress)
         options.progress(1.0, "ready");
     return model;

@@ -15,8 +15,10 @@ struct Model {
     Similarity workspaceFromScene;
 };
 
-/// Loads and compiles. Any thread; throws Error. The hand's share of the progress is its last tenth.
-[[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options = {});
+/// Loads and compiles for a device. Any thread; throws Error. The hand's share of the progress is its last
+/// tenth.
+[[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
+                              const LoadOptions& options = {});
 /// The eye's half only.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit);
 

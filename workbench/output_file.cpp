@@ -52,7 +52,8 @@ void OutputFile::commit() {
     if (stream_ && !temporary_.empty())
         std::filesystem::rename(temporary_, target_, error);
     if (!stream_ || error)
-        throw Error(target_.string(), "", "writing failed: " + (error ? error.message() : std::strerror(errno)),
+        throw Error(target_.string(), "",
+                    "writing failed: " + (error ? error.message() : std::strerror(errno)),
                     "free some space on the disk");
     temporary_.clear();
 }

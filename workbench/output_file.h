@@ -7,8 +7,8 @@
 
 namespace touchstone {
 
-/// A file that is there as a whole or not at all: written under a temporary name beside the target, renamed by
-/// `commit`, removed if that never comes. One thread. Everything throws Error that names the target.
+/// A file that is there as a whole or not at all: written under a temporary name beside the target, renamed
+/// by `commit`, removed if that never comes. One thread. Everything throws Error that names the target.
 class OutputFile {
   public:
     explicit OutputFile(std::filesystem::path target);

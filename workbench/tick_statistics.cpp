@@ -37,6 +37,10 @@ nlohmann::ordered_json nanoseconds(const Samples& samples) {
 
 void TickStatistics::addLive(const TickRecord& record) {
     wake_.add(record.wakeLatencyNs);
+    const int64_t wokeNs = static_cast<int64_t>(std::llround(record.time * 1e9)) + record.wakeLatencyNs;
+    if (lastWakeNs_ >= 0)
+        period_.add(wokeNs - lastWakeNs_);
+    lastWakeNs_ = wokeNs;
     add(record.output, record.stepNs);
 }
 
@@ -77,7 +81,8 @@ nlohmann::ordered_json TickStatistics::wakeJson() const {
     return {{"p50_us", us(0.5)},
             {"p99_us", us(0.99)},
             {"p999_us", us(0.999)},
-            {"max_us", static_cast<double>(wake_.most()) * 1e-3}};
+            {"max_us", static_cast<double>(wake_.most()) * 1e-3},
+            {"period_p50_us", static_cast<double>(period_.percentile(0.5)) * 1e-3}};
 }
 
 nlohmann::ordered_json TickStatistics::contactJson() const {
@@ -110,7 +115,8 @@ nlohmann::ordered_json TickStatistics::flagsJson() const {
 double proxyGap(const HapticScene& scene, ObjectMotions motions, const HapticOutput& output,
                 const HapticSettings& settings) {
     constexpr double kLookedAt = 1e-3;
-    return surfaceDistance(scene, motions, output.proxy, settings.proxyRadius + kLookedAt) - settings.proxyRadius;
+    return surfaceDistance(scene, motions, output.proxy, settings.proxyRadius + kLookedAt) -
+           settings.proxyRadius;
 }
 
 } // namespace touchstone

@@ -15,7 +15,8 @@ namespace touchstone {
 class TickStatistics {
   public:
     /// `window`: ticks that the percentiles look back on; 0: all of them.
-    explicit TickStatistics(size_t window = 0) : wake_(window), step_(window), stepInContact_(window) {}
+    explicit TickStatistics(size_t window = 0)
+        : wake_(window), period_(window), step_(window), stepInContact_(window) {}
 
     /// A tick of the real-time loop: with its wake-up.
     void addLive(const TickRecord& record);
@@ -31,7 +32,8 @@ class TickStatistics {
 
     /// {p50_ns, p99_ns, ...} over the ticks in contact (over all where none was), and the same over `all`.
     [[nodiscard]] nlohmann::ordered_json stepJson() const;
-    /// {p50_us, p99_us, p999_us, max_us}: wake-up against the deadline.
+    /// {p50_us, p99_us, p999_us, max_us}: wake-up against the deadline; period_p50_us: from wake-up to
+    /// wake-up.
     [[nodiscard]] nlohmann::ordered_json wakeJson() const;
     /// {ticks, share, proxy_on_mesh_share, ...}; the share is null where no gap was measured.
     [[nodiscard]] nlohmann::ordered_json contactJson() const;
@@ -43,7 +45,8 @@ class TickStatistics {
   private:
     static constexpr size_t kFlagCount = 11;
 
-    Samples wake_, step_, stepInContact_;
+    Samples wake_, period_, step_, stepInContact_;
+    int64_t lastWakeNs_ = -1;
     uint64_t ticks_ = 0, contactTicks_ = 0;
     uint64_t gaps_ = 0, gapsWithinMicrometre_ = 0;
     double mostGap_ = 0.0;

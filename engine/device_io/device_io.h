@@ -1,10 +1,10 @@
 #pragma once
 // The two plain structs through which the haptic step and a device talk. Neither side links the other.
 
-#include <cstdint>
-
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+
+#include <cstdint>
 
 namespace touchstone {
 
@@ -15,14 +15,14 @@ struct DeviceSample {
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     uint32_t buttons = 0;
-    double age = 0.0;      ///< s since the device measured it
-    bool valid = false;    ///< false: nothing is known of the hand (unplugged, not started)
+    double age = 0.0;   ///< s since the device measured it
+    bool valid = false; ///< false: nothing is known of the hand (unplugged, not started)
 };
 
 /// What may be sent to a device, in the device frame. Only the safety stage can make one that is not zero.
 class DeviceCommand {
   public:
-    DeviceCommand() = default; ///< zero force
+    DeviceCommand() = default;                                         ///< zero force
     [[nodiscard]] const glm::dvec3& force() const { return force_; }   ///< N
     [[nodiscard]] const glm::dvec3& torque() const { return torque_; } ///< N·m
 
@@ -34,13 +34,17 @@ class DeviceCommand {
 
 /// What a device can do; the safety stage never exceeds it.
 struct DeviceLimits {
-    double maxForce = 8.5;             ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
-    double maxForceRate = 8500.0;      ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
+    double maxForce = 8.5;               ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
+    double maxForceRate = 8500.0;        ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
     double maxTorque = 0.0;              ///< N·m, magnitude; 0: the device takes no torque
     double maxTorqueRate = 0.0;          ///< N·m/s
     double recommendedStiffness = 600.0; ///< N/m, used where a material states none
-    double maxStiffness = 3500.0;      ///< N/m, above it the closed loop may buzz
-    double positionResolution = 3e-5;  ///< m
+    double maxStiffness = 3500.0;        ///< N/m, above it the closed loop may buzz
+    /// s: a sample older than this is stale and the force fades out. Twenty periods at 1 kHz: longer than any
+    /// USB poll or scheduling hiccup, shorter than a hand's reaction. Larger keeps pushing on what may not be
+    /// true.
+    double staleAge = 0.02;
+    double positionResolution = 3e-5; ///< m
 };
 
 } // namespace touchstone

@@ -8,9 +8,9 @@ namespace touchstone {
 
 class HapticScene;
 
-/// The distance of `point` (workspace, m) from the nearest triangle of the whole scene, in double, or `within`
-/// where there is none so near. For reports and tests: it is not what the tick uses. `motions` as in TickInput,
-/// empty: at rest. Any thread.
+/// The distance of `point` (workspace, m) from the nearest triangle of the whole scene, in double, or
+/// `within` where there is none so near. For reports and tests: it is not what the tick uses. `motions` as in
+/// TickInput, empty: at rest. Any thread.
 [[nodiscard]] double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
                                      double within) noexcept;
 

@@ -70,7 +70,8 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
     if (state.latched)
         flags = flags | TickFlag::SafetyLatched;
 
-    const bool fresh = inputs.inputValid && inputs.sampleAge <= kStaleInputAge; // a NaN age is not fresh
+    const bool fresh =
+        inputs.inputValid && inputs.sampleAge <= inputs.limits.staleAge; // a NaN age is not fresh
     if (!fresh)
         flags = flags | TickFlag::InputInvalid;
     const DeviceLimits& limits = inputs.limits;

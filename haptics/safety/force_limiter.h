@@ -18,10 +18,6 @@ inline constexpr double kForceRampInTime = 0.1;
 /// that vanishes under a pressing hand.
 inline constexpr double kForceRampOutTime = 0.05;
 
-/// s: a sample older than this is stale. Twenty periods at 1 kHz: longer than any USB poll or scheduling
-/// hiccup, shorter than a hand's reaction. Larger keeps pushing longer on what may no longer be true.
-inline constexpr double kStaleInputAge = 0.02;
-
 /// Late ticks in a row after which the loop counts as broken: the force fades out and stays off (latched).
 /// Fewer trips on a busy desktop; more lets a loop that runs at half its rate go unstable for longer.
 inline constexpr uint32_t kLateTicksToLatch = 20;

@@ -167,7 +167,7 @@ TEST(ForceLimiter, StaleInputFadesOutFromTheLastFreshForce) {
         if (unplugged)
             ticker.inputs.inputValid = false;
         else
-            ticker.inputs.sampleAge = kStaleInputAge * 1.01;
+            ticker.inputs.sampleAge = ticker.inputs.limits.staleAge * 1.01;
         double previous = 5.0;
         const int ticks = static_cast<int>(std::lround(kForceRampOutTime / ticker.inputs.dt));
         for (int i = 1; i < ticks; ++i) {

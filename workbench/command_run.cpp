@@ -1,0 +1,214 @@
+// The same loops as in the window, without one: the simulated hand strokes the model in real time.
+
+#include "devices/simulated_hand.h"
+#include "engine/core/error.h"
+#include "engine/core/realtime_guard.h"
+#include "haptics/servo/servo_loop.h"
+#include "renderer/png.h"
+#include "renderer/scene_renderer.h"
+#include "workbench/commands.h"
+#include "workbench/device_port.h"
+#include "workbench/interrupt.h"
+#include "workbench/model.h"
+#include "workbench/output_file.h"
+#include "workbench/overlays.h"
+#include "workbench/render_threads.h"
+#include "workbench/settings_json.h"
+#include "workbench/tick_csv.h"
+#include "workbench/tick_statistics.h"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+namespace touchstone {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFrameRate = 30.0;
+
+/// A view from a little above and to the right, so that depth can be seen.
+View frontView(const Model& model, const glm::ivec2& size) {
+    const double aspect = static_cast<double>(size.x) / size.y;
+    OrbitCamera camera;
+    camera.yaw = 0.45;
+    camera.pitch = 0.35;
+    camera.frame(workspaceBounds(model), aspect);
+    return viewOf(camera, model.workspaceFromScene, aspect);
+}
+
+/// Takes every tick that the servo has made since the last call.
+class TickReader {
+  public:
+    TickReader(const Model& model, const RunOptions& options) : model_(model), options_(options) {
+        if (!options.recordTicks.empty()) {
+            csv_.emplace(options.recordTicks);
+            csv_->write(kTickCsvHeader);
+        }
+    }
+
+    void drain(ServoLoop& servo) {
+        TickRecord record;
+        rows_.clear();
+        while (servo.popRecord(record)) {
+            statistics.addLive(record);
+            if (record.output.contacts > 0) {
+                statistics.addProxyGap(proxyGap(*model_.haptic, {}, record.output, options_.settings));
+                lastContact = record;
+            }
+            last = record;
+            if (csv_)
+                appendTickRow(rows_, record.time, record.output, record.stepNs);
+        }
+        if (csv_)
+            csv_->write(rows_);
+    }
+    void commit() {
+        if (csv_)
+            csv_->commit();
+    }
+
+    TickStatistics statistics;
+    TickRecord last;
+    std::optional<TickRecord> lastContact;
+
+  private:
+    const Model& model_;
+    const RunOptions& options_;
+    std::optional<OutputFile> csv_;
+    std::string rows_;
+};
+
+struct Frames {
+    uint64_t count = 0;
+    double seconds = 0.0;
+    uint64_t late = 0; ///< frames that were not ready for the next one's turn
+};
+
+/// Draws at the frame rate until the time is over; the servo ticks beside it.
+Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
+                  TickReader& reader) {
+    const View view = frontView(model, options.size);
+    const auto period =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
+    const auto length =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+    const Clock::time_point start = Clock::now();
+    Clock::time_point next = start;
+    Frames frames;
+    Overlay overlay;
+    while (Clock::now() - start < length && !interrupted()) {
+        servo.updateSnapshot();
+        reader.drain(servo);
+        overlay.clear();
+        drawTick(servo.snapshot(), options.settings, overlay);
+        renderer.render(view, overlay, options.size.x, options.size.y);
+        ++frames.count;
+        next += period;
+        if (Clock::now() > next) {
+            next = Clock::now();
+            ++frames.late;
+        }
+        std::this_thread::sleep_until(std::min(next, start + length));
+    }
+    frames.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return frames;
+}
+
+nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& statistics, double seconds) {
+    const ServoLoop::Counters counters = servo.counters();
+    const ServoScheduling scheduling = servo.scheduling();
+    nlohmann::ordered_json json{{"ticks", counters.ticks}, {"missed", counters.missed}};
+    json.update(statistics.wakeJson());
+    json.update({{"rate_hz", servo.rateHz()},
+                 {"ticks_per_second", static_cast<double>(counters.ticks) / seconds},
+                 {"skipped", counters.skipped},
+                 {"dropped_records", counters.droppedRecords},
+                 {"scheduling", scheduling.policy},
+                 {"memory_locked", scheduling.memoryLocked},
+                 {"pinned_cpu", scheduling.pinnedCpu}});
+    return json;
+}
+
+} // namespace
+
+int runCommand(const RunOptions& options) {
+    catchInterrupts();
+    const Model model = loadModel(options.scene, Fit::Workspace, DeviceLimits{});
+    printWarnings(model);
+    SimulatedHand hand(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
+    std::optional<OutputFile> report;
+    if (!options.json.empty())
+        report.emplace(options.json);
+    TickReader reader(model, options);
+
+    // The device comes before the servo thread (DESIGN §8); the first frame compiles the pipelines.
+    leaveOneCoreToTheServo();
+    const std::unique_ptr<Gpu> gpu = Gpu::headless({.device = options.gpu});
+    SceneRenderer renderer(*gpu);
+    renderer.setScene(model.scene);
+    renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);
+    gpu->waitIdle();
+
+    ServoLoop servo(portOf(hand), {.rateHz = options.rateHz});
+    servo.setSettings(options.settings);
+    servo.offerScene(model.haptic);
+    realtime::resetViolations();
+    servo.start();
+    const Frames frames = drawFrames(options, model, servo, renderer, reader);
+    servo.stop();
+    const RealtimeViolations violations = realtime::violations();
+    reader.drain(servo);
+
+    if (!options.screenshot.empty()) {
+        Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
+        drawTick(reader.lastContact.value_or(reader.last), options.settings, overlay);
+        writePng(options.screenshot, renderStill(renderer, frontView(model, options.size), overlay,
+                                                 options.size.x, options.size.y));
+    }
+    for (const std::string& message : gpu->validationMessages())
+        std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
+    reader.commit();
+    if (report) {
+        const double fps = static_cast<double>(frames.count) / frames.seconds;
+        const nlohmann::ordered_json json{
+            {"command", "run"},
+            {"scene", options.scene.string()},
+            {"seconds", frames.seconds},
+            {"triangles", model.scene->triangleCount()},
+            {"settings", settingsJson(options.settings)},
+            {"servo", servoJson(servo, reader.statistics, frames.seconds)},
+            {"step", reader.statistics.stepJson()},
+            {"frames",
+             {{"count", frames.count},
+              {"fps", fps},
+              {"late", frames.late},
+              {"width", options.size.x},
+              {"height", options.size.y}}},
+            {"allocations_in_tick", violations.allocations},
+            {"deallocations_in_tick", violations.deallocations},
+            {"contact", reader.statistics.contactJson()},
+            {"force", reader.statistics.forceJson()},
+            {"flags", reader.statistics.flagsJson()},
+            {"gpu",
+             {{"name", gpu->name()},
+              {"description", gpu->description()},
+              {"validation_active", gpu->validationActive()},
+              {"validation_messages", gpu->validationMessages().size()}}},
+        };
+        report->write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        report->commit();
+    }
+    const ServoLoop::Counters counters = servo.counters();
+    std::printf("%llu ticks (%llu missed) in %.1f s, %llu in contact, %llu frames\n",
+                static_cast<unsigned long long>(counters.ticks),
+                static_cast<unsigned long long>(counters.missed), frames.seconds,
+                static_cast<unsigned long long>(reader.statistics.contactTicks()),
+                static_cast<unsigned long long>(frames.count));
+    return 0;
+}
+
+} // namespace touchstone

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "devices/device.h"
+#include "haptics/servo/servo_loop.h"
+
+namespace touchstone {
+
+/// Plugs a device into the servo; the device outlives the loop.
+[[nodiscard]] inline DevicePort portOf(Device& device) {
+    return {.context = &device,
+            .sample = [](void* context,
+                         double time) noexcept { return static_cast<Device*>(context)->sample(time); },
+            .apply =
+                [](void* context, const DeviceCommand& command) noexcept {
+                    static_cast<Device*>(context)->apply(command);
+                }};
+}
+
+} // namespace touchstone

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "haptics/haptic_settings.h"
+#include "haptics/servo/servo_loop.h"
+#include "renderer/overlay.h"
+
+namespace touchstone {
+
+/// What a tick looks like: HIP, proxy, force arrow, active planes, stiction point. Main thread.
+void drawTick(const TickRecord& record, const HapticSettings& settings, Overlay& overlay);
+
+} // namespace touchstone
