@@ -1,0 +1,227 @@
+#include "workbench/panel.h"
+
+#include "workbench/force_plot.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <cstdio>
+
+namespace touchstone {
+
+namespace {
+
+class Panel {
+  public:
+    Panel(const PanelInput& input, PanelState& state) : in_(input), state_(state) {}
+
+    std::map<std::string, WidgetRect> draw() {
+        header();
+        model();
+        hand();
+        feel();
+        force();
+        servo();
+        view();
+        warnings();
+        keys();
+        return std::move(widgets_);
+    }
+
+  private:
+    void header() {
+        const auto [text, color] = lamp();
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float radius = 0.32f * ImGui::GetTextLineHeight();
+        ImGui::GetWindowDrawList()->AddCircleFilled(
+            ImVec2(at.x + radius, at.y + 0.5f * ImGui::GetTextLineHeight()), radius, color);
+        ImGui::Dummy(ImVec2(2.0f * radius, ImGui::GetTextLineHeight()));
+        ImGui::SameLine();
+        ImGui::TextUnformatted(text);
+        mark("lamp");
+        ImGui::Spacing();
+    }
+
+    struct Lamp {
+        const char* text;
+        ImU32 color;
+    };
+    [[nodiscard]] Lamp lamp() const {
+        constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255), kGreen = IM_COL32(80, 200, 120, 255),
+                        kAmber = IM_COL32(240, 180, 60, 255), kRed = IM_COL32(235, 75, 65, 255);
+        const HapticOutput& tick = in_.servo->last.output;
+        if (in_.loading)
+            return {"Loading", kAmber};
+        if (has(tick.flags, TickFlag::SafetyLatched))
+            return {"Force off after a fault: press space twice", kRed};
+        if (!state_.settings.forceEnabled)
+            return {"Force off (space)", kAmber};
+        if (has(tick.flags, TickFlag::StartedInside))
+            return {"Inside: move out to touch", kAmber};
+        if (has(tick.flags, TickFlag::InputInvalid))
+            return {"No hand", kGrey};
+        if (has(tick.flags, TickFlag::ForceRamping) && tick.contacts > 0)
+            return {"Force fades in", kAmber};
+        return tick.contacts > 0 ? Lamp{"Touching", kGreen} : Lamp{"In the air", kGrey};
+    }
+
+    void section(const char* title) {
+        ImGui::Dummy(ImVec2(0.0f, 4.0f * in_.scale));
+        ImGui::TextDisabled("%s", title);
+        ImGui::Separator();
+    }
+
+    void model() {
+        section("MODEL");
+        ImGui::TextUnformatted(in_.modelName.empty() ? "none yet" : in_.modelName.c_str());
+        if (!in_.modelFacts.empty())
+            ImGui::TextDisabled("%s", in_.modelFacts.c_str());
+        if (in_.loading)
+            ImGui::ProgressBar(static_cast<float>(in_.loadFraction), ImVec2(-1.0f, 0.0f),
+                               in_.loadActivity.c_str());
+        if (!in_.problem.empty()) {
+            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.5f, 0.42f, 1.0f));
+            ImGui::TextWrapped("%s", in_.problem.c_str());
+            ImGui::PopStyleColor();
+        }
+    }
+
+    void hand() {
+        section("HAND");
+        if (ImGui::RadioButton("Mouse", !state_.simulatedHand))
+            state_.simulatedHand = false;
+        mark("mouse");
+        ImGui::SameLine(0.0f, 24.0f * in_.scale);
+        if (!in_.canSimulate)
+            ImGui::BeginDisabled();
+        if (ImGui::RadioButton("Simulated hand", state_.simulatedHand))
+            state_.simulatedHand = true;
+        mark("simulatedHand");
+        if (!in_.canSimulate)
+            ImGui::EndDisabled();
+    }
+
+    /// A check box for an effect that may have several ways of being on: it comes back in the way it was.
+    template <class Mode>
+    void toggle(const char* label, const char* name, Mode& mode, Mode& chosen, Mode off, Mode usual) {
+        bool on = mode != off;
+        if (on)
+            chosen = mode;
+        if (ImGui::Checkbox(label, &on))
+            mode = !on ? off : (chosen != off ? chosen : usual);
+        mark(name);
+    }
+
+    void feel() {
+        section("FEEL");
+        HapticSettings& settings = state_.settings;
+        HapticSettings& chosen = state_.chosen;
+        toggle("Force shading", "forceShading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
+               ShadingMode::TwoPass);
+        toggle("Texture", "texture", settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
+        toggle("Friction", "friction", settings.friction, chosen.friction, FrictionMode::Off,
+               FrictionMode::Zilles);
+        ImGui::PushItemWidth(-1.0f);
+        auto stiffness = static_cast<float>(settings.stiffness);
+        const char* shown = stiffness <= 0.0f ? "stiffness: the material's" : "stiffness %.0f N/m";
+        if (ImGui::SliderFloat("##stiffness", &stiffness, 0.0f, 3000.0f, shown))
+            settings.stiffness = static_cast<double>(stiffness);
+        mark("stiffness");
+        auto radius = static_cast<float>(1e3 * settings.proxyRadius);
+        if (ImGui::SliderFloat("##proxyRadius", &radius, 0.0f, 5.0f, "proxy radius %.2f mm"))
+            settings.proxyRadius = 1e-3 * static_cast<double>(radius);
+        mark("proxyRadius");
+        ImGui::PopItemWidth();
+    }
+
+    void force() {
+        section("FORCE");
+        const HapticOutput& tick = in_.servo->last.output;
+        ImGui::Text("%.2f N", glm::length(tick.force));
+        ImGui::SameLine();
+        ImGui::TextDisabled("at a depth of %.2f mm", 1e3 * tick.penetration);
+        drawForcePlot(*in_.forces, 96.0f * in_.scale);
+    }
+
+    void row(const char* label, const char* format, double a, double b = 0.0) {
+        ImGui::TextDisabled("%s", label);
+        ImGui::SameLine(120.0f * in_.scale);
+        ImGui::Text(format, a, b);
+    }
+
+    void servo() {
+        section("SERVO");
+        const ServoView& servo = *in_.servo;
+        row("rate", "%.0f Hz of %.0f", servo.ticksPerSecond, servo.rateHz);
+        row("missed", "%.0f of %.0f", static_cast<double>(servo.counters.missed),
+            static_cast<double>(servo.counters.ticks));
+        row("step", "%.1f µs, p99 %.1f µs", servo.stepP50Us, servo.stepP99Us);
+        row("wake-up", "%.1f µs, p99 %.1f µs", servo.wakeP50Us, servo.wakeP99Us);
+        row("picture", "%.0f frames/s", in_.framesPerSecond);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%d x %d on %s", in_.sceneSize.x, in_.sceneSize.y, in_.gpuName.c_str());
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextDisabled("%s", servo.scheduling.c_str());
+        ImGui::PopTextWrapPos();
+    }
+
+    void view() {
+        section("VIEW");
+        constexpr std::array kLabels{"as it looks", "height map", "friction map",       "stiffness map",
+                                     "damping map", "normals",    "texture coordinates"};
+        static_assert(kLabels.size() == kViewModeNames.size());
+        ImGui::PushItemWidth(-1.0f);
+        int mode = static_cast<int>(state_.view);
+        if (ImGui::Combo("##view", &mode, kLabels.data(), static_cast<int>(kLabels.size())))
+            state_.view = static_cast<ViewMode>(mode);
+        mark("view");
+        ImGui::PopItemWidth();
+    }
+
+    void warnings() {
+        if (in_.warnings.empty())
+            return;
+        section("WARNINGS");
+        ImGui::PushTextWrapPos(0.0f);
+        for (const std::string& warning : in_.warnings)
+            ImGui::TextUnformatted(warning.c_str());
+        ImGui::PopTextWrapPos();
+    }
+
+    void keys() {
+        section("KEYS");
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextDisabled(
+            "Left drag moves the hand, the wheel in depth. Right drag turns the view, middle drag "
+            "shifts it, Ctrl+wheel zooms. Space: force off and on. Home: all in view. Drop a "
+            ".glb or .gltf here to open it.");
+        ImGui::PopTextWrapPos();
+    }
+
+    /// Notes where the last widget is.
+    void mark(const char* name) {
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        widgets_[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+    }
+
+    const PanelInput& in_;
+    PanelState& state_;
+    std::map<std::string, WidgetRect> widgets_;
+};
+
+} // namespace
+
+std::map<std::string, WidgetRect> drawPanel(const PanelInput& input, PanelState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float width = kPanelWidth * input.scale;
+    ImGui::SetNextWindowPos(ImVec2(io.DisplaySize.x - width, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(width, io.DisplaySize.y));
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    std::map<std::string, WidgetRect> widgets = Panel(input, state).draw();
+    ImGui::End();
+    return widgets;
+}
+
+} // namespace touchstone

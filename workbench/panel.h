@@ -1,0 +1,51 @@
+#pragma once
+
+#include "haptics/haptic_settings.h"
+#include "renderer/view.h"
+#include "workbench/force_history.h"
+#include "workbench/servo_view.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// Where a widget is on the window, in its coordinates from the upper left corner.
+struct WidgetRect {
+    float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+};
+
+/// What the panel shows.
+struct PanelInput {
+    std::string modelName, modelFacts; ///< "doughnut.glb", "64,800 triangles"
+    std::vector<std::string> warnings;
+    std::string problem; ///< of the last load, with its remedy; empty: none
+    bool loading = false;
+    double loadFraction = 0.0;
+    std::string loadActivity;
+    bool canSimulate = false; ///< there is a path for the simulated hand
+    const ServoView* servo = nullptr;
+    const ForceHistory* forces = nullptr;
+    double framesPerSecond = 0.0;
+    glm::ivec2 sceneSize{0};
+    std::string gpuName;
+    float scale = 1.0f; ///< pixels for one unit of the layout
+};
+
+/// What the panel changes. Plain values of the main thread.
+struct PanelState {
+    HapticSettings settings;
+    HapticSettings chosen; ///< what the toggles return to when switched on again
+    bool simulatedHand = false;
+    ViewMode view = ViewMode::Shaded;
+};
+
+/// Units of layout that the panel takes on the right of the window.
+inline constexpr float kPanelWidth = 320.0f;
+
+/// Draws the panel over the right side of the ImGui frame and applies what the user did to `state`. Returns
+/// where its widgets are, by name ("friction", "texture", "forceShading", "stiffness", ...).
+std::map<std::string, WidgetRect> drawPanel(const PanelInput& input, PanelState& state);
+
+} // namespace touchstone

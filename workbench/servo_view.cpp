@@ -1,0 +1,28 @@
+#include "workbench/servo_view.h"
+
+namespace touchstone {
+
+void ServoView::drain(ServoLoop& servo, ForceHistory& forces, double now) {
+    TickRecord record;
+    while (servo.popRecord(record)) {
+        statistics_.addLive(record);
+        forces.add(record.output);
+        last = record;
+    }
+    counters = servo.counters();
+    if (lastRenewal_ >= 0.0 && now - lastRenewal_ < kRenewal)
+        return;
+    if (lastRenewal_ >= 0.0)
+        ticksPerSecond = static_cast<double>(counters.ticks - ticksThen_) / (now - lastRenewal_);
+    lastRenewal_ = now;
+    ticksThen_ = counters.ticks;
+    scheduling = servo.scheduling().policy;
+    rateHz = servo.rateHz();
+    const auto us = [](int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+    wakeP50Us = us(statistics_.wake().percentile(0.5));
+    wakeP99Us = us(statistics_.wake().percentile(0.99));
+    stepP50Us = us(statistics_.step().percentile(0.5));
+    stepP99Us = us(statistics_.step().percentile(0.99));
+}
+
+} // namespace touchstone

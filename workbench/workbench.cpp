@@ -1,0 +1,213 @@
+// The window: open it, load the model on a worker, let the servo touch it, draw what it felt thirty times a
+// second.
+
+#include "engine/core/error.h"
+#include "haptics/servo/servo_loop.h"
+#include "renderer/adaptive_resolution.h"
+#include "renderer/scene_renderer.h"
+#include "renderer/window_target.h"
+#include "workbench/commands.h"
+#include "workbench/default_scene.h"
+#include "workbench/device_port.h"
+#include "workbench/hand_switch.h"
+#include "workbench/interrupt.h"
+#include "workbench/model_loader.h"
+#include "workbench/overlays.h"
+#include "workbench/panel.h"
+#include "workbench/render_threads.h"
+#include "workbench/status_file.h"
+#include "workbench/style.h"
+#include "workbench/view_control.h"
+#include "workbench/window.h"
+
+#include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kFramePeriod = 1.0 / 30.0; // s
+constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU draws it
+constexpr int kHardwarePixels = 2560 * 1440;
+constexpr double kPlotSeconds = 2.0;
+
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+class Workbench {
+  public:
+    explicit Workbench(const WindowOptions& options)
+        : window_("Touchstone", options.size), gpu_(makeGpu(window_, options)),
+          target_(*gpu_, window_.handle()), renderer_(*gpu_),
+          resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels}),
+          servo_(portOf(hand_), {.rateHz = options.rateHz}),
+          forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
+        applyStyle(window_.contentScale());
+        state_.settings = state_.chosen = options.settings;
+        state_.simulatedHand = options.simulatedHand;
+        servo_.setSettings(state_.settings);
+        servo_.start();
+    }
+
+    void open(const std::filesystem::path& path) {
+        problem_.clear();
+        loader_.start(path, hand_.limits());
+    }
+
+    /// One turn of the main loop.
+    void frame() {
+        const double start = secondsNow();
+        takeModel();
+        if (const auto dropped = window_.takeDropped())
+            open(*dropped);
+        servo_.updateSnapshot();
+        servoView_.drain(servo_, forces_, start);
+        if (target_.beginFrame())
+            draw();
+        hand_.mouse().moveTo(view_.handGoal()); // in every frame: a frozen window is a hand that is gone
+        hand_.simulate(state_.simulatedHand);
+        pace(start);
+    }
+
+    [[nodiscard]] bool closed() const { return window_.shouldClose() || interrupted(); }
+    [[nodiscard]] bool loading() const { return loader_.loading(); }
+    [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
+
+  private:
+    static std::unique_ptr<Gpu> makeGpu(Window& window, const WindowOptions& options) {
+        leaveOneCoreToTheServo(); // before the device, which comes before the servo thread
+        return createGpuForWindow(window.handle(), {.device = options.gpu});
+    }
+
+    /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
+    void takeModel() {
+        try {
+            std::optional<LoadedModel> loaded = loader_.take();
+            if (loaded)
+                show(std::move(*loaded));
+        } catch (const Error& error) {
+            if (!hasModel())
+                throw;
+            problem_ = error.what();
+        }
+    }
+
+    void show(LoadedModel loaded) {
+        shown_ = std::move(loaded);
+        renderer_.setScene(shown_.model.scene);
+        servo_.offerScene(shown_.model.haptic);
+        hand_.offerPath(shown_.path);
+        view_.lookAt(workspaceBounds(shown_.model), aspect());
+        forces_.clear();
+        window_.setTitle(shown_.model.scene->path + " – Touchstone");
+    }
+
+    void draw() {
+        const glm::ivec2 area = pictureArea();
+        const PanelInput input = panelInput(resolution_.sceneSize(area));
+        const HapticSettings before = state_.settings;
+        const auto widgets = drawPanel(input, state_);
+        const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
+        view_.update(glm::dvec2(area) / points);
+        if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_SPACE, false))
+            state_.settings.forceEnabled = !state_.settings.forceEnabled;
+        if (!(state_.settings == before))
+            servo_.setSettings(state_.settings);
+
+        overlay_.clear();
+        if (hasModel())
+            drawTick(servo_.snapshot(), state_.settings, overlay_);
+        View view = viewOf(view_.camera(), shown_.model.workspaceFromScene, aspect());
+        view.mode = state_.view;
+        renderer_.render(view, overlay_, input.sceneSize.x, input.sceneSize.y);
+        target_.endFrame(&renderer_, {0, 0, area.x, area.y});
+        status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
+    }
+
+    [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize) const {
+        PanelInput input;
+        if (hasModel()) {
+            const Scene& scene = *shown_.model.scene;
+            input.modelName = std::filesystem::path(scene.path).filename().string();
+            input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
+                               (scene.touchable() ? "" : ": nothing to touch");
+            for (const auto* warnings : {&scene.warnings, &shown_.model.haptic->warnings})
+                for (const Warning& warning : *warnings)
+                    input.warnings.push_back(warning.place + ": " + warning.message);
+        }
+        input.problem = problem_;
+        input.loading = loader_.loading();
+        input.loadFraction = loader_.fraction();
+        input.loadActivity = loader_.activity();
+        input.canSimulate = shown_.path != nullptr;
+        input.servo = &servoView_;
+        input.forces = &forces_;
+        input.framesPerSecond = framesPerSecond_;
+        input.sceneSize = sceneSize;
+        input.gpuName = gpu_->name();
+        input.scale = window_.contentScale();
+        return input;
+    }
+
+    /// The part of the framebuffer that the panel leaves, pixels.
+    [[nodiscard]] glm::ivec2 pictureArea() const {
+        const ImGuiIO& io = ImGui::GetIO();
+        const float panel = kPanelWidth * window_.contentScale() * io.DisplayFramebufferScale.x;
+        const glm::ivec2 size = target_.size();
+        return {std::max(16, size.x - static_cast<int>(panel)), std::max(16, size.y)};
+    }
+    [[nodiscard]] double aspect() const {
+        const glm::ivec2 area = pictureArea();
+        return static_cast<double>(area.x) / area.y;
+    }
+
+    /// Adapts the picture to the time it took and waits for the next frame's turn, handling events meanwhile.
+    void pace(double start) {
+        resolution_.frameDone(secondsNow() - start);
+        window_.waitEvents(0.0);
+        for (double left = start + kFramePeriod - secondsNow(); left > 0.0;
+             left = start + kFramePeriod - secondsNow())
+            window_.waitEvents(left);
+        constexpr double kShare = 0.1; // of the newest frame in the running mean
+        const double rate = 1.0 / (secondsNow() - start);
+        framesPerSecond_ = framesPerSecond_ <= 0.0 ? rate : (1.0 - kShare) * framesPerSecond_ + kShare * rate;
+    }
+
+    Window window_;
+    std::unique_ptr<Gpu> gpu_;
+    WindowTarget target_;
+    SceneRenderer renderer_;
+    AdaptiveResolution resolution_;
+    HandSwitch hand_;
+    ServoLoop servo_;
+    ModelLoader loader_;
+    LoadedModel shown_;
+    ViewControl view_;
+    PanelState state_;
+    ServoView servoView_;
+    ForceHistory forces_;
+    Overlay overlay_;
+    StatusFile status_;
+    std::string problem_;
+    double framesPerSecond_ = 0.0;
+};
+
+} // namespace
+
+int windowCommand(const WindowOptions& options) {
+    catchInterrupts();
+    Workbench workbench(options);
+    workbench.open(options.scene.empty() ? defaultScene() : options.scene);
+    while (!workbench.closed())
+        workbench.frame();
+    return 0;
+}
+
+} // namespace touchstone
