@@ -1,0 +1,136 @@
+#include "tests/support/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone::test {
+
+namespace {
+
+/// Finer than the solver under test by two orders of magnitude in every respect.
+constexpr long double kGap = 1e-14L;
+constexpr long double kTouch = 3e-14L;
+constexpr long double kStill = 1e-14L;
+
+/// Nearest point to `wish` in the cone of directions that no plane forbids (n . x >= 0), by enumeration of
+/// all sets of up to three planes.
+LVec3 nearestAllowed(const LVec3& wish, const std::vector<LVec3>& n) {
+    const auto allowed = [&](const LVec3& x) {
+        for (const LVec3& normal : n)
+            if (glm::dot(normal, x) < -1e-17L * (1.0L + glm::length(wish)))
+                return false;
+        return true;
+    };
+    if (allowed(wish))
+        return wish;
+    LVec3 best(0.0L);
+    long double least = glm::dot(wish, wish); // staying put is always allowed
+    const auto consider = [&](const LVec3& x) {
+        const long double away = glm::dot(x - wish, x - wish);
+        if (away < least && allowed(x)) {
+            least = away;
+            best = x;
+        }
+    };
+    for (size_t i = 0; i < n.size(); ++i)
+        consider(wish - glm::dot(wish, n[i]) * n[i]);
+    for (size_t i = 0; i < n.size(); ++i)
+        for (size_t k = i + 1; k < n.size(); ++k) {
+            const LVec3 line = glm::cross(n[i], n[k]);
+            const long double squared = glm::dot(line, line);
+            if (squared > 1e-30L)
+                consider(glm::dot(wish, line) / squared * line);
+        }
+    return best; // with three independent planes only the corner itself is left, which is staying put
+}
+
+/// First touch of the sphere with one triangle along from + t * move by bisection on the convex distance:
+/// find the least distance, and if it is below `reach`, the crossing before it.
+long double touchTime(const HapticObject& object, size_t triangle, const LVec3& from, const LVec3& move,
+                      long double reach, long double limit) {
+    const auto distance = [&](long double t) {
+        return bruteDistance(object, triangle, from + t * move).distance;
+    };
+    const BruteContact start = bruteDistance(object, triangle, from);
+    if (start.distance > reach + limit * glm::length(move))
+        return limit;
+    if (glm::dot(start.normal, move) >= 0.0L)
+        return limit;
+    long double low = 0.0L, high = limit;
+    for (int i = 0; i < 200 && high - low > 1e-19L; ++i) { // ternary search of the minimum
+        const long double a = low + (high - low) / 3.0L, b = high - (high - low) / 3.0L;
+        if (distance(a) < distance(b))
+            high = b;
+        else
+            low = a;
+    }
+    const long double bottom = 0.5L * (low + high);
+    if (distance(bottom) >= reach)
+        return limit;
+    low = 0.0L, high = bottom;
+    for (int i = 0; i < 100; ++i) {
+        const long double middle = 0.5L * (low + high);
+        (distance(middle) >= reach ? low : high) = middle;
+    }
+    return low;
+}
+
+} // namespace
+
+OracleRest oracleRest(const HapticObject& object, const LVec3& from, const LVec3& goal, long double radius) {
+    OracleRest rest;
+    rest.proxy = from;
+    // Only triangles that the way could meet: the proxy never leaves the ball through itself around the goal.
+    const long double reach = glm::length(goal - from) + radius + kTouch;
+    std::vector<size_t> near;
+    for (size_t t = 0; t < object.triangleCount(); ++t) {
+        const uint32_t* i = &object.indices[3 * t];
+        if (i[0] == i[1] || i[1] == i[2] || i[2] == i[0])
+            continue;
+        if (bruteDistance(object, t, goal).distance <= reach)
+            near.push_back(t);
+    }
+    for (; rest.moves < kOracleMoves; ++rest.moves) {
+        rest.touching.clear();
+        for (const size_t t : near) {
+            const BruteContact contact = bruteDistance(object, t, rest.proxy);
+            if (contact.distance <= radius + kTouch)
+                rest.touching.push_back(contact.normal);
+        }
+        const LVec3 move = nearestAllowed(goal - rest.proxy, rest.touching);
+        if (glm::length(move) <= kStill) {
+            rest.settled = true;
+            return rest;
+        }
+        long double share = 1.0L;
+        for (const size_t t : near)
+            share = std::min(share, touchTime(object, t, rest.proxy, move, radius + kGap, share));
+        if (share <= 0.0L) { // struck by a surface that is near but not yet touching: take it in
+            for (const size_t t : near) {
+                const BruteContact contact = bruteDistance(object, t, rest.proxy);
+                if (contact.distance <= radius + 4.0L * kTouch && glm::dot(contact.normal, move) < 0.0L)
+                    rest.touching.push_back(contact.normal);
+            }
+            const LVec3 second = nearestAllowed(goal - rest.proxy, rest.touching);
+            if (glm::length(second) <= kStill) {
+                rest.settled = true;
+                return rest;
+            }
+            long double part = 1.0L;
+            for (const size_t t : near)
+                part = std::min(part, touchTime(object, t, rest.proxy, second, radius + kGap, part));
+            rest.proxy += part * second;
+            if (part <= 0.0L)
+                return rest;
+            continue;
+        }
+        rest.proxy += share * move;
+    }
+    return rest;
+}
+
+long double restResidual(const std::vector<LVec3>& touching, const LVec3& proxy, const LVec3& goal) {
+    return glm::length(nearestAllowed(goal - proxy, touching));
+}
+
+} // namespace touchstone::test

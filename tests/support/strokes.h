@@ -1,0 +1,53 @@
+#pragma once
+// Strokes with taps over our shapes: the same hand for the invariants, the oracle and the benchmark.
+
+#include "assets/shapes.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace touchstone::test {
+
+struct StrokeCase {
+    std::string name;
+    assets::Shape shape;
+    double tube;   ///< m, radius of the tube for a torus of ring 60 mm; 0: a body around the origin
+    double reach;  ///< m, distance of the nominal surface from the centre or the ring
+    double depth;  ///< m below the nominal surface
+    double speed;  ///< m/s
+    double radius; ///< m
+    int ticks;
+    int oracleTicks; ///< of which the oracle, which is slow, checks the first
+};
+
+inline std::vector<StrokeCase> strokeCases() {
+    std::vector<StrokeCase> all;
+    for (const double radius : {0.0, 0.5e-3})
+        for (const double speed : {0.1, 1.0}) {
+            all.push_back(
+                {"sphere1800", assets::sphere(0.05, 30, 30), 0.0, 0.05, 1e-3, speed, radius, 1500, 300});
+            all.push_back(
+                {"box", assets::box({0.08, 0.09, 0.1}, 4), 0.0, 0.05, 8e-3, speed, radius, 1500, 300});
+            all.push_back({"torus6480", assets::torus(0.06, 0.025, 72, 45), 0.025, 0.025, 1e-3, speed, radius,
+                           800, 200});
+            all.push_back({"torus64800", assets::torus(0.06, 0.025, 180, 180), 0.025, 0.025, 1e-3, speed,
+                           radius, 120, 60});
+        }
+    return all;
+}
+
+/// A stroke with taps: the hand runs over the shape and lifts off now and then.
+inline glm::dvec3 strokeHand(const StrokeCase& c, int tick) {
+    const double a = tick * c.speed * 1e-3 / (c.tube > 0.0 ? 0.085 : c.reach);
+    const double reach = c.reach - c.depth * (0.4 + 0.6 * std::cos(0.05 * tick));
+    if (c.tube > 0.0) {
+        const double v = 0.8 * a + 0.5;
+        const double ring = 0.06 + reach * std::cos(v);
+        return {ring * std::cos(a), ring * std::sin(a), reach * std::sin(v)};
+    }
+    const double tilt = 0.6 * std::sin(0.37 * a);
+    return reach * glm::dvec3(std::cos(a) * std::cos(tilt), std::sin(a) * std::cos(tilt), std::sin(tilt));
+}
+
+} // namespace touchstone::test
