@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -27,7 +28,9 @@ struct PixelRect {
 /// callbacks before construction: ImGui's backend chains to them. Main thread only. The window outlives it.
 class WindowTarget {
   public:
-    WindowTarget(Gpu& gpu, GLFWwindow* window);
+    /// `setUp` is called once with the ImGui context current and before the font is uploaded: fonts, style.
+    /// May be empty.
+    WindowTarget(Gpu& gpu, GLFWwindow* window, const std::function<void()>& setUp = {});
     ~WindowTarget();
     WindowTarget(const WindowTarget&) = delete;
     WindowTarget& operator=(const WindowTarget&) = delete;

@@ -12,18 +12,20 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv0;
 layout(location = 4) in vec2 uv1;
-layout(location = 5) in vec4 color;
 #ifdef FALSE_COLOR
 layout(location = 6) in float scalar;
+#else
+layout(location = 5) in vec4 color;
 #endif
 
 layout(location = 0) out vec3 eyePosition;
 layout(location = 1) out vec3 eyeNormal;
 layout(location = 2) out vec4 eyeTangent;
 layout(location = 3) out vec4 uvs;
-layout(location = 4) out vec4 vertexColor;
 #ifdef FALSE_COLOR
 layout(location = 5) out float vertexScalar;
+#else
+layout(location = 4) out vec4 vertexColor;
 #endif
 
 void main() {
@@ -38,10 +40,11 @@ void main() {
                           dot(object.eyeFromMesh[2].xyz, tangent.xyz), tangent.w * object.normalFromMesh[0].w);
     uvs = vec4(uv0, 0.0, 0.0);
     if ((kFeatures & kHasUvTransform) != 0u) uvs.zw = uv1;
-    vertexColor = vec4(1.0);
-    if ((kFeatures & kHasVertexColor) != 0u) vertexColor = color;
 #ifdef FALSE_COLOR
     vertexScalar = scalar;
+#else
+    vertexColor = vec4(1.0);
+    if ((kFeatures & kHasVertexColor) != 0u) vertexColor = color;
 #endif
     gl_Position = frame.clipFromEye * vec4(eyePosition, 1.0);
 }

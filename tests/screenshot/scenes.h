@@ -38,6 +38,7 @@ inline OrbitCamera cameraFor(const Scene& scene, double aspect) {
     OrbitCamera camera;
     camera.orbit(0.45, 0.55);
     camera.frame(scene.bounds, aspect);
+    camera.zoom(0.8);
     return camera;
 }
 

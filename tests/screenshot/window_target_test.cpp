@@ -1,0 +1,187 @@
+// The window's end of the renderer, in a real window of a virtual display.
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#define GLFW_INCLUDE_NONE
+#include "renderer/window_target.h"
+#include "tests/screenshot/scenes.h"
+#include "tests/support/lavapipe.h"
+#include "tests/support/virtual_display.h"
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+namespace touchstone::test {
+namespace {
+
+constexpr glm::ivec3 kPanelColor(20, 200, 40); ///< of the ImGui rectangle, bytes
+
+class WindowTargetTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        useLavapipe();
+        display_ = std::make_unique<VirtualDisplay>();
+        ASSERT_TRUE(glfwInit());
+        glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+        window_ = glfwCreateWindow(640, 360, "test", nullptr, nullptr);
+        ASSERT_NE(window_, nullptr);
+        GpuOptions options;
+        options.validation = true;
+        options.log = log_;
+        gpu_ = createGpuForWindow(window_, options);
+        ASSERT_TRUE(gpu_->validationActive()) << gpu_->validationNote();
+        target_ = std::make_unique<WindowTarget>(*gpu_, window_);
+        scene_ = torusScene(64, 24);
+        renderer_ = std::make_unique<SceneRenderer>(*gpu_);
+        renderer_->setScene(scene_);
+    }
+
+    void TearDown() override {
+        renderer_.reset();
+        target_.reset();
+        gpu_.reset();
+        if (window_ != nullptr)
+            glfwDestroyWindow(window_);
+        glfwTerminate();
+        for (const std::string& message : log_->messages())
+            ADD_FAILURE() << message;
+    }
+
+    /// One frame: the scene in the right part of the window, a coloured rectangle of ImGui's in the left.
+    bool frame(glm::ivec2 sceneSize = {320, 180}) {
+        glfwPollEvents();
+        if (!target_->beginFrame())
+            return false;
+        const glm::ivec2 size = target_->size();
+        ImGui::GetBackgroundDrawList()->AddRectFilled(
+            ImVec2(0.0f, 0.0f), ImVec2(100.0f, static_cast<float>(size.y)),
+            IM_COL32(kPanelColor.x, kPanelColor.y, kPanelColor.z, 255));
+        const double aspect = static_cast<double>(size.x - 100) / size.y;
+        renderer_->render(viewOf(cameraFor(*scene_, aspect), {}, aspect), Overlay{}, sceneSize.x,
+                          sceneSize.y);
+        target_->endFrame(renderer_.get(), {100, 0, size.x - 100, size.y});
+        return true;
+    }
+
+    /// X answers requests when it likes: draws until `done`, at most five seconds.
+    template <class Done>
+    bool drawUntil(Done&& done) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (std::chrono::steady_clock::now() < end) {
+            frame();
+            if (done())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    }
+
+    PixelData capture() {
+        target_->requestCapture();
+        std::optional<PixelData> pixels;
+        drawUntil([&] { return (pixels = target_->takeCapture()).has_value(); });
+        return pixels.value_or(PixelData{});
+    }
+
+    static glm::ivec3 at(const PixelData& pixels, int x, int y) {
+        const size_t place =
+            size_t{4} * (static_cast<size_t>(y) * static_cast<size_t>(pixels.width) + static_cast<size_t>(x));
+        const auto byte = [&](size_t c) { return std::to_integer<int>(pixels.bytes[place + c]); };
+        return {byte(0), byte(1), byte(2)};
+    }
+
+    std::shared_ptr<ValidationLog> log_ = std::make_shared<ValidationLog>();
+    std::unique_ptr<VirtualDisplay> display_;
+    GLFWwindow* window_ = nullptr;
+    std::unique_ptr<Gpu> gpu_;
+    std::unique_ptr<WindowTarget> target_;
+    std::shared_ptr<Scene> scene_;
+    std::unique_ptr<SceneRenderer> renderer_;
+};
+
+TEST_F(WindowTargetTest, ShowsPanelAndSceneByteForByte) {
+    for (int i = 0; i < 5; ++i)
+        ASSERT_TRUE(frame());
+    // Scene image and its place in the window have the same size: no filtering between them.
+    const auto sameSize = [&] { return frame({540, 360}); };
+    ASSERT_TRUE(sameSize());
+    target_->requestCapture();
+    ASSERT_TRUE(sameSize());
+    const std::optional<PixelData> shown = target_->takeCapture();
+    ASSERT_TRUE(shown.has_value());
+    const PixelData drawn = renderer_->readPixels();
+    ASSERT_EQ(shown->width, 640);
+    ASSERT_EQ(shown->height, 360);
+    EXPECT_EQ(at(*shown, 50, 180), kPanelColor) << "ImGui's colours arrive unchanged";
+    int different = 0;
+    for (int y = 0; y < 360; ++y)
+        for (int x = 0; x < 540; ++x)
+            different += at(*shown, 100 + x, y) != at(drawn, x, y);
+    EXPECT_EQ(different, 0) << "the scene's bytes arrive unchanged";
+    EXPECT_NE(at(drawn, 270, 180), at(drawn, 5, 5)) << "there is something to see";
+}
+
+TEST_F(WindowTargetTest, FollowsAResizeThatOnlyTheFramebufferSizeTells) {
+    ASSERT_TRUE(frame());
+    const uint64_t made = target_->statistics().swapchainsMade;
+    glfwSetWindowSize(window_, 900, 500);
+    ASSERT_TRUE(drawUntil([&] { return target_->size() == glm::ivec2(900, 500); }));
+    EXPECT_GT(target_->statistics().swapchainsMade, made);
+    const PixelData shown = capture();
+    ASSERT_EQ(shown.width, 900);
+    ASSERT_EQ(shown.height, 500);
+    EXPECT_EQ(at(shown, 50, 490), kPanelColor) << "the whole of the new area is drawn";
+    const uint64_t after = target_->statistics().swapchainsMade;
+    for (int i = 0; i < 5; ++i)
+        ASSERT_TRUE(frame());
+    EXPECT_EQ(target_->statistics().swapchainsMade, after) << "no swapchain is made without need";
+    for (int i = 0; i < 20; ++i) {
+        glfwSetWindowSize(window_, 400 + 20 * i, 300 + 10 * i);
+        frame({160 + 8 * i, 90 + 8 * i});
+    }
+    EXPECT_TRUE(drawUntil([&] { return target_->size() == glm::ivec2(780, 490); }));
+}
+
+TEST_F(WindowTargetTest, DrawsNothingWhileMinimisedAndComesBack) {
+    ASSERT_TRUE(frame());
+    glfwHideWindow(window_);
+    glfwIconifyWindow(window_);
+    // Without a window manager nobody may answer the request; what counts is that frames go on or pause
+    // cleanly.
+    for (int i = 0; i < 10; ++i)
+        frame();
+    glfwShowWindow(window_);
+    glfwRestoreWindow(window_);
+    const uint64_t before = target_->statistics().framesPresented;
+    EXPECT_TRUE(drawUntil([&] { return target_->statistics().framesPresented > before + 3; }));
+}
+
+TEST_F(WindowTargetTest, CaptureIsOnlyThereWhenAsked) {
+    ASSERT_TRUE(frame());
+    EXPECT_FALSE(target_->takeCapture().has_value());
+    EXPECT_GT(capture().width, 0);
+    EXPECT_FALSE(target_->takeCapture().has_value());
+}
+
+TEST_F(WindowTargetTest, AFrameCanBeGivenUpAndSceneMayBeMissing) {
+    ASSERT_TRUE(target_->beginFrame());
+    target_->cancelFrame();
+    ASSERT_TRUE(target_->beginFrame());
+    target_->endFrame(nullptr, {});
+    EXPECT_TRUE(frame());
+}
+
+TEST_F(WindowTargetTest, ScenesAndModesChangeBetweenFrames) {
+    ASSERT_TRUE(frame());
+    renderer_->setScene(nullptr);
+    ASSERT_TRUE(frame());
+    renderer_->setScene(torusScene(24, 12));
+    ASSERT_TRUE(frame({64, 64}));
+    ASSERT_TRUE(frame({512, 256}));
+}
+
+} // namespace
+} // namespace touchstone::test
