@@ -13,17 +13,18 @@ enum class ComponentType : uint8_t { U8, U16, F32 };
 /// as stored in the file: no colour conversion is made (haptic maps are linear data; the eye decodes sRGB).
 struct PixelData {
     int width = 0, height = 0;
-    int channels = 0;                 ///< 1..4
+    int channels = 0; ///< 1..4
     ComponentType type = ComponentType::U8;
-    std::vector<std::byte> bytes;     ///< width * height * channels * componentSize
+    std::vector<std::byte> bytes; ///< width * height * channels * componentSize
 
     /// Channel `c` at column x, row y, as 0..1 for integer types and as stored for float. No bounds check.
     [[nodiscard]] float value(int x, int y, int c) const;
 };
 
-/// An image of the file. `pixels` is empty when nobody asked for it or when it is broken (`problem` says why).
+/// An image of the file. `pixels` is empty when nobody asked for it or when it is broken (`problem` says
+/// why).
 struct Image {
-    std::string name;                 ///< what to call it in messages: name, URI or "images[3]"
+    std::string name; ///< what to call it in messages: name, URI or "images[3]"
     PixelData pixels;
     std::string problem;
     bool decoded = false;

@@ -1,13 +1,13 @@
 #pragma once
 // What a surface looks like (glTF's metallic-roughness) and what it feels like (DESIGN §6).
 
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-
-#include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 
 namespace touchstone {
 
@@ -15,12 +15,12 @@ enum class Wrap : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
 
 /// A reference to an image with its sampler and KHR_texture_transform. UV origin is the upper left.
 struct TextureRef {
-    int image = -1;          ///< index into Scene::images; < 0: no texture
-    int texCoord = 0;        ///< UV set (0 or 1), already overridden by the transform extension
+    int image = -1;   ///< index into Scene::images; < 0: no texture
+    int texCoord = 0; ///< UV set (0 or 1), already overridden by the transform extension
     Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
-    bool nearest = false;    ///< sampler asks for nearest magnification
-    glm::vec2 offset{0.0f};  ///< KHR_texture_transform: uv' = offset + R(rotation) * (scale * uv)
-    float rotation = 0.0f;   ///< rad, counter-clockwise as the extension defines it
+    bool nearest = false;   ///< sampler asks for nearest magnification
+    glm::vec2 offset{0.0f}; ///< KHR_texture_transform: uv' = offset + R(rotation) * (scale * uv)
+    float rotation = 0.0f;  ///< rad, counter-clockwise as the extension defines it
     glm::vec2 scale{1.0f};
 
     [[nodiscard]] explicit operator bool() const { return image >= 0; }
@@ -41,7 +41,7 @@ struct FactorMap {
 /// Height in model metres: scale * (R - midLevel).
 struct HeightMap {
     TextureRef texture;
-    float scale = 0.0f;     ///< m, black to white, model metres
+    float scale = 0.0f; ///< m, black to white, model metres
     float midLevel = 0.5f;
 };
 
@@ -56,27 +56,27 @@ struct HapticMaterial {
         std::optional<T> value;
         HapticSource source = HapticSource::Default;
     };
-    Field<float> stiffness;         ///< N/m
-    Field<float> damping;           ///< N·s/m
-    Field<float> staticFriction;    ///< 1
-    Field<float> dynamicFriction;   ///< 1
-    Field<float> viscousFriction;   ///< N·s/m
+    Field<float> stiffness;              ///< N/m
+    Field<float> damping;                ///< N·s/m
+    Field<float> staticFriction;         ///< 1
+    Field<float> dynamicFriction;        ///< 1
+    Field<float> viscousFriction;        ///< N·s/m
     Field<float> normalTextureInfluence; ///< 0..1, felt share of the core normal map
     Field<HeightMap> height;
     Field<FactorMap> friction, stiffnessMap, dampingMap;
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
     std::string representation = "mesh"; ///< "implicit" is kept and reported as not yet available
-    nlohmann::json unavailable;     ///< fields of later work, kept verbatim for saving
+    nlohmann::json unavailable;          ///< fields of later work, kept verbatim for saving
 };
 
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1.0f};          ///< linear
-    TextureRef baseColorTexture;        ///< sRGB
+    glm::vec4 baseColor{1.0f};   ///< linear
+    TextureRef baseColorTexture; ///< sRGB
     float metallic = 1.0f, roughness = 1.0f;
     bool roughnessStated = false, metallicStated = false; ///< the file gives the factor explicitly
-    TextureRef metallicRoughnessTexture; ///< G roughness, B metallic
+    TextureRef metallicRoughnessTexture;                  ///< G roughness, B metallic
     TextureRef normalTexture;
     float normalScale = 1.0f;
     TextureRef occlusionTexture;

@@ -1,17 +1,17 @@
 #pragma once
 // What eye and hand share: an immutable scene. Made by scene_loader.h, validated before it exists.
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
+#include "engine/math/similarity.h"
+#include "engine/scene/image.h"
+#include "engine/scene/material.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/math/similarity.h"
-#include "engine/scene/image.h"
-#include "engine/scene/material.h"
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -20,13 +20,13 @@ namespace touchstone {
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;      ///< unit; from the file, else flat (then `normalsFromFile` is false)
-    std::vector<glm::vec4> tangents;     ///< xyz unit, w = +1 or -1; empty if the material needs none
+    std::vector<glm::vec3> normals;  ///< unit; from the file, else flat (then `normalsFromFile` is false)
+    std::vector<glm::vec4> tangents; ///< xyz unit, w = +1 or -1; empty if the material needs none
     std::vector<glm::vec2> uv0, uv1;
-    std::vector<glm::vec4> colors;       ///< linear, 0..1
+    std::vector<glm::vec4> colors;                   ///< linear, 0..1
     std::vector<float> stiffness, damping, friction; ///< _STIFFNESS, _DAMPING, _FRICTION (N/m, N·s/m, 1)
-    std::vector<uint32_t> indices;       ///< 3 per triangle, counter-clockwise seen from outside
-    int material = 0;                    ///< index into Scene::materials, always valid
+    std::vector<uint32_t> indices;                   ///< 3 per triangle, counter-clockwise seen from outside
+    int material = 0;                                ///< index into Scene::materials, always valid
     bool normalsFromFile = false, tangentsFromFile = false;
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
@@ -35,11 +35,11 @@ struct Mesh {
 /// Node transforms are kept as TRS in double so that animation can replace a part of them.
 struct Node {
     std::string name;
-    int parent = -1;                     ///< parents come before children in Scene::nodes
+    int parent = -1; ///< parents come before children in Scene::nodes
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
-    bool hasMatrix = false;              ///< then `matrix` is used verbatim (it may shear)
+    bool hasMatrix = false; ///< then `matrix` is used verbatim (it may shear)
     glm::dmat4 matrix{1.0};
 };
 
@@ -47,7 +47,7 @@ struct Node {
 struct Instance {
     int node = -1;
     int mesh = -1;
-    glm::dmat4 sceneFromMesh{1.0};       ///< rest pose; may mirror, shear or scale unevenly
+    glm::dmat4 sceneFromMesh{1.0}; ///< rest pose; may mirror, shear or scale unevenly
 };
 
 enum class Interpolation : uint8_t { Step, Linear, CubicSpline };
@@ -57,33 +57,33 @@ struct AnimationChannel {
     int node = -1;
     AnimatedPath path = AnimatedPath::Translation;
     Interpolation interpolation = Interpolation::Linear;
-    std::vector<float> times;            ///< s, strictly increasing
-    std::vector<glm::vec4> values;       ///< xyz(w); 3 per key for CubicSpline (in-tangent, value, out-tangent)
+    std::vector<float> times;      ///< s, strictly increasing
+    std::vector<glm::vec4> values; ///< xyz(w); 3 per key for CubicSpline (in-tangent, value, out-tangent)
 };
 
 struct Animation {
     std::string name;
-    double duration = 0.0;               ///< s
+    double duration = 0.0; ///< s
     std::vector<AnimationChannel> channels;
 };
 
 /// Something the user should know though the scene loads.
 struct Warning {
-    std::string place;                   ///< "materials[2].normalTexture"
+    std::string place; ///< "materials[2].normalTexture"
     std::string message;
 };
 
 struct Scene {
-    std::string path;                    ///< as given by the user
+    std::string path; ///< as given by the user
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;
     std::vector<Instance> instances;
-    std::vector<Material> materials;     ///< never empty: the glTF default material is appended when needed
+    std::vector<Material> materials; ///< never empty: the glTF default material is appended when needed
     std::vector<Image> images;
     std::vector<Animation> animations;
     std::vector<Warning> warnings;
     std::vector<std::string> extensionsUsed;
-    Bounds bounds;                       ///< scene frame, rest pose, over the instances' vertices
+    Bounds bounds; ///< scene frame, rest pose, over the instances' vertices
 
     [[nodiscard]] uint64_t triangleCount() const; ///< over the instances
     [[nodiscard]] bool touchable() const { return triangleCount() > 0; }
@@ -91,8 +91,8 @@ struct Scene {
 
 using ScenePtr = std::shared_ptr<const Scene>;
 
-/// Longest side of a model fitted to the device's workspace, m. A Phantom Premium 1.5 spans 381 x 267 x 191 mm;
-/// 0.15 m leaves room to approach the model from every side. Larger: finer device motion is felt coarser.
+/// Longest side of a model fitted to the device's workspace, m. A Phantom Premium 1.5 spans 381 x 267 x 191
+/// mm; 0.15 m leaves room to approach the model from every side. Larger: finer device motion is felt coarser.
 inline constexpr double kFittedExtent = 0.15;
 
 enum class Fit : uint8_t { None, Workspace };

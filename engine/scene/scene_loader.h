@@ -1,18 +1,20 @@
 #pragma once
 // glTF and GLB in: read, validate, build. Any thread; throws touchstone::Error.
 
+#include "engine/scene/scene.h"
+
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
-
-#include "engine/scene/scene.h"
+#include <vector>
 
 namespace touchstone {
 
 /// Which images to decode. What nobody uses is not decoded (DESIGN §7).
 struct ImageUse {
-    bool visual = true;   ///< base colour, metallic-roughness, normal, occlusion, emissive
-    bool haptic = true;   ///< normal maps that are felt, height, friction, stiffness, damping
+    bool visual = true; ///< base colour, metallic-roughness, normal, occlusion, emissive
+    bool haptic = true; ///< normal maps that are felt, height, friction, stiffness, damping
 };
 
 struct LoadOptions {
@@ -26,5 +28,9 @@ struct LoadOptions {
 /// Reads the file, follows its URIs inside its own folder, validates everything before use and builds the
 /// immutable scene. Broken images become warnings and grey; broken geometry, structure or references throw.
 [[nodiscard]] ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// The same for a .gltf or .glb that is already in memory; its URIs are relative to `folder`.
+[[nodiscard]] ScenePtr loadSceneFromMemory(std::vector<uint8_t> bytes, const std::filesystem::path& folder,
+                                           const LoadOptions& options = {});
 
 } // namespace touchstone

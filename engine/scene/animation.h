@@ -1,0 +1,47 @@
+#pragma once
+// Where everything is at a time: node animation of glTF sampled, and the poses of the instances composed.
+
+#include "engine/scene/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+/// One channel at `time` s: clamped to its first and last key outside of them (glTF 2.0, section 3.11).
+/// Linear rotations are slerped the short way, cubic ones normalised. Rotations are x, y, z, w. Any thread,
+/// no allocation.
+[[nodiscard]] glm::dvec4 sampleChannel(const AnimationChannel& channel, double time) noexcept;
+
+/// The rest pose of a node relative to its parent.
+[[nodiscard]] glm::dmat4 parentFromNode(const Node& node) noexcept;
+
+/// sceneFromMesh of every instance of a scene at a time. Made once (allocates); `evaluate` then allocates
+/// nothing, takes no lock and does not throw, so the servo may call it. Not shared between threads.
+class ScenePose {
+  public:
+    explicit ScenePose(const Scene& scene);
+
+    /// `animation` null: the rest pose. `time` is in the animation's own seconds; wrap it to loop.
+    void evaluate(const Scene& scene, const Animation* animation, double time) noexcept;
+
+    /// By instance, as of the last `evaluate` (the rest pose before any).
+    [[nodiscard]] std::span<const glm::dmat4> sceneFromMesh() const { return sceneFromMesh_; }
+
+  private:
+    struct LocalPose {
+        glm::dvec3 translation, scale;
+        glm::dquat rotation;
+    };
+    std::vector<LocalPose> local_;
+    std::vector<glm::dmat4> sceneFromNode_, sceneFromMesh_;
+};
+
+/// The same as one pure call, for use outside the servo.
+[[nodiscard]] std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* animation,
+                                                      double time);
+
+/// `time` wrapped into the animation, so that it repeats without end; 0 if it lasts no time.
+[[nodiscard]] double loopedTime(const Animation& animation, double time) noexcept;
+
+} // namespace touchstone

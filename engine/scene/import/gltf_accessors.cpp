@@ -1,0 +1,140 @@
+#include "engine/scene/import/gltf_accessors.h"
+
+#include "engine/scene/import/gltf_validation.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+template <class T>
+T loadUnaligned(const uint8_t* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+// glTF 2.0, section 3.11 (animations) and KHR_mesh_quantization: f = c / max, signed ones clamped at -1.
+template <class T>
+float asFloat(const uint8_t* bytes, bool normalized) {
+    const T value = loadUnaligned<T>(bytes);
+    if constexpr (std::is_floating_point_v<T>)
+        return value;
+    else if (!normalized)
+        return static_cast<float>(value);
+    else
+        return std::max(static_cast<float>(static_cast<double>(value) / std::numeric_limits<T>::max()),
+                        -1.0f);
+}
+
+using Convert = float (*)(const uint8_t*, bool);
+
+Convert converter(int componentType) {
+    switch (componentType) {
+    case 5120:
+        return asFloat<int8_t>;
+    case 5121:
+        return asFloat<uint8_t>;
+    case 5122:
+        return asFloat<int16_t>;
+    case 5123:
+        return asFloat<uint16_t>;
+    case 5125:
+        return asFloat<uint32_t>;
+    default:
+        return asFloat<float>;
+    }
+}
+
+uint32_t loadIndex(const uint8_t* bytes, int componentType) {
+    if (componentType == 5121)
+        return *bytes;
+    if (componentType == 5123)
+        return loadUnaligned<uint16_t>(bytes);
+    return loadUnaligned<uint32_t>(bytes);
+}
+
+/// Calls store(element, bytes) for every element in the buffer view, then for every sparse replacement.
+void visitElements(ImportContext& context, const GltfDocument& document, const tinygltf::Accessor& accessor,
+                   const std::string& place, auto&& store) {
+    const uint64_t bytes =
+        componentBytes(accessor.componentType) *
+        static_cast<uint64_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
+    if (accessor.bufferView >= 0) {
+        const size_t view = static_cast<size_t>(accessor.bufferView);
+        const uint64_t stride = document.model.bufferViews[view].byteStride != 0
+                                    ? document.model.bufferViews[view].byteStride
+                                    : bytes;
+        const uint8_t* data = document.buffers.view(view).data() + accessor.byteOffset;
+        for (uint64_t i = 0; i < accessor.count; ++i)
+            store(i, data + i * stride);
+    }
+    if (!accessor.sparse.isSparse)
+        return;
+    const auto& sparse = accessor.sparse;
+    const uint64_t indexBytes = componentBytes(sparse.indices.componentType);
+    const uint8_t* indices = document.buffers.view(static_cast<size_t>(sparse.indices.bufferView)).data() +
+                             sparse.indices.byteOffset;
+    const uint8_t* values = document.buffers.view(static_cast<size_t>(sparse.values.bufferView)).data() +
+                            sparse.values.byteOffset;
+    for (uint64_t i = 0; i < static_cast<uint64_t>(sparse.count); ++i) {
+        const uint64_t target = loadIndex(indices + i * indexBytes, sparse.indices.componentType);
+        if (target >= accessor.count)
+            context.fail(place + ".sparse.indices", "replaces element " + std::to_string(target) + " of " +
+                                                        std::to_string(accessor.count));
+        store(target, values + i * bytes);
+    }
+}
+
+} // namespace
+
+size_t accessorCount(const GltfDocument& document, int accessor) {
+    return document.model.accessors[static_cast<size_t>(accessor)].count;
+}
+
+int accessorComponents(const GltfDocument& document, int accessor) {
+    return tinygltf::GetNumComponentsInType(
+        static_cast<uint32_t>(document.model.accessors[static_cast<size_t>(accessor)].type));
+}
+
+std::vector<float> readFloats(ImportContext& context, const GltfDocument& document, int index,
+                              const std::string& place) {
+    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    const size_t components = static_cast<size_t>(accessorComponents(document, index));
+    if (accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3 ||
+        accessor.type == TINYGLTF_TYPE_MAT4)
+        context.fail(place, "should not be a matrix accessor");
+    context.spendGeometry(accessor.count * components * sizeof(float), place);
+    std::vector<float> values(accessor.count * components);
+    const Convert convert = converter(accessor.componentType);
+    const uint64_t step = componentBytes(accessor.componentType);
+    visitElements(context, document, accessor, element("accessors", static_cast<size_t>(index)),
+                  [&](uint64_t i, const uint8_t* bytes) {
+                      for (size_t c = 0; c < components; ++c)
+                          values[i * components + c] = convert(bytes + c * step, accessor.normalized);
+                  });
+    return values;
+}
+
+std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& document, int index,
+                                  const std::string& place) {
+    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    const int type = accessor.componentType;
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || (type != 5121 && type != 5123 && type != 5125))
+        context.fail(place, "indices must be a SCALAR accessor of an unsigned integer type");
+    context.spendGeometry(accessor.count * sizeof(uint32_t), place);
+    std::vector<uint32_t> values(accessor.count);
+    visitElements(context, document, accessor, element("accessors", static_cast<size_t>(index)),
+                  [&](uint64_t i, const uint8_t* bytes) { values[i] = loadIndex(bytes, type); });
+    const uint32_t restart = type == 5121 ? 0xFFu : type == 5123 ? 0xFFFFu : 0xFFFFFFFFu;
+    const auto found = std::find(values.begin(), values.end(), restart);
+    if (found != values.end())
+        context.fail(place, "index " + std::to_string(found - values.begin()) + " is " +
+                                std::to_string(restart) +
+                                ", the primitive-restart value, which glTF forbids");
+    return values;
+}
+
+} // namespace touchstone

@@ -1,0 +1,29 @@
+#pragma once
+// The bytes behind buffers and buffer views, wherever they lie: the GLB's chunk, a data URI, a file beside
+// the model, or compressed with EXT_meshopt_compression.
+
+#include "engine/scene/import/gltf_file.h"
+
+#include <vector>
+
+namespace touchstone {
+
+class BufferStore {
+  public:
+    /// Loads every buffer and decompresses every compressed view. Throws Error for what is missing or too
+    /// short. Needs a validated file, and refers to it.
+    BufferStore(ImportContext& context, const GltfFile& file);
+
+    /// The bytes of bufferViews[index]: exactly byteLength of them.
+    [[nodiscard]] ByteSpan view(size_t index) const { return views_[index]; }
+
+  private:
+    void loadBuffers(ImportContext& context, const GltfFile& file);
+    void loadViews(ImportContext& context, const GltfFile& file);
+
+    std::vector<std::vector<uint8_t>> owned_;
+    std::vector<ByteSpan> buffers_; ///< empty: the placeholder of a compressed view
+    std::vector<ByteSpan> views_;
+};
+
+} // namespace touchstone

@@ -1,0 +1,59 @@
+#include "engine/scene/import/gltf_document.h"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+void stripExtras(json& value) {
+    if (value.is_object()) {
+        value.erase("extras");
+        value.erase("extensions");
+    }
+    if (value.is_structured())
+        for (json& child : value)
+            stripExtras(child);
+}
+
+bool readNoImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                 void*) {
+    return true;
+}
+
+tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
+    json core = json::object();
+    for (const char* name : {"asset", "bufferViews", "accessors", "samplers", "textures", "materials",
+                             "meshes", "nodes", "scenes", "scene", "animations"}) {
+        const auto found = gltf.find(name);
+        if (found != gltf.end())
+            core[name] = *found;
+    }
+    stripExtras(core);
+    const std::string text = core.dump();
+    core = nullptr;
+
+    tinygltf::TinyGLTF reader;
+    reader.SetImageLoader(readNoImage, nullptr);
+    const tinygltf::FsCallbacks noFiles = {
+        [](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
+        [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
+        [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
+        nullptr};
+    reader.SetFsCallbacks(noFiles);
+
+    tinygltf::Model model;
+    std::string error, warning;
+    if (!reader.LoadASCIIFromString(&model, &error, &warning, text.c_str(),
+                                    static_cast<unsigned>(text.size()), ""))
+        context.fail("", error.empty() ? "is no valid glTF" : error);
+    return model;
+}
+
+} // namespace
+
+GltfDocument makeDocument(ImportContext& context, const GltfFile& file) {
+    BufferStore buffers(context, file);
+    return {file.json, typedModel(context, file.json), std::move(buffers)};
+}
+
+} // namespace touchstone

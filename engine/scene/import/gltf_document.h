@@ -1,0 +1,22 @@
+#pragma once
+// A validated glTF, ready to be read: its JSON, the same as typed structures, and its bytes.
+
+#include "engine/scene/import/gltf_buffers.h"
+
+#include <tiny_gltf.h>
+
+namespace touchstone {
+
+/// `model` holds the core objects (accessors, meshes, nodes, materials, ...) typed; `json` is the whole file,
+/// for extensions and for telling what the file states from what is a default; `buffers` has the bytes.
+struct GltfDocument {
+    const nlohmann::json& json;
+    tinygltf::Model model;
+    BufferStore buffers;
+};
+
+/// tinygltf gets the validated core of the JSON and nothing to read: no buffers, no images, no extras, no
+/// extensions. So it opens no file, decodes nothing, and never sees what we have not checked.
+[[nodiscard]] GltfDocument makeDocument(ImportContext& context, const GltfFile& file);
+
+} // namespace touchstone

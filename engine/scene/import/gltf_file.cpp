@@ -1,0 +1,138 @@
+#include "engine/scene/import/gltf_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
+constexpr uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
+constexpr uint32_t kBinChunk = 0x004E4942;  // "BIN\0"
+
+uint32_t littleEndian32(ByteSpan bytes, size_t at) {
+    return static_cast<uint32_t>(bytes[at]) | static_cast<uint32_t>(bytes[at + 1]) << 8 |
+           static_cast<uint32_t>(bytes[at + 2]) << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
+}
+
+// The parser calls back for every value and every opening bracket, before anything of that size is built.
+json parseBounded(const ImportContext& context, ByteSpan text) {
+    size_t values = 0;
+    const auto count = [&](int depth, json::parse_event_t, json&) {
+        if (depth > kMaxJsonDepth)
+            context.fail("",
+                         "the JSON is nested more than " + std::to_string(kMaxJsonDepth) + " levels deep");
+        if (++values > 2 * kMaxJsonValues) // objects and arrays report twice: opening and closing
+            context.fail("", "the JSON holds more than " + std::to_string(kMaxJsonValues) + " values",
+                         "split the model into several files");
+        return true;
+    };
+    try {
+        return json::parse(text.begin(), text.end(), count);
+    } catch (const json::exception& error) {
+        const std::string what = error.what();
+        const size_t text_at = what.find("] "); // drop the library's own "[json.exception...] "
+        context.fail("",
+                     "not a glTF file, or a damaged one: " +
+                         what.substr(text_at == std::string::npos ? 0 : text_at + 2),
+                     "open a .gltf or .glb file, or re-export this one");
+    }
+}
+
+/// Fills `json` and `binary` from the chunks of a GLB.
+ByteSpan readGlbChunks(ImportContext& context, GltfFile& file) {
+    const ByteSpan all = file.bytes;
+    if (all.size() < 20)
+        context.fail("header", "the GLB file is truncated: it ends inside its header",
+                     "copy or re-export the file");
+    const uint32_t version = littleEndian32(all, 4);
+    if (version != 2)
+        context.fail("header", "GLB version " + std::to_string(version) + " is not supported",
+                     "export it as glTF 2.0");
+    const uint64_t stated = littleEndian32(all, 8);
+    if (stated > all.size())
+        context.fail("header",
+                     "the GLB file is truncated: it should have " + std::to_string(stated) +
+                         " bytes and has " + std::to_string(all.size()),
+                     "copy or re-export the file");
+    if (stated < all.size())
+        context.warn("header", "bytes after the end of the GLB are ignored");
+
+    ByteSpan text;
+    bool haveJson = false;
+    for (uint64_t at = 12; at < stated;) {
+        if (stated - at < 8)
+            context.fail("chunks", "a GLB chunk header is cut off", "copy or re-export the file");
+        const uint64_t length = littleEndian32(all, at);
+        const uint32_t type = littleEndian32(all, at + 4);
+        at += 8;
+        if (length > stated - at)
+            context.fail("chunks", "a GLB chunk reaches beyond the end of the file",
+                         "copy or re-export the file");
+        const ByteSpan chunk = all.subspan(at, length);
+        if (!haveJson && type != kJsonChunk)
+            context.fail("chunks", "the first GLB chunk is not the JSON");
+        if (!haveJson)
+            text = chunk;
+        else if (type == kBinChunk && !file.binary)
+            file.binary = chunk;
+        haveJson = true;
+        at += length;
+    }
+    if (!haveJson)
+        context.fail("chunks", "the GLB holds no JSON chunk");
+    return text;
+}
+
+} // namespace
+
+std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& shownAs) {
+    namespace fs = std::filesystem;
+    std::error_code problem;
+    const fs::file_status status = fs::status(path, problem);
+    if (!fs::exists(status))
+        throw Error(shownAs, "", "there is no such file", "check the name and the folder");
+    // Also keeps the reader off pipes and devices, where it would wait or read for ever.
+    if (!fs::is_regular_file(status))
+        throw Error(shownAs, "", "is not a file", "name a .gltf or .glb file");
+    const uint64_t size = fs::file_size(path, problem);
+    if (problem)
+        throw Error(shownAs, "", "cannot be read: " + problem.message(), "check its permissions");
+    if (size > kMaxFileBytes)
+        throw Error(shownAs, "", "is larger than 4 GiB", "split the model into several files");
+
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream)
+        throw Error(shownAs, "", std::string("cannot be opened: ") + std::strerror(errno),
+                    "check its permissions");
+    std::vector<uint8_t> bytes(size);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (static_cast<uint64_t>(stream.gcount()) != size)
+        throw Error(shownAs, "", "could not be read to its end", "try again");
+    return bytes;
+}
+
+GltfFile takeGltfApart(ImportContext& context, std::vector<uint8_t> bytes,
+                       const std::filesystem::path& folder) {
+    GltfFile file;
+    file.folder = folder;
+    file.bytes = std::move(bytes);
+    ByteSpan text = file.bytes;
+    if (text.empty())
+        context.fail("", "the file is empty", "copy or re-export the file");
+    if (text.size() >= 4 && littleEndian32(text, 0) == kGlbMagic)
+        text = readGlbChunks(context, file);
+    file.json = parseBounded(context, text);
+    if (!file.json.is_object())
+        context.fail("", "not a glTF file: its JSON is not an object", "open a .gltf or .glb file");
+    return file;
+}
+
+GltfFile readGltfFile(ImportContext& context, const std::filesystem::path& path) {
+    return takeGltfApart(context, readWholeFile(path, context.file()), path.parent_path());
+}
+
+} // namespace touchstone

@@ -1,0 +1,38 @@
+#pragma once
+// The outermost layer: bytes of a .gltf or .glb to its JSON and binary chunk.
+
+#include "engine/scene/import/import_context.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+using ByteSpan = std::span<const uint8_t>;
+
+/// A glTF file taken apart. `binary` points into `bytes`.
+struct GltfFile {
+    std::filesystem::path folder; ///< what its URIs are relative to
+    std::vector<uint8_t> bytes;
+    nlohmann::json json;            ///< an object, at most kMaxJsonDepth deep, kMaxJsonValues values
+    std::optional<ByteSpan> binary; ///< the GLB's BIN chunk
+};
+
+/// Reads a regular file whole. Throws Error (missing, a folder, unreadable, beyond kMaxFileBytes).
+[[nodiscard]] std::vector<uint8_t> readWholeFile(const std::filesystem::path& path,
+                                                 const std::string& shownAs);
+
+/// Reads and takes apart `path`. Checks the GLB header and chunk table against the file's real size.
+[[nodiscard]] GltfFile readGltfFile(ImportContext& context, const std::filesystem::path& path);
+
+/// The same for bytes in memory; URIs are relative to `folder`.
+[[nodiscard]] GltfFile takeGltfApart(ImportContext& context, std::vector<uint8_t> bytes,
+                                     const std::filesystem::path& folder);
+
+} // namespace touchstone

@@ -1,0 +1,164 @@
+#include "engine/scene/import/gltf_images.h"
+
+#include "engine/scene/import/gltf_haptics.h"
+#include "engine/scene/import/gltf_uri.h"
+#include "engine/scene/import/image_decode.h"
+
+#include <array>
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+struct Encoded {
+    std::vector<uint8_t> owned;
+    ByteSpan bytes;
+    std::string declaredType;
+};
+
+Encoded fetch(ImportContext& context, const GltfFile& file, const GltfDocument& document, const json& gltf,
+              const std::string& place, Image& image) {
+    Encoded encoded;
+    encoded.declaredType = gltf.value("mimeType", "");
+    if (gltf.contains("bufferView")) {
+        encoded.bytes = document.buffers.view(gltf["bufferView"]);
+        return encoded;
+    }
+    const std::string uri = gltf["uri"];
+    if (isDataUri(uri)) {
+        DataUri data = decodeDataUri(context, place + ".uri", uri);
+        if (encoded.declaredType.empty())
+            encoded.declaredType = data.mediaType;
+        encoded.owned = std::move(data.bytes);
+    } else {
+        if (image.name.empty())
+            image.name = uri.substr(0, 200);
+        const auto path = resolveUri(context, place + ".uri", file.folder, uri);
+        try {
+            encoded.owned = readWholeFile(path, path.string());
+        } catch (const Error& error) {
+            image.problem = "\"" + uri.substr(0, 200) + "\": " + error.problem();
+        }
+    }
+    encoded.bytes = encoded.owned;
+    return encoded;
+}
+
+void warnOfType(ImportContext& context, const Encoded& encoded, const std::string& place) {
+    const std::string format = sniffImageFormat(encoded.bytes);
+    if (!encoded.declaredType.empty() && !format.empty() && encoded.declaredType != "image/" + format)
+        context.warn(place, "is declared as " + encoded.declaredType.substr(0, 60) + " but holds " + format);
+}
+
+void markUsed(std::vector<bool>& used, const TextureRef& texture) {
+    if (texture)
+        used[static_cast<size_t>(texture.image)] = true;
+}
+
+std::vector<bool> usedImages(size_t count, const std::vector<Material>& materials, const ImageUse& use) {
+    std::vector<bool> used(count, false);
+    for (const Material& material : materials) {
+        if (use.visual) {
+            markUsed(used, material.baseColorTexture);
+            markUsed(used, material.metallicRoughnessTexture);
+            markUsed(used, material.normalTexture);
+            markUsed(used, material.occlusionTexture);
+            markUsed(used, material.emissiveTexture);
+        }
+        if (!use.haptic)
+            continue;
+        const HapticMaterial& haptic = material.haptic;
+        if (haptic.normalTextureInfluence.value.value_or(1.0f) > 0.0f)
+            markUsed(used, material.normalTexture);
+        if (haptic.height.value)
+            markUsed(used, haptic.height.value->texture);
+        for (const auto* map : {&haptic.friction, &haptic.stiffnessMap, &haptic.dampingMap})
+            if (map->value)
+                markUsed(used, map->value->texture);
+        // Friction that is to be derived reads the roughness texture too.
+        if (!haptic.staticFriction.value || !haptic.dynamicFriction.value)
+            markUsed(used, material.metallicRoughnessTexture);
+    }
+    return used;
+}
+
+void dropIfBroken(const std::vector<Image>& images, TextureRef& texture) {
+    if (texture && !images[static_cast<size_t>(texture.image)].problem.empty())
+        texture = {};
+}
+
+template <class Map>
+void dropIfBroken(const std::vector<Image>& images, HapticMaterial::Field<Map>& field) {
+    if (field.value && !images[static_cast<size_t>(field.value->texture.image)].problem.empty())
+        field = {};
+}
+
+} // namespace
+
+std::vector<Image> readImages(ImportContext& context, const GltfFile& file, const GltfDocument& document,
+                              const std::vector<Material>& materials, const ImageUse& use) {
+    if (!file.json.contains("images"))
+        return {};
+    const json& gltf = file.json["images"];
+    std::vector<Image> images(gltf.size());
+    const std::vector<bool> used = usedImages(images.size(), materials, use);
+    for (size_t i = 0; i < images.size(); ++i) {
+        context.step(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(images.size()),
+                     "reading images");
+        Image& image = images[i];
+        const std::string place = element("images", i);
+        image.name = gltf[i].value("name", "");
+        const Encoded encoded = fetch(context, file, document, gltf[i], place, image);
+        if (image.name.empty())
+            image.name = place;
+        image.encodedBytes = encoded.bytes.size();
+        context.countImageBytes(image.encodedBytes);
+        if (image.problem.empty()) {
+            warnOfType(context, encoded, place);
+            DecodedImage decoded = decodeImage(encoded.bytes, !used[i],
+                                               [&](uint64_t bytes) { return context.spendPixels(bytes); });
+            image.problem = std::move(decoded.problem);
+            if (used[i] && image.problem.empty()) {
+                image.pixels = std::move(decoded.pixels);
+                image.decoded = true;
+            }
+        }
+        if (!image.problem.empty())
+            context.warn(place, "the image cannot be used: " + image.problem);
+    }
+    return images;
+}
+
+void dropBrokenImages(const std::vector<Image>& images, std::vector<Material>& materials) {
+    for (Material& material : materials) {
+        const bool hadColor = static_cast<bool>(material.baseColorTexture);
+        for (TextureRef* texture :
+             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
+              &material.occlusionTexture, &material.emissiveTexture})
+            dropIfBroken(images, *texture);
+        if (hadColor && !material.baseColorTexture)
+            material.baseColor = glm::vec4(glm::vec3(material.baseColor) * 0.5f, material.baseColor.w);
+        dropIfBroken(images, material.haptic.height);
+        dropIfBroken(images, material.haptic.friction);
+        dropIfBroken(images, material.haptic.stiffnessMap);
+        dropIfBroken(images, material.haptic.dampingMap);
+    }
+}
+
+std::optional<float> statedRoughness(const Material& material, const std::vector<Image>& images) {
+    if (!material.metallicRoughnessTexture)
+        return material.roughnessStated ? std::optional(material.roughness) : std::nullopt;
+    const PixelData& pixels = images[static_cast<size_t>(material.metallicRoughnessTexture.image)].pixels;
+    if (pixels.bytes.empty())
+        return std::nullopt;
+    const int channel = pixels.channels >= 3 ? 1 : 0;
+    double sum = 0.0;
+    for (int y = 0; y < pixels.height; ++y)
+        for (int x = 0; x < pixels.width; ++x)
+            sum += static_cast<double>(pixels.value(x, y, channel));
+    return static_cast<float>(static_cast<double>(material.roughness) * sum /
+                              (static_cast<double>(pixels.width) * pixels.height));
+}
+
+} // namespace touchstone

@@ -1,0 +1,21 @@
+#pragma once
+// The shape of the JSON: which property of which object has which type, range and target. After this check
+// the rest of the import may read the properties it knows without asking for their types again. Source: the
+// glTF 2.0 specification, section 5 (properties reference).
+
+#include "engine/scene/import/import_context.h"
+
+#include <nlohmann/json.hpp>
+
+namespace touchstone {
+
+/// Throws Error for a wrong type, a missing required property, a value out of range or an index that leads
+/// nowhere, in the parts that we use; warns about the parts that we do not (cameras, skins).
+void checkSchema(ImportContext& context, const nlohmann::json& gltf);
+
+/// Throws unless `info` is a well-formed textureInfo (also for extensions, whose JSON checkSchema never
+/// sees).
+void checkTextureInfo(ImportContext& context, const nlohmann::json& gltf, const nlohmann::json& info,
+                      const std::string& place);
+
+} // namespace touchstone

@@ -1,0 +1,247 @@
+#include "engine/scene/import/gltf_validation.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+// Read in full, or drawn and felt without: then the file still shows what it is, and we say so.
+constexpr std::array<std::string_view, 10> kReadExtensions = {
+    "KHR_mesh_quantization",          "KHR_texture_transform", "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",        "EXT_texture_webp",      "TOUCHSTONE_materials_haptic",
+    "MPEG_haptic_material",           "MPEG_material_haptic",  "KHR_physics_rigid_bodies",
+    "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 3> kHarmlessExtensions = {"KHR_lights_punctual", "KHR_xmp_json_ld",
+                                                                 "KHR_materials_variants"};
+
+bool contains(auto&& list, std::string_view name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+void checkVersion(const ImportContext& context, const json& gltf) {
+    const auto isTwo = [](const std::string& version) {
+        return version.size() >= 3 && version.starts_with("2.");
+    };
+    const auto& asset = gltf["asset"];
+    const std::string version = asset["version"];
+    if (!isTwo(version))
+        context.fail("asset.version", "glTF version \"" + version + "\" is not supported",
+                     "export it as glTF 2.0");
+    if (asset.contains("minVersion") && asset["minVersion"] != "2.0")
+        context.fail("asset.minVersion", "the file demands glTF " + asset["minVersion"].get<std::string>(),
+                     "export it as glTF 2.0");
+}
+
+void checkExtensions(ImportContext& context, const json& gltf) {
+    for (const char* name : {"extensionsUsed", "extensionsRequired"}) {
+        const auto found = gltf.find(name);
+        if (found == gltf.end())
+            continue;
+        if (!found->is_array())
+            context.fail(name, "should be an array of strings");
+        for (size_t i = 0; i < found->size(); ++i)
+            if (!(*found)[i].is_string())
+                context.fail(element(name, i), "should be a string");
+    }
+    for (const json& entry : gltf.value("extensionsRequired", json::array())) {
+        const std::string name = entry;
+        if (contains(kReadExtensions, name))
+            continue;
+        if (!contains(kHarmlessExtensions, name) && !name.starts_with("KHR_materials_"))
+            context.fail("extensionsRequired",
+                         "the file needs the extension " + name + ", which is not supported",
+                         "re-export the model without " + name);
+        context.warn("extensionsRequired", name + " is not supported: the model looks simpler than intended");
+    }
+}
+
+void checkImages(const ImportContext& context, const json& gltf) {
+    const json none = json::array();
+    const json& images = gltf.contains("images") ? gltf["images"] : none;
+    for (size_t i = 0; i < images.size(); ++i) {
+        const bool uri = images[i].contains("uri"), view = images[i].contains("bufferView");
+        if (uri == view)
+            context.fail(element("images", i),
+                         uri ? "has both a uri and a bufferView" : "has neither a uri nor a bufferView");
+        if (!view)
+            continue;
+        if (!images[i].contains("mimeType"))
+            context.fail(element("images", i), "has a bufferView but no mimeType");
+        if (gltf["bufferViews"][images[i]["bufferView"].get<size_t>()].contains("byteStride"))
+            context.fail(element("images", i) + ".bufferView",
+                         "the buffer view of an image must have no byteStride");
+    }
+}
+
+void checkBufferViews(const ImportContext& context, const json& gltf) {
+    if (!gltf.contains("bufferViews"))
+        return;
+    const json& views = gltf["bufferViews"];
+    for (size_t i = 0; i < views.size(); ++i) {
+        const uint64_t offset = views[i].value("byteOffset", uint64_t{0}), length = views[i]["byteLength"];
+        const uint64_t available = gltf["buffers"][views[i]["buffer"].get<size_t>()]["byteLength"];
+        if (offset > available || length > available - offset)
+            context.fail(element("bufferViews", i), "reaches to byte " + std::to_string(offset + length) +
+                                                        " of a buffer of " + std::to_string(available) +
+                                                        " bytes");
+    }
+}
+
+/// Fails unless `count` elements of `bytes` each fit into the buffer view. All values are below 2^53 / 2^31 /
+/// 2^8.
+void checkRange(const ImportContext& context, const json& gltf, const std::string& place, size_t viewIndex,
+                uint64_t offset, uint64_t number, uint64_t bytes, bool strided) {
+    const json& view = gltf["bufferViews"][viewIndex];
+    const uint64_t length = view["byteLength"];
+    const uint64_t stride = strided ? view.value("byteStride", bytes) : bytes;
+    if (stride < bytes)
+        context.fail(place, "its elements have " + std::to_string(bytes) +
+                                " bytes, but the buffer view's byteStride is " + std::to_string(stride));
+    const uint64_t needed = (number - 1) * stride + bytes;
+    if (offset > length || needed > length - offset)
+        context.fail(place, "reads to byte " + std::to_string(offset + needed) + " of a buffer view of " +
+                                std::to_string(length) + " bytes");
+}
+
+void checkAccessors(ImportContext& context, const json& gltf) {
+    if (!gltf.contains("accessors"))
+        return;
+    const json& accessors = gltf["accessors"];
+    for (size_t i = 0; i < accessors.size(); ++i) {
+        const json& accessor = accessors[i];
+        const std::string place = element("accessors", i);
+        const int componentType = accessor["componentType"];
+        const std::string type = accessor["type"];
+        const uint64_t number = accessor["count"], bytes = elementBytes(type, componentType);
+        if (componentCount(type) == 0)
+            context.fail(place + ".type", "\"" + type.substr(0, 40) + "\" is no accessor type");
+        if (bytes == 0)
+            context.fail(place + ".componentType", std::to_string(componentType) + " is no component type");
+        if (accessor.contains("bufferView"))
+            checkRange(context, gltf, place, accessor["bufferView"],
+                       accessor.value("byteOffset", uint64_t{0}), number, bytes, true);
+        if (!accessor.contains("sparse"))
+            continue;
+        const json& sparse = accessor["sparse"];
+        const json& indices = sparse["indices"];
+        const json& values = sparse["values"];
+        const uint64_t replaced = sparse["count"];
+        if (replaced > number)
+            context.fail(place + ".sparse.count", "replaces more elements than there are");
+        const int indexType = indices["componentType"];
+        if (indexType != 5121 && indexType != 5123 && indexType != 5125)
+            context.fail(place + ".sparse.indices.componentType", "must be an unsigned integer type");
+        checkRange(context, gltf, place + ".sparse.indices", indices["bufferView"],
+                   indices.value("byteOffset", uint64_t{0}), replaced, componentBytes(indexType), false);
+        checkRange(context, gltf, place + ".sparse.values", values["bufferView"],
+                   values.value("byteOffset", uint64_t{0}), replaced, bytes, false);
+    }
+}
+
+// Every node has at most one parent and no node is its own ancestor. With at most one parent each, whatever
+// cannot be reached from a root lies on a loop or hangs below one.
+void checkNodes(ImportContext& context, const json& gltf) {
+    if (!gltf.contains("nodes"))
+        return;
+    const json& nodes = gltf["nodes"];
+    std::vector<int> parent(nodes.size(), -1);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (!nodes[i].contains("children"))
+            continue;
+        const json& children = nodes[i]["children"];
+        for (size_t c = 0; c < children.size(); ++c) {
+            const size_t child = children[c];
+            if (parent[child] >= 0)
+                context.fail(element("nodes", i) + "." + element("children", c),
+                             "nodes[" + std::to_string(child) + "] already has a parent, nodes[" +
+                                 std::to_string(parent[child]) + "]");
+            parent[child] = static_cast<int>(i);
+        }
+    }
+    std::vector<size_t> open;
+    for (size_t i = 0; i < nodes.size(); ++i)
+        if (parent[i] < 0)
+            open.push_back(i);
+    std::vector<bool> reached(nodes.size(), false);
+    while (!open.empty()) {
+        const size_t node = open.back();
+        open.pop_back();
+        reached[node] = true;
+        for (const json& child : nodes[node].value("children", json::array()))
+            open.push_back(child);
+    }
+    const auto stray = std::find(reached.begin(), reached.end(), false);
+    if (stray != reached.end())
+        context.fail(element("nodes", static_cast<size_t>(stray - reached.begin())) + ".children",
+                     "the nodes form a loop");
+
+    const json none = json::array();
+    const json& scenes = gltf.contains("scenes") ? gltf["scenes"] : none;
+    for (size_t s = 0; s < scenes.size(); ++s) {
+        std::unordered_set<size_t> seen;
+        const json& roots = scenes[s].contains("nodes") ? scenes[s]["nodes"] : none;
+        for (size_t r = 0; r < roots.size(); ++r) {
+            const size_t node = roots[r];
+            const std::string place = element("scenes", s) + "." + element("nodes", r);
+            if (parent[node] >= 0)
+                context.fail(place, "nodes[" + std::to_string(node) +
+                                        "] is not a root: it is a child of nodes[" +
+                                        std::to_string(parent[node]) + "]");
+            if (!seen.insert(node).second)
+                context.fail(place, "nodes[" + std::to_string(node) + "] stands there twice");
+        }
+    }
+}
+
+} // namespace
+
+uint64_t componentBytes(int componentType) {
+    switch (componentType) {
+    case 5120:
+    case 5121:
+        return 1;
+    case 5122:
+    case 5123:
+        return 2;
+    case 5125:
+    case 5126:
+        return 4;
+    default:
+        return 0;
+    }
+}
+
+int componentCount(const std::string& type) {
+    static constexpr std::pair<std::string_view, int> kCounts[] = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+    for (const auto& [name, count] : kCounts)
+        if (type == name)
+            return count;
+    return 0;
+}
+
+uint64_t elementBytes(const std::string& type, int componentType) {
+    const uint64_t bytes = componentBytes(componentType);
+    const uint64_t columns = type == "MAT2" ? 2 : type == "MAT3" ? 3 : type == "MAT4" ? 4 : 0;
+    if (columns == 0)
+        return bytes * static_cast<uint64_t>(componentCount(type));
+    return columns * ((columns * bytes + 3) / 4 * 4);
+}
+
+void validateGltf(ImportContext& context, const json& gltf) {
+    checkVersion(context, gltf);
+    checkExtensions(context, gltf);
+    checkImages(context, gltf);
+    checkBufferViews(context, gltf);
+    checkAccessors(context, gltf);
+    checkNodes(context, gltf);
+}
+
+} // namespace touchstone

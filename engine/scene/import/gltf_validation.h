@@ -1,0 +1,27 @@
+#pragma once
+// What the schema cannot say: relations between objects, each checked once before anything is read.
+
+#include "engine/scene/import/import_context.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace touchstone {
+
+/// The version, the extensions that the file demands, images with one source, node forest without loops,
+/// scene roots, and that buffer views and accessors stay inside what they read. Throws Error; warns about
+/// what may stay. Needs checkSchema first. Bytes are not looked at.
+void validateGltf(ImportContext& context, const nlohmann::json& gltf);
+
+/// Bytes of one component (5120 ... 5126), 0 if there is no such type.
+[[nodiscard]] uint64_t componentBytes(int componentType);
+
+/// Components of "SCALAR" ... "MAT4", 0 if there is no such type.
+[[nodiscard]] int componentCount(const std::string& type);
+
+/// Bytes of one accessor element in a buffer; matrix columns start on multiples of four.
+[[nodiscard]] uint64_t elementBytes(const std::string& type, int componentType);
+
+} // namespace touchstone

@@ -1,0 +1,26 @@
+#pragma once
+// Encoded images to pixels, through OpenImageIO, out of memory.
+
+#include "engine/scene/import/gltf_file.h"
+
+#include <functional>
+#include <string>
+
+namespace touchstone {
+
+struct DecodedImage {
+    PixelData pixels;    ///< empty when `problem` is set
+    std::string problem; ///< why there are no pixels, as the end of a sentence
+};
+
+/// Decodes PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR, told apart by their first bytes, as stored: no
+/// colour conversion, alpha not multiplied in, no EXIF rotation. `mayTake` is asked for the pixels' bytes
+/// before they are allocated. With `headerOnly` nothing but the header is read (`pixels` then has its sizes
+/// and no bytes). Does not throw for broken images.
+[[nodiscard]] DecodedImage decodeImage(ByteSpan encoded, bool headerOnly,
+                                       const std::function<bool(uint64_t)>& mayTake);
+
+/// "png", "jpeg", ... by the first bytes, empty if unknown.
+[[nodiscard]] std::string sniffImageFormat(ByteSpan encoded);
+
+} // namespace touchstone

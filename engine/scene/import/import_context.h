@@ -1,0 +1,81 @@
+#pragma once
+// What every step of an import shares: the file's name for messages, the warnings, the memory it may take.
+// One import, one thread.
+
+#include "engine/core/error.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/scene_loader.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone {
+
+// Limits of an import. A file beyond one of them is refused with a message that names the limit.
+
+/// Largest file or buffer read, bytes. GLB lengths are 32 bit.
+inline constexpr uint64_t kMaxFileBytes = 4'294'967'295ull;
+/// JSON values (numbers, strings, objects, arrays) in the file. Each costs up to about 100 bytes while
+/// loading.
+inline constexpr size_t kMaxJsonValues = 2'000'000;
+/// Nesting of the JSON. glTF itself needs about 10.
+inline constexpr int kMaxJsonDepth = 64;
+/// Entries of all top-level arrays together (nodes, accessors, materials, ...).
+inline constexpr size_t kMaxJsonObjects = 400'000;
+/// Meshes placed in the scene.
+inline constexpr size_t kMaxInstances = 262'144;
+/// Bytes of geometry that any file may expand to; beyond it, kGeometryExpansion times the file's own buffers.
+/// Sparse and absent buffer views, many primitives on one accessor and compression all make much of little.
+inline constexpr uint64_t kFreeGeometryBytes = 256ull << 20;
+inline constexpr uint64_t kGeometryExpansion = 16;
+/// Bytes of decoded pixels that any file may hold; beyond it, kPixelExpansion times its encoded images.
+inline constexpr uint64_t kFreePixelBytes = 320ull << 20;
+inline constexpr uint64_t kPixelExpansion = 64;
+/// Longest side of an image, pixels.
+inline constexpr int kMaxImageSide = 16'384;
+
+class ImportContext {
+  public:
+    ImportContext(std::string file, const LoadOptions& options) : file_(std::move(file)), options_(options) {}
+
+    [[nodiscard]] const std::string& file() const { return file_; }
+    [[nodiscard]] const LoadOptions& options() const { return options_; }
+
+    /// Ends the import.
+    [[noreturn]] void fail(const std::string& place, const std::string& problem,
+                           const std::string& remedy = "re-export the model") const {
+        throw Error(file_, place, problem, remedy);
+    }
+
+    /// At most kMaxWarnings are kept, so that a broken file cannot drown the user (or the memory) in them.
+    void warn(std::string place, std::string message);
+
+    /// Reports progress and stops a cancelled import.
+    void step(double fraction, const char* what) const;
+    void stopIfCancelled() const;
+
+    /// The sizes of the file's own data, from which the limits above grow.
+    void countBufferBytes(uint64_t bytes) { bufferBytes_ += bytes; }
+    void countImageBytes(uint64_t bytes) { imageBytes_ += bytes; }
+    /// Asks for memory that the geometry expands to; fails when the limit is passed.
+    void spendGeometry(uint64_t bytes, const std::string& place);
+    /// Asks for memory for pixels; false when the limit is passed.
+    [[nodiscard]] bool spendPixels(uint64_t bytes);
+
+    [[nodiscard]] std::vector<Warning> takeWarnings();
+
+  private:
+    static constexpr size_t kMaxWarnings = 200;
+    std::string file_;
+    const LoadOptions& options_;
+    std::vector<Warning> warnings_;
+    size_t droppedWarnings_ = 0;
+    uint64_t bufferBytes_ = 0, imageBytes_ = 0, geometrySpent_ = 0, pixelsSpent_ = 0;
+};
+
+/// "meshes[3]".
+[[nodiscard]] std::string element(std::string_view array, size_t index);
+
+} // namespace touchstone

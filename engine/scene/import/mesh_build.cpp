@@ -1,0 +1,184 @@
+#include "engine/scene/import/mesh_build.h"
+
+#include "engine/scene/import/gltf_accessors.h"
+#include "engine/scene/import/json_fields.h"
+#include "engine/scene/import/vertex_attributes.h"
+#include "engine/scene/tangent_space.h"
+
+#include <algorithm>
+#include <array>
+
+namespace touchstone {
+namespace {
+
+/// What generateTangents works with per triangle, over the corners' welds, edges, groups and splits.
+constexpr uint64_t kTangentBytesPerTriangle = 400;
+
+/// Corners of triangle `i` of a strip or fan (glTF 2.0, section 3.7.2.1); a strip's odd triangles turn round.
+std::array<size_t, 3> triangleOf(int mode, size_t i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+        return {i, i + 1 + i % 2, i + 2 - i % 2};
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+        return {i + 1, i + 2, 0};
+    return {3 * i, 3 * i + 1, 3 * i + 2};
+}
+
+/// The vertices as drawn: the indices, or 0, 1, 2, ... without them. All in range.
+std::vector<uint32_t> drawnVertices(ImportContext& context, const GltfDocument& document,
+                                    const tinygltf::Primitive& primitive, DracoPrimitive* draco,
+                                    size_t vertexCount, const std::string& place) {
+    std::vector<uint32_t> drawn;
+    if (draco != nullptr) {
+        drawn = std::move(draco->indices);
+    } else if (primitive.indices >= 0) {
+        drawn = readIndices(context, document, primitive.indices, place + ".indices");
+    } else {
+        context.spendGeometry(vertexCount * sizeof(uint32_t), place);
+        drawn.resize(vertexCount);
+        for (size_t i = 0; i < vertexCount; ++i)
+            drawn[i] = static_cast<uint32_t>(i);
+    }
+    for (const uint32_t index : drawn)
+        if (index >= vertexCount)
+            context.fail(place + ".indices", "index " + std::to_string(index) + " exceeds " +
+                                                 std::to_string(vertexCount - 1) + ", the last vertex");
+    return drawn;
+}
+
+std::vector<uint32_t> triangleList(ImportContext& context, std::vector<uint32_t> drawn, int mode,
+                                   const std::string& place) {
+    const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+    const size_t triangles = list ? drawn.size() / 3 : drawn.size() < 3 ? 0 : drawn.size() - 2;
+    if (list && drawn.size() % 3 != 0)
+        context.warn(place, "its number of indices is no multiple of three; the rest is ignored");
+    std::vector<uint32_t> indices;
+    if (!list)
+        context.spendGeometry(triangles * 3 * sizeof(uint32_t), place);
+    indices.reserve(triangles * 3);
+    size_t degenerate = 0;
+    for (size_t i = 0; i < triangles; ++i) {
+        const auto [a, b, c] = triangleOf(mode, i);
+        const uint32_t va = drawn[a], vb = drawn[b], vc = drawn[c];
+        if (va == vb || vb == vc || vc == va)
+            ++degenerate; // a strip's are stitches, not flaws
+        else
+            indices.insert(indices.end(), {va, vb, vc});
+    }
+    if (degenerate > 0 && mode != TINYGLTF_MODE_TRIANGLE_STRIP)
+        context.warn(place, std::to_string(degenerate) + " triangles use a vertex twice and were dropped");
+    return indices;
+}
+
+glm::dvec3 faceNormal(const Mesh& mesh, size_t triangle) {
+    const auto corner = [&](size_t k) { return glm::dvec3(mesh.positions[mesh.indices[3 * triangle + k]]); };
+    return glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+}
+
+glm::vec3 unitOrUp(const glm::dvec3& v) {
+    // Scaled first: areas of models of any size must neither overflow nor vanish when squared.
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0.0 ? glm::vec3(glm::normalize(v / largest)) : glm::vec3(0.0f, 0.0f, 1.0f);
+}
+
+/// Gives every triangle vertices of its own and its own normal (glTF 2.0, section 3.7.2.1: "flat normals").
+void makeFlat(ImportContext& context, Mesh& mesh, const std::string& place) {
+    const size_t corners = mesh.indices.size();
+    const auto spread = [&](auto& array) {
+        if (array.empty())
+            return;
+        context.spendGeometry(corners * sizeof(array[0]), place);
+        std::remove_reference_t<decltype(array)> own(corners);
+        for (size_t i = 0; i < corners; ++i)
+            own[i] = array[mesh.indices[i]];
+        array = std::move(own);
+    };
+    spread(mesh.positions);
+    spread(mesh.uv0);
+    spread(mesh.uv1);
+    spread(mesh.colors);
+    spread(mesh.stiffness);
+    spread(mesh.damping);
+    spread(mesh.friction);
+    for (size_t i = 0; i < corners; ++i)
+        mesh.indices[i] = static_cast<uint32_t>(i);
+    context.spendGeometry(corners * sizeof(glm::vec3), place);
+    mesh.normals.resize(corners);
+    for (size_t i = 0; i < corners; ++i)
+        mesh.normals[i] = unitOrUp(faceNormal(mesh, i / 3));
+    mesh.tangents.clear(); // the specification: without normals the file's tangents do not count
+    mesh.tangentsFromFile = false;
+}
+
+/// Normals of length zero in the file: the area-weighted mean of the triangles around instead.
+void mendNormals(Mesh& mesh) {
+    const auto lost = [](const glm::vec3& n) { return n == glm::vec3(0.0f); };
+    if (std::none_of(mesh.normals.begin(), mesh.normals.end(), lost))
+        return;
+    std::vector<glm::dvec3> sum(mesh.positions.size(), glm::dvec3(0.0));
+    for (size_t i = 0; i < mesh.indices.size(); ++i)
+        sum[mesh.indices[i]] += faceNormal(mesh, i / 3);
+    for (size_t v = 0; v < sum.size(); ++v)
+        if (lost(mesh.normals[v]))
+            mesh.normals[v] = unitOrUp(sum[v]);
+}
+
+void settleTangents(ImportContext& context, Mesh& mesh, const Material& material, const std::string& place) {
+    const TextureRef& map = material.normalTexture         ? material.normalTexture
+                            : material.haptic.height.value ? material.haptic.height.value->texture
+                                                           : TextureRef{};
+    const bool hasUv = !(map.texCoord == 1 ? mesh.uv1 : mesh.uv0).empty();
+    if (!map || !hasUv) {
+        mesh.tangents = {};
+        mesh.tangentsFromFile = false;
+        if (map)
+            context.warn(place, "has no TEXCOORD_" + std::to_string(map.texCoord) +
+                                    " for its normal or height map; drawn and felt without it");
+        return;
+    }
+    if (!mesh.tangents.empty())
+        return;
+    context.spendGeometry(mesh.triangleCount() * kTangentBytesPerTriangle, place);
+    generateTangents(mesh, map.texCoord);
+}
+
+} // namespace
+
+std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& document, size_t meshIndex,
+                              size_t primitiveIndex, const Material& material) {
+    const tinygltf::Mesh& gltf = document.model.meshes[meshIndex];
+    const tinygltf::Primitive& primitive = gltf.primitives[primitiveIndex];
+    const std::string place = element("meshes", meshIndex) + "." + element("primitives", primitiveIndex);
+    const nlohmann::json& stated = document.json["meshes"][meshIndex]["primitives"][primitiveIndex];
+    context.stopIfCancelled();
+
+    std::optional<DracoPrimitive> draco;
+    if (const auto* extension = extensionOf(context, stated, "KHR_draco_mesh_compression", place))
+        draco = decodeDraco(context, document, *extension, primitive,
+                            place + ".extensions.KHR_draco_mesh_compression");
+
+    Mesh mesh;
+    mesh.name = gltf.name;
+    readVertexAttributes(context, document, primitive, draco ? &*draco : nullptr, place, mesh);
+    if (mesh.positions.empty()) {
+        context.warn(place, "has no POSITION: there is nothing to show or touch in it");
+        return std::nullopt;
+    }
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    auto drawn =
+        drawnVertices(context, document, primitive, draco ? &*draco : nullptr, mesh.positions.size(), place);
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        context.warn(place, "holds points or lines, which cannot be touched; left out");
+        return std::nullopt;
+    }
+    mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
+    if (!primitive.targets.empty())
+        context.warn(place, "its morph targets stay in their rest pose");
+    if (!mesh.normalsFromFile)
+        makeFlat(context, mesh, place);
+    else
+        mendNormals(mesh);
+    settleTangents(context, mesh, material, place);
+    return mesh;
+}
+
+} // namespace touchstone

@@ -1,0 +1,159 @@
+#include "engine/scene/import/vertex_attributes.h"
+
+#include "engine/scene/import/gltf_accessors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace touchstone {
+namespace {
+
+/// A unit vector this far off in length is told to the user; less is rounding and quantisation.
+constexpr float kUnitTolerance = 0.1f;
+
+class AttributeReader {
+  public:
+    AttributeReader(ImportContext& context, const GltfDocument& document,
+                    const tinygltf::Primitive& primitive, DracoPrimitive* draco, const std::string& place)
+        : context_(context), document_(document), primitive_(primitive), draco_(draco),
+          place_(place + ".attributes.") {}
+
+    [[nodiscard]] std::string at(const char* name) const { return place_ + name; }
+
+    /// The values of an attribute, all finite; nothing if it is absent. `count` 0 takes any number of
+    /// vertices.
+    std::optional<RawAttribute> raw(const char* name, size_t count, std::initializer_list<int> components) {
+        const auto found = primitive_.attributes.find(name);
+        if (found == primitive_.attributes.end())
+            return std::nullopt;
+        RawAttribute attribute = take(name, found->second);
+        if (std::find(components.begin(), components.end(), attribute.components) == components.end())
+            context_.fail(at(name), "has " + std::to_string(attribute.components) + " components");
+        const size_t vertices = attribute.values.size() / static_cast<size_t>(attribute.components);
+        if (count != 0 && vertices != count)
+            context_.fail(at(name), "has " + std::to_string(vertices) + " vertices where POSITION has " +
+                                        std::to_string(count));
+        for (size_t i = 0; i < attribute.values.size(); ++i)
+            if (!std::isfinite(attribute.values[i]))
+                context_.fail(at(name),
+                              "vertex " + std::to_string(i / static_cast<size_t>(attribute.components)) +
+                                  " is not a finite number",
+                              "remove the broken vertex, or re-export the model");
+        return attribute;
+    }
+
+    template <class Vector>
+    std::vector<Vector> vectors(const char* name, size_t count) {
+        const auto attribute = raw(name, count, {static_cast<int>(Vector::length())});
+        if (!attribute)
+            return {};
+        std::vector<Vector> result(attribute->values.size() / static_cast<size_t>(Vector::length()));
+        static_assert(sizeof(Vector) == sizeof(float) * Vector::length());
+        std::memcpy(result.data(), attribute->values.data(), attribute->values.size() * sizeof(float));
+        return result;
+    }
+
+    std::vector<float> factors(const char* name, size_t count) {
+        auto attribute = raw(name, count, {1});
+        if (!attribute)
+            return {};
+        for (size_t i = 0; i < attribute->values.size(); ++i)
+            if (attribute->values[i] < 0.0f)
+                context_.fail(at(name), "vertex " + std::to_string(i) + " is negative",
+                              "correct the value in the file");
+        return std::move(attribute->values);
+    }
+
+  private:
+    RawAttribute take(const char* name, int accessor) {
+        if (draco_ != nullptr) {
+            const auto decoded = draco_->attributes.find(name);
+            if (decoded != draco_->attributes.end())
+                return std::move(decoded->second);
+        }
+        return {accessorComponents(document_, accessor), readFloats(context_, document_, accessor, at(name))};
+    }
+
+    ImportContext& context_;
+    const GltfDocument& document_;
+    const tinygltf::Primitive& primitive_;
+    DracoPrimitive* draco_;
+    std::string place_;
+};
+
+/// Brings `vectors` to unit length. Those without a direction become zero and are counted.
+template <class Vector>
+size_t normaliseAll(ImportContext& context, std::vector<Vector>& vectors, const std::string& place) {
+    size_t odd = 0, lost = 0;
+    for (Vector& v : vectors) {
+        const glm::dvec3 exact(v.x, v.y, v.z);
+        const double length = glm::length(exact);
+        const bool usable = length > 1e-12;
+        if (!usable)
+            ++lost;
+        else if (std::abs(length - 1.0) > static_cast<double>(kUnitTolerance))
+            ++odd;
+        const glm::vec3 unit = usable ? glm::vec3(exact / length) : glm::vec3(0.0f);
+        v.x = unit.x;
+        v.y = unit.y;
+        v.z = unit.z;
+    }
+    if (odd > 0)
+        context.warn(place, std::to_string(odd) + " vectors are not of unit length and were normalised");
+    if (lost > 0)
+        context.warn(place, std::to_string(lost) + " vectors have no direction and were computed anew");
+    return lost;
+}
+
+void readColors(ImportContext& context, AttributeReader& reader, size_t count,
+                std::vector<glm::vec4>& colors) {
+    const auto raw = reader.raw("COLOR_0", count, {3, 4});
+    if (!raw)
+        return;
+    const size_t components = static_cast<size_t>(raw->components);
+    colors.resize(count);
+    size_t outside = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const float* c = &raw->values[i * components];
+        const glm::vec4 stated(c[0], c[1], c[2], components == 4 ? c[3] : 1.0f);
+        colors[i] = glm::clamp(stated, 0.0f, 1.0f);
+        outside += colors[i] != stated ? 1 : 0;
+    }
+    if (outside > 0)
+        context.warn(reader.at("COLOR_0"),
+                     std::to_string(outside) + " colours are outside 0..1 and were clamped");
+}
+
+} // namespace
+
+void readVertexAttributes(ImportContext& context, const GltfDocument& document,
+                          const tinygltf::Primitive& primitive, DracoPrimitive* draco,
+                          const std::string& place, Mesh& mesh) {
+    AttributeReader reader(context, document, primitive, draco, place);
+    mesh.positions = reader.vectors<glm::vec3>("POSITION", 0);
+    const size_t count = mesh.positions.size();
+    mesh.normals = reader.vectors<glm::vec3>("NORMAL", count);
+    mesh.normalsFromFile = !mesh.normals.empty();
+    (void)normaliseAll(context, mesh.normals, reader.at("NORMAL"));
+    mesh.tangents = reader.vectors<glm::vec4>("TANGENT", count);
+    for (size_t i = 0; i < mesh.tangents.size(); ++i)
+        if (std::abs(std::abs(mesh.tangents[i].w) - 1.0f) > 1e-3f)
+            context.fail(reader.at("TANGENT"), "vertex " + std::to_string(i) +
+                                                   " has w = " + nlohmann::json(mesh.tangents[i].w).dump() +
+                                                   ", it must be 1 or -1");
+    for (glm::vec4& tangent : mesh.tangents)
+        tangent.w = tangent.w < 0.0f ? -1.0f : 1.0f;
+    // Frames with gaps are worth less than generated ones.
+    if (normaliseAll(context, mesh.tangents, reader.at("TANGENT")) > 0)
+        mesh.tangents.clear();
+    mesh.tangentsFromFile = !mesh.tangents.empty();
+    mesh.uv0 = reader.vectors<glm::vec2>("TEXCOORD_0", count);
+    mesh.uv1 = reader.vectors<glm::vec2>("TEXCOORD_1", count);
+    readColors(context, reader, count, mesh.colors);
+    mesh.stiffness = reader.factors("_STIFFNESS", count);
+    mesh.damping = reader.factors("_DAMPING", count);
+    mesh.friction = reader.factors("_FRICTION", count);
+}
+
+} // namespace touchstone

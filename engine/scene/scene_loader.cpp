@@ -1,0 +1,74 @@
+#include "engine/scene/scene_loader.h"
+
+#include "engine/scene/import/gltf_animations.h"
+#include "engine/scene/import/gltf_haptics.h"
+#include "engine/scene/import/gltf_images.h"
+#include "engine/scene/import/gltf_schema.h"
+#include "engine/scene/import/gltf_validation.h"
+#include "engine/scene/import/scene_build.h"
+
+#include <new>
+
+namespace touchstone {
+namespace {
+
+ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
+    // 1. Check: the shape of the JSON, then how its parts relate. What passes may be read without more
+    // asking.
+    context.step(0.02, "checking");
+    checkSchema(context, file.json);
+    validateGltf(context, file.json);
+
+    // 2. Bytes: buffers from wherever they lie, decompressed.
+    context.step(0.05, "reading buffers");
+    const GltfDocument document = makeDocument(context, file);
+
+    // 3. Structure: nodes parents first, materials as they look and feel, meshes placed on the nodes.
+    auto scene = std::make_shared<Scene>();
+    scene->path = context.file();
+    if (file.json.contains("extensionsUsed"))
+        scene->extensionsUsed = file.json["extensionsUsed"];
+    NodeForest forest = readNodes(context, document);
+    scene->nodes = std::move(forest.nodes);
+    MaterialTable materials(context, document);
+    buildMeshesAndInstances(context, document, forest, materials, *scene);
+    scene->materials = materials.take();
+    scene->animations = readAnimations(context, document, forest, scene->nodes);
+    scene->bounds = sceneBounds(context, *scene);
+
+    // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.
+    scene->images = readImages(context, file, document, scene->materials, context.options().images);
+    dropBrokenImages(scene->images, scene->materials);
+    for (Material& material : scene->materials)
+        deriveFriction(material.haptic, statedRoughness(material, scene->images));
+
+    if (!scene->touchable())
+        context.warn("", "nothing to touch: the scene shows no triangles");
+    scene->warnings = context.takeWarnings();
+    context.step(1.0, "done");
+    return scene;
+}
+
+} // namespace
+
+ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options) {
+    ImportContext context(path.string(), options);
+    try {
+        context.step(0.0, "reading the file");
+        return importGltf(context, readGltfFile(context, path));
+    } catch (const std::bad_alloc&) {
+        context.fail("", "there is not enough memory for it", "close other programs, or simplify the model");
+    }
+}
+
+ScenePtr loadSceneFromMemory(std::vector<uint8_t> bytes, const std::filesystem::path& folder,
+                             const LoadOptions& options) {
+    ImportContext context("memory", options);
+    try {
+        return importGltf(context, takeGltfApart(context, std::move(bytes), folder));
+    } catch (const std::bad_alloc&) {
+        context.fail("", "there is not enough memory for it", "simplify the model");
+    }
+}
+
+} // namespace touchstone
