@@ -6,6 +6,7 @@
 #include "haptics/servo/servo_loop.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
+#include "workbench/animate.h"
 #include "workbench/commands.h"
 #include "workbench/device_port.h"
 #include "workbench/interrupt.h"
@@ -43,7 +44,8 @@ View frontView(const Model& model, const glm::ivec2& size) {
 /// Takes every tick that the servo has made since the last call.
 class TickReader {
   public:
-    TickReader(const Model& model, const RunOptions& options) : model_(model), options_(options) {
+    TickReader(const Model& model, const RunOptions& options)
+        : model_(model), options_(options), moving_(model.scene, *model.haptic) {
         if (!options.recordTicks.empty()) {
             csv_.emplace(options.recordTicks);
             csv_->write(kTickCsvHeader);
@@ -56,7 +58,8 @@ class TickReader {
         while (servo.popRecord(record)) {
             statistics.addLive(record);
             if (record.output.contacts > 0) {
-                statistics.addProxyGap(proxyGap(*model_.haptic, {}, record.output, options_.settings));
+                statistics.addProxyGap(
+                    proxyGap(*model_.haptic, moving_.at(record.time), record.output, options_.settings));
                 lastContact = record;
             }
             last = record;
@@ -78,6 +81,7 @@ class TickReader {
   private:
     const Model& model_;
     const RunOptions& options_;
+    MovingObjects moving_;
     std::optional<OutputFile> csv_;
     std::string rows_;
 };
@@ -105,6 +109,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
         reader.drain(servo);
         overlay.clear();
         drawTick(servo.snapshot(), options.settings, overlay);
+        poseAt(servo.snapshot().time, *model.scene, renderer);
         renderer.render(view, overlay, options.size.x, options.size.y);
         ++frames.count;
         next += period;
@@ -155,7 +160,7 @@ int runCommand(const RunOptions& options) {
 
     ServoLoop servo(portOf(hand), {.rateHz = options.rateHz});
     servo.setSettings(options.settings);
-    servo.offerScene(model.haptic);
+    servo.offerScene(model.haptic, model.scene);
     realtime::resetViolations();
     servo.start();
     const Frames frames = drawFrames(options, model, servo, renderer, reader);
@@ -165,7 +170,9 @@ int runCommand(const RunOptions& options) {
 
     if (!options.screenshot.empty()) {
         Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
-        drawTick(reader.lastContact.value_or(reader.last), options.settings, overlay);
+        const TickRecord& shown = reader.lastContact.value_or(reader.last);
+        drawTick(shown, options.settings, overlay);
+        poseAt(shown.time, *model.scene, renderer);
         writePng(options.screenshot, renderStill(renderer, frontView(model, options.size), overlay,
                                                  options.size.x, options.size.y));
     }

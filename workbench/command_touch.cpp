@@ -6,6 +6,7 @@
 #include "engine/core/realtime_guard.h"
 #include "haptics/contact/ray_floor.h"
 #include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
 #include "workbench/commands.h"
 #include "workbench/model.h"
@@ -38,6 +39,7 @@ struct OfflineTick {
     double time = 0.0;
     HapticOutput output;
     int64_t stepNs = 0;
+    double gap = 0.0; // m, of the proxy; in contact and where a report was asked for
 };
 
 /// The ticks that the path asks for: one a row, or at a rate of its own straight between the rows.
@@ -69,7 +71,8 @@ std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
 /// The state that one offline run carries from tick to tick.
 class OfflineTouch {
   public:
-    OfflineTouch(const Model& model, const HapticSettings& settings) : model_(model), settings_(settings) {}
+    OfflineTouch(const Model& model, const HapticSettings& settings)
+        : model_(model), settings_(settings), moving_(model.scene, *model.haptic) {}
 
     void step(const PlannedTick& planned, OfflineTick& tick) {
         DeviceSample sample;
@@ -80,16 +83,23 @@ class OfflineTouch {
         input.time = tick.time = planned.time;
         input.dt = planned.dt;
         input.devices = {&sample, 1};
+        input.objects = moving_.at(planned.time);
         NoStopwatch none;
         const realtime::TickScope scope;
         const long long begin = monotonicNs();
         hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, none);
         tick.stepNs = monotonicNs() - begin;
+        objects_ = input.objects;
     }
+    [[nodiscard]] bool moving() const { return moving_.moving(); }
+    /// Of the last step.
+    [[nodiscard]] ObjectMotions objects() const { return objects_; }
 
   private:
     const Model& model_;
     const HapticSettings& settings_;
+    MovingObjects moving_;
+    ObjectMotions objects_;
     WorldState world_;
     DeviceState device_;
     uint64_t number_ = 0;
@@ -144,6 +154,7 @@ int touchCommand(const TouchOptions& options) {
     enterFloatMode();
     const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
     OfflineTouch touch(model, options.settings);
+    const bool moving = touch.moving();
     TickStatistics statistics;
     Samples rays;
     std::string rows;
@@ -151,8 +162,11 @@ int touchCommand(const TouchOptions& options) {
     realtime::resetViolations();
     for (size_t begin = 0; begin < planned.size(); begin += kBlock) {
         const std::span<OfflineTick> block(ticks.data(), std::min(kBlock, planned.size() - begin));
-        for (size_t i = 0; i < block.size(); ++i)
+        for (size_t i = 0; i < block.size(); ++i) {
             touch.step(planned[begin + i], block[i]);
+            if (moving && report && block[i].output.contacts > 0)
+                block[i].gap = proxyGap(*model.haptic, touch.objects(), block[i].output, options.settings);
+        }
         if (report)
             timeFloorRays(*model.haptic, block, rays);
         rows.clear();
@@ -160,7 +174,8 @@ int touchCommand(const TouchOptions& options) {
             appendTickRow(rows, tick.time, tick.output, tick.stepNs);
             statistics.add(tick.output, tick.stepNs);
             if (report && tick.output.contacts > 0)
-                statistics.addProxyGap(proxyGap(*model.haptic, {}, tick.output, options.settings));
+                statistics.addProxyGap(moving ? tick.gap
+                                              : proxyGap(*model.haptic, {}, tick.output, options.settings));
         }
         out.write(rows);
     }

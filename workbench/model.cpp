@@ -1,5 +1,7 @@
 #include "workbench/model.h"
 
+#include "haptics/scene/moving_objects.h"
+
 #include <cstdio>
 
 namespace touchstone {
@@ -47,6 +49,8 @@ void printWarnings(const Model& model) {
     if (model.haptic != nullptr)
         for (const Warning& warning : model.haptic->warnings)
             print(warning);
+    for (const Warning& warning : animationWarnings(*model.scene))
+        print(warning);
 }
 
 } // namespace touchstone

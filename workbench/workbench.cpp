@@ -6,6 +6,7 @@
 #include "renderer/adaptive_resolution.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/window_target.h"
+#include "workbench/animate.h"
 #include "workbench/commands.h"
 #include "workbench/default_scene.h"
 #include "workbench/device_port.h"
@@ -102,7 +103,7 @@ class Workbench {
     void show(LoadedModel loaded) {
         shown_ = std::move(loaded);
         renderer_.setScene(shown_.model.scene);
-        servo_.offerScene(shown_.model.haptic);
+        servo_.offerScene(shown_.model.haptic, shown_.model.scene);
         hand_.offerPath(shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
         forces_.clear();
@@ -122,8 +123,10 @@ class Workbench {
             servo_.setSettings(state_.settings);
 
         overlay_.clear();
-        if (hasModel())
+        if (hasModel()) {
             drawTick(servo_.snapshot(), state_.settings, overlay_);
+            poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
+        }
         View view = viewOf(view_.camera(), shown_.model.workspaceFromScene, aspect());
         view.mode = state_.view;
         renderer_.render(view, overlay_, input.sceneSize.x, input.sceneSize.y);

@@ -21,7 +21,7 @@ int32_t saturated(long long nanoseconds) {
 } // namespace
 
 struct ServoLoop::Touch {
-    const HapticScene* scene = nullptr;
+    const Offer* offer = nullptr;
     WorldState world;
     DeviceState device;
     bool late = false; // the previous tick ended after its next deadline
@@ -55,8 +55,13 @@ void ServoLoop::stop() {
     thread_.join();
 }
 
-void ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene) {
-    scene_.offer(std::move(scene));
+void ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
+    if (scene == nullptr) {
+        scene_.offer(nullptr);
+        return;
+    }
+    MovingObjects moving = source != nullptr ? MovingObjects(std::move(source), *scene) : MovingObjects();
+    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(moving)));
 }
 
 ServoLoop::Counters ServoLoop::counters() const {
@@ -74,26 +79,27 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     record.tick = number;
     record.time = static_cast<double>(number) / config_.rateHz;
     settings_.update();
-    const HapticScene* scene = scene_.adopt();
-    if (scene != touch.scene) {
+    const Offer* offer = scene_.adopt();
+    if (offer != touch.offer) {
         // A new world: forget the proxy, fade the force in, but remember what the device still holds.
-        touch.scene = scene;
+        touch.offer = offer;
         touch.world = WorldState{};
         touch.device.forgetTouch();
         ForceLimiter::restartRamp(touch.device.limiter);
     }
     const DeviceSample sample = port_.sample(port_.context, record.time);
-    if (scene != nullptr) {
+    if (offer != nullptr) {
         TickInput input;
         input.tick = number;
         input.time = record.time;
         input.dt = dt;
         input.late = touch.late;
         input.devices = {&sample, 1};
+        input.objects = offer->moving.at(record.time);
         NoStopwatch none;
         const long long begin = monotonicNs();
-        hapticStep(*scene, settings_.value(), input, touch.world, {&touch.device, 1}, {&record.output, 1},
-                   none);
+        hapticStep(*offer->scene, settings_.value(), input, touch.world, {&touch.device, 1},
+                   {&record.output, 1}, none);
         record.stepNs = saturated(monotonicNs() - begin);
     }
     port_.apply(port_.context, record.output.command);

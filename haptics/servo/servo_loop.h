@@ -6,6 +6,7 @@
 #include "engine/exchange/triple_buffer.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
 
 #include <atomic>
@@ -55,7 +56,8 @@ class ServoLoop {
     void stop(); ///< joins; the last command sent is zero. May be started again: time and ticks go on from 0.
 
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
-    void offerScene(std::shared_ptr<const HapticScene> scene);
+    /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
+    void offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr);
     void setSettings(const HapticSettings& settings) { settings_.write(settings); }
 
     /// Owner thread: newest tick. Also frees the scene that the servo let go.
@@ -78,6 +80,11 @@ class ServoLoop {
     [[nodiscard]] double rateHz() const { return config_.rateHz; }
 
   private:
+    /// A scene with what the servo alone changes in it.
+    struct Offer {
+        std::shared_ptr<const HapticScene> scene;
+        mutable MovingObjects moving; // servo thread once adopted
+    };
     struct Touch; // what the loop carries from tick to tick
 
     void run() noexcept;
@@ -88,7 +95,7 @@ class ServoLoop {
     TripleBuffer<HapticSettings> settings_;
     TripleBuffer<TickRecord> snapshot_;
     RecordRing<TickRecord> records_;
-    Handover<HapticScene> scene_;
+    Handover<Offer> scene_;
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;

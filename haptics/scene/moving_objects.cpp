@@ -1,0 +1,109 @@
+#include "haptics/scene/moving_objects.h"
+
+#include <cmath>
+#include <string>
+
+namespace touchstone {
+
+namespace {
+
+/// Whether the animation moves the node, by itself or through a parent.
+bool moves(const Scene& scene, const Animation& animation, int node) {
+    for (; node >= 0; node = scene.nodes[static_cast<size_t>(node)].parent)
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.node == node)
+                return true;
+    return false;
+}
+
+/// The similarity nearest to a matrix: scale from the volume, axes made orthogonal by Gram and Schmidt, who
+/// keep the rotation of a matrix that has one. False for what mirrors, flattens or is not finite.
+bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) {
+    const glm::dmat3 linear(matrix);
+    const double volume = glm::determinant(linear);
+    if (!(volume > 0.0) || !std::isfinite(volume))
+        return false;
+    const glm::dvec3 x = glm::normalize(linear[0]);
+    const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
+    const Similarity nearest{std::cbrt(volume),
+                             glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)))),
+                             glm::dvec3(matrix[3])};
+    if (!std::isfinite(glm::dot(nearest.translation, nearest.translation)) || !(nearest.scale > 0.0))
+        return false;
+    similarity = nearest;
+    return true;
+}
+
+glm::dmat4 matrixOf(const Similarity& similarity) {
+    glm::dmat4 matrix = glm::mat4_cast(similarity.rotation);
+    for (int column = 0; column < 3; ++column)
+        matrix[column] *= similarity.scale;
+    matrix[3] = glm::dvec4(similarity.translation, 1.0);
+    return matrix;
+}
+
+} // namespace
+
+const Animation* playedAnimation(const Scene& scene) {
+    return scene.animations.empty() ? nullptr : scene.animations.data();
+}
+
+std::vector<Warning> animationWarnings(const Scene& scene) {
+    const Animation* animation = playedAnimation(scene);
+    std::vector<Warning> warnings;
+    if (animation == nullptr)
+        return warnings;
+    if (scene.animations.size() > 1)
+        warnings.push_back({"animations", "only the first of " + std::to_string(scene.animations.size()) +
+                                              " plays: '" + animation->name + "'"});
+    for (const AnimationChannel& channel : animation->channels) {
+        if (channel.path != AnimatedPath::Scale)
+            continue;
+        for (const glm::vec4& scale : channel.values)
+            if (std::abs(scale.x - scale.y) + std::abs(scale.y - scale.z) > 1e-4f * std::abs(scale.x)) {
+                warnings.push_back({"animations[0]", "scales node " + std::to_string(channel.node) +
+                                                         " unevenly: it is felt scaled evenly"});
+                return warnings;
+            }
+    }
+    return warnings;
+}
+
+MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
+    : scene_(std::move(scene)), animation_(playedAnimation(*scene_)),
+      workspaceFromScene_(haptic.workspaceFromScene) {
+    if (animation_ == nullptr)
+        return;
+    for (size_t k = 0; k < haptic.objects.size(); ++k) {
+        const auto instance = static_cast<size_t>(haptic.objects[k]->instance);
+        const glm::dmat4& objectFromMesh = haptic.objects[k]->objectFromMesh;
+        if (!moves(*scene_, *animation_, scene_->instances[instance].node) ||
+            glm::determinant(glm::dmat3(objectFromMesh)) == 0.0)
+            continue;
+        movers_.push_back({k, instance, glm::inverse(objectFromMesh)});
+    }
+    if (movers_.empty())
+        return;
+    pose_.emplace_back(*scene_);
+    motions_ = haptic.restMotions;
+}
+
+ObjectMotions MovingObjects::at(double time) noexcept {
+    if (movers_.empty())
+        return {};
+    ScenePose& pose = pose_.front();
+    pose.evaluate(*scene_, animation_, loopedTime(*animation_, time));
+    const glm::dmat4 workspaceFromScene = matrixOf(workspaceFromScene_);
+    for (const Mover& mover : movers_) {
+        ObjectMotion& motion = motions_[mover.object];
+        motion.before = motion.workspaceFromObject;
+        nearestSimilarity(workspaceFromScene * pose.sceneFromMesh()[mover.instance] * mover.meshFromObject,
+                          motion.workspaceFromObject);
+        if (!sampled_)
+            motion.before = motion.workspaceFromObject;
+    }
+    sampled_ = true;
+    return motions_;
+}
+
+} // namespace touchstone

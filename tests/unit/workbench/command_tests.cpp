@@ -1,0 +1,342 @@
+// The command line as a user meets it: what it promises, what it refuses and with which words.
+
+#include "tests/support/program.h"
+#include "tests/unit/workbench/touch_files.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+namespace touchstone::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kProgram = TOUCHSTONE_BINARY;
+const std::string kPlane = TOUCHSTONE_ASSETS "/plane.glb";
+const std::string kBox = TOUCHSTONE_ASSETS "/box.glb";
+const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// A refusal: this status, a message on stderr with all these words, nothing on stdout.
+void expectRefused(const ProgramResult& result, int status, const std::vector<std::string>& words) {
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_TRUE(result.out.empty()) << result.out;
+    for (const std::string& word : words)
+        EXPECT_TRUE(contains(result.err, word)) << "'" << word << "' is not in: " << result.err;
+}
+
+TEST(CommandLine, HelpNamesEveryCommandOptionAndSetting) {
+    const ProgramResult result = runProgram({kProgram, "--help"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_TRUE(result.err.empty());
+    for (const char* word :
+         {"run",       "touch",           "render",       "inspect",        "devices",     "--headless",
+          "--seconds", "--json",          "--screenshot", "--record-ticks", "--path",      "--out",
+          "--fit",     "--set",           "--size",       "--view",         "--hand",      "--rate",
+          "--version", "forceShading",    "friction",     "texture",        "proxyRadius", "stiffness",
+          "damping",   "iterationBudget", "forceEnabled"})
+        EXPECT_TRUE(contains(result.out, word)) << word;
+    for (const char* word : {"study", "bench"})
+        EXPECT_FALSE(contains(result.out, std::string("\n  ") + word)) << word << " does not exist";
+}
+
+TEST(CommandLine, EveryCommandHasItsOwnHelp) {
+    for (const char* command : {"run", "touch", "render", "inspect", "devices"}) {
+        const ProgramResult result = runProgram({kProgram, command, "--help"});
+        EXPECT_EQ(result.status, 0) << command;
+        EXPECT_FALSE(result.out.empty()) << command;
+    }
+    EXPECT_TRUE(contains(runProgram({kProgram, "touch", "--help"}).out, "proxyRadius"));
+}
+
+TEST(CommandLine, SaysItsVersion) {
+    EXPECT_EQ(runProgram({kProgram, "--version"}).out.substr(0, 11), "touchstone ");
+}
+
+TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
+    const std::vector<std::vector<std::string>> wrong{
+        {"--nonsense"},
+        {"run"},
+        {"run", kPlane},
+        {"run", kPlane, "--headless", "--seconds", "soon"},
+        {"run", kPlane, "--headless", "--seconds", "-1"},
+        {"run", kPlane, "--headless", "--rate", "50"},
+        {"touch", kPlane},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--fit", "sideways"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "stiffness"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "stiffness=soft"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "nothing=1"},
+        {"render", kPlane},
+        {"render", kPlane, "--out", "a.png", "--size", "640"},
+        {"render", kPlane, "--out", "a.png", "--size", "0x480"},
+        {"render", kPlane, "--out", "a.png", "--size", "640x480x"},
+        {"render", kPlane, "--out", "a.png", "--view", "smell"},
+        {"inspect"},
+        {kPlane, kPlane},
+    };
+    for (std::vector<std::string> arguments : wrong) {
+        arguments.insert(arguments.begin(), kProgram);
+        expectRefused(runProgram(arguments), 2, {"touchstone: ", "--help"});
+    }
+}
+
+TEST(CommandLine, AWrongSettingIsToldWithWhatIsAllowed) {
+    const auto refuse = [](const std::string& assignment) {
+        return runProgram({kProgram, "touch", kPlane, "--path", "a", "--out", "b", "--set", assignment}).err;
+    };
+    EXPECT_TRUE(contains(refuse("friction=sticky"), "zilles"));
+    EXPECT_TRUE(contains(refuse("colour=red"), "proxyRadius"));
+}
+
+TEST(CommandLine, BadInputIsStatusOneAndNamesTheFile) {
+    const ScratchFolder scratch;
+    const std::string missing = (scratch / "missing.glb").string();
+    const std::string text = (scratch / "notes.glb").string();
+    const std::string empty = (scratch / "empty.glb").string();
+    const std::string picture = (scratch / "out.png").string();
+    writeTextFile(text, "this is not a model\n");
+    writeTextFile(empty, "");
+    for (const std::string& bad : {missing, text, empty, scratch.path().string()}) {
+        expectRefused(runProgram({kProgram, "inspect", bad}), 1, {"touchstone: ", bad});
+        expectRefused(runProgram({kProgram, "render", bad, "--out", picture}), 1, {bad});
+        expectRefused(runProgram({kProgram, "run", bad, "--headless", "--seconds", "1"}), 1, {bad});
+    }
+    EXPECT_FALSE(fs::exists(picture));
+}
+
+TEST(CommandLine, ATruncatedModelIsRefused) {
+    const ScratchFolder scratch;
+    const std::string whole = readFile(kBox);
+    for (const size_t length : {size_t{3}, size_t{12}, size_t{40}, whole.size() / 2, whole.size() - 1}) {
+        const std::string cut = (scratch / "cut.glb").string();
+        writeTextFile(cut, whole.substr(0, length));
+        expectRefused(runProgram({kProgram, "inspect", cut}), 1, {cut});
+    }
+}
+
+TEST(Window, WithoutADisplayItNamesTheHeadlessCommand) {
+    expectRefused(runProgram({kProgram, kPlane}, {"DISPLAY=", "WAYLAND_DISPLAY="}), 1,
+                  {"display", "run", "--headless"});
+    expectRefused(runProgram({kProgram, kPlane}, {"DISPLAY=:987", "WAYLAND_DISPLAY="}), 1, {"--headless"});
+}
+
+TEST(Gpu, WithoutAVulkanDeviceItNamesThePackage) {
+    const ScratchFolder scratch;
+    const std::string picture = (scratch / "out.png").string();
+    expectRefused(runProgram({kProgram, "render", kPlane, "--out", picture},
+                             {"VK_ICD_FILENAMES=/nowhere.json", "VK_DRIVER_FILES=/nowhere.json"}),
+                  1, {"Vulkan", "mesa-vulkan-drivers"});
+    EXPECT_FALSE(fs::exists(picture));
+}
+
+class Touch : public testing::Test {
+  protected:
+    std::string path(const std::string& csv) {
+        writeTextFile(scratch / "hip.csv", csv);
+        return (scratch / "hip.csv").string();
+    }
+    std::string out() { return (scratch / "ticks.csv").string(); }
+    ProgramResult touch(const std::string& scene, const std::string& csv,
+                        const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{kProgram, "touch", scene, "--path", path(csv), "--out", out()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runProgram(arguments);
+    }
+
+    ScratchFolder scratch;
+};
+
+/// Straight down onto the plane y = 0 and 2 mm into it.
+const std::string kDown = straightPath({0.01, 0.01, 0.02}, {0.01, -0.002, 0.02}, 400);
+
+TEST_F(Touch, WritesTheColumnsOfTheDesignOneRowATick) {
+    ASSERT_EQ(touch(kPlane, kDown).status, 0);
+    const Table ticks = readTable(out());
+    const std::vector<std::string> expected{"t",        "hip_x",     "hip_y",          "hip_z",
+                                            "proxy_x",  "proxy_y",   "proxy_z",        "normal_x",
+                                            "normal_y", "normal_z",  "force_x",        "force_y",
+                                            "force_z",  "contacts",  "friction_state", "penetration",
+                                            "step_ns",  "command_x", "command_y",      "command_z"};
+    EXPECT_EQ(ticks.names, expected);
+    EXPECT_EQ(ticks.rows, 400u);
+    EXPECT_EQ(ticks["t"][399], 0.399);
+    EXPECT_EQ(ticks["hip_y"][399], -0.002) << "full precision";
+}
+
+TEST_F(Touch, OnAPlaneTheForceIsStiffnessTimesDepthAlongTheNormal) {
+    constexpr double kRadius = 0.5e-3, kStiffness = 800.0;
+    ASSERT_EQ(touch(kPlane, kDown, {"--set", "stiffness=800", "--set", "friction=off"}).status, 0);
+    const Table ticks = readTable(out());
+    size_t contacts = 0;
+    for (size_t i = 0; i < ticks.rows; ++i) {
+        const double depth = kRadius - ticks["hip_y"][i]; // the sphere rests kRadius above the plane
+        if (depth < 1e-7) {
+            EXPECT_EQ(ticks["contacts"][i], 0.0);
+            EXPECT_EQ(ticks["force_y"][i], 0.0);
+            EXPECT_EQ(ticks["normal_y"][i], 0.0);
+            continue;
+        }
+        ++contacts;
+        EXPECT_EQ(ticks["contacts"][i] > 0.0, true) << i;
+        EXPECT_NEAR(ticks["force_y"][i], kStiffness * depth, kStiffness * 1e-8);
+        EXPECT_NEAR(ticks["force_x"][i], 0.0, 1e-7);
+        EXPECT_NEAR(ticks["force_z"][i], 0.0, 1e-7);
+        EXPECT_NEAR(ticks["proxy_y"][i], kRadius, 1e-8);
+        EXPECT_NEAR(ticks["penetration"][i], depth, 1e-8);
+        EXPECT_NEAR(ticks["normal_y"][i], 1.0, 1e-9);
+    }
+    EXPECT_GT(contacts, 50u);
+    EXPECT_NEAR(ticks["command_y"][399], ticks["force_y"][399], 1e-12)
+        << "faded in long ago, within the limits";
+}
+
+TEST_F(Touch, TwoRunsAreByteIdenticalButForTheTime) {
+    const std::string over = straightPath({-0.07, 0.03, 0.0}, {0.07, 0.008, 0.01}, 2000);
+    ASSERT_EQ(touch(kDoughnut, over).status, 0);
+    const std::string first = readFile(out());
+    ASSERT_EQ(touch(kDoughnut, over).status, 0);
+    EXPECT_EQ(withoutColumn(first, "step_ns"), withoutColumn(readFile(out()), "step_ns"));
+    const Table ticks = readTable(out());
+    double most = 0.0;
+    for (const double contacts : ticks["contacts"])
+        most = std::max(most, contacts);
+    EXPECT_GT(most, 0.0) << "the path must touch for this to mean anything";
+}
+
+TEST_F(Touch, ReportsStepAndRayFloor) {
+    const std::string json = (scratch / "figures.json").string();
+    ASSERT_EQ(touch(kPlane, kDown, {"--json", json, "--set", "proxyRadius=0.001"}).status, 0);
+    const auto figures = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(figures["ticks"], 400);
+    EXPECT_EQ(figures["settings"]["proxyRadius"], "0.001");
+    EXPECT_GT(figures["step"]["p50_ns"], 0);
+    EXPECT_GE(figures["step"]["p99_ns"], figures["step"]["p50_ns"]);
+    EXPECT_EQ(figures["step"]["count"], figures["contact"]["ticks"]);
+    EXPECT_EQ(figures["step"]["all"]["count"], 400);
+    EXPECT_GT(figures["ray_floor"]["p50_ns"], 0);
+    EXPECT_EQ(figures["ray_floor"]["count"], figures["contact"]["ticks"]);
+    EXPECT_EQ(figures["allocations_in_tick"], 0);
+    EXPECT_EQ(figures["deallocations_in_tick"], 0);
+    EXPECT_GE(figures["contact"]["proxy_on_mesh_share"], 0.99);
+}
+
+TEST_F(Touch, FitPutsTheModelIntoTheWorkspace) {
+    // table1_object1 is a box of 0.1 m: fitted, its longest side is 0.15 m.
+    const std::string box = TOUCHSTONE_ASSETS "/table1_object1.glb";
+    const std::string down = straightPath({0.0, 0.09, 0.0}, {0.0, 0.06, 0.0}, 300);
+    const auto firstContact = [&](const std::vector<std::string>& more) {
+        EXPECT_EQ(touch(box, down, more).status, 0);
+        const Table ticks = readTable(out());
+        for (size_t i = 0; i < ticks.rows; ++i)
+            if (ticks["contacts"][i] > 0.0)
+                return ticks["hip_y"][i];
+        return 0.0;
+    };
+    EXPECT_NEAR(firstContact({"--fit", "workspace"}), 0.075 + 0.0005, 2e-4);
+    EXPECT_EQ(firstContact({"--fit", "none"}), 0.0) << "its top is at 0.05 m, out of reach of this path";
+}
+
+TEST_F(Touch, ResamplesThePathAtARate) {
+    ASSERT_EQ(touch(kPlane, kDown, {"--rate", "4000"}).status, 0);
+    const Table ticks = readTable(out());
+    EXPECT_EQ(ticks.rows, 399u * 4u + 1u);
+    EXPECT_NEAR(ticks["t"][1], 0.00025, 1e-15);
+    EXPECT_NEAR(ticks["hip_y"][4], readTable(path(kDown))["y"][1], 1e-12);
+}
+
+TEST_F(Touch, RefusesABadPathAndLeavesNothingBehind) {
+    const std::vector<std::string> bad{
+        "",
+        "t,x,y,z\n",
+        "t,x,y\n0,0,0\n",
+        "t,x,y,z\n0,0,0\n",
+        "t,x,y,z\n0,0,nan,0\n",
+        "t,x,y,z\n0,0,zero,0\n",
+        "t,x,y,z\n0,0,0,0\n0,0,0,0\n",
+    };
+    for (const std::string& csv : bad) {
+        expectRefused(touch(kPlane, csv), 1, {"hip.csv"});
+        EXPECT_FALSE(fs::exists(out())) << csv;
+    }
+    expectRefused(runProgram({kProgram, "touch", kPlane, "--path", "/no/such.csv", "--out", out()}), 1,
+                  {"/no/such.csv"});
+}
+
+TEST_F(Touch, AFolderThatIsNotThereIsNamed) {
+    const std::string nowhere = (scratch / "no").string() + "/ticks.csv";
+    expectRefused(runProgram({kProgram, "touch", kPlane, "--path", path(kDown), "--out", nowhere}), 1,
+                  {nowhere, "remedy"});
+    // The report's folder is missing: the ticks must not stand there alone as if all had gone well.
+    expectRefused(touch(kPlane, kDown, {"--json", (scratch / "no").string() + "/f.json"}), 1, {"f.json"});
+    EXPECT_FALSE(fs::exists(out()));
+    size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(scratch.path()))
+        ++files;
+    EXPECT_EQ(files, 1u) << "only the path";
+}
+
+TEST_F(Touch, ASlowDeviceOfLateTicksStillObeysTheLimiter) {
+    // 20 mm deep at 3000 N/m asks for 60 N.
+    ASSERT_EQ(
+        touch(kPlane, straightPath({0.0, 0.01, 0.0}, {0.0, -0.02, 0.0}, 600), {"--set", "stiffness=3000"})
+            .status,
+        0);
+    const Table ticks = readTable(out());
+    double most = 0.0, force = 0.0;
+    for (size_t i = 0; i < ticks.rows; ++i) {
+        most =
+            std::max(most, std::hypot(ticks["command_x"][i], ticks["command_y"][i], ticks["command_z"][i]));
+        force = std::max(force, ticks["force_y"][i]);
+    }
+    EXPECT_GT(force, 50.0) << "stage 7 says what the spring says";
+    EXPECT_LE(most, 8.5);
+    EXPECT_GT(most, 8.4);
+}
+
+TEST(Inspect, TellsWhatTheDoughnutIsAndWouldFeelLike) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "i.json").string();
+    const ProgramResult result = runProgram({kProgram, "inspect", kDoughnut, "--json", json});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto answer = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(answer["triangles"], 64800);
+    EXPECT_EQ(answer["touchable"], true);
+    EXPECT_EQ(answer["objects"][0]["closed"], true);
+    EXPECT_GT(answer["tick_p50_ns"]["all"], 0);
+    bool height = false;
+    for (const auto& effect : answer["materials"][0]["effects"])
+        if (effect["effect"] == "height map")
+            height = effect["on"];
+    EXPECT_TRUE(height);
+    EXPECT_TRUE(contains(result.out, "64800 triangles"));
+    EXPECT_TRUE(contains(result.out, "height map"));
+}
+
+TEST(Inspect, APlainModelNeedsNoEffect) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "i.json").string();
+    ASSERT_EQ(runProgram({kProgram, "inspect", TOUCHSTONE_ASSETS "/torus_64800.glb", "--json", json}).status,
+              0);
+    const auto answer = nlohmann::json::parse(readFile(json));
+    for (const auto& effect : answer["materials"][0]["effects"])
+        if (effect["effect"] == "normal map" || effect["effect"] == "height map") {
+            EXPECT_EQ(effect["on"], false);
+            EXPECT_FALSE(effect["reason"].get<std::string>().empty());
+        }
+}
+
+TEST(Devices, ListsWhatIsBuiltIn) {
+    const ProgramResult result = runProgram({kProgram, "devices"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_TRUE(contains(result.out, "mouse"));
+    EXPECT_TRUE(contains(result.out, "simulated hand"));
+}
+
+} // namespace
+} // namespace touchstone::test

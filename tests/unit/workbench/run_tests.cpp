@@ -1,0 +1,103 @@
+// The loops without a window, and pictures.
+
+#include "tests/support/program.h"
+#include "tests/unit/workbench/touch_files.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+namespace touchstone::test {
+namespace {
+
+const std::string kProgram = TOUCHSTONE_BINARY;
+const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
+const Environment kValidated{"TOUCHSTONE_VALIDATION=1", "DISPLAY=", "WAYLAND_DISPLAY="};
+
+/// Width and height in a PNG's header.
+std::pair<uint32_t, uint32_t> pngSize(const std::string& bytes) {
+    if (bytes.size() < 24 || bytes.substr(1, 3) != "PNG")
+        return {0, 0};
+    const auto number = [&](size_t at) {
+        uint32_t value = 0;
+        for (size_t i = 0; i < 4; ++i)
+            value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+        return value;
+    };
+    return {number(16), number(20)};
+}
+
+TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "r.json").string(), shot = (scratch / "s.png").string(),
+                      csv = (scratch / "t.csv").string();
+    const ProgramResult result = runProgram({kProgram, "run", kDoughnut, "--headless", "--seconds", "3",
+                                             "--json", json, "--screenshot", shot, "--record-ticks", csv},
+                                            kValidated);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto figures = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(figures["allocations_in_tick"], 0);
+    EXPECT_EQ(figures["deallocations_in_tick"], 0);
+    EXPECT_GT(figures["servo"]["ticks"], 100);
+    for (const char* name : {"missed", "p50_us", "p99_us", "p999_us", "rate_hz", "scheduling"})
+        EXPECT_TRUE(figures["servo"].contains(name)) << name;
+    EXPECT_GT(figures["frames"]["count"], 3);
+    EXPECT_GT(figures["frames"]["fps"], 0.0);
+    EXPECT_GT(figures["step"]["p50_ns"], 0);
+    EXPECT_GT(figures["contact"]["ticks"], 0);
+    EXPECT_GE(figures["contact"]["proxy_on_mesh_share"], 0.95);
+    EXPECT_GT(figures["force"]["max_n"], 0.0);
+    EXPECT_EQ(figures["flags"]["force_fault"], 0);
+    EXPECT_EQ(figures["gpu"]["validation_active"], true);
+    EXPECT_EQ(figures["gpu"]["validation_messages"], 0) << result.err;
+    EXPECT_EQ(pngSize(readFile(shot)), (std::pair<uint32_t, uint32_t>(800, 450)));
+    const Table ticks = readTable(csv);
+    EXPECT_EQ(ticks.rows + figures["servo"]["dropped_records"].get<size_t>(),
+              figures["servo"]["ticks"].get<size_t>());
+}
+
+TEST(Run, SettingsReachTheServo) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "r.json").string(), csv = (scratch / "t.csv").string();
+    ASSERT_EQ(runProgram({kProgram, "run", kDoughnut, "--headless", "--seconds", "1", "--json", json, "--set",
+                          "forceEnabled=off", "--record-ticks", csv})
+                  .status,
+              0);
+    EXPECT_EQ(nlohmann::json::parse(readFile(json))["settings"]["forceEnabled"], "off");
+    const Table ticks = readTable(csv);
+    for (size_t i = 0; i < ticks.rows; ++i)
+        ASSERT_EQ(ticks["command_y"][i], 0.0);
+}
+
+TEST(Run, AnInterruptStillWritesWhatWasAskedFor) {
+    const ScratchFolder scratch;
+    const std::filesystem::path json = scratch / "r.json";
+    BackgroundProgram program(
+        {kProgram, "run", kDoughnut, "--headless", "--seconds", "600", "--json", json.string()}, {},
+        scratch / "log");
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    ASSERT_TRUE(program.running()) << readFile(scratch / "log");
+    EXPECT_EQ(program.stop(), 0) << readFile(scratch / "log");
+    EXPECT_GT(nlohmann::json::parse(readFile(json))["servo"]["ticks"], 0);
+}
+
+TEST(Render, WritesThePictureInTheSizeAskedFor) {
+    const ScratchFolder scratch;
+    const std::string shaded = (scratch / "a.png").string(), height = (scratch / "b.png").string();
+    ASSERT_EQ(
+        runProgram({kProgram, "render", kDoughnut, "--out", shaded, "--size", "320x200"}, kValidated).status,
+        0);
+    ASSERT_EQ(
+        runProgram({kProgram, "render", kDoughnut, "--out", height, "--size", "320x200", "--view", "height"},
+                   kValidated)
+            .status,
+        0);
+    EXPECT_EQ(pngSize(readFile(shaded)), (std::pair<uint32_t, uint32_t>(320, 200)));
+    EXPECT_NE(readFile(shaded), readFile(height));
+}
+
+} // namespace
+} // namespace touchstone::test

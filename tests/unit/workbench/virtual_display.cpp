@@ -1,0 +1,109 @@
+#include "tests/unit/workbench/virtual_display.h"
+
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace touchstone::test {
+
+namespace {
+
+void pause(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+} // namespace
+
+VirtualDisplay::VirtualDisplay(int width, int height) {
+    // Xvfb finds a free number itself and writes it to the file behind the descriptor.
+    const std::string number = (scratch_ / "display").string();
+    const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+    server_ = std::make_unique<BackgroundProgram>(
+        std::vector<std::string>{"sh", "-c",
+                                 "exec Xvfb -displayfd 3 -nolisten tcp -screen 0 " + screen + " 3>" + number},
+        Environment{}, scratch_ / "xvfb.log");
+    for (int i = 0; i < 200 && server_->running(); ++i) {
+        const std::string answer = readFile(number);
+        if (!answer.empty() && answer.back() == '\n') {
+            name_ = ":" + answer.substr(0, answer.size() - 1);
+            return;
+        }
+        pause(50);
+    }
+    throw std::runtime_error("Xvfb does not start: " + readFile(scratch_ / "xvfb.log"));
+}
+
+std::string VirtualDisplay::xdotool(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "xdotool");
+    const ProgramResult result = runProgram(arguments, environment());
+    if (result.status != 0)
+        throw std::runtime_error("xdotool failed: " + result.err);
+    return result.out;
+}
+
+VirtualDisplay::Place VirtualDisplay::waitForWindow(const std::string& title) const {
+    for (int i = 0; i < 300; ++i) {
+        const ProgramResult found =
+            runProgram({"xdotool", "search", "--onlyvisible", "--name", title}, environment());
+        if (found.status == 0 && !found.out.empty()) {
+            const std::string window = found.out.substr(0, found.out.find('\n'));
+            std::istringstream geometry(xdotool({"getwindowgeometry", "--shell", window}));
+            Place place;
+            for (std::string line; std::getline(geometry, line);) {
+                if (line.starts_with("X="))
+                    place.x = std::atoi(line.c_str() + 2);
+                if (line.starts_with("Y="))
+                    place.y = std::atoi(line.c_str() + 2);
+            }
+            // Without a window manager nobody gives the keyboard to the window.
+            xdotool({"windowfocus", window});
+            return place;
+        }
+        pause(100);
+    }
+    throw std::runtime_error("no window called " + title);
+}
+
+void VirtualDisplay::click(const Place& place, int button) const {
+    xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y)});
+    pause(150); // a frame or two: the press must not come before the pointer
+    xdotool({"mousedown", std::to_string(button)});
+    pause(150);
+    xdotool({"mouseup", std::to_string(button)});
+    pause(150);
+}
+
+void VirtualDisplay::drag(const Place& from, const Place& to, int button) const {
+    constexpr int kSteps = 12;
+    xdotool({"mousemove", std::to_string(from.x), std::to_string(from.y)});
+    pause(150);
+    xdotool({"mousedown", std::to_string(button)});
+    pause(100);
+    for (int i = 1; i <= kSteps; ++i) {
+        xdotool({"mousemove", std::to_string(from.x + (to.x - from.x) * i / kSteps),
+                 std::to_string(from.y + (to.y - from.y) * i / kSteps)});
+        pause(40);
+    }
+    pause(150);
+    xdotool({"mouseup", std::to_string(button)});
+    pause(100);
+}
+
+void VirtualDisplay::key(const std::string& name) const {
+    xdotool({"keydown", name});
+    pause(120);
+    xdotool({"keyup", name});
+    pause(120);
+}
+
+void VirtualDisplay::scroll(const Place& place, int notches) const {
+    xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y)});
+    for (int i = 0; i < std::abs(notches); ++i) {
+        xdotool({"click", notches > 0 ? "4" : "5"});
+        pause(60);
+    }
+    pause(150);
+}
+
+} // namespace touchstone::test

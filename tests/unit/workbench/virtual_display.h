@@ -1,0 +1,39 @@
+#pragma once
+// A screen of the test's own (Xvfb), and a hand on its mouse (xdotool).
+
+#include "tests/support/program.h"
+
+#include <memory>
+#include <string>
+
+namespace touchstone::test {
+
+class VirtualDisplay {
+  public:
+    /// Starts Xvfb on a free display number; throws std::runtime_error where that fails.
+    VirtualDisplay(int width, int height);
+
+    [[nodiscard]] const std::string& name() const { return name_; } ///< ":17"
+    [[nodiscard]] Environment environment() const { return {"DISPLAY=" + name_, "WAYLAND_DISPLAY="}; }
+
+    /// xdotool with these arguments; returns what it prints. Throws std::runtime_error when it fails.
+    std::string xdotool(std::vector<std::string> arguments) const;
+
+    struct Place {
+        int x = 0, y = 0;
+    };
+    /// Waits for a window whose title contains `title` and returns where its upper left corner is.
+    [[nodiscard]] Place waitForWindow(const std::string& title) const;
+    void click(const Place& place, int button = 1) const;
+    void drag(const Place& from, const Place& to, int button = 1) const;
+    void key(const std::string& name) const;
+    /// Scrolls `notches` at a place, positive away from the user.
+    void scroll(const Place& place, int notches) const;
+
+  private:
+    ScratchFolder scratch_;
+    std::unique_ptr<BackgroundProgram> server_;
+    std::string name_;
+};
+
+} // namespace touchstone::test

@@ -1,0 +1,160 @@
+// The real window, driven as a person would: pointer and keys on a screen of its own.
+
+#include "tests/unit/workbench/virtual_display.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <functional>
+#include <thread>
+
+namespace touchstone::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kSwatches = TOUCHSTONE_ASSETS "/doughnut.glb";
+
+class WindowTest : public testing::Test {
+  protected:
+    void open(const std::string& scene, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size",
+                                           "1000x640",        "--status-json", status_.string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        Environment environment = display_.environment();
+        environment.emplace_back("TOUCHSTONE_VALIDATION=1");
+        program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
+        corner_ = display_.waitForWindow("Touchstone");
+        until("the model to be loaded",
+              [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
+    }
+
+    /// The newest status; fails when the program has gone.
+    Json status() {
+        if (!program_->running())
+            throw std::runtime_error("the window has closed: " + readFile(scratch_ / "log"));
+        const std::string text = readFile(status_);
+        return text.empty() ? Json{{"update", 0}, {"loading", true}, {"model", ""}} : Json::parse(text);
+    }
+
+    /// Waits for a status that says so, and returns it.
+    Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
+        for (int i = 0; i < 600; ++i) {
+            const Json now = status();
+            if (now["update"] > 0 && holds(now))
+                return now;
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        throw std::runtime_error("waited in vain for " + what + ": " + status().dump(2) +
+                                 readFile(scratch_ / "log"));
+    }
+
+    /// A status that was measured wholly after now.
+    Json later() {
+        const int update = status()["update"];
+        return until("a newer status", [&](const Json& s) { return s["update"] >= update + 2; });
+    }
+
+    VirtualDisplay::Place middleOf(const std::string& widget) {
+        const Json rect = status()["widgets"].at(widget);
+        return {corner_.x + static_cast<int>(rect["x"].get<double>() + 12.0),
+                corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())};
+    }
+    /// A place in the picture, as shares of its width and height.
+    VirtualDisplay::Place inPicture(double x, double y) const {
+        return {corner_.x + static_cast<int>(680.0 * x), corner_.y + static_cast<int>(640.0 * y)};
+    }
+
+    void expectCleanEnd() {
+        const Json last = status();
+        EXPECT_EQ(last["validation_messages"], 0) << readFile(scratch_ / "log");
+        EXPECT_EQ(last["allocations_in_tick"], 0);
+        EXPECT_EQ(program_->stop(), 0) << readFile(scratch_ / "log");
+    }
+
+    ScratchFolder scratch_;
+    std::filesystem::path status_ = scratch_ / "status.json";
+    VirtualDisplay display_{1280, 800};
+    std::unique_ptr<BackgroundProgram> program_;
+    VirtualDisplay::Place corner_;
+};
+
+bool touching(const Json& s) {
+    return s["recent"]["in_contact"].get<bool>();
+}
+
+TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
+    open(kSwatches, {"--hand", "simulated", "--set", "staticFriction=0.6", "--set", "dynamicFriction=0.5"});
+    until("the hand to touch", touching);
+    const Json on = later();
+    ASSERT_EQ(on["settings"]["friction"], "zilles");
+    EXPECT_GT(on["recent"]["mean_force_n"], 0.05);
+    EXPECT_GT(on["recent"]["mean_tangential_force_n"], 0.02);
+
+    display_.click(middleOf("friction"));
+    until("friction to be off", [](const Json& s) { return s["settings"]["friction"] == "off"; });
+    later();
+    const Json off = until("the hand to touch again", touching);
+    EXPECT_GT(off["recent"]["mean_force_n"], 0.05);
+    EXPECT_LT(off["recent"]["mean_tangential_force_n"],
+              0.1 * on["recent"]["mean_tangential_force_n"].get<double>());
+
+    display_.click(middleOf("friction"));
+    until("friction to be back as it was",
+          [](const Json& s) { return s["settings"]["friction"] == "zilles"; });
+    later();
+    const Json again = until("the hand to touch once more", touching);
+    EXPECT_GT(again["recent"]["mean_tangential_force_n"], 0.02);
+    expectCleanEnd();
+}
+
+TEST_F(WindowTest, TheOtherTogglesAndTheSpaceKeyReachTheServo) {
+    open(kSwatches, {"--hand", "simulated"});
+    display_.click(middleOf("texture"));
+    until("texture to be off", [](const Json& s) { return s["settings"]["texture"] == "off"; });
+    display_.click(middleOf("forceShading"));
+    until("force shading to be off", [](const Json& s) { return s["settings"]["forceShading"] == "off"; });
+    display_.key("space");
+    until("the force to be off", [](const Json& s) { return s["settings"]["forceEnabled"] == "off"; });
+    display_.key("space");
+    until("the force to be on", [](const Json& s) { return s["settings"]["forceEnabled"] == "on"; });
+    display_.click(middleOf("mouse"));
+    until("the mouse to be the hand", [](const Json& s) { return s["hand"] == "mouse"; });
+    expectCleanEnd();
+}
+
+TEST_F(WindowTest, DraggingMovesTheHandInTheViewPlaneAndTheWheelInDepth) {
+    open(kSwatches);
+    const auto hip = [](const Json& s) {
+        const auto v = s["tick"]["hip"].get<std::vector<double>>();
+        return std::array<double, 3>{v[0], v[1], v[2]};
+    };
+    const auto distance = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    };
+    const auto start = hip(later());
+    display_.drag(inPicture(0.4, 0.6), inPicture(0.4, 0.4));
+    const auto dragged = hip(later());
+    EXPECT_GT(distance(start, dragged), 0.01);
+    EXPECT_GT(dragged[1], start[1]) << "up is up";
+    display_.scroll(inPicture(0.4, 0.4), 5);
+    const auto pushed = hip(later());
+    EXPECT_NEAR(distance(dragged, pushed), 0.010, 0.002) << "five notches of 2 mm";
+    EXPECT_LT(pushed[2], dragged[2]) << "away from the user";
+    display_.drag(inPicture(0.4, 0.4), inPicture(0.6, 0.5), 3);
+    EXPECT_LT(distance(pushed, hip(later())), 1e-6) << "turning the view moves no hand";
+    expectCleanEnd();
+}
+
+TEST_F(WindowTest, PushingIntoTheModelIsFelt) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    until("the air", [](const Json& s) { return !touching(s); });
+    display_.scroll(inPicture(0.3, 0.3), 14);
+    const Json pressed = until("a contact", touching);
+    EXPECT_GT(pressed["recent"]["mean_force_n"], 0.0);
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace touchstone::test
