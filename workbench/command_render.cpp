@@ -2,14 +2,23 @@
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
 #include "workbench/commands.h"
+#include "workbench/gpu_options.h"
 #include "workbench/model.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <thread>
 
 namespace touchstone {
 
 namespace {
+
+/// No servo needs a core here.
+GpuOptions wholeMachine(const std::string& gpu) {
+    GpuOptions options = gpuOptions(gpu);
+    options.softwareThreads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return options;
+}
 
 ViewMode viewModeOf(const std::string& name) {
     const auto found = std::find(kViewModeNames.begin(), kViewModeNames.end(), name);
@@ -21,7 +30,7 @@ ViewMode viewModeOf(const std::string& name) {
 int renderCommand(const RenderOptions& options) {
     const Model model = loadModelToSee(options.scene, Fit::Workspace);
     printWarnings(model);
-    const std::unique_ptr<Gpu> gpu = Gpu::headless({.device = options.gpu});
+    const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
     SceneRenderer renderer(*gpu);
     renderer.setScene(model.scene);
 

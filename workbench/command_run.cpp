@@ -9,11 +9,11 @@
 #include "workbench/animate.h"
 #include "workbench/commands.h"
 #include "workbench/device_port.h"
+#include "workbench/gpu_options.h"
 #include "workbench/interrupt.h"
 #include "workbench/model.h"
 #include "workbench/output_file.h"
 #include "workbench/overlays.h"
-#include "workbench/render_threads.h"
 #include "workbench/settings_json.h"
 #include "workbench/tick_csv.h"
 #include "workbench/tick_statistics.h"
@@ -151,8 +151,7 @@ int runCommand(const RunOptions& options) {
     TickReader reader(model, options);
 
     // The device comes before the servo thread (DESIGN §8); the first frame compiles the pipelines.
-    leaveOneCoreToTheServo();
-    const std::unique_ptr<Gpu> gpu = Gpu::headless({.device = options.gpu});
+    const std::unique_ptr<Gpu> gpu = Gpu::headless(gpuOptions(options.gpu));
     SceneRenderer renderer(*gpu);
     renderer.setScene(model.scene);
     renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);

@@ -10,12 +10,12 @@
 #include "workbench/commands.h"
 #include "workbench/default_scene.h"
 #include "workbench/device_port.h"
+#include "workbench/gpu_options.h"
 #include "workbench/hand_switch.h"
 #include "workbench/interrupt.h"
 #include "workbench/model_loader.h"
 #include "workbench/overlays.h"
 #include "workbench/panel.h"
-#include "workbench/render_threads.h"
 #include "workbench/status_file.h"
 #include "workbench/style.h"
 #include "workbench/view_control.h"
@@ -45,7 +45,8 @@ double secondsNow() {
 class Workbench {
   public:
     explicit Workbench(const WindowOptions& options)
-        : window_("Touchstone", options.size), gpu_(makeGpu(window_, options)),
+        : window_("Touchstone", options.size),
+          gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
           target_(*gpu_, window_.handle()), renderer_(*gpu_),
           resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels}),
           servo_(portOf(hand_), {.rateHz = options.rateHz}),
@@ -82,11 +83,6 @@ class Workbench {
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
 
   private:
-    static std::unique_ptr<Gpu> makeGpu(Window& window, const WindowOptions& options) {
-        leaveOneCoreToTheServo(); // before the device, which comes before the servo thread
-        return createGpuForWindow(window.handle(), {.device = options.gpu});
-    }
-
     /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
     void takeModel() {
         try {

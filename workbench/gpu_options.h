@@ -1,0 +1,16 @@
+#pragma once
+
+#include "renderer/gpu.h"
+
+#include <string>
+
+namespace touchstone {
+
+/// The options of a Vulkan device picked by a part of its name (empty: the best).
+[[nodiscard]] inline GpuOptions gpuOptions(const std::string& name) {
+    GpuOptions options;
+    options.device = name;
+    return options;
+}
+
+} // namespace touchstone
