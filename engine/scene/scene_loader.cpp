@@ -1,5 +1,6 @@
 #include "engine/scene/scene_loader.h"
 
+#include "engine/scene/import/accessor_values.h"
 #include "engine/scene/import/gltf_animations.h"
 #include "engine/scene/import/gltf_haptics.h"
 #include "engine/scene/import/gltf_images.h"
@@ -22,6 +23,7 @@ ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
     // 2. Bytes: buffers from wherever they lie, decompressed.
     context.step(0.05, "reading buffers");
     const GltfDocument document = makeDocument(context, file);
+    warnOfAccessorValues(context, document);
 
     // 3. Structure: nodes parents first, materials as they look and feel, meshes placed on the nodes.
     auto scene = std::make_shared<Scene>();

@@ -62,6 +62,8 @@ DracoPrimitive decodeDraco(ImportContext& context, const GltfDocument& document,
     const auto names = extension.find("attributes");
     if (names == extension.end() || !names->is_object())
         context.fail(place + ".attributes", "should be an object");
+    if (!document.buffers.hasData(static_cast<size_t>(*view)))
+        context.fail(place + ".bufferView", "its buffer has no data");
     if (primitive.indices < 0)
         context.fail(place, "the primitive has no indices accessor, which Draco needs");
     const auto position = primitive.attributes.find("POSITION");

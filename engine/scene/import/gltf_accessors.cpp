@@ -94,6 +94,16 @@ size_t accessorCount(const GltfDocument& document, int accessor) {
     return document.model.accessors[static_cast<size_t>(accessor)].count;
 }
 
+bool accessorHasData(const GltfDocument& document, int index) {
+    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    const auto present = [&](int view) {
+        return view < 0 || document.buffers.hasData(static_cast<size_t>(view));
+    };
+    return present(accessor.bufferView) &&
+           (!accessor.sparse.isSparse ||
+            (present(accessor.sparse.indices.bufferView) && present(accessor.sparse.values.bufferView)));
+}
+
 int accessorComponents(const GltfDocument& document, int accessor) {
     return tinygltf::GetNumComponentsInType(
         static_cast<uint32_t>(document.model.accessors[static_cast<size_t>(accessor)].type));
@@ -116,6 +126,21 @@ std::vector<float> readFloats(ImportContext& context, const GltfDocument& docume
                           values[i * components + c] = convert(bytes + c * step, accessor.normalized);
                   });
     return values;
+}
+
+void visitStoredValues(ImportContext& context, const GltfDocument& document, int index,
+                       const std::function<void(size_t, double)>& visit) {
+    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    const size_t components = static_cast<size_t>(accessorComponents(document, index));
+    const uint64_t step = componentBytes(accessor.componentType);
+    const Convert convert = converter(accessor.componentType);
+    const bool wide = accessor.componentType == 5125; // a float would round it
+    visitElements(context, document, accessor, element("accessors", static_cast<size_t>(index)),
+                  [&](uint64_t, const uint8_t* bytes) {
+                      for (size_t c = 0; c < components; ++c)
+                          visit(c, wide ? static_cast<double>(loadUnaligned<uint32_t>(bytes + c * step))
+                                        : static_cast<double>(convert(bytes + c * step, false)));
+                  });
 }
 
 std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& document, int index,

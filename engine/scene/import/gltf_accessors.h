@@ -4,12 +4,15 @@
 #include "engine/scene/import/gltf_document.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace touchstone {
 
 [[nodiscard]] size_t accessorCount(const GltfDocument& document, int accessor);
+/// False if the bytes that it reads are not in the file (BufferStore::hasData).
+[[nodiscard]] bool accessorHasData(const GltfDocument& document, int accessor);
 [[nodiscard]] int accessorComponents(const GltfDocument& document, int accessor);
 
 /// All components as float, `accessorComponents` per element. Integers are divided by their largest value
@@ -17,6 +20,11 @@ namespace touchstone {
 /// memory.
 [[nodiscard]] std::vector<float> readFloats(ImportContext& context, const GltfDocument& document,
                                             int accessor, const std::string& place);
+
+/// Calls visit(component, value) for every number as stored: not normalised, replaced ones too. Not for
+/// matrices.
+void visitStoredValues(ImportContext& context, const GltfDocument& document, int accessor,
+                       const std::function<void(size_t, double)>& visit);
 
 /// A SCALAR accessor of unsigned integers. Fails for other types and for the primitive-restart value.
 [[nodiscard]] std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& document,

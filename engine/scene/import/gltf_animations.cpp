@@ -93,6 +93,10 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
                          : "\"" + gltf.target_path.substr(0, 40) + "\" cannot be animated");
     const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<size_t>(gltf.sampler)];
     const std::string samplerPlace = place + "." + element("samplers", static_cast<size_t>(gltf.sampler));
+    if (!accessorHasData(document, sampler.input) || !accessorHasData(document, sampler.output)) {
+        context.warn(samplerPlace, "its buffer is declared without data: not animated");
+        return std::nullopt;
+    }
     AnimationChannel channel;
     channel.times = readTimes(context, document, sampler.input, samplerPlace + ".input");
     // Without a node an extension or nobody is meant: the specification says to ignore it.

@@ -16,7 +16,7 @@ const json* meshoptExtension(const json& object) {
     return found == extensions->end() ? nullptr : &*found;
 }
 
-/// A buffer without data that only stands for the decompressed bytes of its views.
+/// A buffer that only stands for the decompressed bytes of its views.
 bool isFallback(const json& buffer) {
     const json* extension = meshoptExtension(buffer);
     return extension != nullptr && extension->is_object() &&
@@ -51,34 +51,45 @@ void BufferStore::loadBuffers(ImportContext& context, const GltfFile& file) {
         const uint64_t length = buffers[i]["byteLength"];
         ByteSpan bytes;
         if (buffers[i].contains("uri")) {
-            const std::string uri = buffers[i]["uri"];
-            const std::string at = place + ".uri";
-            if (isDataUri(uri)) {
-                owned_.push_back(dataUriBytes(context, at, uri));
-            } else {
-                const auto path = resolveUri(context, at, file.folder, uri);
-                if (!std::filesystem::exists(path))
-                    context.fail(at, "the file \"" + uri + "\" is missing",
-                                 "copy it beside the model, or export as .glb");
-                owned_.push_back(readWholeFile(path, path.string()));
-            }
-            bytes = owned_.back();
+            bytes = bytesOfUri(context, file, buffers[i]["uri"], place + ".uri");
         } else if (i == 0 && file.binary) {
             bytes = *file.binary;
-        } else if (isFallback(buffers[i])) {
+            context.countFileBytes(bytes.size());
+        } else if (i == 0 && file.isGlb && !isFallback(buffers[i])) {
+            context.fail(place, "is the GLB's binary chunk, but the file has none",
+                         "copy or re-export the file");
+        } else {
             buffers_.push_back({});
             continue;
-        } else {
-            context.fail(place, "has neither a uri nor a binary chunk of a GLB", "re-export the model");
         }
         if (bytes.size() < length)
             context.fail(place,
                          "has " + std::to_string(bytes.size()) + " bytes, but byteLength says " +
                              std::to_string(length),
                          "the file is truncated or was changed: re-export the model");
-        context.countBufferBytes(length);
         buffers_.push_back(bytes.first(length));
     }
+}
+
+ByteSpan BufferStore::bytesOfUri(ImportContext& context, const GltfFile& file, const std::string& uri,
+                                 const std::string& place) {
+    if (isDataUri(uri)) {
+        owned_.push_back(dataUriBytes(context, place, uri));
+        context.countFileBytes(owned_.back().size());
+        return owned_.back();
+    }
+    const auto path = resolveUri(context, place, file.folder, uri);
+    // Several buffers may be the same file; it is read and kept once.
+    const auto [known, isNew] = files_.try_emplace(path);
+    if (isNew) {
+        if (!std::filesystem::exists(path))
+            context.fail(place, "the file \"" + uri + "\" is missing",
+                         "copy it beside the model, or export as .glb");
+        owned_.push_back(readWholeFile(path, path.string()));
+        context.countFileBytes(owned_.back().size());
+        known->second = owned_.back();
+    }
+    return known->second;
 }
 
 void BufferStore::loadViews(ImportContext& context, const GltfFile& file) {
@@ -97,9 +108,7 @@ void BufferStore::loadViews(ImportContext& context, const GltfFile& file) {
             continue;
         }
         const ByteSpan buffer = buffers_[views[i]["buffer"].get<size_t>()];
-        if (buffer.empty())
-            context.fail(place, "its buffer has no data and the view is not compressed");
-        views_.push_back(buffer.subspan(offset, length));
+        views_.push_back(buffer.empty() ? buffer : buffer.subspan(offset, length));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/scene/import/gltf_file.h"
 
+#include <map>
 #include <vector>
 
 namespace touchstone {
@@ -17,12 +18,19 @@ class BufferStore {
     /// The bytes of bufferViews[index]: exactly byteLength of them.
     [[nodiscard]] ByteSpan view(size_t index) const { return views_[index]; }
 
+    /// False for a view of a buffer that the file declares and leaves without bytes, which is legal: the
+    /// bytes may come with an extension or by other ways. `view` is then empty.
+    [[nodiscard]] bool hasData(size_t index) const { return !views_[index].empty(); }
+
   private:
     void loadBuffers(ImportContext& context, const GltfFile& file);
+    ByteSpan bytesOfUri(ImportContext& context, const GltfFile& file, const std::string& uri,
+                        const std::string& place);
     void loadViews(ImportContext& context, const GltfFile& file);
 
     std::vector<std::vector<uint8_t>> owned_;
-    std::vector<ByteSpan> buffers_; ///< empty: the placeholder of a compressed view
+    std::map<std::filesystem::path, ByteSpan> files_;
+    std::vector<ByteSpan> buffers_; ///< empty: declared without bytes
     std::vector<ByteSpan> views_;
 };
 

@@ -125,6 +125,7 @@ GltfFile takeGltfApart(ImportContext& context, std::vector<uint8_t> bytes,
         context.fail("", "the file is empty", "copy or re-export the file");
     if (text.size() >= 4 && littleEndian32(text, 0) == kGlbMagic)
         text = readGlbChunks(context, file);
+    file.isGlb = text.data() != file.bytes.data();
     file.json = parseBounded(context, text);
     if (!file.json.is_object())
         context.fail("", "not a glTF file: its JSON is not an object", "open a .gltf or .glb file");

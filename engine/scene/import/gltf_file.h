@@ -20,7 +20,8 @@ using ByteSpan = std::span<const uint8_t>;
 struct GltfFile {
     std::filesystem::path folder; ///< what its URIs are relative to
     std::vector<uint8_t> bytes;
-    nlohmann::json json;            ///< an object, at most kMaxJsonDepth deep, kMaxJsonValues values
+    nlohmann::json json; ///< an object, at most kMaxJsonDepth deep, kMaxJsonValues values
+    bool isGlb = false;
     std::optional<ByteSpan> binary; ///< the GLB's BIN chunk
 };
 

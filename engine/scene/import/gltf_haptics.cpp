@@ -157,6 +157,10 @@ std::optional<FactorMap> mpegChannel(ImportContext& context, const GltfDocument&
     const std::string at = place + "." + name;
     if (!found->is_array())
         context.fail(at, "should be an array of {texture, type}", "correct the extension in the file");
+    constexpr size_t kMaxMaps = 64;
+    if (found->size() > kMaxMaps)
+        context.fail(at, "holds more than " + std::to_string(kMaxMaps) + " maps",
+                     "correct the extension in the file");
     std::optional<FactorMap> chosen;
     bool chosenHigh = false;
     for (size_t i = 0; i < found->size(); ++i) {

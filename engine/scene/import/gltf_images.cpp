@@ -4,7 +4,8 @@
 #include "engine/scene/import/gltf_uri.h"
 #include "engine/scene/import/image_decode.h"
 
-#include <array>
+#include <filesystem>
+#include <set>
 
 namespace touchstone {
 namespace {
@@ -17,33 +18,64 @@ struct Encoded {
     std::string declaredType;
 };
 
-Encoded fetch(ImportContext& context, const GltfFile& file, const GltfDocument& document, const json& gltf,
-              const std::string& place, Image& image) {
-    Encoded encoded;
-    encoded.declaredType = gltf.value("mimeType", "");
-    if (gltf.contains("bufferView")) {
-        encoded.bytes = document.buffers.view(gltf["bufferView"]);
+/// Brings the encoded bytes of images, and keeps account of what they cost: a file read again and again
+/// counts against the pixels' memory, so that no list of images makes the loader read for hours.
+class ImageSource {
+  public:
+    ImageSource(ImportContext& context, const GltfFile& file, const GltfDocument& document)
+        : context_(context), file_(file), document_(document) {}
+
+    /// Sets `image.problem` when there is nothing to decode.
+    Encoded fetch(const json& gltf, const std::string& place, Image& image) {
+        Encoded encoded;
+        encoded.declaredType = gltf.value("mimeType", "");
+        if (gltf.contains("bufferView")) {
+            encoded.bytes = document_.buffers.view(gltf["bufferView"]);
+            if (encoded.bytes.empty())
+                image.problem = "its buffer has no data";
+            return encoded;
+        }
+        const std::string uri = gltf["uri"];
+        if (isDataUri(uri)) {
+            DataUri data = decodeDataUri(context_, place + ".uri", uri);
+            if (encoded.declaredType.empty())
+                encoded.declaredType = data.mediaType;
+            encoded.owned = std::move(data.bytes);
+            context_.countFileBytes(encoded.owned.size());
+        } else {
+            if (image.name.empty())
+                image.name = uri.substr(0, 200);
+            readFile(resolveUri(context_, place + ".uri", file_.folder, uri), uri.substr(0, 200), encoded,
+                     image);
+        }
+        encoded.bytes = encoded.owned;
         return encoded;
     }
-    const std::string uri = gltf["uri"];
-    if (isDataUri(uri)) {
-        DataUri data = decodeDataUri(context, place + ".uri", uri);
-        if (encoded.declaredType.empty())
-            encoded.declaredType = data.mediaType;
-        encoded.owned = std::move(data.bytes);
-    } else {
-        if (image.name.empty())
-            image.name = uri.substr(0, 200);
-        const auto path = resolveUri(context, place + ".uri", file.folder, uri);
+
+  private:
+    void readFile(const std::filesystem::path& path, const std::string& uri, Encoded& encoded, Image& image) {
+        if (exhausted_) {
+            image.problem = kTooManyPixels;
+            return;
+        }
         try {
             encoded.owned = readWholeFile(path, path.string());
         } catch (const Error& error) {
-            image.problem = "\"" + uri.substr(0, 200) + "\": " + error.problem();
+            image.problem = "\"" + uri + "\": " + error.problem();
+            return;
         }
+        if (read_.insert(path).second)
+            context_.countFileBytes(encoded.owned.size());
+        else
+            exhausted_ = !context_.spendPixels(encoded.owned.size());
     }
-    encoded.bytes = encoded.owned;
-    return encoded;
-}
+
+    ImportContext& context_;
+    const GltfFile& file_;
+    const GltfDocument& document_;
+    std::set<std::filesystem::path> read_;
+    bool exhausted_ = false;
+};
 
 void warnOfType(ImportContext& context, const Encoded& encoded, const std::string& place) {
     const std::string format = sniffImageFormat(encoded.bytes);
@@ -103,17 +135,17 @@ std::vector<Image> readImages(ImportContext& context, const GltfFile& file, cons
     const json& gltf = file.json["images"];
     std::vector<Image> images(gltf.size());
     const std::vector<bool> used = usedImages(images.size(), materials, use);
+    ImageSource source(context, file, document);
     for (size_t i = 0; i < images.size(); ++i) {
         context.step(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(images.size()),
                      "reading images");
         Image& image = images[i];
         const std::string place = element("images", i);
         image.name = gltf[i].value("name", "");
-        const Encoded encoded = fetch(context, file, document, gltf[i], place, image);
+        const Encoded encoded = source.fetch(gltf[i], place, image);
         if (image.name.empty())
             image.name = place;
         image.encodedBytes = encoded.bytes.size();
-        context.countImageBytes(image.encodedBytes);
         if (image.problem.empty()) {
             warnOfType(context, encoded, place);
             DecodedImage decoded = decodeImage(encoded.bytes, !used[i],

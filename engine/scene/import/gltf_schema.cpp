@@ -285,9 +285,13 @@ class SchemaCheck {
     }
 
     [[noreturn]] void outOfRange(const json& value, const Rule& rule, const std::string& place) const {
-        std::string allowed = "at least " + json(rule.low).dump();
-        if (std::isfinite(rule.high))
-            allowed += " and at most " + json(rule.high).dump();
+        const auto shown = [](double v) {
+            return v == std::floor(v) && std::abs(v) < 1e6 ? json(static_cast<int>(v)).dump()
+                                                           : json(v).dump();
+        };
+        std::string allowed = "at least " + shown(rule.low);
+        if (rule.high < 1e6)
+            allowed += " and at most " + shown(rule.high);
         context_.fail(place, value.dump() + " is out of range, it must be " + allowed);
     }
 

@@ -18,6 +18,13 @@ constexpr std::array<std::string_view, 10> kReadExtensions = {
     "EXT_meshopt_compression",        "EXT_texture_webp",      "TOUCHSTONE_materials_haptic",
     "MPEG_haptic_material",           "MPEG_material_haptic",  "KHR_physics_rigid_bodies",
     "KHR_materials_emissive_strength"};
+/// Optional extensions whose absence changes what is there to touch or see, and how.
+constexpr std::pair<std::string_view, const char*> kMissedExtensions[] = {
+    {"EXT_mesh_gpu_instancing", "its copies of meshes are not placed"},
+    {"KHR_texture_basisu", "its compressed textures are left out"},
+    {"KHR_materials_pbrSpecularGlossiness", "its materials are drawn with default colours"},
+    {"KHR_node_visibility", "hidden nodes are shown"},
+    {"KHR_animation_pointer", "only nodes are animated"}};
 constexpr std::array<std::string_view, 3> kHarmlessExtensions = {"KHR_lights_punctual", "KHR_xmp_json_ld",
                                                                  "KHR_materials_variants"};
 
@@ -50,6 +57,10 @@ void checkExtensions(ImportContext& context, const json& gltf) {
             if (!(*found)[i].is_string())
                 context.fail(element(name, i), "should be a string");
     }
+    for (const json& entry : gltf.value("extensionsUsed", json::array()))
+        for (const auto& [name, loss] : kMissedExtensions)
+            if (entry == name)
+                context.warn("extensionsUsed", std::string(name) + " is not supported: " + loss);
     for (const json& entry : gltf.value("extensionsRequired", json::array())) {
         const std::string name = entry;
         if (contains(kReadExtensions, name))
@@ -94,17 +105,16 @@ void checkBufferViews(const ImportContext& context, const json& gltf) {
     }
 }
 
-/// Fails unless `count` elements of `bytes` each fit into the buffer view. All values are below 2^53 / 2^31 /
-/// 2^8.
+/// Fails unless `number` elements fit into the buffer view. All values are below 2^53 / 2^31 / 2^8.
 void checkRange(const ImportContext& context, const json& gltf, const std::string& place, size_t viewIndex,
-                uint64_t offset, uint64_t number, uint64_t bytes, bool strided) {
+                uint64_t offset, uint64_t number, ElementSize size, bool strided) {
     const json& view = gltf["bufferViews"][viewIndex];
     const uint64_t length = view["byteLength"];
-    const uint64_t stride = strided ? view.value("byteStride", bytes) : bytes;
-    if (stride < bytes)
-        context.fail(place, "its elements have " + std::to_string(bytes) +
+    const uint64_t stride = strided ? view.value("byteStride", size.step) : size.step;
+    if (stride < size.bytes)
+        context.fail(place, "its elements have " + std::to_string(size.bytes) +
                                 " bytes, but the buffer view's byteStride is " + std::to_string(stride));
-    const uint64_t needed = (number - 1) * stride + bytes;
+    const uint64_t needed = (number - 1) * stride + size.bytes;
     if (offset > length || needed > length - offset)
         context.fail(place, "reads to byte " + std::to_string(offset + needed) + " of a buffer view of " +
                                 std::to_string(length) + " bytes");
@@ -119,14 +129,15 @@ void checkAccessors(ImportContext& context, const json& gltf) {
         const std::string place = element("accessors", i);
         const int componentType = accessor["componentType"];
         const std::string type = accessor["type"];
-        const uint64_t number = accessor["count"], bytes = elementBytes(type, componentType);
+        const uint64_t number = accessor["count"];
+        const ElementSize size = elementSize(type, componentType);
         if (componentCount(type) == 0)
             context.fail(place + ".type", "\"" + type.substr(0, 40) + "\" is no accessor type");
-        if (bytes == 0)
+        if (size.bytes == 0)
             context.fail(place + ".componentType", std::to_string(componentType) + " is no component type");
         if (accessor.contains("bufferView"))
             checkRange(context, gltf, place, accessor["bufferView"],
-                       accessor.value("byteOffset", uint64_t{0}), number, bytes, true);
+                       accessor.value("byteOffset", uint64_t{0}), number, size, true);
         if (!accessor.contains("sparse"))
             continue;
         const json& sparse = accessor["sparse"];
@@ -139,9 +150,10 @@ void checkAccessors(ImportContext& context, const json& gltf) {
         if (indexType != 5121 && indexType != 5123 && indexType != 5125)
             context.fail(place + ".sparse.indices.componentType", "must be an unsigned integer type");
         checkRange(context, gltf, place + ".sparse.indices", indices["bufferView"],
-                   indices.value("byteOffset", uint64_t{0}), replaced, componentBytes(indexType), false);
+                   indices.value("byteOffset", uint64_t{0}), replaced,
+                   {componentBytes(indexType), componentBytes(indexType)}, false);
         checkRange(context, gltf, place + ".sparse.values", values["bufferView"],
-                   values.value("byteOffset", uint64_t{0}), replaced, bytes, false);
+                   values.value("byteOffset", uint64_t{0}), replaced, size, false);
     }
 }
 
@@ -227,12 +239,15 @@ int componentCount(const std::string& type) {
     return 0;
 }
 
-uint64_t elementBytes(const std::string& type, int componentType) {
+ElementSize elementSize(const std::string& type, int componentType) {
     const uint64_t bytes = componentBytes(componentType);
     const uint64_t columns = type == "MAT2" ? 2 : type == "MAT3" ? 3 : type == "MAT4" ? 4 : 0;
-    if (columns == 0)
-        return bytes * static_cast<uint64_t>(componentCount(type));
-    return columns * ((columns * bytes + 3) / 4 * 4);
+    if (columns == 0) {
+        const uint64_t all = bytes * static_cast<uint64_t>(componentCount(type));
+        return {all, all};
+    }
+    const uint64_t column = (columns * bytes + 3) / 4 * 4;
+    return {(columns - 1) * column + columns * bytes, columns * column};
 }
 
 void validateGltf(ImportContext& context, const json& gltf) {

@@ -21,7 +21,11 @@ void validateGltf(ImportContext& context, const nlohmann::json& gltf);
 /// Components of "SCALAR" ... "MAT4", 0 if there is no such type.
 [[nodiscard]] int componentCount(const std::string& type);
 
-/// Bytes of one accessor element in a buffer; matrix columns start on multiples of four.
-[[nodiscard]] uint64_t elementBytes(const std::string& type, int componentType);
+/// Bytes of one accessor element in a buffer. Matrix columns start on multiples of four; the last one needs
+/// no padding after it, so `bytes` may be less than the distance to the next element.
+struct ElementSize {
+    uint64_t bytes = 0, step = 0;
+};
+[[nodiscard]] ElementSize elementSize(const std::string& type, int componentType);
 
 } // namespace touchstone

@@ -92,7 +92,7 @@ DecodedImage decodeImage(ByteSpan encoded, bool headerOnly, const std::function<
     const uint64_t bytes = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height) *
                            static_cast<uint64_t>(channels) * read.size();
     if (!mayTake(bytes))
-        return broken("the model's images together need more memory than is allowed");
+        return broken(kTooManyPixels);
     image.pixels.bytes.resize(bytes);
     if (!input->read_image(0, 0, 0, channels, read, image.pixels.bytes.data()))
         return broken(lastError(*input));

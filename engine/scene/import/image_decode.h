@@ -8,6 +8,9 @@
 
 namespace touchstone {
 
+/// Why an image has no pixels when the limit of import_context.h is reached.
+inline constexpr const char* kTooManyPixels = "the model's images together need more memory than is allowed";
+
 struct DecodedImage {
     PixelData pixels;    ///< empty when `problem` is set
     std::string problem; ///< why there are no pixels, as the end of a sentence

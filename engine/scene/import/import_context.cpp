@@ -5,6 +5,10 @@
 namespace touchstone {
 
 void ImportContext::warn(std::string place, std::string message) {
+    // The same flaw met from several places is one flaw.
+    for (const Warning& known : warnings_)
+        if (known.place == place && known.message == message)
+            return;
     if (warnings_.size() < kMaxWarnings)
         warnings_.push_back({std::move(place), std::move(message)});
     else
@@ -23,7 +27,7 @@ void ImportContext::step(double fraction, const char* what) const {
 }
 
 void ImportContext::spendGeometry(uint64_t bytes, const std::string& place) {
-    const uint64_t limit = std::max(kFreeGeometryBytes, kGeometryExpansion * bufferBytes_);
+    const uint64_t limit = std::max(kFreeGeometryBytes, kGeometryExpansion * fileBytes_);
     if (bytes > limit - geometrySpent_)
         fail(place,
              "the geometry would expand to more than " + std::to_string(limit >> 20) +
@@ -33,7 +37,7 @@ void ImportContext::spendGeometry(uint64_t bytes, const std::string& place) {
 }
 
 bool ImportContext::spendPixels(uint64_t bytes) {
-    const uint64_t limit = std::max(kFreePixelBytes, kPixelExpansion * imageBytes_);
+    const uint64_t limit = std::max(kFreePixelBytes, kPixelExpansion * fileBytes_);
     if (bytes > limit - pixelsSpent_)
         return false;
     pixelsSpent_ += bytes;

@@ -26,13 +26,13 @@ inline constexpr int kMaxJsonDepth = 64;
 inline constexpr size_t kMaxJsonObjects = 400'000;
 /// Meshes placed in the scene.
 inline constexpr size_t kMaxInstances = 262'144;
-/// Bytes of geometry that any file may expand to; beyond it, kGeometryExpansion times the file's own buffers.
+/// Bytes of geometry that any file may expand to; beyond it, kGeometryExpansion times the file's own data.
 /// Sparse and absent buffer views, many primitives on one accessor and compression all make much of little.
 inline constexpr uint64_t kFreeGeometryBytes = 256ull << 20;
 inline constexpr uint64_t kGeometryExpansion = 16;
-/// Bytes of decoded pixels that any file may hold; beyond it, kPixelExpansion times its encoded images.
+/// Bytes of decoded pixels that any file may hold; beyond it, kPixelExpansion times the file's own data.
 inline constexpr uint64_t kFreePixelBytes = 320ull << 20;
-inline constexpr uint64_t kPixelExpansion = 64;
+inline constexpr uint64_t kPixelExpansion = 32;
 /// Longest side of an image, pixels.
 inline constexpr int kMaxImageSide = 16'384;
 
@@ -57,8 +57,8 @@ class ImportContext {
     void stopIfCancelled() const;
 
     /// The sizes of the file's own data, from which the limits above grow.
-    void countBufferBytes(uint64_t bytes) { bufferBytes_ += bytes; }
-    void countImageBytes(uint64_t bytes) { imageBytes_ += bytes; }
+    [[nodiscard]] uint64_t fileBytes() const { return fileBytes_; }
+    void countFileBytes(uint64_t bytes) { fileBytes_ += bytes; }
     /// Asks for memory that the geometry expands to; fails when the limit is passed.
     void spendGeometry(uint64_t bytes, const std::string& place);
     /// Asks for memory for pixels; false when the limit is passed.
@@ -72,7 +72,7 @@ class ImportContext {
     const LoadOptions& options_;
     std::vector<Warning> warnings_;
     size_t droppedWarnings_ = 0;
-    uint64_t bufferBytes_ = 0, imageBytes_ = 0, geometrySpent_ = 0, pixelsSpent_ = 0;
+    uint64_t fileBytes_ = 0, geometrySpent_ = 0, pixelsSpent_ = 0;
 };
 
 /// "meshes[3]".

@@ -141,6 +141,12 @@ void settleTangents(ImportContext& context, Mesh& mesh, const Material& material
     generateTangents(mesh, map.texCoord);
 }
 
+bool hasData(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+    return (primitive.indices < 0 || accessorHasData(document, primitive.indices)) &&
+           std::all_of(primitive.attributes.begin(), primitive.attributes.end(),
+                       [&](const auto& attribute) { return accessorHasData(document, attribute.second); });
+}
+
 } // namespace
 
 std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& document, size_t meshIndex,
@@ -151,6 +157,11 @@ std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& docume
     const nlohmann::json& stated = document.json["meshes"][meshIndex]["primitives"][primitiveIndex];
     context.stopIfCancelled();
 
+    context.spendGeometry(sizeof(Mesh) + sizeof(Material), place);
+    if (!hasData(document, primitive)) {
+        context.warn(place, "its buffer is declared without data: the mesh is left out");
+        return std::nullopt;
+    }
     std::optional<DracoPrimitive> draco;
     if (const auto* extension = extensionOf(context, stated, "KHR_draco_mesh_compression", place))
         draco = decodeDraco(context, document, *extension, primitive,

@@ -15,9 +15,9 @@ constexpr uint64_t kExactBoundsVertices = 100'000'000;
 
 uint64_t bytesOf(const Mesh& mesh) {
     const auto size = [](const auto& array) { return array.size() * sizeof(array[0]); };
-    return size(mesh.positions) + size(mesh.normals) + size(mesh.tangents) + size(mesh.uv0) + size(mesh.uv1) +
-           size(mesh.colors) + size(mesh.stiffness) + size(mesh.damping) + size(mesh.friction) +
-           size(mesh.indices);
+    return sizeof(Mesh) + sizeof(Material) + size(mesh.positions) + size(mesh.normals) + size(mesh.tangents) +
+           size(mesh.uv0) + size(mesh.uv1) + size(mesh.colors) + size(mesh.stiffness) + size(mesh.damping) +
+           size(mesh.friction) + size(mesh.indices);
 }
 
 /// The scene's meshes of one glTF mesh, by the physics material that its nodes give it.

@@ -1,0 +1,61 @@
+#include "engine/scene/import/accessor_values.h"
+
+#include "engine/scene/import/gltf_accessors.h"
+#include "engine/scene/import/gltf_validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+constexpr uint64_t kFreeElements = 1'000'000;
+
+bool isMatrix(int type) {
+    return type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
+}
+
+void warnOf(ImportContext& context, const GltfDocument& document, size_t index) {
+    const tinygltf::Accessor& accessor = document.model.accessors[index];
+    const std::string place = element("accessors", index);
+    const size_t components = static_cast<size_t>(accessorComponents(document, static_cast<int>(index)));
+    std::vector<double> low(components, INFINITY), high(components, -INFINITY);
+    size_t broken = 0;
+    visitStoredValues(context, document, static_cast<int>(index), [&](size_t component, double value) {
+        if (!std::isfinite(value)) {
+            ++broken;
+            return;
+        }
+        low[component] = std::min(low[component], value);
+        high[component] = std::max(high[component], value);
+    });
+    if (broken > 0)
+        context.warn(place, std::to_string(broken) + " of its numbers are not finite");
+    for (size_t c = 0; c < components; ++c) {
+        if (accessor.minValues.size() == components && std::isfinite(low[c]) &&
+            low[c] < accessor.minValues[c])
+            context.warn(place + ".min", "does not hold: there are smaller values. It is not used");
+        if (accessor.maxValues.size() == components && std::isfinite(high[c]) &&
+            high[c] > accessor.maxValues[c])
+            context.warn(place + ".max", "does not hold: there are larger values. It is not used");
+    }
+}
+
+} // namespace
+
+void warnOfAccessorValues(ImportContext& context, const GltfDocument& document) {
+    uint64_t left = std::max(kFreeElements, context.fileBytes());
+    for (size_t i = 0; i < document.model.accessors.size(); ++i) {
+        const tinygltf::Accessor& accessor = document.model.accessors[i];
+        if (accessor.bufferView < 0 || isMatrix(accessor.type) ||
+            !accessorHasData(document, static_cast<int>(i)))
+            continue;
+        if (accessor.count > left)
+            return;
+        left -= accessor.count;
+        context.stopIfCancelled();
+        warnOf(context, document, i);
+    }
+}
+
+} // namespace touchstone
