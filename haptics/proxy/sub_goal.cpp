@@ -8,76 +8,92 @@ namespace touchstone {
 namespace {
 
 constexpr int kMaxExchanges = 48;
-/// Squared sine below which two planes, or cosine-determinant below which three, count as dependent.
-constexpr double kDependent = 1e-14;
+/// Planes whose normals differ by less (rad, or the sine of the third to the plane of the other two) are one
+/// plane. A move of the object's own length along one of them then violates the other by less than the
+/// tolerance.
+constexpr double kDependent = 3e-13;
+constexpr double kTolerance = 3e-14;
+
+const ConstraintPlane& at(std::span<const ConstraintPlane> planes, int index) {
+    return planes[static_cast<size_t>(index)];
+}
 
 /// Nearest point to the goal on the meet of `count` planes with its Lagrange multipliers; false if dependent.
+/// By orthogonalisation: each plane is satisfied along a direction that leaves those before it alone, so that
+/// planes a millionth of a degree apart cost digits along their common line, where nothing is decided, and
+/// not across.
 bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const std::array<int, 3>& set,
           int count, SubGoal& result) {
-    const auto plane = [&](int i) -> const ConstraintPlane& {
-        return planes[static_cast<size_t>(set[static_cast<size_t>(i)])];
-    };
-    // Lack of each plane at the goal; the multipliers solve Gram * multiplier = lack.
-    const auto lack = [&](int i) { return plane(i).offset - glm::dot(plane(i).normal, goal); };
+    const glm::dvec3& n0 = at(planes, set[0]).normal;
+    const double a = at(planes, set[0]).offset - glm::dot(n0, goal);
     result.active = set;
     result.count = count;
-    if (count == 1) {
-        result.multiplier = {lack(0), 0.0, 0.0};
-    } else if (count == 2) {
-        const double c = glm::dot(plane(0).normal, plane(1).normal);
-        const glm::dvec3 line = glm::cross(plane(0).normal, plane(1).normal);
-        const double det = glm::dot(line, line); // 1 - c^2 without its cancellation
-        if (det < kDependent)
-            return false;
-        const double l0 = lack(0), l1 = lack(1);
-        result.multiplier = {(l0 - c * l1) / det, (l1 - c * l0) / det, 0.0};
-    } else {
-        const glm::dvec3 &n0 = plane(0).normal, &n1 = plane(1).normal, &n2 = plane(2).normal;
-        const double det = glm::dot(n0, glm::cross(n1, n2));
-        if (det * det < kDependent * kDependent)
-            return false;
-        const glm::dvec3 r0 = glm::cross(n1, n2) / det, r1 = glm::cross(n2, n0) / det,
-                         r2 = glm::cross(n0, n1) / det;
-        // The corner x solves N x = offset; x - goal = N^T multiplier.
-        const glm::dvec3 step = lack(0) * r0 + lack(1) * r1 + lack(2) * r2;
-        result.multiplier = {glm::dot(step, r0), glm::dot(step, r1), glm::dot(step, r2)};
-    }
-    result.point = goal;
-    for (int i = 0; i < count; ++i)
-        result.point += result.multiplier[static_cast<size_t>(i)] * plane(i).normal;
+    result.point = goal + a * n0;
+    result.multiplier = {a, 0.0, 0.0};
+    if (count == 1)
+        return true;
+
+    const glm::dvec3& n1 = at(planes, set[1]).normal;
+    const double c1 = glm::dot(n1, n0);
+    glm::dvec3 t = n1 - c1 * n0;
+    t -= glm::dot(t, n0) * n0; // once more: the first pass leaves rounding of n1 - n0 behind
+    const double s1 = glm::length(t);
+    if (s1 < kDependent)
+        return false;
+    t /= s1;
+    const double b = (at(planes, set[1]).offset - glm::dot(n1, result.point)) / s1;
+    result.point += b * t;
+    result.multiplier = {a - b * c1 / s1, b / s1, 0.0};
+    if (count == 2)
+        return true;
+
+    const glm::dvec3& n2 = at(planes, set[2]).normal;
+    const glm::dvec3 u = glm::cross(n0, t);
+    const double e2 = glm::dot(n2, u);
+    if (std::abs(e2) < kDependent)
+        return false;
+    const double c = (at(planes, set[2]).offset - glm::dot(n2, result.point)) / e2;
+    result.point += c * u;
+    const double m2 = c / e2;
+    const double m1 = (b - m2 * glm::dot(n2, t)) / s1;
+    result.multiplier = {a - m1 * c1 - m2 * glm::dot(n2, n0), m1, m2};
     return true;
 }
 
-/// Tries the subsets of `held` together with `entering`, small ones first. Exactly one subset has no negative
-/// multiplier and violates none of the others (Karush-Kuhn-Tucker for a convex problem).
+/// The nearest point among the meets of `entering` with the subsets of `held` that violate none of the planes
+/// held. For a convex problem that is the one without a negative multiplier (Karush-Kuhn-Tucker); going by
+/// the distance instead of by the signs leaves rounding nothing to decide where two answers are the same.
 bool exchange(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const SubGoal& held,
               int entering, double tolerance, SubGoal& result) {
-    const auto accepted = [&](const std::array<int, 3>& set, int count) {
+    double nearest = INFINITY;
+    const auto consider = [&](const std::array<int, 3>& set, int count) {
         SubGoal trial;
         if (!meet(goal, planes, set, count, trial))
-            return false;
-        for (int i = 0; i < count; ++i)
-            if (trial.multiplier[static_cast<size_t>(i)] < 0.0)
-                return false;
+            return;
+        const glm::dvec3 away = trial.point - goal;
+        const double distance = glm::dot(away, away);
+        if (distance >= nearest)
+            return;
         for (int i = 0; i < held.count; ++i) {
-            const ConstraintPlane& other = planes[static_cast<size_t>(held.active[static_cast<size_t>(i)])];
-            if (glm::dot(other.normal, trial.point) < other.offset - tolerance)
-                return false;
+            const int other = held.active[static_cast<size_t>(i)];
+            if (other == set[1] || (count == 3 && other == set[2]))
+                continue;
+            if (glm::dot(at(planes, other).normal, trial.point) < at(planes, other).offset - tolerance)
+                return;
         }
+        nearest = distance;
         result = trial;
-        return true;
     };
-    if (accepted({entering, 0, 0}, 1))
-        return true;
-    for (int i = 0; i < held.count; ++i)
-        if (accepted({entering, held.active[static_cast<size_t>(i)], 0}, 2))
-            return true;
-    for (int i = 0; i < held.count; ++i)
-        for (int k = i + 1; k < held.count; ++k)
-            if (accepted({entering, held.active[static_cast<size_t>(i)], held.active[static_cast<size_t>(k)]},
-                         3))
-                return true;
-    return false;
+    const auto& active = held.active;
+    consider({entering, -1, -1}, 1);
+    for (size_t i = 0; i < static_cast<size_t>(held.count); ++i)
+        consider({entering, active[i], -1}, 2);
+    for (size_t i = 0; i < static_cast<size_t>(held.count); ++i)
+        for (size_t k = i + 1; k < static_cast<size_t>(held.count); ++k)
+            consider({entering, active[i], active[k]}, 3);
+    for (double& multiplier : result.multiplier)
+        multiplier = std::max(multiplier, 0.0);
+    return nearest < INFINITY;
 }
 
 } // namespace
@@ -85,7 +101,7 @@ bool exchange(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, c
 SubGoal nearestFeasible(const glm::dvec3& goal, std::span<const ConstraintPlane> planes) noexcept {
     SubGoal current;
     current.point = goal;
-    const double tolerance = 1e-14 * (1.0 + glm::length(goal));
+    const double tolerance = kTolerance * (1.0 + glm::length(goal));
     for (int step = 0; step < kMaxExchanges; ++step) {
         int worst = -1;
         double deepest = -tolerance;

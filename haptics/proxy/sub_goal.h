@@ -23,7 +23,7 @@ struct SubGoal {
 };
 
 /// Nearest point to `goal` in the intersection of the half-spaces, of which at most three are active: faces,
-/// edges and corners by one rule [000 §3, 001]. Planes whose normals differ by less than 1e-7 rad count as
+/// edges and corners by one rule [000 §3, 001]. Planes whose normals differ by less than 3e-13 rad count as
 /// one. Bounded: at most kMaxExchanges planes enter.
 [[nodiscard]] SubGoal nearestFeasible(const glm::dvec3& goal,
                                       std::span<const ConstraintPlane> planes) noexcept;
