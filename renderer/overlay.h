@@ -40,7 +40,7 @@ struct Overlay {
     std::vector<Line> lines;
     std::vector<Disc> discs;
     /// Alpha factor of the pass that shows hidden items; 0 switches it off.
-    float hiddenAlpha = 0.3f;
+    float hiddenAlpha = 0.45f;
 
     void clear() {
         spheres.clear();

@@ -184,6 +184,7 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
         recipe.fragmentCode = shaders::false_color_frag;
         recipe.constants = {features, view};
         describeSceneVertices(recipe);
+        recipe.attributes.pop_back(); // no vertex colours here
         recipe.bindings.push_back({1, sizeof(float), vk::VertexInputRate::eVertex});
         recipe.attributes.push_back({6, 1, Format::eR32Sfloat, 0});
         recipe.layout = *falseColorLayout_;

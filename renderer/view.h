@@ -27,14 +27,14 @@ struct DirectionalLight {
 
 /// Light from everywhere, a sky above and a floor below (workspace y), linear RGB radiance.
 struct Ambient {
-    glm::vec3 sky{0.62f, 0.66f, 0.72f};
-    glm::vec3 floor{0.30f, 0.28f, 0.26f};
+    glm::vec3 sky{0.40f, 0.43f, 0.48f};
+    glm::vec3 floor{0.17f, 0.155f, 0.145f};
 };
 
 /// Linear RGB at the upper and lower edge of the image; not exposed or tone mapped.
 struct Background {
-    glm::vec3 top{0.30f, 0.33f, 0.37f};
-    glm::vec3 bottom{0.085f, 0.092f, 0.105f};
+    glm::vec3 top{0.235f, 0.26f, 0.295f};
+    glm::vec3 bottom{0.055f, 0.06f, 0.07f};
 };
 
 struct View {

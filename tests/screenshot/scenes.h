@@ -42,11 +42,147 @@ inline OrbitCamera cameraFor(const Scene& scene, double aspect) {
     return camera;
 }
 
+/// Twelve tiles, each a feature of its own; `without` leaves one of them out, so that its golden picture can
+/// be shown to notice. Rows from the top, four tiles each:
+///   0 dielectric, rough        1 dielectric, smooth   2 metal, half rough      3 metal, smooth
+///   4 vertex colours           5 emission             6 alpha mask, two-sided  7 blended over the background
+///   8 occlusion and roughness  9 UV transform        10 mirrored, with normals 11 broken image: grey
+inline std::shared_ptr<Scene> featureBoard(int without = -1) {
+    auto scene = std::make_shared<Scene>();
+    scene->images.push_back(
+        checkerImage("checker", 8, glm::vec4(0.95f, 0.85f, 0.5f, 1.0f), {0.15f, 0.3f, 0.5f, 0.0f}));
+    scene->images.push_back(bumpNormalImage("bumps", 0.08));
+    scene->images.push_back(checkerImage("orm", 6, {0.2f, 0.9f, 0.0f, 1.0f}, {1.0f, 0.25f, 1.0f, 1.0f}));
+    Image broken;
+    broken.name = "broken.png";
+    broken.problem = "not an image";
+    scene->images.push_back(broken);
+    for (int tile = 0; tile < 12; ++tile) {
+        const bool on = tile != without;
+        Material material;
+        material.baseColor = {0.75f, 0.22f, 0.2f, 1.0f};
+        material.metallic = 0.0f;
+        material.roughness = 0.6f;
+        Mesh mesh = tile == 6 ? quadMesh(0.024)
+                              : sphereMesh(0.024, 40, 24,
+                                           tile == 10 ? glm::vec2(12.0f, 6.0f) : glm::vec2(2.0f, 1.0f));
+        glm::dmat4 pose = glm::translate(glm::dmat4(1.0),
+                                         glm::dvec3(0.055 * (tile % 4 - 1.5), 0.055 * (1 - tile / 4), 0.0));
+        switch (tile) {
+        case 0:
+            material.roughness = on ? 0.95f : 0.3f;
+            break;
+        case 1:
+            material.roughness = on ? 0.12f : 0.6f;
+            break;
+        case 2:
+            material.baseColor = {0.9f, 0.65f, 0.3f, 1.0f};
+            material.metallic = on ? 1.0f : 0.0f;
+            material.roughness = 0.45f;
+            break;
+        case 3:
+            material.baseColor = {0.85f, 0.86f, 0.88f, 1.0f};
+            material.metallic = on ? 1.0f : 0.0f;
+            material.roughness = 0.15f;
+            break;
+        case 4:
+            material.baseColor = glm::vec4(1.0f);
+            if (on)
+                for (const glm::vec3& p : mesh.positions)
+                    mesh.colors.emplace_back(0.5f + 0.5f * glm::normalize(p), 1.0f);
+            break;
+        case 5:
+            material.baseColor = {0.02f, 0.02f, 0.02f, 1.0f};
+            material.emissive = on ? glm::vec3(0.9f, 0.6f, 0.1f) : glm::vec3(0.0f);
+            material.emissiveTexture = texture(0);
+            break;
+        case 6:
+            material.baseColor = glm::vec4(1.0f);
+            material.baseColorTexture = texture(0);
+            material.alphaMode = on ? AlphaMode::Mask : AlphaMode::Opaque;
+            material.doubleSided = true;
+            pose = pose * glm::rotate(glm::dmat4(1.0), 2.6, glm::dvec3(0.0, 1.0, 0.0)); // seen from behind
+            break;
+        case 7:
+            material.baseColor = {0.1f, 0.5f, 0.9f, 0.45f};
+            material.alphaMode = on ? AlphaMode::Blend : AlphaMode::Opaque;
+            break;
+        case 8:
+            if (on)
+                material.metallicRoughnessTexture = material.occlusionTexture = texture(2);
+            material.metallic = 1.0f;
+            break;
+        case 9:
+            material.baseColor = glm::vec4(1.0f);
+            material.baseColorTexture = texture(0);
+            if (on) {
+                material.baseColorTexture.rotation = 0.5f;
+                material.baseColorTexture.scale = {2.0f, 0.7f};
+                material.baseColorTexture.offset = {0.1f, 0.3f};
+                material.baseColorTexture.wrapS = Wrap::MirroredRepeat;
+            }
+            break;
+        case 10:
+            material.normalTexture = texture(1);
+            material.normalScale = on ? 1.0f : 0.0f;
+            pose = glm::scale(pose, glm::dvec3(-1.0, 1.0, 1.0));
+            break;
+        default:
+            material.baseColor = glm::vec4(1.0f);
+            if (on)
+                material.baseColorTexture = texture(3);
+            break;
+        }
+        scene->materials.push_back(material);
+        place(*scene, std::move(mesh), tile, pose);
+    }
+    return scene;
+}
+
+/// Two plates side by side with maps of friction and stiffness, a third that states nothing and one with
+/// values of its vertices.
+inline std::shared_ptr<Scene> hapticBoard(bool swapped = false) {
+    auto scene = std::make_shared<Scene>();
+    scene->images.push_back(
+        image("ramp", 64, 4, 1, [](double u, double) { return glm::vec4(static_cast<float>(u)); }));
+    scene->images.push_back(checkerImage("checker", 4, glm::vec4(0.1f), glm::vec4(0.9f)));
+    for (int plate = 0; plate < 4; ++plate) {
+        Material material;
+        Mesh mesh = quadMesh(0.02, 8);
+        if (plate < 2) {
+            const TextureRef map = texture(swapped ? 1 - plate : plate);
+            material.haptic.staticFriction.value = 0.8f;
+            material.haptic.friction.value = FactorMap{map, 0.2f, 1.0f};
+            material.haptic.stiffness.value = 800.0f;
+            material.haptic.stiffnessMap.value = FactorMap{map, 0.5f, 1.5f};
+            material.haptic.damping.value = 2.0f;
+            material.haptic.dampingMap.value = FactorMap{map, 0.0f, 1.0f};
+        } else if (plate == 2) {
+            for (const glm::vec3& p : mesh.positions) {
+                const float t = 0.5f + (swapped ? -1.0f : 1.0f) * p.y / 0.04f;
+                mesh.friction.push_back(0.9f * t);
+                mesh.stiffness.push_back(1500.0f * t);
+                mesh.damping.push_back(3.0f * t);
+            }
+        }
+        scene->materials.push_back(material);
+        place(*scene, std::move(mesh), plate,
+              glm::translate(glm::dmat4(1.0), glm::dvec3(0.045 * (plate - 1.5), 0.0, 0.0)));
+    }
+    return scene;
+}
+
+inline OrbitCamera frontCamera(const Scene& scene, double aspect) {
+    OrbitCamera camera;
+    camera.frame(scene.bounds, aspect);
+    return camera;
+}
+
 /// HIP inside the tube, proxy on it, force arrow, constraint plane and a line between.
 inline Overlay touchOverlay() {
     Overlay overlay;
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.35, 0.75, 0.55));
-    const glm::dvec3 middle = 0.060 * glm::normalize(glm::dvec3(0.35, 0.0, 0.55));
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.45, 0.8, 0.25));
+    const glm::dvec3 middle = 0.060 * glm::normalize(glm::dvec3(-0.45, 0.0, 0.25));
     const glm::dvec3 surface = middle + 0.025 * normal, hip = middle + 0.012 * normal;
     overlay.spheres.push_back({hip, 0.0035, {0.9f, 0.1f, 0.08f, 1.0f}});
     overlay.spheres.push_back({surface, 0.0035, {0.1f, 0.45f, 0.95f, 1.0f}});
