@@ -7,13 +7,13 @@ namespace touchstone {
 namespace {
 
 // Sizes in the workspace, m: a model is fitted to 150 mm.
-constexpr double kHipRadius = 1.2e-3;
-constexpr double kLeastProxyRadius = 2.0e-3; // a god-object has none, but must be seen
-constexpr double kStictionRadius = 0.8e-3;
-constexpr double kPlaneRadius = 8e-3;
-constexpr double kForceLength = 0.015; // m of arrow for one newton
-constexpr double kMostForceLength = 0.12;
-constexpr double kArrowRadius = 0.5e-3;
+constexpr double kHipRadius = 1.6e-3;
+constexpr double kLeastProxyRadius = 2.6e-3; // a god-object has none, but must be seen
+constexpr double kStictionRadius = 1.1e-3;
+constexpr double kPlaneRadius = 9e-3;
+constexpr double kForceLength = 0.04; // m of arrow for one newton
+constexpr double kMostForceLength = 0.1;
+constexpr double kArrowRadius = 0.8e-3;
 
 constexpr glm::vec4 kHipColor{0.95f, 0.16f, 0.08f, 1.0f};
 constexpr glm::vec4 kProxyColor{0.10f, 0.45f, 1.0f, 1.0f};

@@ -189,13 +189,20 @@ class Panel {
     }
 
     void keys() {
-        section("KEYS");
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextDisabled(
-            "Left drag moves the hand, the wheel in depth. Right drag turns the view, middle drag "
-            "shifts it, Ctrl+wheel zooms. Space: force off and on. Home: all in view. Drop a "
-            ".glb or .gltf here to open it.");
-        ImGui::PopTextWrapPos();
+        ImGui::Dummy(ImVec2(0.0f, 4.0f * in_.scale));
+        ImGui::TextDisabled("Pointer and keys: rest here to read");
+        if (!ImGui::IsItemHovered())
+            return;
+        ImGui::BeginTooltip();
+        ImGui::TextUnformatted("Left drag      moves the hand in the plane of the view\n"
+                               "Wheel          moves it in depth (Shift: finely)\n"
+                               "Right drag     turns the view\n"
+                               "Middle drag    shifts the view\n"
+                               "Ctrl+wheel     zooms\n"
+                               "Home           shows all\n"
+                               "Space          switches the force off and on\n"
+                               "A .glb or .gltf dropped here is opened");
+        ImGui::EndTooltip();
     }
 
     /// Notes where the last widget is.

@@ -47,11 +47,10 @@ class Workbench {
     explicit Workbench(const WindowOptions& options)
         : window_("Touchstone", options.size),
           gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
-          target_(*gpu_, window_.handle()), renderer_(*gpu_),
+          target_(*gpu_, window_.handle(), [this] { applyStyle(window_.contentScale()); }), renderer_(*gpu_),
           resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels}),
           servo_(portOf(hand_), {.rateHz = options.rateHz}),
           forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
-        applyStyle(window_.contentScale());
         state_.settings = state_.chosen = options.settings;
         state_.simulatedHand = options.simulatedHand;
         servo_.setSettings(state_.settings);
