@@ -16,12 +16,13 @@ void pause(int milliseconds) {
 } // namespace
 
 VirtualDisplay::VirtualDisplay(int width, int height) {
+    // -noreset: else the server starts anew whenever its last client leaves, and refuses newcomers meanwhile.
     // Xvfb finds a free number itself and writes it to the file behind the descriptor.
     const std::string number = (scratch_ / "display").string();
     const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
     server_ = std::make_unique<BackgroundProgram>(
-        std::vector<std::string>{"sh", "-c",
-                                 "exec Xvfb -displayfd 3 -nolisten tcp -screen 0 " + screen + " 3>" + number},
+        std::vector<std::string>{
+            "sh", "-c", "exec Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 " + screen + " 3>" + number},
         Environment{}, scratch_ / "xvfb.log");
     for (int i = 0; i < 200 && server_->running(); ++i) {
         const std::string answer = readFile(number);

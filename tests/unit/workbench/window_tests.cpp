@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kSwatches = TOUCHSTONE_ASSETS "/doughnut.glb";
+const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
 
 class WindowTest : public testing::Test {
   protected:
@@ -25,7 +25,13 @@ class WindowTest : public testing::Test {
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
         program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
-        corner_ = display_.waitForWindow("Touchstone");
+        try {
+            corner_ = display_.waitForWindow("Touchstone");
+        } catch (const std::exception& error) {
+            throw std::runtime_error(std::string(error.what()) +
+                                     (program_->running() ? "" : "; it has ended") + ": " +
+                                     readFile(scratch_ / "log"));
+        }
         until("the model to be loaded",
               [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
     }
@@ -85,7 +91,8 @@ bool touching(const Json& s) {
 }
 
 TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
-    open(kSwatches, {"--hand", "simulated", "--set", "staticFriction=0.6", "--set", "dynamicFriction=0.5"});
+    open(kDoughnut, {"--hand", "simulated", "--set", "staticFriction=0.6", "--set", "dynamicFriction=0.5",
+                     "--set", "texture=off"});
     until("the hand to touch", touching);
     const Json on = later();
     ASSERT_EQ(on["settings"]["friction"], "zilles");
@@ -110,7 +117,7 @@ TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
 }
 
 TEST_F(WindowTest, TheOtherTogglesAndTheSpaceKeyReachTheServo) {
-    open(kSwatches, {"--hand", "simulated"});
+    open(kDoughnut, {"--hand", "simulated"});
     display_.click(middleOf("texture"));
     until("texture to be off", [](const Json& s) { return s["settings"]["texture"] == "off"; });
     display_.click(middleOf("forceShading"));
@@ -125,7 +132,7 @@ TEST_F(WindowTest, TheOtherTogglesAndTheSpaceKeyReachTheServo) {
 }
 
 TEST_F(WindowTest, DraggingMovesTheHandInTheViewPlaneAndTheWheelInDepth) {
-    open(kSwatches);
+    open(kDoughnut);
     const auto hip = [](const Json& s) {
         const auto v = s["tick"]["hip"].get<std::vector<double>>();
         return std::array<double, 3>{v[0], v[1], v[2]};
