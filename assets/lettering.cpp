@@ -44,9 +44,9 @@ constexpr std::array<Glyph, 26> kLetters{{
 } // namespace
 
 bool inked(std::string_view text, double u, double v) {
-    // One dot between letters; 80 % of the square's width, and never taller than a quarter of it.
+    // One dot between letters. Eight letters take 80 % of the square's width; longer texts are set smaller.
     const double dots = static_cast<double>(text.size()) * (kColumns + 1) - 1;
-    const double dot = std::min(0.8 / dots, 0.25 / kRows);
+    const double dot = 0.8 / std::max(dots, 8.0 * (kColumns + 1) - 1);
     const double x = (u - 0.5) / dot + 0.5 * dots, y = (v - 0.5) / dot + 0.5 * kRows;
     if (x < 0.0 || y < 0.0 || x >= dots || y >= kRows)
         return false;

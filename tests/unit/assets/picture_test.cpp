@@ -107,10 +107,11 @@ TEST(Pictures, NoiseTilesAndStaysInRange) {
 }
 
 TEST(Pictures, LettersReadFromLeftToRight) {
-    // L: ink in the left column and along the bottom, none at the upper right.
-    EXPECT_TRUE(inked("L", 0.5 - 0.07, 0.5));
-    EXPECT_TRUE(inked("L", 0.5 + 0.07, 0.5 + 0.12));
-    EXPECT_FALSE(inked("L", 0.5 + 0.07, 0.5 - 0.12));
+    // L, a dot being 0.8 / 47 wide: ink in the left column and along the bottom, none at the upper right.
+    constexpr double kDot = 0.8 / 47.0;
+    EXPECT_TRUE(inked("L", 0.5 - 2 * kDot, 0.5));
+    EXPECT_TRUE(inked("L", 0.5 + 2 * kDot, 0.5 + 3 * kDot));
+    EXPECT_FALSE(inked("L", 0.5 + 2 * kDot, 0.5 - 3 * kDot));
     EXPECT_FALSE(inked("L", 0.01, 0.5)) << "beside the text there is none";
     EXPECT_FALSE(inked("", 0.5, 0.5));
 }
