@@ -24,8 +24,11 @@ void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double works
         state.stictionPoint = held;
         return;
     }
+    // The rest of a HIP moved along by the stretch that is kept. A target on the chord between two places of
+    // the surface would stand off it wherever the surface is hollow.
     state.friction = FrictionState::Sliding;
-    proxy.moveTowards(frictionless + feel.dynamicFriction * depth / length * stretch);
+    const glm::dvec3 kept = feel.dynamicFriction * depth / length * stretch;
+    proxy.moveTowards(frictionless + kept - depth * feel.normal);
     state.stictionPoint = state.proxy;
 }
 

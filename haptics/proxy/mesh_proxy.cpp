@@ -176,7 +176,7 @@ bool MeshProxy::isFree() noexcept {
 
 void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
     int withoutProgress = 0;
-    for (int iteration = 0;; ++iteration) {
+    for (;;) {
         if (!cover(0.0))
             return;
         findContacts();
@@ -186,7 +186,7 @@ void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
         const double length = glm::length(move);
         if (length <= kRestLength || withoutProgress > 2)
             return;
-        if (iteration == budget_) {
+        if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
             rest_.flags = rest_.flags | TickFlag::BudgetReached;
             return;
         }

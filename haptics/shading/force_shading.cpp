@@ -16,6 +16,49 @@ constexpr int kMaxRounds = 12;
 /// Object units: 1.5 nm on a fitted model, 1.5 µN at 1000 N/m.
 constexpr double kGoalTolerance = 1e-8;
 
+/// Where the interpolated planes through the proxy send it.
+struct ShadedGoal {
+    glm::dvec3 goal{0.0};   ///< anchor frame
+    glm::dvec3 normal{0.0}; ///< unit, from the HIP to the goal; meaningful while held
+    bool tilted = false;    ///< some interpolated normal differs from the true one
+    bool held = false;      ///< a tilted plane holds the HIP off
+};
+
+/// First pass: the nearest point to the HIP on the interpolated planes, put back onto the nearest true plane
+/// where it is above all of them, since a goal up there would lift the proxy off [000 §4].
+ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const DeviceState& state,
+                      double tiltLimit, const glm::dvec3& hip, const ProxyRest& rest) {
+    std::array<ConstraintPlane, ProxyRest::kMaxContacts> planes;
+    ShadedGoal result;
+    for (uint32_t i = 0; i < rest.contactCount; ++i) {
+        planes[i] = {interpolatedNormal(scene, motions, state.anchor, rest.contacts[i], tiltLimit), 0.0};
+        result.tilted |= planes[i].normal != rest.contacts[i].normal;
+    }
+    const glm::dvec3 wish = hip - state.proxy;
+    const SubGoal pass = nearestFeasible(wish, {planes.data(), rest.contactCount});
+    result.goal = state.proxy + pass.point;
+    if (pass.count == 0)
+        return result;
+    const glm::dvec3 towards = pass.point - wish;
+    const double length = glm::length(towards);
+    result.held = result.tilted && length > 0.0;
+    if (result.held)
+        result.normal = towards / length;
+    double nearest = INFINITY;
+    glm::dvec3 normal(0.0);
+    for (uint32_t i = 0; i < rest.contactCount; ++i) {
+        const Contact& contact = rest.contacts[i];
+        const double above = glm::dot(contact.normal, pass.point) - (kContactGap - contact.gap);
+        if (above < nearest) {
+            nearest = above;
+            normal = contact.normal;
+        }
+    }
+    if (nearest > 0.0)
+        result.goal -= nearest * normal;
+    return result;
+}
+
 } // namespace
 
 glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
@@ -72,49 +115,25 @@ glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip) noexcept {
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                   const glm::dvec3& hip, const glm::dvec3& firstGoal, MeshProxy& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept {
-    glm::dvec3 lastGoal = firstGoal;
-    std::array<ConstraintPlane, ProxyRest::kMaxContacts> planes;
+    glm::dvec3 lastGoal = firstGoal, lastStep(0.0);
     for (int round = 0; round < kMaxRounds; ++round) {
-        bool anyTilted = false;
-        for (uint32_t i = 0; i < rest.contactCount; ++i) {
-            planes[i] = {
-                interpolatedNormal(scene, motions, state.anchor, rest.contacts[i], settings.shadingTiltLimit),
-                0.0};
-            anyTilted |= planes[i].normal != rest.contacts[i].normal;
-        }
-        state.shaded = anyTilted;
-        if (!anyTilted && lastGoal == hip)
+        const ShadedGoal shaded = shadedGoal(scene, motions, state, settings.shadingTiltLimit, hip, rest);
+        state.shaded = shaded.held;
+        state.shadedNormal = shaded.normal;
+        if (!shaded.tilted && lastGoal == hip)
             return;
-        const SubGoal pass = nearestFeasible(hip - state.proxy, {planes.data(), rest.contactCount});
-        if (anyTilted && pass.count > 0) {
-            const glm::dvec3 towards = pass.point - (hip - state.proxy);
-            const double length = glm::length(towards);
-            state.shaded = length > 0.0;
-            if (state.shaded)
-                state.shadedNormal = towards / length;
-        } else {
-            state.shaded = false;
-        }
-        glm::dvec3 goal = state.proxy + pass.point;
-        if (pass.count > 0 && rest.contactCount > 0) {
-            // A goal above all true planes would lift the proxy off: back onto the nearest of them [000 §4].
-            double nearest = INFINITY;
-            glm::dvec3 normal(0.0);
-            for (uint32_t i = 0; i < rest.contactCount; ++i) {
-                const double above =
-                    glm::dot(rest.contacts[i].normal, pass.point) - (kContactGap - rest.contacts[i].gap);
-                if (above < nearest) {
-                    nearest = above;
-                    normal = rest.contacts[i].normal;
-                }
-            }
-            if (nearest > 0.0)
-                goal -= nearest * normal;
-        }
-        if (glm::length(goal - lastGoal) <= kGoalTolerance)
+        glm::dvec3 step = shaded.goal - lastGoal;
+        const double length = glm::length(step);
+        if (length <= kGoalTolerance)
             return;
-        proxy.moveTowards(goal);
-        lastGoal = goal;
+        // In a hollow that is deeper pressed than it is wide the goal swings to and fro: meet it half way.
+        if (glm::dot(step, lastStep) < 0.0 && length > 0.5 * glm::length(lastStep))
+            step *= 0.5;
+        lastGoal += step;
+        lastStep = step;
+        proxy.moveTowards(lastGoal);
+        if (has(rest.flags, TickFlag::BudgetReached))
+            break;
     }
     rest.flags = rest.flags | TickFlag::ShadingNotConverged;
 }
