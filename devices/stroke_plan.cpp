@@ -26,6 +26,12 @@ constexpr double kWorthwhile = 0.3; ///< share of the ellipse over the model tha
 constexpr double kHardlyAnything = 0.05; ///< share below which single triangles are pressed instead
 constexpr double kBridged = 0.005;       ///< m: gaps shorter than this are crossed without lifting
 constexpr double kDeepest = 0.1;         ///< of the model's diagonal: a small model is not pierced
+/// Rise over run at which the hand lifts instead of following.
+constexpr double kSteepest = 2.5;
+/// Share of the depth by which the next point may stand off the slope that the two normals tell of. Where it
+/// stands off farther, the surface ends in a rim; a hand that goes on under it hooks itself in and is dragged
+/// along inside.
+constexpr double kRim = 0.5;
 
 struct Stroke {
     View view;
@@ -81,6 +87,19 @@ Stroke bestStroke(const TriangleSource& triangles, const Bounds& bounds, const S
     return best;
 }
 
+/// Whether the way from one point of the surface to the next leads over a rim or up a wall.
+bool endsInRim(const View& view, const SurfaceHit& from, const SurfaceHit& to, double depth) {
+    const glm::dvec3 move = view.viewed(to.point) - view.viewed(from.point);
+    const double run = std::hypot(move.x, move.y);
+    if (std::abs(move.z) > kSteepest * run)
+        return true;
+    const auto slope = [&](const SurfaceHit& hit) {
+        const glm::dvec3 n = view.viewed(hit.point + hit.normal) - view.viewed(hit.point);
+        return n.z > 1e-3 ? -(n.x * move.x + n.y * move.y) / n.z : move.z;
+    };
+    return std::abs(move.z - 0.5 * (slope(from) + slope(to))) > kRim * depth;
+}
+
 /// Down onto the first touching point, along all of them, over the gaps in the air, and up again.
 std::vector<glm::dvec3> waypointsAlong(const Stroke& stroke, double depth, double clearance) {
     const size_t count = stroke.hits.size();
@@ -108,7 +127,9 @@ std::vector<glm::dvec3> waypointsAlong(const Stroke& stroke, double depth, doubl
             continue;
         }
         const SurfaceHit& hit = *hitAt(i);
-        if (last != nullptr && static_cast<double>(gap) * stroke.spacing > kBridged) {
+        const bool lifts = last != nullptr && (static_cast<double>(gap) * stroke.spacing > kBridged ||
+                                               endsInRim(stroke.view, *last, hit, depth));
+        if (lifts) {
             const double over = std::max(heightOf(*last), heightOf(hit)) + clearance;
             waypoints.push_back(above(*last, over));
             waypoints.push_back(above(hit, over));
