@@ -25,6 +25,13 @@ double metresPerPixelAtUnitDepth(double fovY, double heightPixels) {
 
 } // namespace
 
+OrbitCamera OrbitCamera::threeQuarter(const Bounds& bounds, double aspect) {
+    OrbitCamera camera;
+    camera.orbit(0.45, 0.35);
+    camera.frame(bounds, aspect);
+    return camera;
+}
+
 glm::dvec3 OrbitCamera::eye() const {
     return target + distance * back(*this);
 }

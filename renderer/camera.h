@@ -26,6 +26,9 @@ struct OrbitCamera {
 
     static constexpr double kMaxPitch = 1.5533430342749532; ///< rad, 89°: at 90° "up" is undefined
 
+    /// The first view of a model: from the front right and above, so that flat things are not seen edge-on.
+    [[nodiscard]] static OrbitCamera threeQuarter(const Bounds& bounds, double aspect);
+
     [[nodiscard]] glm::dvec3 eye() const;
     [[nodiscard]] glm::dvec3 forward() const; ///< unit, from the eye to the target
     [[nodiscard]] glm::dvec3 right() const;   ///< unit

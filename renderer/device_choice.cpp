@@ -42,10 +42,11 @@ std::string listed(const std::vector<DeviceCandidate>& candidates) {
     return text;
 }
 
-bool matches(const DeviceCandidate& candidate, size_t index, std::string_view wanted) {
+/// A number below `count` is an index, anything else a part of a name ("7900").
+bool matches(const DeviceCandidate& candidate, size_t index, size_t count, std::string_view wanted) {
     size_t number = 0;
     const auto [end, problem] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-    if (problem == std::errc{} && end == wanted.data() + wanted.size())
+    if (problem == std::errc{} && end == wanted.data() + wanted.size() && number < count)
         return number == index;
     return lower(candidate.name).find(lower(wanted)) != std::string::npos;
 }
@@ -67,7 +68,7 @@ size_t chooseDevice(const std::vector<DeviceCandidate>& candidates, std::string_
     size_t best = candidates.size();
     for (size_t i = 0; i < candidates.size(); ++i) {
         const DeviceCandidate& candidate = candidates[i];
-        if (!wanted.empty() && !matches(candidate, i, wanted))
+        if (!wanted.empty() && !matches(candidate, i, candidates.size(), wanted))
             continue;
         if (!candidate.unfit.empty())
             continue;

@@ -55,6 +55,17 @@ void fillFirstLevel(const PixelData& pixels, TextureLevels& result) {
         std::memcpy(result.bytes.data(), pixels.bytes.data(), result.bytes.size());
         return;
     }
+    if (pixels.type == ComponentType::U8) {
+        std::array<int, 4> from{};
+        for (int c = 0; c < 4; ++c)
+            from[static_cast<size_t>(c)] = sourceChannel(pixels.channels, c);
+        const auto stride = static_cast<size_t>(pixels.channels);
+        for (size_t i = 0; i < count; ++i)
+            for (size_t c = 0; c < 4; ++c)
+                result.bytes[4 * i + c] =
+                    from[c] < 0 ? std::byte{255} : pixels.bytes[i * stride + static_cast<size_t>(from[c])];
+        return;
+    }
     size_t place = 0;
     for (int y = 0; y < pixels.height; ++y)
         for (int x = 0; x < pixels.width; ++x)

@@ -38,12 +38,12 @@ vec3 reflected(vec3 n, vec3 v, vec3 l, float nv, float alpha, vec3 diffuse, vec3
     const float nh = clamp(dot(n, h), 0.0, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
     const float a2 = alpha * alpha;
     const float d = nh * nh * (a2 - 1.0) + 1.0;
-    const float visibility = 0.5 / mix(2.0 * nl * nv, nl + nv, alpha);
+    // Visibility is 0.5 / this, and a2 / (pi d^2) the GGX distribution: one division for both.
+    const float visibilityDivisor = mix(2.0 * nl * nv, nl + nv, alpha);
     const float grazing = 1.0 - vh;
     const float grazing2 = grazing * grazing;
     const vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
-    // a2 / (pi d^2) is the GGX distribution; 1/pi is shared with Lambert.
-    return (diffuse + fresnel * (visibility * a2 / (d * d))) * (nl * 0.31830989);
+    return (diffuse + fresnel * (0.5 * a2 / (visibilityDivisor * d * d))) * (nl * 0.31830989); // 1/pi for both
 }
 
 /// Radiance of the surroundings around direction r: floor below, sky above that brightens to the zenith, with a

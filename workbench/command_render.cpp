@@ -35,8 +35,7 @@ int renderCommand(const RenderOptions& options) {
     renderer.setScene(model.scene);
 
     const double aspect = static_cast<double>(options.size.x) / options.size.y;
-    OrbitCamera camera;
-    camera.frame(workspaceBounds(model), aspect);
+    const OrbitCamera camera = OrbitCamera::threeQuarter(workspaceBounds(model), aspect);
     View view = viewOf(camera, model.workspaceFromScene, aspect);
     view.mode = viewModeOf(options.view);
     writePng(options.out, renderStill(renderer, view, Overlay{}, options.size.x, options.size.y));

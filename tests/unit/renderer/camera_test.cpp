@@ -137,6 +137,15 @@ TEST(OrbitCamera, FramedBoxIsInsideTheImageAndFillsIt) {
     }
 }
 
+TEST(OrbitCamera, ThreeQuarterViewSeesThreeSidesOfABox) {
+    Bounds box;
+    box.include(glm::dvec3(-0.05));
+    box.include(glm::dvec3(0.05));
+    const glm::dvec3 toEye = -OrbitCamera::threeQuarter(box, 1.5).forward();
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_GT(toEye[axis], 0.2);
+}
+
 TEST(OrbitCamera, FramingNothingLeavesAUsableCamera) {
     OrbitCamera camera;
     camera.frame(Bounds{});

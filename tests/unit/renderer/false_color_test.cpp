@@ -1,0 +1,72 @@
+#include "renderer/false_color.h"
+#include "tests/support/test_shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace touchstone {
+namespace {
+
+Scene plate(const Material& material) {
+    Scene scene;
+    scene.materials.push_back(material);
+    test::place(scene, test::quadMesh(0.1), 0);
+    return scene;
+}
+
+TEST(FalseColorScale, SpansWhatTheMapsCanGive) {
+    Material material;
+    material.haptic.staticFriction.value = 0.5f;
+    material.haptic.friction.value = FactorMap{test::texture(0), 0.2f, 1.6f};
+    material.haptic.height.value = HeightMap{test::texture(0), 0.004f, 0.25f};
+    const Scene scene = plate(material);
+    const FalseColorScale friction = falseColorScale(scene, ViewMode::Friction);
+    EXPECT_TRUE(friction.meaningful);
+    EXPECT_NEAR(friction.low, 0.1, 1e-7);
+    EXPECT_NEAR(friction.high, 0.8, 1e-7);
+    const FalseColorScale height = falseColorScale(scene, ViewMode::Height);
+    EXPECT_NEAR(height.low, -0.001, 1e-9);
+    EXPECT_NEAR(height.high, 0.003, 1e-9);
+    EXPECT_EQ(height.unit, "m");
+    EXPECT_FALSE(falseColorScale(scene, ViewMode::Stiffness).meaningful);
+}
+
+TEST(FalseColorScale, VerticesOutrankTheMaterial) {
+    Material material;
+    material.haptic.stiffness.value = 10000.0f;
+    Scene scene = plate(material);
+    scene.meshes[0].stiffness = {100.0f, 200.0f, 300.0f, 400.0f};
+    const FalseColorScale scale = falseColorScale(scene, ViewMode::Stiffness);
+    EXPECT_EQ(scale.low, 100.0);
+    EXPECT_EQ(scale.high, 400.0);
+    EXPECT_EQ(scale.unit, "N/m");
+}
+
+TEST(FalseColorScale, OneValueStillHasTwoEnds) {
+    Material material;
+    material.haptic.staticFriction.value = 0.4f;
+    const FalseColorScale one = falseColorScale(plate(material), ViewMode::Friction);
+    EXPECT_EQ(one.low, 0.0);
+    EXPECT_NEAR(one.high, 0.4, 1e-7);
+    material.haptic.staticFriction.value = 0.0f;
+    const FalseColorScale zero = falseColorScale(plate(material), ViewMode::Friction);
+    EXPECT_LT(zero.low, zero.high);
+}
+
+TEST(FalseColor, LightnessRisesAndValuesStayInRange) {
+    double before = -1.0;
+    for (int i = 0; i <= 100; ++i) {
+        const glm::vec3 c = falseColor(i / 100.0);
+        const double luma = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+        EXPECT_GT(luma, before);
+        before = luma;
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_GE(c[k], 0.0f);
+            EXPECT_LE(c[k], 1.0f);
+        }
+    }
+    EXPECT_EQ(falseColor(-5.0), falseColor(0.0));
+    EXPECT_EQ(falseColor(7.0), falseColor(1.0));
+}
+
+} // namespace
+} // namespace touchstone
