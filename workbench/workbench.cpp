@@ -36,6 +36,7 @@ namespace {
 constexpr double kFramePeriod = 1.0 / 30.0; // s
 constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU draws it
 constexpr int kHardwarePixels = 2560 * 1440;
+constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
 constexpr double kPlotSeconds = 2.0;
 
 double secondsNow() {
@@ -48,7 +49,8 @@ class Workbench {
         : window_("Touchstone", options.size),
           gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
           target_(*gpu_, window_.handle(), [this] { applyStyle(window_.contentScale()); }), renderer_(*gpu_),
-          resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels}),
+          resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
+                       .smallestScale = kSmallestScale}),
           servo_(portOf(hand_), {.rateHz = options.rateHz}),
           forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
         state_.settings = state_.chosen = options.settings;
