@@ -66,7 +66,7 @@ class Panel {
     }
 
     void section(const char* title) {
-        ImGui::Dummy(ImVec2(0.0f, 4.0f * in_.scale));
+        ImGui::Dummy(ImVec2(0.0f, 2.0f * in_.scale));
         ImGui::TextDisabled("%s", title);
         ImGui::Separator();
     }
@@ -140,7 +140,7 @@ class Panel {
         ImGui::Text("%.2f N", glm::length(tick.force));
         ImGui::SameLine();
         ImGui::TextDisabled("at a depth of %.2f mm", 1e3 * tick.penetration);
-        drawForcePlot(*in_.forces, 96.0f * in_.scale);
+        drawForcePlot(*in_.forces, 80.0f * in_.scale);
     }
 
     void row(const char* label, const char* format, double a, double b = 0.0) {
@@ -157,12 +157,11 @@ class Panel {
             static_cast<double>(servo.counters.ticks));
         row("step", "%.1f µs, p99 %.1f µs", servo.stepP50Us, servo.stepP99Us);
         row("wake-up", "%.1f µs, p99 %.1f µs", servo.wakeP50Us, servo.wakeP99Us);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", servo.scheduling.c_str());
         row("picture", "%.0f frames/s", in_.framesPerSecond);
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%d x %d on %s", in_.sceneSize.x, in_.sceneSize.y, in_.gpuName.c_str());
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextDisabled("%s", servo.scheduling.c_str());
-        ImGui::PopTextWrapPos();
     }
 
     void view() {
@@ -176,6 +175,30 @@ class Panel {
             state_.view = static_cast<ViewMode>(mode);
         mark("view");
         ImGui::PopItemWidth();
+        if (in_.legend.meaningful)
+            legend();
+    }
+
+    /// The colours of a map and the numbers they stand for.
+    void legend() {
+        constexpr int kSteps = 24;
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const ImVec2 size(ImGui::GetContentRegionAvail().x, 10.0f * in_.scale);
+        for (int i = 0; i < kSteps; ++i) {
+            const glm::vec3 color = falseColor((i + 0.5) / kSteps);
+            const float x = corner.x + size.x * static_cast<float>(i) / kSteps;
+            ImGui::GetWindowDrawList()->AddRectFilled(
+                ImVec2(x, corner.y), ImVec2(x + size.x / kSteps + 1.0f, corner.y + size.y),
+                ImGui::GetColorU32(ImVec4(color.x, color.y, color.z, 1.0f)));
+        }
+        ImGui::Dummy(size);
+        char low[48], high[48];
+        const std::string unit(in_.legend.unit == "1" ? "" : in_.legend.unit);
+        std::snprintf(low, sizeof low, "%.3g %s", in_.legend.low, unit.c_str());
+        std::snprintf(high, sizeof high, "%.3g %s", in_.legend.high, unit.c_str());
+        ImGui::TextDisabled("%s", low);
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(high).x);
+        ImGui::TextDisabled("%s", high);
     }
 
     void warnings() {

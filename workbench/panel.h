@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/haptic_settings.h"
+#include "renderer/false_color.h"
 #include "renderer/view.h"
 #include "workbench/force_history.h"
 #include "workbench/servo_view.h"
@@ -27,6 +28,7 @@ struct PanelInput {
     bool canSimulate = false; ///< there is a path for the simulated hand
     const ServoView* servo = nullptr;
     const ForceHistory* forces = nullptr;
+    FalseColorScale legend; ///< of the view that is shown
     double framesPerSecond = 0.0;
     glm::ivec2 sceneSize{0};
     std::string gpuName;

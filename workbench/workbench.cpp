@@ -135,6 +135,7 @@ class Workbench {
         PanelInput input;
         if (hasModel()) {
             const Scene& scene = *shown_.model.scene;
+            input.legend = falseColorScale(scene, state_.view);
             input.modelName = std::filesystem::path(scene.path).filename().string();
             input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
                                (scene.touchable() ? "" : ": nothing to touch");

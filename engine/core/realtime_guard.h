@@ -1,6 +1,7 @@
 #pragma once
 // Says which code is inside a tick, so that a program can count what must never happen there.
 
+#include <atomic>
 #include <cstdint>
 
 namespace touchstone {
@@ -30,8 +31,16 @@ void resetViolations() noexcept;
 /// Everything within this scope must not allocate, lock or throw.
 class TickScope {
   public:
-    TickScope() noexcept { inTick = true; }
-    ~TickScope() { inTick = false; }
+    // The fences bind the compiler only: it knows that malloc reads no variable of ours, and would move the
+    // stores away from around it.
+    TickScope() noexcept {
+        inTick = true;
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+    }
+    ~TickScope() {
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+        inTick = false;
+    }
     TickScope(const TickScope&) = delete;
     TickScope& operator=(const TickScope&) = delete;
 };

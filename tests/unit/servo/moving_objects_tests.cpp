@@ -1,0 +1,162 @@
+#include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace touchstone {
+namespace {
+
+/// A square of 0.1 m in y = 0, seen from above, on a node with a parent.
+Scene squareOnTwoNodes() {
+    Scene scene;
+    Mesh mesh;
+    mesh.positions = {
+        {-0.05f, 0.0f, -0.05f}, {-0.05f, 0.0f, 0.05f}, {0.05f, 0.0f, 0.05f}, {0.05f, 0.0f, -0.05f}};
+    mesh.normals.assign(4, {0.0f, 1.0f, 0.0f});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes.push_back(std::move(mesh));
+    scene.materials.emplace_back();
+    scene.nodes.resize(2);
+    scene.nodes[1].parent = 0;
+    scene.instances.push_back({.node = 1, .mesh = 0});
+    return scene;
+}
+
+AnimationChannel channel(int node, AnimatedPath path, std::vector<float> times,
+                         std::vector<glm::vec4> values) {
+    AnimationChannel made;
+    made.node = node;
+    made.path = path;
+    made.times = std::move(times);
+    made.values = std::move(values);
+    return made;
+}
+
+struct Moved {
+    explicit Moved(Scene described, const Similarity& workspaceFromScene = {})
+        : scene(std::make_shared<const Scene>(std::move(described))),
+          haptic(compileHapticScene(*scene, workspaceFromScene)), moving(scene, *haptic) {}
+
+    ScenePtr scene;
+    std::shared_ptr<const HapticScene> haptic;
+    MovingObjects moving;
+};
+
+TEST(MovingObjects, NothingMovesWithoutAnAnimationOfATouchableNode) {
+    Moved still(squareOnTwoNodes());
+    EXPECT_FALSE(still.moving.moving());
+    EXPECT_TRUE(still.moving.at(1.0).empty());
+
+    Scene scene = squareOnTwoNodes();
+    scene.nodes.emplace_back(); // a node of its own: a camera, say
+    scene.animations.push_back(
+        {"camera",
+         1.0,
+         {channel(2, AnimatedPath::Translation, {0.0f, 1.0f}, {glm::vec4(0.0f), glm::vec4(1.0f)})}});
+    EXPECT_FALSE(Moved(std::move(scene)).moving.moving());
+}
+
+TEST(MovingObjects, FollowsAParentsTranslationInTheWorkspaceAndRemembersTheTickBefore) {
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back({"lift",
+                                1.0,
+                                {channel(0, AnimatedPath::Translation, {0.0f, 1.0f},
+                                         {glm::vec4(0.0f), glm::vec4(0.0f, 0.2f, 0.0f, 0.0f)})}});
+    Moved moved(std::move(scene), {.scale = 0.5});
+    ASSERT_TRUE(moved.moving.moving());
+    const ObjectMotion rest = moved.haptic->restMotions[0];
+    ObjectMotion now = moved.moving.at(0.25)[0];
+    EXPECT_NEAR(now.workspaceFromObject.translation.y - rest.workspaceFromObject.translation.y, 0.025, 1e-9);
+    EXPECT_NEAR(now.workspaceFromObject.scale, rest.workspaceFromObject.scale, 1e-12);
+    EXPECT_EQ(now.before.translation.y, now.workspaceFromObject.translation.y)
+        << "the first tick did not come from afar";
+    const double before = now.workspaceFromObject.translation.y;
+    now = moved.moving.at(0.5)[0];
+    EXPECT_NEAR(now.workspaceFromObject.translation.y - before, 0.025, 1e-9);
+    EXPECT_EQ(now.before.translation.y, before);
+    EXPECT_NEAR(moved.moving.at(7.25)[0].workspaceFromObject.translation.y, before, 1e-7) << "plays again";
+}
+
+TEST(MovingObjects, FollowsRotationAndEvenScale) {
+    const float half = std::sqrt(0.5f);
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back(
+        {"turn and grow",
+         1.0,
+         {channel(1, AnimatedPath::Rotation, {0.0f, 1.0f},
+                  {glm::vec4(0.0f, 0.0f, half, half), glm::vec4(0.0f, 0.0f, half, half)}),
+          channel(1, AnimatedPath::Scale, {0.0f, 1.0f},
+                  {glm::vec4(2.0f, 2.0f, 2.0f, 0.0f), glm::vec4(2.0f, 2.0f, 2.0f, 0.0f)})}});
+    Moved moved(std::move(scene));
+    const Similarity rest = moved.haptic->restMotions[0].workspaceFromObject;
+    const Similarity now = moved.moving.at(0.5)[0].workspaceFromObject;
+    EXPECT_NEAR(now.scale, 2.0 * rest.scale, 1e-7);
+    // A corner at (0.05, 0, z) turns a quarter about z to (0, 0.05, z), twice as far out.
+    const glm::dvec3 corner = rest.inverse().point({0.05, 0.0, 0.02});
+    EXPECT_NEAR(glm::length(now.point(corner) - glm::dvec3(0.0, 0.1, 0.04)), 0.0, 1e-7);
+}
+
+TEST(MovingObjects, AMirroringPoseLeavesTheObjectWhereItWas) {
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back({"flip",
+                                1.0,
+                                {channel(1, AnimatedPath::Scale, {0.0f, 1.0f},
+                                         {glm::vec4(1.0f), glm::vec4(-1.0f, 1.0f, 1.0f, 0.0f)})}});
+    Moved moved(std::move(scene));
+    const Similarity now = moved.moving.at(0.9)[0].workspaceFromObject;
+    EXPECT_TRUE(std::isfinite(now.scale) && now.scale > 0.0);
+    EXPECT_TRUE(std::isfinite(now.translation.y));
+}
+
+TEST(MovingObjects, AnUnevenScaleIsTold) {
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back({"squash",
+                                1.0,
+                                {channel(1, AnimatedPath::Scale, {0.0f, 1.0f},
+                                         {glm::vec4(1.0f), glm::vec4(1.0f, 0.5f, 1.0f, 0.0f)})}});
+    EXPECT_EQ(animationWarnings(scene).size(), 1u);
+    scene.animations.emplace_back();
+    EXPECT_EQ(animationWarnings(scene).size(), 2u) << "and that only the first plays";
+    EXPECT_TRUE(animationWarnings(squareOnTwoNodes()).empty());
+}
+
+/// A floor that rises through a hand at rest carries the proxy up with it and pushes.
+TEST(MovingObjects, ARisingFloorPushesARestingHand) {
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back({"rise",
+                                1.0,
+                                {channel(1, AnimatedPath::Translation, {0.0f, 1.0f},
+                                         {glm::vec4(0.0f), glm::vec4(0.0f, 0.02f, 0.0f, 0.0f)})}});
+    Moved moved(std::move(scene));
+    HapticSettings settings;
+    settings.stiffness = 500.0;
+    DeviceState state;
+    WorldState world;
+    HapticOutput output;
+    DeviceSample sample;
+    sample.position = {0.01, 0.01, 0.01};
+    sample.valid = true;
+    NoStopwatch none;
+    for (int i = 0; i <= 800; ++i) {
+        TickInput input;
+        input.tick = static_cast<uint64_t>(i);
+        input.time = 1e-3 * i;
+        input.devices = {&sample, 1};
+        input.objects = moved.moving.at(input.time);
+        hapticStep(*moved.haptic, settings, input, world, {&state, 1}, {&output, 1}, none);
+        const double floor = 0.02 * input.time, depth = floor - sample.position.y;
+        if (depth < -1e-6) {
+            EXPECT_EQ(output.contacts, 0u) << i;
+        } else if (depth > 1e-6) {
+            EXPECT_NEAR(output.force.y, settings.stiffness * (depth + settings.proxyRadius), 1e-4) << i;
+            EXPECT_NEAR(output.proxy.y, floor + settings.proxyRadius, 1e-7) << i;
+        }
+    }
+    EXPECT_GT(output.force.y, 2.9);
+}
+
+} // namespace
+} // namespace touchstone
