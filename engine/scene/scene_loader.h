@@ -19,7 +19,8 @@ struct ImageUse {
 
 struct LoadOptions {
     ImageUse images;
-    /// Called from the loading thread with 0..1 and what is being done. May be empty.
+    /// Called from the loading thread with 0..1 and what is being done (a literal, valid for ever). May be
+    /// empty.
     std::function<void(double fraction, const char* what)> progress;
     /// Set it to stop: loadScene then throws Error with problem "cancelled". May be null.
     const std::atomic<bool>* cancel = nullptr;

@@ -15,6 +15,11 @@ bool isMatrix(int type) {
     return type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
 }
 
+/// Many exporters print fewer digits than a float has; that is no flaw worth telling.
+double slack(double declared) {
+    return 1e-4 * std::abs(declared);
+}
+
 void warnOf(ImportContext& context, const GltfDocument& document, size_t index) {
     const tinygltf::Accessor& accessor = document.model.accessors[index];
     const std::string place = element("accessors", index);
@@ -32,11 +37,11 @@ void warnOf(ImportContext& context, const GltfDocument& document, size_t index) 
     if (broken > 0)
         context.warn(place, std::to_string(broken) + " of its numbers are not finite");
     for (size_t c = 0; c < components; ++c) {
-        if (accessor.minValues.size() == components && std::isfinite(low[c]) &&
-            low[c] < accessor.minValues[c])
+        if (accessor.minValues.size() == components &&
+            low[c] < accessor.minValues[c] - slack(accessor.minValues[c]))
             context.warn(place + ".min", "does not hold: there are smaller values. It is not used");
-        if (accessor.maxValues.size() == components && std::isfinite(high[c]) &&
-            high[c] > accessor.maxValues[c])
+        if (accessor.maxValues.size() == components &&
+            high[c] > accessor.maxValues[c] + slack(accessor.maxValues[c]))
             context.warn(place + ".max", "does not hold: there are larger values. It is not used");
     }
 }

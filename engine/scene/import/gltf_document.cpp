@@ -29,6 +29,12 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
             core[name] = *found;
     }
     stripExtras(core);
+    // tinygltf refuses index accessors without a buffer view, which Draco and sparse accessors may have: it
+    // gets the primitives without indices, and the model gets them back below.
+    if (core.contains("meshes"))
+        for (json& mesh : core["meshes"])
+            for (json& primitive : mesh["primitives"])
+                primitive.erase("indices");
     const std::string text = core.dump();
     core = nullptr;
 
@@ -46,6 +52,9 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
     if (!reader.LoadASCIIFromString(&model, &error, &warning, text.c_str(),
                                     static_cast<unsigned>(text.size()), ""))
         context.fail("", error.empty() ? "is no valid glTF" : error);
+    for (size_t m = 0; m < model.meshes.size(); ++m)
+        for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
+            model.meshes[m].primitives[p].indices = gltf["meshes"][m]["primitives"][p].value("indices", -1);
     return model;
 }
 

@@ -2,8 +2,7 @@
 // A validated glTF, ready to be read: its JSON, the same as typed structures, and its bytes.
 
 #include "engine/scene/import/gltf_buffers.h"
-
-#include <tiny_gltf.h>
+#include "engine/scene/import/tinygltf.h"
 
 namespace touchstone {
 

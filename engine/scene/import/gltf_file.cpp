@@ -18,28 +18,59 @@ uint32_t littleEndian32(ByteSpan bytes, size_t at) {
            static_cast<uint32_t>(bytes[at + 2]) << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
-// The parser calls back for every value and every opening bracket, before anything of that size is built.
-json parseBounded(const ImportContext& context, ByteSpan text) {
-    size_t values = 0;
-    const auto count = [&](int depth, json::parse_event_t, json&) {
-        if (depth > kMaxJsonDepth)
-            context.fail("",
-                         "the JSON is nested more than " + std::to_string(kMaxJsonDepth) + " levels deep");
-        if (++values > 2 * kMaxJsonValues) // objects and arrays report twice: opening and closing
-            context.fail("", "the JSON holds more than " + std::to_string(kMaxJsonValues) + " values",
-                         "split the model into several files");
-        return true;
-    };
-    try {
-        return json::parse(text.begin(), text.end(), count);
-    } catch (const json::exception& error) {
+/// Counts what the JSON would build before anything is built. (The parser's own callback does the same, but
+/// at a cost that grows with the square of an array's length.)
+class JsonMeter : public json::json_sax_t {
+  public:
+    explicit JsonMeter(const ImportContext& context) : context_(context) {}
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t&) override { return value(); }
+    bool string(string_t&) override { return value(); }
+    bool binary(binary_t&) override { return value(); }
+    bool key(string_t&) override { return true; }
+    bool start_object(size_t) override { return open(); }
+    bool start_array(size_t) override { return open(); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& error) override {
         const std::string what = error.what();
-        const size_t text_at = what.find("] "); // drop the library's own "[json.exception...] "
-        context.fail("",
-                     "not a glTF file, or a damaged one: " +
-                         what.substr(text_at == std::string::npos ? 0 : text_at + 2),
-                     "open a .gltf or .glb file, or re-export this one");
+        const size_t end = what.find("] "); // of the library's own "[json.exception...] "
+        context_.fail(
+            "", "not a glTF file, or a damaged one: " + what.substr(end == std::string::npos ? 0 : end + 2),
+            "open a .gltf or .glb file, or re-export this one");
     }
+
+  private:
+    bool value() {
+        if (++values_ > kMaxJsonValues)
+            context_.fail("", "the JSON holds more than " + std::to_string(kMaxJsonValues) + " values",
+                          "split the model into several files");
+        return true;
+    }
+    bool open() {
+        if (++depth_ > kMaxJsonDepth)
+            context_.fail("",
+                          "the JSON is nested more than " + std::to_string(kMaxJsonDepth) + " levels deep");
+        return value();
+    }
+    bool close() {
+        --depth_;
+        return true;
+    }
+
+    const ImportContext& context_;
+    size_t values_ = 0;
+    int depth_ = 0;
+};
+
+json parseBounded(const ImportContext& context, ByteSpan text) {
+    JsonMeter meter(context);
+    json::sax_parse(text.begin(), text.end(), &meter);
+    return json::parse(text.begin(), text.end());
 }
 
 /// Fills `json` and `binary` from the chunks of a GLB.

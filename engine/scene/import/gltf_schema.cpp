@@ -16,11 +16,12 @@ constexpr double kMaxOffset =
 constexpr double kMaxInt = 2147483647.0; // what the typed model holds in an int
 
 enum class Type {
-    Count,   // integer in [low, high]
-    Index,   // integer below the size of the top-level array `target`
-    Indices, // array of Index
-    Number,  // in [low, high]
-    Numbers, // array of `size` numbers in [low, high]
+    Count,    // integer in [low, high]
+    Index,    // integer below the size of the top-level array `target`
+    IndexMap, // object whose values are each an Index
+    Indices,  // array of Index
+    Number,   // in [low, high]
+    Numbers,  // array of `size` numbers in [low, high]
     Flag,
     Text,
     Object,  // checked with `rules`
@@ -110,8 +111,10 @@ constexpr Rule kMaterial[] = {text("name"),
                               text("alphaMode"),
                               number("alphaCutoff"),
                               flag("doubleSided")};
-constexpr Rule kPrimitive[] = {object("attributes", {}, true), index("indices", "accessors"),
-                               index("material", "materials"), count("mode", false, 0, 6)};
+constexpr Rule kPrimitive[] = {{"attributes", Type::IndexMap, true, 0, kAny, "accessors"},
+                               index("indices", "accessors"),
+                               index("material", "materials"),
+                               count("mode", false, 0, 6)};
 constexpr Rule kMesh[] = {text("name"), objects("primitives", kPrimitive, true, 1)};
 constexpr Rule kNode[] = {text("name"),
                           {"children", Type::Indices, false, 0, kAny, "nodes"},
@@ -199,6 +202,12 @@ class SchemaCheck {
             break;
         case Type::Index:
             checkIndex(value, sizeOf(rule.target), rule.target, place);
+            break;
+        case Type::IndexMap:
+            if (!value.is_object())
+                wrongType(place, value, "an object");
+            for (const auto& [name, entry] : value.items())
+                checkIndex(entry, sizeOf(rule.target), rule.target, place + "." + name);
             break;
         case Type::Indices:
             checkIndices(value, rule, place);

@@ -53,9 +53,13 @@ void checkExtensions(ImportContext& context, const json& gltf) {
             continue;
         if (!found->is_array())
             context.fail(name, "should be an array of strings");
-        for (size_t i = 0; i < found->size(); ++i)
+        std::unordered_set<std::string> seen;
+        for (size_t i = 0; i < found->size(); ++i) {
             if (!(*found)[i].is_string())
                 context.fail(element(name, i), "should be a string");
+            if (!seen.insert((*found)[i]).second)
+                context.warn(name, (*found)[i].get<std::string>().substr(0, 60) + " is named twice");
+        }
     }
     for (const json& entry : gltf.value("extensionsUsed", json::array()))
         for (const auto& [name, loss] : kMissedExtensions)

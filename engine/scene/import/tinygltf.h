@@ -1,0 +1,14 @@
+#pragma once
+// tinygltf without image loading, without files, and under a namespace of our own: Debian's libdraco exports
+// the symbols of another version of tinygltf, and whichever library came first would serve both with the
+// wrong structs.
+
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_FS
+#define tinygltf touchstone_tinygltf
+#include <tiny_gltf.h>
+#undef tinygltf
+
+namespace tinygltf = touchstone_tinygltf;

@@ -1,0 +1,270 @@
+// Feeds the importer bytes that are nearly glTF. It may refuse them with an Error; it may not crash, hang,
+// throw anything else, or make a scene that breaks what scene.h promises.
+#include "engine/core/error.h"
+#include "engine/scene/scene_loader.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace touchstone {
+namespace {
+
+#define TOUCHSTONE_PROMISE(condition)                                                                        \
+    do {                                                                                                     \
+        if (!(condition)) {                                                                                  \
+            std::fprintf(stderr, "scene breaks its promise: %s\n", #condition);                              \
+            std::abort();                                                                                    \
+        }                                                                                                    \
+    } while (false)
+
+void checkMesh(const Scene& scene, const Mesh& mesh) {
+    const size_t count = mesh.positions.size();
+    TOUCHSTONE_PROMISE(mesh.material >= 0 && static_cast<size_t>(mesh.material) < scene.materials.size());
+    TOUCHSTONE_PROMISE(mesh.normals.size() == count && mesh.indices.size() % 3 == 0);
+    for (const size_t other : {mesh.tangents.size(), mesh.uv0.size(), mesh.uv1.size(), mesh.colors.size(),
+                               mesh.stiffness.size(), mesh.damping.size(), mesh.friction.size()})
+        TOUCHSTONE_PROMISE(other == 0 || other == count);
+    for (const uint32_t index : mesh.indices)
+        TOUCHSTONE_PROMISE(index < count);
+    for (size_t v = 0; v < count; ++v) {
+        TOUCHSTONE_PROMISE(std::isfinite(mesh.positions[v].x) && std::isfinite(mesh.positions[v].y) &&
+                           std::isfinite(mesh.positions[v].z));
+        TOUCHSTONE_PROMISE(std::abs(glm::length(mesh.normals[v]) - 1.0f) < 1e-3f);
+    }
+    for (const glm::vec4& tangent : mesh.tangents)
+        TOUCHSTONE_PROMISE(std::abs(glm::length(glm::vec3(tangent)) - 1.0f) < 1e-3f &&
+                           std::abs(tangent.w) == 1.0f);
+}
+
+void checkTexture(const Scene& scene, const TextureRef& texture) {
+    TOUCHSTONE_PROMISE(!texture || (static_cast<size_t>(texture.image) < scene.images.size() &&
+                                    texture.texCoord >= 0 && texture.texCoord <= 1));
+}
+
+void checkScene(const Scene& scene) {
+    TOUCHSTONE_PROMISE(!scene.materials.empty());
+    for (const Mesh& mesh : scene.meshes)
+        checkMesh(scene, mesh);
+    for (size_t n = 0; n < scene.nodes.size(); ++n)
+        TOUCHSTONE_PROMISE(scene.nodes[n].parent < static_cast<int>(n));
+    for (const Instance& instance : scene.instances)
+        TOUCHSTONE_PROMISE(static_cast<size_t>(instance.mesh) < scene.meshes.size() &&
+                           static_cast<size_t>(instance.node) < scene.nodes.size());
+    for (const Material& material : scene.materials) {
+        for (const TextureRef* texture :
+             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
+              &material.occlusionTexture, &material.emissiveTexture})
+            checkTexture(scene, *texture);
+        if (material.haptic.height.value)
+            checkTexture(scene, material.haptic.height.value->texture);
+    }
+    for (const Image& image : scene.images)
+        TOUCHSTONE_PROMISE(!image.decoded || !image.pixels.bytes.empty());
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels) {
+            TOUCHSTONE_PROMISE(static_cast<size_t>(channel.node) < scene.nodes.size() &&
+                               !channel.times.empty());
+            TOUCHSTONE_PROMISE(channel.values.size() ==
+                               channel.times.size() *
+                                   (channel.interpolation == Interpolation::CubicSpline ? 3 : 1));
+        }
+    TOUCHSTONE_PROMISE(scene.bounds.empty() || std::isfinite(scene.bounds.diagonal()));
+}
+
+/// True if it loaded.
+bool loadAndCheck(const uint8_t* data, size_t size) {
+    try {
+        // A folder without files: no URI of a mutant finds anything.
+        const ScenePtr scene = loadSceneFromMemory({data, data + size}, "/nonexistent");
+        checkScene(*scene);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+} // namespace
+} // namespace touchstone
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    (void)touchstone::loadAndCheck(data, size);
+    return 0;
+}
+
+#ifndef TOUCHSTONE_LIBFUZZER
+#include "tests/support/gltf_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using test::GltfMaker;
+
+/// One file that uses much of what the importer can read.
+GltfMaker richFile() {
+    GltfMaker maker = GltfMaker::square();
+    maker.json["images"] = {
+        {{"uri",
+          "data:image/"
+          "png;base64,"
+          "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGMwNjYGAADoAJr5vJ9AAAAAAElFTkSuQmCC"}}};
+    maker.json["textures"] = {{{"source", 0}}};
+    json material = {
+        {"normalTexture", {{"index", 0}}},
+        {"pbrMetallicRoughness", {{"roughnessFactor", 0.5}, {"baseColorTexture", {{"index", 0}}}}}};
+    material["extensions"]["TOUCHSTONE_materials_haptic"] = {
+        {"stiffness", 500}, {"heightTexture", {{"index", 0}, {"scale", 0.001}}}};
+    maker.json["materials"] = {material};
+    maker.primitive()["material"] = 0;
+    maker.primitive()["attributes"]["COLOR_0"] = maker.addAccessor<uint8_t>(
+        {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, 9}, "VEC4", true);
+    maker.primitive()["attributes"]["_STIFFNESS"] = maker.addAccessor<float>({1, 2, 3, 4}, "SCALAR");
+    const std::vector<uint8_t> which = {1};
+    const std::vector<float> instead = {3, 0, 0};
+    maker.json["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", maker.addView(which.data(), 1)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", maker.addView(instead.data(), 12)}}}};
+    const size_t times = maker.addAccessor<float>({0, 1, 2}, "SCALAR"),
+                 moves = maker.addAccessor<float>({0, 0, 0, 1, 0, 0, 1, 1, 0}, "VEC3");
+    maker.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", moves}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    maker.json["nodes"].push_back({{"children", json::array({2})}, {"rotation", {0, 0, 0, 1}}});
+    maker.json["nodes"].push_back({{"mesh", 0}, {"scale", {1, -1, 2}}});
+    maker.json["scenes"][0]["nodes"].push_back(1);
+    return maker;
+}
+
+/// Deterministic: the same mutants on every machine.
+struct Random {
+    explicit Random(unsigned seed) : generator(seed) {}
+    unsigned operator()() { return static_cast<unsigned>(generator()); }
+    std::mt19937 generator;
+};
+
+/// Every value of a JSON, to be changed at random.
+void collect(json& value, std::vector<json*>& into) {
+    into.push_back(&value);
+    if (value.is_structured())
+        for (json& child : value)
+            collect(child, into);
+}
+
+json strangeValue(Random& random) {
+    static const std::vector<json> kStrange = {0,
+                                               1,
+                                               -1,
+                                               2,
+                                               3,
+                                               5,
+                                               255,
+                                               5121,
+                                               5123,
+                                               5125,
+                                               5126,
+                                               65535,
+                                               1e9,
+                                               2147483647,
+                                               4294967295u,
+                                               9007199254740991,
+                                               18446744073709551615ull,
+                                               -9223372036854775807,
+                                               0.5,
+                                               -0.0,
+                                               1e-300,
+                                               1e300,
+                                               nullptr,
+                                               true,
+                                               "",
+                                               "VEC2",
+                                               "MAT4",
+                                               "SCALAR",
+                                               "translation",
+                                               "CUBICSPLINE",
+                                               "../x",
+                                               "data:,",
+                                               json::array(),
+                                               json::object(),
+                                               {0, 0, 0},
+                                               {{"index", 0}}};
+    return kStrange[random() % kStrange.size()];
+}
+
+class GltfFuzz : public testing::TestWithParam<unsigned> {};
+
+TEST(GltfFuzzSeed, Loads) {
+    const std::vector<uint8_t> seed = richFile().glb();
+    EXPECT_TRUE(loadAndCheck(seed.data(), seed.size()))
+        << "mutants of a file that is refused anyway test little";
+}
+
+TEST_P(GltfFuzz, StrangeValuesInTheJson) {
+    Random random(GetParam());
+    size_t loaded = 0;
+    for (int round = 0; round < 500; ++round) {
+        GltfMaker maker = richFile();
+        maker.json["buffers"] = {{{"byteLength", maker.bytes.size()}}};
+        for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
+            std::vector<json*> values;
+            collect(maker.json, values);
+            *values[1 + random() % (values.size() - 1)] = strangeValue(random); // the root stays an object
+        }
+        const std::vector<uint8_t> bytes = maker.glb();
+        loaded += loadAndCheck(bytes.data(), bytes.size()) ? 1 : 0;
+    }
+    EXPECT_GT(loaded, 0u);
+    EXPECT_LT(loaded, 500u);
+}
+
+TEST_P(GltfFuzz, ChangedBytes) {
+    Random random(GetParam() + 1000);
+    const std::vector<uint8_t> seed = richFile().glb();
+    size_t loaded = 0;
+    for (int round = 0; round < 500; ++round) {
+        std::vector<uint8_t> bytes = seed;
+        for (unsigned changes = 1 + random() % 8; changes > 0; --changes) {
+            const size_t at = random() % bytes.size();
+            switch (random() % 4) {
+            case 0:
+                bytes[at] = static_cast<uint8_t>(random());
+                break;
+            case 1:
+                bytes[at] ^= static_cast<uint8_t>(1u << random() % 8);
+                break;
+            case 2:
+                bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at));
+                break;
+            default:
+                bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), static_cast<uint8_t>(random()));
+                break;
+            }
+        }
+        loaded += loadAndCheck(bytes.data(), bytes.size()) ? 1 : 0;
+    }
+    EXPECT_LT(loaded, 500u);
+}
+
+TEST_P(GltfFuzz, ChangedBinary) {
+    Random random(GetParam() + 2000);
+    size_t loaded = 0;
+    for (int round = 0; round < 500; ++round) {
+        GltfMaker maker = richFile();
+        for (unsigned changes = 1 + random() % 16; changes > 0; --changes)
+            maker.bytes[random() % maker.bytes.size()] = static_cast<uint8_t>(random());
+        const std::vector<uint8_t> bytes = maker.glb();
+        loaded += loadAndCheck(bytes.data(), bytes.size()) ? 1 : 0;
+    }
+    EXPECT_GT(loaded, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GltfFuzz, testing::Range(1u, 6u));
+
+} // namespace
+} // namespace touchstone
+#endif

@@ -1,0 +1,254 @@
+#include "engine/scene/import/gltf_haptics.h"
+#include "tests/unit/engine/load_support.h"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using test::GltfMaker;
+using test::load;
+using test::warns;
+
+/// One grey pixel: R = G = B = 51/255 = 0.2.
+constexpr const char* kGreyPixel =
+    "data:image/"
+    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mMwNjYGAAE2AJpHI3MJAAAAAElFTkSuQmCC";
+
+GltfMaker withMaterial(const json& material) {
+    GltfMaker maker = GltfMaker::square();
+    maker.json["images"] = {{{"uri", kGreyPixel}}};
+    maker.json["textures"] = {{{"source", 0}}};
+    maker.json["materials"] = {material};
+    maker.primitive()["material"] = 0;
+    return maker;
+}
+
+GltfMaker withOurs(const json& ours) {
+    json material = json::object();
+    material["extensions"]["TOUCHSTONE_materials_haptic"] = ours;
+    return withMaterial(material);
+}
+
+HapticMaterial hapticOf(const GltfMaker& maker) {
+    const ScenePtr scene = load(maker);
+    return scene->materials.at(static_cast<size_t>(scene->meshes.at(0).material)).haptic;
+}
+
+TEST(GltfHaptics, OurExtensionIsReadWhole) {
+    const HapticMaterial haptic =
+        hapticOf(withOurs({{"stiffness", 800},
+                           {"damping", 1.5},
+                           {"staticFriction", 0.6},
+                           {"dynamicFriction", 0.4},
+                           {"viscousFriction", 2},
+                           {"normalTextureInfluence", 0.25},
+                           {"heightTexture", {{"index", 0}, {"scale", 0.001}, {"midLevel", 0.25}}},
+                           {"frictionTexture", {{"index", 0}, {"min", 0.5}, {"max", 2}}},
+                           {"stiffnessTexture", {{"index", 0}}},
+                           {"dampingTexture", {{"index", 0}, {"max", 3}}},
+                           {"forceShading", "twoPass"},
+                           {"sides", "front"}}));
+    EXPECT_EQ(haptic.stiffness.value, 800.0f);
+    EXPECT_EQ(haptic.stiffness.source, HapticSource::Touchstone);
+    EXPECT_EQ(haptic.damping.value, 1.5f);
+    EXPECT_EQ(haptic.staticFriction.value, 0.6f);
+    EXPECT_EQ(haptic.dynamicFriction.value, 0.4f);
+    EXPECT_EQ(haptic.viscousFriction.value, 2.0f);
+    EXPECT_EQ(haptic.normalTextureInfluence.value, 0.25f);
+    ASSERT_TRUE(haptic.height.value);
+    EXPECT_EQ(haptic.height.value->scale, 0.001f);
+    EXPECT_EQ(haptic.height.value->midLevel, 0.25f);
+    EXPECT_EQ(haptic.height.value->texture.image, 0);
+    EXPECT_EQ(haptic.friction.value->min, 0.5f);
+    EXPECT_EQ(haptic.friction.value->max, 2.0f);
+    EXPECT_EQ(haptic.stiffnessMap.value->min, 0.0f);
+    EXPECT_EQ(haptic.dampingMap.value->max, 3.0f);
+    EXPECT_EQ(haptic.forceShading, ShadingChoice::TwoPass);
+    EXPECT_EQ(haptic.sides, SideChoice::Front);
+}
+
+TEST(GltfHaptics, AFileThatSaysNothingStatesNothing) {
+    const HapticMaterial haptic = hapticOf(withMaterial(json::object()));
+    EXPECT_FALSE(haptic.stiffness.value);
+    EXPECT_FALSE(haptic.staticFriction.value);
+    EXPECT_FALSE(haptic.dynamicFriction.value);
+    EXPECT_EQ(haptic.staticFriction.source, HapticSource::Default);
+    EXPECT_TRUE(haptic.unavailable.empty());
+}
+
+TEST(GltfHaptics, WrongTypesAndRangesNameTheField) {
+    const std::string place = "materials[0].extensions.TOUCHSTONE_materials_haptic";
+    EXPECT_REFUSED(withOurs(3), place, "object");
+    EXPECT_REFUSED(withOurs({{"stiffness", "hard"}}), place + ".stiffness", "should be a number");
+    EXPECT_REFUSED(withOurs({{"stiffness", 0}}), place + ".stiffness", "out of range");
+    EXPECT_REFUSED(withOurs({{"damping", -1}}), place + ".damping", "out of range");
+    EXPECT_REFUSED(withOurs({{"staticFriction", json::array()}}), place + ".staticFriction",
+                   "should be a number");
+    EXPECT_REFUSED(withOurs({{"dynamicFriction", nullptr}}), place + ".dynamicFriction",
+                   "should be a number");
+    EXPECT_REFUSED(withOurs({{"viscousFriction", 1e300}}), place + ".viscousFriction", "out of range");
+    EXPECT_REFUSED(withOurs({{"normalTextureInfluence", 1.1}}), place + ".normalTextureInfluence",
+                   "out of range");
+    EXPECT_REFUSED(withOurs({{"heightTexture", {{"index", 0}}}}), place + ".heightTexture",
+                   "'scale' is missing");
+    EXPECT_REFUSED(withOurs({{"heightTexture", {{"scale", 1}}}}), place + ".heightTexture",
+                   "'index' is missing");
+    EXPECT_REFUSED(withOurs({{"heightTexture", {{"index", 4}, {"scale", 1}}}}),
+                   place + ".heightTexture.index", "textures[4]");
+    EXPECT_REFUSED(withOurs({{"heightTexture", {{"index", 0}, {"scale", 1}, {"midLevel", 2}}}}),
+                   place + ".heightTexture.midLevel", "out of range");
+    EXPECT_REFUSED(withOurs({{"frictionTexture", "a.png"}}), place + ".frictionTexture", "object");
+    EXPECT_REFUSED(withOurs({{"frictionTexture", {{"index", 0}, {"min", -1}}}}),
+                   place + ".frictionTexture.min", "out of range");
+    EXPECT_REFUSED(withOurs({{"forceShading", "smooth"}}), place + ".forceShading", "not a choice");
+    EXPECT_REFUSED(withOurs({{"forceShading", true}}), place + ".forceShading", "string");
+    EXPECT_REFUSED(withOurs({{"sides", "back"}}), place + ".sides", "not a choice");
+    EXPECT_REFUSED(withOurs({{"representation", "voxels"}}), place + ".representation", "not a choice");
+    EXPECT_REFUSED(withOurs({{"shader", "a.glsl"}}), place + ".shader", "object");
+}
+
+TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
+    const json shader = {{"source", "wood.glsl"}, {"parameters", {{"rings", 12}}}};
+    const GltfMaker maker = withOurs({{"shader", shader},
+                                      {"representation", "implicit"},
+                                      {"voxelSize", 0.001},
+                                      {"forceShading", "bezier"}});
+    const ScenePtr scene = load(maker);
+    const HapticMaterial& haptic = scene->materials[0].haptic;
+    EXPECT_EQ(haptic.unavailable["shader"], shader);
+    EXPECT_EQ(haptic.unavailable["voxelSize"], 0.001);
+    EXPECT_EQ(haptic.representation, "implicit");
+    EXPECT_EQ(haptic.forceShading, ShadingChoice::Bezier);
+    for (const char* field : {".shader", ".representation", ".forceShading"})
+        EXPECT_TRUE(warns(*scene, field, "not yet available")) << field;
+}
+
+json mpegRoot() {
+    const json map = {{"texture", {{"index", 0}}}, {"type", "High_Resolution"}};
+    return {{"materials", {{{"stiffness", {map}}, {"friction", {map}}, {"vibrotactileTexture", {map}}}}}};
+}
+
+TEST(GltfHaptics, MpegMaterialsBindByMeshInBothSpellings) {
+    for (const bool older : {false, true}) {
+        GltfMaker maker = withMaterial({{"name", "m"}});
+        if (older) {
+            maker.json["extensions"]["MPEG_material_haptic"] = mpegRoot();
+            maker.json["meshes"][0]["extensions"]["MPEG_material_haptic"] = 0;
+        } else {
+            maker.json["extensions"]["MPEG_haptic_material"] = mpegRoot();
+            maker.json["meshes"][0]["extensions"]["MPEG_haptic_material"]["hapticMaterialIndex"] = 0;
+        }
+        const ScenePtr scene = load(maker);
+        const Material& material = scene->materials.at(static_cast<size_t>(scene->meshes[0].material));
+        EXPECT_EQ(material.name, "m"); // a copy of the mesh's own material
+        ASSERT_TRUE(material.haptic.stiffnessMap.value);
+        EXPECT_EQ(material.haptic.stiffnessMap.source, HapticSource::Mpeg);
+        EXPECT_EQ(material.haptic.stiffnessMap.value->min, kMpegStiffnessMin);
+        EXPECT_EQ(material.haptic.stiffnessMap.value->max, kMpegStiffnessMax);
+        EXPECT_EQ(material.haptic.friction.value->max, kMpegFrictionMax);
+        EXPECT_EQ(material.haptic.staticFriction.value, 1.0f);
+        EXPECT_EQ(material.haptic.dynamicFriction.value, kSlidingShare);
+        EXPECT_TRUE(warns(*scene, "vibrotactileTexture", "not yet available"));
+        EXPECT_TRUE(material.haptic.unavailable["MPEG_haptic_material"].contains("vibrotactileTexture"));
+        EXPECT_FALSE(scene->materials[0].haptic.stiffnessMap.value); // the plain material stays plain
+    }
+}
+
+TEST(GltfHaptics, BrokenMpegMaterialsNameTheField) {
+    GltfMaker maker = withMaterial(json::object());
+    maker.json["extensions"]["MPEG_haptic_material"] = mpegRoot();
+    maker.json["meshes"][0]["extensions"]["MPEG_haptic_material"]["hapticMaterialIndex"] = 1;
+    EXPECT_REFUSED(maker, "meshes[0].extensions.MPEG_haptic_material.hapticMaterialIndex", "materials[1]");
+    maker.json["meshes"][0]["extensions"]["MPEG_haptic_material"]["hapticMaterialIndex"] = 0;
+    maker.json["extensions"]["MPEG_haptic_material"]["materials"][0]["stiffness"] = 5;
+    EXPECT_REFUSED(maker, "extensions.MPEG_haptic_material.materials[0].stiffness", "array");
+    maker.json["extensions"]["MPEG_haptic_material"]["materials"][0]["stiffness"] = {{{"type", "Other"}}};
+    EXPECT_REFUSED(maker, "extensions.MPEG_haptic_material.materials[0].stiffness[0]", "texture");
+    maker.json["extensions"]["MPEG_haptic_material"]["materials"] = {7};
+    EXPECT_REFUSED(maker, "extensions.MPEG_haptic_material.materials[0]", "object");
+}
+
+/// Two nodes with the same mesh; the first has a collider with physics material 0.
+GltfMaker withPhysics() {
+    GltfMaker maker = withMaterial({{"pbrMetallicRoughness", {{"roughnessFactor", 0.5}}}});
+    maker.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}};
+    maker.json["scenes"] = {{{"nodes", {0, 1}}}};
+    maker.json["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"] = {{{"staticFriction", 0.9}}};
+    maker.json["nodes"][0]["extensions"]["KHR_physics_rigid_bodies"]["collider"]["physicsMaterial"] = 0;
+    return maker;
+}
+
+TEST(GltfHaptics, PhysicsMaterialsBindByCollider) {
+    const ScenePtr scene = load(withPhysics());
+    ASSERT_EQ(scene->instances.size(), 2u);
+    const auto materialOf = [&](size_t instance) -> const HapticMaterial& {
+        return scene
+            ->materials[static_cast<size_t>(
+                scene->meshes[static_cast<size_t>(scene->instances[instance].mesh)].material)]
+            .haptic;
+    };
+    EXPECT_EQ(materialOf(0).staticFriction.value, 0.9f);
+    EXPECT_EQ(materialOf(0).dynamicFriction.value, kPhysicsFriction); // the extension's default
+    EXPECT_EQ(materialOf(0).staticFriction.source, HapticSource::Physics);
+    EXPECT_EQ(materialOf(1).staticFriction.source,
+              HapticSource::DerivedFromPbr); // the other node keeps its own
+}
+
+TEST(GltfHaptics, ACollidersNodeWithoutAMeshSpeaksForItsAncestorOrGeometry) {
+    GltfMaker maker = withPhysics();
+    maker.json["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"children", {2}}}, json::object()};
+    maker.json["scenes"] = {{{"nodes", {0}}}};
+    json& collider = maker.json["nodes"][2]["extensions"]["KHR_physics_rigid_bodies"]["collider"];
+    collider["physicsMaterial"] = 0;
+    EXPECT_EQ(hapticOf(maker).staticFriction.value, 0.9f);
+    collider["physicsMaterial"] = 1;
+    EXPECT_REFUSED(maker, "nodes[2].extensions.KHR_physics_rigid_bodies.collider.physicsMaterial",
+                   "physicsMaterials[1]");
+}
+
+TEST(GltfHaptics, PrecedenceIsPerField) {
+    GltfMaker maker = withPhysics();
+    maker.json["materials"][0]["extensions"]["TOUCHSTONE_materials_haptic"] = {{"dynamicFriction", 0.3},
+                                                                               {"stiffness", 700}};
+    maker.json["extensions"]["MPEG_haptic_material"] = mpegRoot();
+    maker.json["meshes"][0]["extensions"]["MPEG_haptic_material"]["hapticMaterialIndex"] = 0;
+    const HapticMaterial haptic = hapticOf(maker);
+    EXPECT_EQ(haptic.dynamicFriction.value, 0.3f);
+    EXPECT_EQ(haptic.dynamicFriction.source, HapticSource::Touchstone);
+    EXPECT_EQ(haptic.staticFriction.value,
+              0.9f); // ours gives none; MPEG's map would be of another kind beside ours
+    EXPECT_EQ(haptic.staticFriction.source, HapticSource::Physics);
+    EXPECT_EQ(haptic.stiffness.source, HapticSource::Touchstone);
+    EXPECT_EQ(haptic.stiffnessMap.source, HapticSource::Mpeg);
+    EXPECT_FALSE(haptic.friction.value);
+}
+
+TEST(GltfHaptics, FrictionIsDerivedOnlyFromStatedRoughness) {
+    const auto of = [](const json& pbr) { return hapticOf(withMaterial({{"pbrMetallicRoughness", pbr}})); };
+    EXPECT_FALSE(of(json::object()).staticFriction.value);
+    EXPECT_FALSE(of({{"metallicFactor", 0.0}}).staticFriction.value);
+    const HapticMaterial half = of({{"roughnessFactor", 0.5}});
+    EXPECT_NEAR(*half.staticFriction.value, 0.15 + 0.6 * 0.5, 1e-6);
+    EXPECT_NEAR(*half.dynamicFriction.value, 0.8 * 0.45, 1e-6);
+    EXPECT_EQ(half.staticFriction.source, HapticSource::DerivedFromPbr);
+    // The texture states it too: its green is 0.2 everywhere.
+    EXPECT_NEAR(*of({{"metallicRoughnessTexture", {{"index", 0}}}}).staticFriction.value, 0.15 + 0.6 * 0.2,
+                1e-6);
+    EXPECT_NEAR(
+        *of({{"roughnessFactor", 0.5}, {"metallicRoughnessTexture", {{"index", 0}}}}).staticFriction.value,
+        0.15 + 0.6 * 0.1, 1e-6);
+}
+
+TEST(GltfHaptics, ADerivedCoefficientNeverTurnsAStatedPairRound) {
+    HapticMaterial slippery;
+    slippery.staticFriction = {0.1f, HapticSource::Touchstone};
+    deriveFriction(slippery, 1.0f);
+    EXPECT_EQ(slippery.dynamicFriction.value, 0.1f);
+    HapticMaterial sticky;
+    sticky.dynamicFriction = {2.0f, HapticSource::Touchstone};
+    deriveFriction(sticky, 0.0f);
+    EXPECT_EQ(sticky.staticFriction.value, 2.0f);
+}
+
+} // namespace
+} // namespace touchstone

@@ -1,0 +1,249 @@
+#include "tests/unit/engine/load_support.h"
+
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+using test::GltfMaker;
+using test::load;
+using test::warns;
+
+void expectClose(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-6f) {
+    EXPECT_NEAR(glm::distance(a, b), 0.0f, tolerance) << a.x << " " << a.y << " " << a.z;
+}
+
+glm::vec3 faceNormal(const Mesh& mesh, size_t triangle) {
+    const glm::vec3 a = mesh.positions[mesh.indices[3 * triangle]],
+                    b = mesh.positions[mesh.indices[3 * triangle + 1]],
+                    c = mesh.positions[mesh.indices[3 * triangle + 2]];
+    return glm::normalize(glm::cross(b - a, c - a));
+}
+
+TEST(GltfMeshes, ASquareComesThroughAsItIs) {
+    const ScenePtr scene = load(GltfMaker::square());
+    ASSERT_EQ(scene->meshes.size(), 1u);
+    const Mesh& mesh = scene->meshes[0];
+    EXPECT_EQ(mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
+    EXPECT_TRUE(mesh.normalsFromFile);
+    EXPECT_EQ(mesh.uv0[1], glm::vec2(1, 1));
+    EXPECT_TRUE(mesh.tangents.empty()); // no normal map, no tangents
+    EXPECT_EQ(scene->triangleCount(), 2u);
+    EXPECT_EQ(scene->materials.size(), 1u); // glTF's default material
+    EXPECT_EQ(scene->bounds.low, glm::dvec3(0.0));
+    EXPECT_EQ(scene->bounds.high, glm::dvec3(1.0, 1.0, 0.0));
+    EXPECT_TRUE(scene->warnings.empty());
+}
+
+TEST(GltfMeshes, StripsTurnEveryOtherTriangleRound) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["indices"] = maker.addAccessor<uint8_t>({0, 1, 3, 2}, "SCALAR");
+    maker.primitive()["mode"] = 5;
+    const ScenePtr scene = load(maker);
+    ASSERT_EQ(scene->triangleCount(), 2u);
+    for (size_t t = 0; t < 2; ++t)
+        expectClose(faceNormal(scene->meshes[0], t), {0, 0, 1});
+}
+
+TEST(GltfMeshes, FansShareTheirFirstVertex) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["indices"] = maker.addAccessor<uint32_t>({0, 1, 2, 3}, "SCALAR");
+    maker.primitive()["mode"] = 6;
+    const ScenePtr scene = load(maker);
+    ASSERT_EQ(scene->triangleCount(), 2u);
+    for (size_t t = 0; t < 2; ++t)
+        expectClose(faceNormal(scene->meshes[0], t), {0, 0, 1});
+}
+
+TEST(GltfMeshes, WithoutIndicesTheVerticesAreTakenInOrder) {
+    GltfMaker maker;
+    const size_t positions =
+        maker.addAccessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1}, "VEC3");
+    maker.append("meshes", {{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+    maker.show(0);
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->triangleCount(), 2u);
+    EXPECT_EQ(scene->bounds.high, glm::dvec3(1.0));
+}
+
+TEST(GltfMeshes, MissingNormalsBecomeFlatOnesBySplittingVertices) {
+    GltfMaker maker;
+    // Two triangles that share an edge and stand at a right angle.
+    const size_t positions = maker.addAccessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
+    const size_t colors = maker.addAccessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3");
+    const size_t indices = maker.addAccessor<uint16_t>({0, 1, 2, 0, 3, 1}, "SCALAR");
+    maker.append(
+        "meshes",
+        {{"primitives",
+          {{{"attributes", {{"POSITION", positions}, {"COLOR_0", colors}}}, {"indices", indices}}}}});
+    maker.show(0);
+    const ScenePtr scene = load(maker);
+    const Mesh& mesh = scene->meshes[0];
+    ASSERT_EQ(mesh.positions.size(), 6u);
+    ASSERT_EQ(mesh.normals.size(), 6u);
+    EXPECT_FALSE(mesh.normalsFromFile);
+    for (size_t i = 0; i < 6; ++i)
+        expectClose(mesh.normals[i], faceNormal(mesh, i / 3));
+    EXPECT_EQ(mesh.colors[4], glm::vec4(1, 1, 1, 1)); // vertex 3 of the file went along
+}
+
+TEST(GltfMeshes, NormalsAreBroughtToUnitLengthAndMended) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["attributes"]["NORMAL"] =
+        maker.addAccessor<float>({0, 0, 5, 0, 0, 1, 0, 0, 0, 0, 0, 1}, "VEC3");
+    const ScenePtr scene = load(maker);
+    for (const glm::vec3& normal : scene->meshes[0].normals)
+        expectClose(normal, {0, 0, 1});
+    EXPECT_TRUE(warns(*scene, "NORMAL", "not of unit length"));
+    EXPECT_TRUE(warns(*scene, "NORMAL", "no direction"));
+}
+
+TEST(GltfMeshes, SparseAccessorsReplaceElements) {
+    GltfMaker maker = GltfMaker::square();
+    const std::vector<uint8_t> which = {1, 2};
+    const std::vector<float> instead = {3, 0, 0, 3, 4, 0};
+    maker.json["accessors"][0]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", maker.addView(which.data(), 2)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", maker.addView(instead.data(), 24)}}}};
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->meshes[0].positions[1], glm::vec3(3, 0, 0));
+    EXPECT_EQ(scene->meshes[0].positions[2], glm::vec3(3, 4, 0));
+    EXPECT_EQ(scene->meshes[0].positions[3], glm::vec3(0, 1, 0));
+}
+
+TEST(GltfMeshes, SparseAccessorsWithoutABufferViewStartFromZero) {
+    GltfMaker maker = GltfMaker::square();
+    const std::vector<uint16_t> which = {1, 3};
+    const std::vector<float> instead = {2, 0, 0, 0, 2, 0};
+    maker.json["accessors"][0].erase("bufferView");
+    maker.json["accessors"][0]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", maker.addView(which.data(), 4)}, {"componentType", 5123}}},
+        {"values", {{"bufferView", maker.addView(instead.data(), 24)}}}};
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->meshes[0].positions[2], glm::vec3(0.0f));
+    EXPECT_EQ(scene->meshes[0].positions[3], glm::vec3(0, 2, 0));
+}
+
+TEST(GltfMeshes, SparseIndicesOutOfRangeAreRefused) {
+    GltfMaker maker = GltfMaker::square();
+    const std::vector<uint8_t> which = {4};
+    const std::vector<float> instead = {3, 0, 0};
+    maker.json["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", maker.addView(which.data(), 1)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", maker.addView(instead.data(), 12)}}}};
+    EXPECT_REFUSED(maker, "accessors[0].sparse.indices", "element 4 of 4");
+}
+
+TEST(GltfMeshes, QuantisedAttributesAreDecoded) {
+    GltfMaker maker;
+    maker.json["extensionsUsed"] = maker.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const size_t positions = maker.addAccessor<uint16_t>({0, 0, 0, 65535, 0, 0, 0, 32768, 0}, "VEC3", true);
+    // Three bytes and one of padding, as the extension asks.
+    const std::vector<int8_t> padded = {0, 0, 127, 0, 0, 0, 127, 0, 0, 0, -128, 0};
+    const size_t normals =
+        maker.append("accessors", {{"bufferView", maker.addView(padded.data(), padded.size(), 4)},
+                                   {"componentType", 5120},
+                                   {"normalized", true},
+                                   {"count", 3},
+                                   {"type", "VEC3"}});
+    const size_t uv = maker.addAccessor<uint16_t>({0, 0, 3, 0, 0, 7}, "VEC2");
+    maker.append("meshes",
+                 {{"primitives",
+                   {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uv}}}}}}});
+    maker.show(0);
+    const ScenePtr scene = load(maker);
+    const Mesh& mesh = scene->meshes[0];
+    expectClose(mesh.positions[1], {1, 0, 0});
+    EXPECT_NEAR(mesh.positions[2].y, 32768.0 / 65535.0, 1e-7);
+    expectClose(mesh.normals[0], {0, 0, 1});
+    expectClose(mesh.normals[2], {0, 0, -1}); // -128 is clamped to -1
+    EXPECT_EQ(mesh.uv0[2], glm::vec2(0, 7));  // not normalised: as it is
+}
+
+TEST(GltfMeshes, HapticAttributesOfVerticesAreRead) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["attributes"]["_STIFFNESS"] = maker.addAccessor<float>({100, 200, 300, 400}, "SCALAR");
+    maker.primitive()["attributes"]["_FRICTION"] =
+        maker.addAccessor<float>({0.1f, 0.2f, 0.3f, 0.4f}, "SCALAR");
+    maker.primitive()["attributes"]["_DAMPING"] =
+        maker.addAccessor<uint8_t>({0, 255, 0, 255}, "SCALAR", true);
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->meshes[0].stiffness[3], 400.0f);
+    EXPECT_EQ(scene->meshes[0].friction[1], 0.2f);
+    EXPECT_EQ(scene->meshes[0].damping[1], 1.0f);
+    maker.primitive()["attributes"]["_STIFFNESS"] = maker.addAccessor<float>({100, 200, -300, 400}, "SCALAR");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes._STIFFNESS", "vertex 2 is negative");
+}
+
+TEST(GltfMeshes, NumbersThatAreNoneAreRefused) {
+    for (const float broken :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+        for (const char* attribute : {"POSITION", "NORMAL"}) {
+            GltfMaker maker = GltfMaker::square();
+            maker.primitive()["attributes"][attribute] =
+                maker.addAccessor<float>({0, 0, 1, 1, 0, 0, 1, broken, 0, 0, 1, 0}, "VEC3");
+            EXPECT_REFUSED(maker, std::string("meshes[0].primitives[0].attributes.") + attribute,
+                           "vertex 2 is not a finite");
+        }
+}
+
+TEST(GltfMeshes, IndicesOutOfRangeAreRefusedWithTheirPlace) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["indices"] = maker.addAccessor<uint16_t>({0, 1, 2, 0, 2, 812}, "SCALAR");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].indices", "index 812 exceeds 3");
+    maker.primitive()["indices"] = maker.addAccessor<uint16_t>({0, 1, 65535}, "SCALAR");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].indices", "primitive-restart");
+    maker.primitive()["indices"] = maker.addAccessor<int16_t>({0, 1, 2}, "SCALAR");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].indices", "unsigned");
+}
+
+TEST(GltfMeshes, AttributesMustAgreeInNumberAndShape) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["attributes"]["NORMAL"] = maker.addAccessor<float>({0, 0, 1, 0, 0, 1}, "VEC3");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes.NORMAL", "2 vertices where POSITION has 4");
+    maker.primitive()["attributes"]["NORMAL"] = maker.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0}, "VEC2");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes.NORMAL", "2 components");
+}
+
+TEST(GltfMeshes, TrianglesThatUseAVertexTwiceAreDropped) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["indices"] = maker.addAccessor<uint16_t>({0, 1, 2, 1, 1, 2}, "SCALAR");
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->triangleCount(), 1u);
+    EXPECT_TRUE(warns(*scene, "meshes[0].primitives[0]", "1 triangles use a vertex twice"));
+}
+
+TEST(GltfMeshes, PointsAndLinesAreLeftOutAndSaid) {
+    for (const int mode : {0, 1, 2, 3}) {
+        GltfMaker maker = GltfMaker::square();
+        maker.primitive()["mode"] = mode;
+        const ScenePtr scene = load(maker);
+        EXPECT_FALSE(scene->touchable());
+        EXPECT_TRUE(warns(*scene, "meshes[0]", "points or lines"));
+        EXPECT_TRUE(warns(*scene, "", "nothing to touch"));
+    }
+}
+
+TEST(GltfMeshes, ColoursOutsideTheirRangeAreClamped) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["attributes"]["COLOR_0"] =
+        maker.addAccessor<float>({2, 0, 0, 1, 0, -1, 0, 1, 0, 0, 1, 0.5f, 1, 1, 1, 1}, "VEC4");
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->meshes[0].colors[0], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(scene->meshes[0].colors[2], glm::vec4(0, 0, 1, 0.5f));
+    EXPECT_TRUE(warns(*scene, "COLOR_0", "2 colours"));
+}
+
+TEST(GltfMeshes, MorphTargetsStayInRestWithAWarning) {
+    GltfMaker maker = GltfMaker::square();
+    maker.primitive()["targets"] = {{{"POSITION", 0}}};
+    EXPECT_TRUE(warns(*load(maker), "meshes[0].primitives[0]", "morph targets"));
+}
+
+} // namespace
+} // namespace touchstone

@@ -1,0 +1,93 @@
+// Real models, where the environment has them.
+#include "tests/support/shared_files.h"
+#include "tests/unit/engine/load_support.h"
+
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+void expectSound(const Scene& scene) {
+    EXPECT_TRUE(scene.touchable());
+    EXPECT_FALSE(scene.bounds.empty());
+    EXPECT_FALSE(scene.materials.empty());
+    for (const Instance& instance : scene.instances) {
+        ASSERT_LT(static_cast<size_t>(instance.mesh), scene.meshes.size());
+        ASSERT_LT(static_cast<size_t>(instance.node), scene.nodes.size());
+    }
+    for (size_t n = 0; n < scene.nodes.size(); ++n)
+        EXPECT_LT(scene.nodes[n].parent, static_cast<int>(n));
+    for (const Image& image : scene.images)
+        EXPECT_EQ(image.problem, "") << image.name;
+    for (const Mesh& mesh : scene.meshes) {
+        const size_t count = mesh.positions.size();
+        ASSERT_EQ(mesh.normals.size(), count);
+        ASSERT_LT(static_cast<size_t>(mesh.material), scene.materials.size());
+        EXPECT_TRUE(mesh.tangents.empty() || mesh.tangents.size() == count);
+        EXPECT_TRUE(mesh.uv0.empty() || mesh.uv0.size() == count);
+        EXPECT_EQ(mesh.indices.size() % 3, 0u);
+        for (const uint32_t index : mesh.indices)
+            ASSERT_LT(index, count);
+        for (const glm::vec3& normal : mesh.normals)
+            ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f);
+        // Whoever has a normal map has a frame to read it in.
+        EXPECT_EQ(mesh.tangents.empty(),
+                  !scene.materials[static_cast<size_t>(mesh.material)].normalTexture &&
+                      !scene.materials[static_cast<size_t>(mesh.material)].haptic.height.value);
+    }
+}
+
+struct Expected {
+    const char* file;
+    uint64_t triangles;
+    size_t instances;
+};
+
+class SharedModels : public testing::TestWithParam<Expected> {};
+
+TEST_P(SharedModels, LoadsSound) {
+    const auto models = test::modelsFolder();
+    if (!models)
+        return; // the same is asked of our own scenes below
+    const ScenePtr scene = loadScene(*models / GetParam().file);
+    EXPECT_EQ(scene->triangleCount(), GetParam().triangles);
+    EXPECT_EQ(scene->instances.size(), GetParam().instances);
+    expectSound(*scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SharedModels,
+    testing::Values(Expected{"Barrel.glb", 1148, 1}, Expected{"Box.glb", 12, 1},
+                    Expected{"BoxInterleaved.glb", 12, 1}, Expected{"ClearcoatWicker.glb", 3072, 1},
+                    Expected{"NormalTangentTest.glb", 7774, 1}, Expected{"RiggedSimple.glb", 188, 1},
+                    Expected{"Suzanne.glb", 3936, 1}, Expected{"ToyCar.glb", 108936, 3},
+                    Expected{"WaterBottle.glb", 4510, 1},
+                    Expected{"gltf/SimpleSparseAccessor/SimpleSparseAccessor.gltf", 12, 1},
+                    Expected{"gltf/TextureTransformTest/TextureTransformTest.gltf", 24, 12}));
+
+TEST(SharedModels, NoneIsLeftOutOfTheTable) {
+    const auto models = test::modelsFolder();
+    if (!models)
+        return;
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(*models))
+        files += entry.path().extension() == ".glb" || entry.path().extension() == ".gltf" ? 1 : 0;
+    EXPECT_EQ(files, 11u);
+}
+
+TEST(OurScenes, LoadSoundWithoutAWarning) {
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TOUCHSTONE_ASSETS)) {
+        if (entry.path().extension() != ".glb")
+            continue;
+        ++files;
+        const ScenePtr scene = loadScene(entry.path());
+        expectSound(*scene);
+        for (const Warning& warning : scene->warnings)
+            ADD_FAILURE() << entry.path() << ": " << warning.place << ": " << warning.message;
+    }
+    EXPECT_GT(files, 0u);
+}
+
+} // namespace
+} // namespace touchstone
