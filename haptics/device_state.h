@@ -37,6 +37,7 @@ struct DeviceState {
     // Stage 4: the goal that the shaded planes gave, relative to the HIP, to start the next tick from.
     bool shaded = false;
     glm::dvec3 shadedNormal{0.0}; ///< anchor frame
+    glm::dvec3 shadedTurn{0.0};   ///< what that normal turned by in the last tick
 
     // Stage 6, anchor frame.
     FrictionState friction = FrictionState::Free;
@@ -48,6 +49,7 @@ struct DeviceState {
     /// Forgets the touch, keeps what the device still feels (the limiter's last command).
     void forgetTouch() noexcept {
         sampled = placed = shaded = false;
+        shadedTurn = glm::dvec3(0.0);
         velocity = glm::dvec3(0.0);
         anchor = -1;
         friction = FrictionState::Free;

@@ -15,6 +15,9 @@ constexpr int kNewtonSteps = 40;
 /// Below this approach speed (object units per move length) rounding decides; the surface is not approached.
 constexpr double kParallel = 1e-13;
 
+/// Moves without progress after which the proxy counts as resting.
+constexpr int kFruitlessMoves = 2;
+
 /// Balls smaller than this are not worth gathering; larger ones than this reach over any object.
 constexpr double kSmallestMargin = 1e-7;
 constexpr double kLargestMargin = 4.0;
@@ -175,30 +178,46 @@ bool MeshProxy::isFree() noexcept {
 }
 
 void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
-    int withoutProgress = 0;
-    for (;;) {
-        if (!cover(0.0))
+    while (advance(goal)) {
+    }
+}
+
+void MeshProxy::dropTowards(const glm::dvec3& goal) noexcept {
+    do {
+        if (!advance(goal))
             return;
         findContacts();
-        buildPlanes();
-        rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
-        const glm::dvec3 move = rest_.hold.point;
-        const double length = glm::length(move);
-        if (length <= kRestLength || withoutProgress > 2)
-            return;
-        if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
-            rest_.flags = rest_.flags | TickFlag::BudgetReached;
-            return;
-        }
-        if (!cover(length))
-            return;
-        const double known = state_.candidates.slack(state_.proxy, radius_ + kContactReach);
-        const double share = sweep(move, std::min(1.0, known / length));
-        state_.proxy += share * move;
-        state_.candidates.moved(share * length);
-        ++rest_.iterations;
-        withoutProgress = share * length <= kRestLength ? withoutProgress + 1 : 0;
+    } while (rest_.contactCount == 0);
+    buildPlanes();
+    rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+}
+
+/// One move: false when the proxy rests, or may not or cannot go on; then contacts and hold are up to date.
+bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
+    if (!cover(0.0))
+        return false;
+    findContacts();
+    buildPlanes();
+    rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+    const glm::dvec3 move = rest_.hold.point;
+    const double length = glm::length(move);
+    if (length <= kRestLength || withoutProgress_ > kFruitlessMoves) {
+        withoutProgress_ = 0;
+        return false;
     }
+    if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
+        rest_.flags = rest_.flags | TickFlag::BudgetReached;
+        return false;
+    }
+    if (!cover(length))
+        return false;
+    const double known = state_.candidates.slack(state_.proxy, radius_ + kContactReach);
+    const double share = sweep(move, std::min(1.0, known / length));
+    state_.proxy += share * move;
+    state_.candidates.moved(share * length);
+    ++rest_.iterations;
+    withoutProgress_ = share * length <= kRestLength ? withoutProgress_ + 1 : 0;
+    return true;
 }
 
 /// Share of `move` (frame of `object`, from `from`) that is free of that one object; at most `limit`. A

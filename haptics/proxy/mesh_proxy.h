@@ -43,6 +43,9 @@ class MeshProxy {
     /// without leaving free space. Anytime: every move ends in free space and none goes away from the goal.
     void moveTowards(const glm::dvec3& goal) noexcept;
 
+    /// Moves the proxy straight towards `goal` until it touches something, without sliding on from there.
+    void dropTowards(const glm::dvec3& goal) noexcept;
+
     /// Puts the proxy at `p` (anchor frame) without a sweep. Only for places that are known to be free: where
     /// the proxy stood before, or where isFree says so.
     void placeAt(const glm::dvec3& p) noexcept;
@@ -56,6 +59,7 @@ class MeshProxy {
     void adoptAnchor(int anchor) noexcept;
     double sweepObject(size_t object, const glm::dvec3& from, const glm::dvec3& move, double reach,
                        double limit) noexcept;
+    bool advance(const glm::dvec3& goal) noexcept;
     void findContacts() noexcept;
     bool cover(double length) noexcept;
     double sweep(const glm::dvec3& move, double limit) noexcept;
@@ -65,6 +69,7 @@ class MeshProxy {
     ObjectMotions motions_;
     double workspaceRadius_;
     double radius_ = 0.0;
+    int withoutProgress_ = 0;
     double travel_ = 0.0;
     int budget_;
     DeviceState& state_;

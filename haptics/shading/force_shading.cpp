@@ -15,6 +15,8 @@ namespace {
 constexpr int kMaxRounds = 12;
 /// Object units: 1.5 nm on a fitted model, 1.5 µN at 1000 N/m.
 constexpr double kGoalTolerance = 1e-8;
+/// rad: a normal that turned farther in one tick went over an edge and says nothing about the next.
+constexpr double kLargestTurn = 0.1;
 
 /// Where the interpolated planes through the proxy send it.
 struct ShadedGoal {
@@ -23,6 +25,22 @@ struct ShadedGoal {
     bool tilted = false;    ///< some interpolated normal differs from the true one
     bool held = false;      ///< a tilted plane holds the HIP off
 };
+
+/// A goal above all true planes would lift the proxy off: such a goal put back onto the nearest of them [000
+/// §4].
+glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const ProxyRest& rest) {
+    double nearest = INFINITY;
+    glm::dvec3 normal(0.0);
+    for (uint32_t i = 0; i < rest.contactCount; ++i) {
+        const Contact& contact = rest.contacts[i];
+        const double above = glm::dot(contact.normal, goal - proxy) - (kContactGap - contact.gap);
+        if (above < nearest) {
+            nearest = above;
+            normal = contact.normal;
+        }
+    }
+    return nearest > 0.0 && rest.contactCount > 0 ? goal - nearest * normal : goal;
+}
 
 /// First pass: the nearest point to the HIP on the interpolated planes, put back onto the nearest true plane
 /// where it is above all of them, since a goal up there would lift the proxy off [000 §4].
@@ -44,18 +62,7 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Dev
     result.held = result.tilted && length > 0.0;
     if (result.held)
         result.normal = towards / length;
-    double nearest = INFINITY;
-    glm::dvec3 normal(0.0);
-    for (uint32_t i = 0; i < rest.contactCount; ++i) {
-        const Contact& contact = rest.contacts[i];
-        const double above = glm::dot(contact.normal, pass.point) - (kContactGap - contact.gap);
-        if (above < nearest) {
-            nearest = above;
-            normal = contact.normal;
-        }
-    }
-    if (nearest > 0.0)
-        result.goal -= nearest * normal;
+    result.goal = onTruePlanes(result.goal, state.proxy, rest);
     return result;
 }
 
@@ -105,37 +112,61 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
     return foreign ? anchorFromObject.direction(normal) : normal;
 }
 
-glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip) noexcept {
+glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip, double travel) noexcept {
     if (!state.shaded)
         return hip;
-    const double depth = glm::dot(state.proxy - hip, state.shadedNormal);
-    return depth > 0.0 ? hip + depth * state.shadedNormal : hip;
+    // The normal goes on turning as it did. The goal stays a little under the shaded plane, by what that
+    // plane can rise over the true one in this tick, so that the proxy is not lifted off before it is shaded.
+    constexpr double kRise = 0.2;
+    const glm::dvec3 turn = travel > 0.0 ? state.shadedTurn : glm::dvec3(0.0);
+    const glm::dvec3 normal = glm::normalize(state.shadedNormal + turn);
+    const double depth = glm::dot(state.proxy - hip, normal) - kRise * travel;
+    return depth > 0.0 ? hip + depth * normal : hip;
 }
 
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                   const glm::dvec3& hip, const glm::dvec3& firstGoal, MeshProxy& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept {
+    const bool wasShaded = state.shaded;
+    const glm::dvec3 lastNormal = state.shadedNormal;
     glm::dvec3 lastGoal = firstGoal, lastStep(0.0);
     for (int round = 0; round < kMaxRounds; ++round) {
         const ShadedGoal shaded = shadedGoal(scene, motions, state, settings.shadingTiltLimit, hip, rest);
         state.shaded = shaded.held;
         state.shadedNormal = shaded.normal;
+        state.shadedTurn = wasShaded && shaded.held ? shaded.normal - lastNormal : glm::dvec3(0.0);
+        if (glm::dot(state.shadedTurn, state.shadedTurn) > kLargestTurn * kLargestTurn)
+            state.shadedTurn = glm::dvec3(0.0);
         if (!shaded.tilted && lastGoal == hip)
             return;
         glm::dvec3 step = shaded.goal - lastGoal;
         const double length = glm::length(step);
         if (length <= kGoalTolerance)
             return;
-        // In a hollow that is deeper pressed than it is wide the goal swings to and fro: meet it half way.
-        if (glm::dot(step, lastStep) < 0.0 && length > 0.5 * glm::length(lastStep))
-            step *= 0.5;
-        lastGoal += step;
-        lastStep = step;
+        // Steps shrink by a ratio that changes little: go to where they would end (Aitken). In a hollow that
+        // is pressed deeper than it is wide the goal swings to and fro instead: meet it half way.
+        const double before = glm::dot(lastStep, lastStep);
+        if (before > 0.0 && shaded.held) {
+            const double ratio = glm::dot(step, lastStep) / before;
+            step *= ratio < -0.5 ? 0.5 : ratio > 0.0 && ratio < 0.3 ? 1.0 / (1.0 - ratio) : 1.0;
+        }
+        lastGoal = shaded.held ? onTruePlanes(lastGoal + step, state.proxy, rest) : shaded.goal;
+        lastStep = shaded.held ? step : glm::dvec3(0.0);
         proxy.moveTowards(lastGoal);
-        if (has(rest.flags, TickFlag::BudgetReached))
+        // Over a rounded edge the true planes' goal is in the air: the surface is below it along the shaded
+        // normal.
+        if (rest.contactCount == 0 && shaded.held)
+            proxy.dropTowards(hip);
+        // Half of the tick's moves, so that the other half can bring the proxy back to the true contact.
+        if (2 * rest.iterations >= static_cast<uint32_t>(settings.iterationBudget))
             break;
     }
     rest.flags = rest.flags | TickFlag::ShadingNotConverged;
+    // Whatever the rounds came to, the true contact is not lost.
+    if (rest.contactCount == 0) {
+        state.shaded = false;
+        proxy.moveTowards(hip);
+    }
 }
 
 } // namespace touchstone
