@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/realtime_guard.h"
 #include "haptics/servo/servo_loop.h"
+#include "renderer/adaptive_resolution.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
 #include "workbench/animate.h"
@@ -89,7 +90,8 @@ class TickReader {
 struct Frames {
     uint64_t count = 0;
     double seconds = 0.0;
-    uint64_t late = 0; ///< frames that were not ready for the next one's turn
+    uint64_t late = 0;      ///< frames that were not ready for the next one's turn
+    glm::ivec2 smallest{0}; ///< pixels: the picture shrinks while frames are late
 };
 
 /// Draws at the frame rate until the time is over; the servo ticks beside it.
@@ -102,15 +104,20 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
     const Clock::time_point start = Clock::now();
     Clock::time_point next = start;
-    Frames frames;
+    Frames frames{.smallest = options.size};
+    AdaptiveResolution resolution({.largestPixels = options.size.x * options.size.y});
     Overlay overlay;
     while (Clock::now() - start < length && !interrupted()) {
+        const Clock::time_point begin = Clock::now();
         servo.updateSnapshot();
         reader.drain(servo);
         overlay.clear();
         drawTick(servo.snapshot(), options.settings, overlay);
         poseAt(servo.snapshot().time, *model.scene, renderer);
-        renderer.render(view, overlay, options.size.x, options.size.y);
+        const glm::ivec2 size = resolution.sceneSize(options.size);
+        frames.smallest = glm::min(frames.smallest, size);
+        renderer.render(view, overlay, size.x, size.y);
+        resolution.frameDone(std::chrono::duration<double>(Clock::now() - begin).count());
         ++frames.count;
         next += period;
         if (Clock::now() > next) {
@@ -193,7 +200,9 @@ int runCommand(const RunOptions& options) {
               {"fps", fps},
               {"late", frames.late},
               {"width", options.size.x},
-              {"height", options.size.y}}},
+              {"height", options.size.y},
+              {"smallest_width", frames.smallest.x},
+              {"smallest_height", frames.smallest.y}}},
             {"allocations_in_tick", violations.allocations},
             {"deallocations_in_tick", violations.deallocations},
             {"contact", reader.statistics.contactJson()},

@@ -32,7 +32,7 @@ struct PanelInput {
     double framesPerSecond = 0.0;
     glm::ivec2 sceneSize{0};
     std::string gpuName;
-    float scale = 1.0f; ///< pixels for one unit of the layout
+    float scale = 1.0f; ///< window coordinates for one unit of the layout
 };
 
 /// What the panel changes. Plain values of the main thread.

@@ -39,15 +39,15 @@ void applyColors(ImGuiStyle& style) {
 
 } // namespace
 
-void applyStyle(float contentScale) {
+void applyStyle(float scale) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // the layout is ours
     if (std::filesystem::exists(kFont)) {
         static const ImWchar kRanges[] = {0x20, 0xFF, 0x2013, 0x2026, 0x03BC, 0x03BC, 0, 0};
-        io.Fonts->AddFontFromFileTTF(kFont, kFontSize * contentScale, nullptr, kRanges);
+        io.Fonts->AddFontFromFileTTF(kFont, kFontSize * scale, nullptr, kRanges);
     } else {
         ImFontConfig config;
-        config.SizePixels = 13.0f * contentScale;
+        config.SizePixels = 13.0f * scale;
         io.Fonts->AddFontDefault(&config);
     }
     ImGuiStyle& style = ImGui::GetStyle();
@@ -61,7 +61,7 @@ void applyStyle(float contentScale) {
     style.GrabRounding = 4.0f;
     style.PopupRounding = 4.0f;
     style.ItemSpacing = ImVec2(8.0f, 6.0f);
-    style.ScaleAllSizes(contentScale);
+    style.ScaleAllSizes(scale);
 }
 
 } // namespace touchstone

@@ -2,8 +2,8 @@
 
 namespace touchstone {
 
-/// Colours, spacing and the font (Inter where it is installed), for a screen of this density. After the ImGui
-/// context exists and before its first frame. Main thread.
-void applyStyle(float contentScale);
+/// Colours, spacing and the font (Inter where it is installed), `scale` window coordinates for one unit of
+/// layout. After the ImGui context exists and before its first frame. Main thread.
+void applyStyle(float scale);
 
 } // namespace touchstone

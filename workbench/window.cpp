@@ -65,10 +65,15 @@ void Window::waitEvents(double seconds) {
         glfwPollEvents();
 }
 
-float Window::contentScale() const {
+float Window::layoutScale() const {
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(window_, &x, &y);
-    return std::max(1.0f, std::max(x, y));
+    int width = 0, pixels = 0, ignored = 0;
+    glfwGetWindowSize(window_, &width, &ignored);
+    glfwGetFramebufferSize(window_, &pixels, &ignored);
+    const float alreadyScaled =
+        width > 0 && pixels > 0 ? static_cast<float>(pixels) / static_cast<float>(width) : 1.0f;
+    return std::max(1.0f, std::max(x, y) / alreadyScaled);
 }
 
 std::optional<std::filesystem::path> Window::takeDropped() {

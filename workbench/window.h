@@ -22,8 +22,9 @@ class Window {
     [[nodiscard]] bool shouldClose() const;
     /// Handles what happened; waits up to `seconds` for something to happen.
     void waitEvents(double seconds);
-    /// Pixels for one screen unit of the desktop's scaling: 1 on plain screens, 2 on dense ones.
-    [[nodiscard]] float contentScale() const;
+    /// Window coordinates for one unit of layout: 1 on plain screens, 2 on dense ones whose coordinates are
+    /// pixels (X11), 1 where the desktop scales the coordinates itself (Wayland).
+    [[nodiscard]] float layoutScale() const;
     /// The file that was dropped on the window since the last call.
     [[nodiscard]] std::optional<std::filesystem::path> takeDropped();
     void setTitle(const std::string& title);

@@ -48,7 +48,7 @@ class Workbench {
     explicit Workbench(const WindowOptions& options)
         : window_("Touchstone", options.size),
           gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
-          target_(*gpu_, window_.handle(), [this] { applyStyle(window_.contentScale()); }), renderer_(*gpu_),
+          target_(*gpu_, window_.handle(), [this] { applyStyle(window_.layoutScale()); }), renderer_(*gpu_),
           resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
                        .smallestScale = kSmallestScale}),
           servo_(portOf(hand_), {.rateHz = options.rateHz}),
@@ -153,14 +153,14 @@ class Workbench {
         input.framesPerSecond = framesPerSecond_;
         input.sceneSize = sceneSize;
         input.gpuName = gpu_->name();
-        input.scale = window_.contentScale();
+        input.scale = window_.layoutScale();
         return input;
     }
 
     /// The part of the framebuffer that the panel leaves, pixels.
     [[nodiscard]] glm::ivec2 pictureArea() const {
         const ImGuiIO& io = ImGui::GetIO();
-        const float panel = kPanelWidth * window_.contentScale() * io.DisplayFramebufferScale.x;
+        const float panel = kPanelWidth * window_.layoutScale() * io.DisplayFramebufferScale.x;
         const glm::ivec2 size = target_.size();
         return {std::max(16, size.x - static_cast<int>(panel)), std::max(16, size.y)};
     }

@@ -163,5 +163,13 @@ TEST_F(WindowTest, PushingIntoTheModelIsFelt) {
     expectCleanEnd();
 }
 
+TEST(WindowStart, AModelThatIsNotThereEndsItWithAMessage) {
+    const VirtualDisplay display(640, 480);
+    const ProgramResult result =
+        runProgram({TOUCHSTONE_BINARY, "/no/such/model.glb", "--size", "640x480"}, display.environment());
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("/no/such/model.glb"), std::string::npos) << result.err;
+}
+
 } // namespace
 } // namespace touchstone::test
