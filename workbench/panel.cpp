@@ -175,8 +175,12 @@ class Panel {
             state_.view = static_cast<ViewMode>(mode);
         mark("view");
         ImGui::PopItemWidth();
+        const bool map = state_.view == ViewMode::Height || state_.view == ViewMode::Friction ||
+                         state_.view == ViewMode::Stiffness || state_.view == ViewMode::Damping;
         if (in_.legend.meaningful)
             legend();
+        else if (map)
+            ImGui::TextDisabled("No material states it: grey.");
     }
 
     /// The colours of a map and the numbers they stand for.
