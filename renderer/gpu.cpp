@@ -206,6 +206,7 @@ void createDevice(Gpu::Impl& gpu, const GpuOptions& options) {
     vk::PhysicalDeviceVulkan13Features features;
     features.dynamicRendering = true;
     features.synchronization2 = true;
+    features.shaderTerminateInvocation = true; // `discard`; every Vulkan 1.3 device has it
     std::vector<const char*> extensions;
     if (*gpu.surface)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

@@ -350,8 +350,9 @@ void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overla
                Stage::eFragmentShader | Stage::eCopy | Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
-    transition(commands, *slot.depth.image, kDepth, Layout::eUndefined, Layout::eDepthAttachmentOptimal,
-               Stage::eLateFragmentTests, Access::eDepthStencilAttachmentWrite, Stage::eEarlyFragmentTests,
+    transition(commands, *slot.depth.image, kDepth, Layout::eUndefined,
+               Layout::eDepthStencilAttachmentOptimal, Stage::eLateFragmentTests,
+               Access::eDepthStencilAttachmentWrite, Stage::eEarlyFragmentTests,
                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
     // The background covers every pixel, so nothing is loaded or cleared but depth.
     const vk::RenderingAttachmentInfo color{.imageView = *slot.color.view,
@@ -359,7 +360,7 @@ void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overla
                                             .loadOp = vk::AttachmentLoadOp::eDontCare,
                                             .storeOp = vk::AttachmentStoreOp::eStore};
     const vk::RenderingAttachmentInfo depth{.imageView = *slot.depth.view,
-                                            .imageLayout = Layout::eDepthAttachmentOptimal,
+                                            .imageLayout = Layout::eDepthStencilAttachmentOptimal,
                                             .loadOp = vk::AttachmentLoadOp::eClear,
                                             .storeOp = vk::AttachmentStoreOp::eDontCare,
                                             .clearValue = vk::ClearDepthStencilValue{.depth = 1.0f}};
