@@ -12,8 +12,8 @@ class Error : public std::runtime_error {
     /// `file`: the file or facility; `place`: the spot in it ("meshes[2].primitives[0]"), may be empty;
     /// `problem`: what is wrong; `remedy`: what the user can do about it, may be empty.
     Error(std::string file, std::string place, std::string problem, std::string remedy)
-        : std::runtime_error(compose(file, place, problem, remedy)), file_(std::move(file)), place_(std::move(place)),
-          problem_(std::move(problem)), remedy_(std::move(remedy)) {}
+        : std::runtime_error(compose(file, place, problem, remedy)), file_(std::move(file)),
+          place_(std::move(place)), problem_(std::move(problem)), remedy_(std::move(remedy)) {}
 
     [[nodiscard]] const std::string& file() const { return file_; }
     [[nodiscard]] const std::string& place() const { return place_; }
@@ -24,9 +24,11 @@ class Error : public std::runtime_error {
     static std::string compose(const std::string& file, const std::string& place, const std::string& problem,
                                const std::string& remedy) {
         std::string text = file;
-        if (!place.empty()) text += ": " + place;
+        if (!place.empty())
+            text += ": " + place;
         text += ": " + problem;
-        if (!remedy.empty()) text += "\n  remedy: " + remedy;
+        if (!remedy.empty())
+            text += "\n  remedy: " + remedy;
         return text;
     }
 

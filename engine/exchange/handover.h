@@ -5,8 +5,8 @@
 
 namespace touchstone {
 
-/// Gives an immutable object to the servo at a tick boundary and takes the old one back, so that the servo never
-/// allocates or frees. The owner offers; the servo adopts; the owner collects what the servo let go.
+/// Gives an immutable object to the servo at a tick boundary and takes the old one back, so that the servo
+/// never allocates or frees. The owner offers; the servo adopts; the owner collects what the servo let go.
 /// One owner thread, one servo thread.
 template <class T>
 class Handover {
@@ -35,7 +35,9 @@ class Handover {
     void collect() { delete released_.exchange(nullptr, std::memory_order_acq_rel); }
 
     /// Owner thread: true while an offer waits to be adopted.
-    [[nodiscard]] bool pending() const noexcept { return offered_.load(std::memory_order_acquire) != nullptr; }
+    [[nodiscard]] bool pending() const noexcept {
+        return offered_.load(std::memory_order_acquire) != nullptr;
+    }
 
     Handover() = default;
     Handover(const Handover&) = delete;

@@ -7,8 +7,8 @@
 
 namespace touchstone {
 
-/// Wait-free hand-over of the newest value from one writer thread to one reader thread. Older values that were
-/// never read are lost, which is what settings and snapshots want. No allocation after construction.
+/// Wait-free hand-over of the newest value from one writer thread to one reader thread. Older values that
+/// were never read are lost, which is what settings and snapshots want. No allocation after construction.
 template <class T>
 class TripleBuffer {
     static_assert(std::is_nothrow_copy_assignable_v<T>, "a value that can throw has no place in the tick");
@@ -19,13 +19,15 @@ class TripleBuffer {
     /// Writer thread only.
     void write(const T& value) noexcept {
         slots_[writing_].value = value;
-        const uint8_t previous = middle_.exchange(static_cast<uint8_t>(writing_ | kFresh), std::memory_order_acq_rel);
+        const uint8_t previous =
+            middle_.exchange(static_cast<uint8_t>(writing_ | kFresh), std::memory_order_acq_rel);
         writing_ = previous & kIndex;
     }
 
     /// Reader thread only. True if a newer value than at the last call has come.
     bool update() noexcept {
-        if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
+        if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0)
+            return false;
         const uint8_t previous = middle_.exchange(reading_, std::memory_order_acq_rel);
         reading_ = previous & kIndex;
         return true;

@@ -9,9 +9,9 @@ namespace touchstone {
 /// x -> scale * (rotation * x) + translation, in double. Angles and ratios survive it, so forces, friction
 /// cones and penetration depths computed in one frame hold in the other up to `scale`.
 struct Similarity {
-    double scale = 1.0;                         ///< length in a of one unit of length in b; > 0
-    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};    ///< unit
-    glm::dvec3 translation{0.0};                ///< in a
+    double scale = 1.0;                      ///< length in a of one unit of length in b; > 0
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0}; ///< unit
+    glm::dvec3 translation{0.0};             ///< in a
 
     [[nodiscard]] glm::dvec3 point(const glm::dvec3& b) const { return scale * (rotation * b) + translation; }
     [[nodiscard]] glm::dvec3 vector(const glm::dvec3& b) const { return scale * (rotation * b); }
