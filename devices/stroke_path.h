@@ -51,10 +51,11 @@ class StrokePath {
 };
 
 /// A stroke over whatever `scene` holds (rest pose), placed by `deviceFromScene`: from above the model down
-/// onto it, `depth` below its surface around a wavy ellipse on the side that faces `front`, lifted where
-/// there is nothing underneath, then off and again. Where no such ellipse meets the model (wires, sparse
-/// parts), it presses on single triangles one after the other. Owner thread; time grows with the triangles
-/// (about 0.1 s a million). Throws Error when there is no triangle to touch.
+/// onto it, `depth` below its surface around a wavy ellipse on the side that faces `front`, then off and
+/// again. The hand hops over gaps, steps and walls however low: it does not yield, and a proxy caught behind
+/// one would draw it with ever more force. Where no such ellipse meets the model (wires, sparse parts), it
+/// presses on single triangles one after the other. Owner thread; time grows with the triangles (about 0.1 s
+/// a million). Throws Error when there is no triangle to touch.
 [[nodiscard]] StrokePath strokeOver(const Scene& scene, const Similarity& deviceFromScene,
                                     const StrokeOptions& options = {});
 /// The same over triangles given by their corners, three each, in the device frame.

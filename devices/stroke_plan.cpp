@@ -24,21 +24,22 @@ constexpr int kWaves = 3;
 constexpr double kLargestHalfAxis = 0.5; ///< m: what is larger is stroked near its middle only
 constexpr double kWorthwhile = 0.3; ///< share of the ellipse over the model that ends the search for a side
 constexpr double kHardlyAnything = 0.05; ///< share below which single triangles are pressed instead
-constexpr double kBridged = 0.005;       ///< m: gaps shorter than this are crossed without lifting
+constexpr double kStep = 0.2;            ///< of the spacing: what neighbours may differ from their planes
+constexpr double kHop = 0.003;           ///< m above the higher side of a step or gap
 constexpr double kDeepest = 0.1;         ///< of the model's diagonal: a small model is not pierced
-/// Rise over run at which the hand lifts instead of following.
-constexpr double kSteepest = 2.5;
-/// Share of the depth by which the next point may stand off the slope that the two normals tell of. Where it
-/// stands off farther, the surface ends in a rim; a hand that goes on under it hooks itself in and is dragged
-/// along inside.
-constexpr double kRim = 0.5;
 
 struct Stroke {
     View view;
-    Hits hits;
-    double spacing = 0.0; ///< m between neighbouring points of the ellipse, at most
+    Hits hits;                 ///< none where there is nothing
+    std::vector<double> walls; ///< height of one beside the hit, which the hand keeps off; else -infinity
+    double spacing = 0.0;      ///< m between neighbouring points of the ellipse, at most
     size_t touching = 0;
 
+    /// The hit at i, counted around the ellipse, if it may be touched.
+    [[nodiscard]] const SurfaceHit* touchable(size_t i) const {
+        const size_t at = i % hits.size();
+        return hits[at] && !std::isfinite(walls[at]) ? &*hits[at] : nullptr;
+    }
     [[nodiscard]] double share() const {
         return hits.empty() ? 0.0 : static_cast<double>(touching) / static_cast<double>(hits.size());
     }
@@ -59,26 +60,29 @@ std::vector<glm::dvec2> wavyEllipse(const View& view, double spacing) {
 }
 
 Stroke strokeFrom(const TriangleSource& triangles, const Bounds& bounds, const glm::dvec3& front,
-                  double spacing) {
+                  double spacing, double depth) {
     Stroke stroke;
     stroke.view = viewOf(bounds, front);
     const std::vector<glm::dvec2> points = wavyEllipse(stroke.view, spacing);
     stroke.hits = probe(triangles, stroke.view, points);
+    // The hand is up to `depth` beside the point that it touches, and goes on by `spacing`.
+    stroke.walls = wallsBeside(triangles, stroke.view, points, stroke.hits, depth + spacing);
     stroke.spacing = spacing;
-    for (const auto& hit : stroke.hits)
-        stroke.touching += hit.has_value();
+    for (size_t i = 0; i < points.size(); ++i)
+        stroke.touching += stroke.touchable(i) != nullptr;
     return stroke;
 }
 
 /// The side that was asked for if the model offers enough there, else the side that offers most.
-Stroke bestStroke(const TriangleSource& triangles, const Bounds& bounds, const StrokeOptions& options) {
+Stroke bestStroke(const TriangleSource& triangles, const Bounds& bounds, const StrokeOptions& options,
+                  double depth) {
     const double spacing = options.speed * StrokePath::kKnotInterval;
     const std::array<glm::dvec3, 7> fronts{
         glm::normalize(options.front), glm::dvec3(0, 1, 0),  glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0),
         glm::dvec3(-1, 0, 0),          glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0)};
     Stroke best;
     for (const glm::dvec3& front : fronts) {
-        Stroke stroke = strokeFrom(triangles, bounds, front, spacing);
+        Stroke stroke = strokeFrom(triangles, bounds, front, spacing, depth);
         if (stroke.share() > best.share())
             best = std::move(stroke);
         if (best.share() >= kWorthwhile)
@@ -87,58 +91,61 @@ Stroke bestStroke(const TriangleSource& triangles, const Bounds& bounds, const S
     return best;
 }
 
-/// Whether the way from one point of the surface to the next leads over a rim or up a wall.
-bool endsInRim(const View& view, const SurfaceHit& from, const SurfaceHit& to, double depth) {
-    const glm::dvec3 move = view.viewed(to.point) - view.viewed(from.point);
-    const double run = std::hypot(move.x, move.y);
-    if (std::abs(move.z) > kSteepest * run)
-        return true;
-    const auto slope = [&](const SurfaceHit& hit) {
-        const glm::dvec3 n = view.viewed(hit.point + hit.normal) - view.viewed(hit.point);
-        return n.z > 1e-3 ? -(n.x * move.x + n.y * move.y) / n.z : move.z;
+/// True if the surface breaks off between two neighbouring hits: the height of the second, as seen from the
+/// first, is neither what the one's plane says nor the other's nor anything between (as over a crease).
+bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to, double tolerance) {
+    const glm::dvec3 way = view.viewed(to.point) - view.viewed(from.point);
+    const auto predicted = [&](const SurfaceHit& hit) {
+        const glm::dvec3 normal = view.viewed(view.centre + hit.normal);
+        return -(normal.x * way.x + normal.y * way.y) / std::max(normal.z, 1e-3);
     };
-    return std::abs(move.z - 0.5 * (slope(from) + slope(to))) > kRim * depth;
+    const auto [low, high] = std::minmax({predicted(from), predicted(to)});
+    return way.z < low - tolerance || way.z > high + tolerance;
 }
 
-/// Down onto the first touching point, along all of them, over the gaps in the air, and up again.
+/// Down onto the first touching point, along all of them, through the air over gaps, steps and walls, and up.
+///
+/// A hand that does not yield must not go through a step: 1 mm under the upper side it would be far inside
+/// the wall, and the proxy would rightly stay at the foot of it, where the force grows without bound.
 std::vector<glm::dvec3> waypointsAlong(const Stroke& stroke, double depth, double clearance) {
     const size_t count = stroke.hits.size();
-    const auto hitAt = [&](size_t i) -> const std::optional<SurfaceHit>& { return stroke.hits[i % count]; };
+    const View& view = stroke.view;
     // Begin behind a gap if there is one, so that no touching run is cut in two.
     size_t start = 0;
     for (size_t i = 0; i < count; ++i)
-        if (!hitAt(i + count - 1) && hitAt(i))
+        if (!stroke.touchable(i + count - 1) && stroke.touchable(i))
             start = i;
 
-    const auto above = [&](const SurfaceHit& hit, double height) {
-        glm::dvec3 viewed = stroke.view.viewed(hit.point);
-        viewed.z = height;
-        return stroke.view.point(viewed);
+    const auto raised = [&](const glm::dvec3& place, double height) {
+        const glm::dvec3 viewed = view.viewed(place);
+        return view.point({viewed.x, viewed.y, height});
     };
-    const auto heightOf = [&](const SurfaceHit& hit) { return stroke.view.viewed(hit.point).z; };
-
-    const double top = stroke.view.half.z + clearance;
-    std::vector<glm::dvec3> waypoints{above(*hitAt(start), top)};
+    const double top = view.half.z + clearance;
+    std::vector<glm::dvec3> waypoints;
     const SurfaceHit* last = nullptr;
-    size_t gap = 0;
+    double highest = 0.0; // of what lies between the last touch and this one
+    bool skipped = false;
     for (size_t i = start; i < start + count; ++i) {
-        if (!hitAt(i)) {
-            ++gap;
+        if (const auto& any = stroke.hits[i % count])
+            highest = std::max({highest, view.viewed(any->point).z, stroke.walls[i % count]});
+        const SurfaceHit* hit = stroke.touchable(i);
+        if (hit == nullptr) {
+            skipped = true;
             continue;
         }
-        const SurfaceHit& hit = *hitAt(i);
-        const bool lifts = last != nullptr && (static_cast<double>(gap) * stroke.spacing > kBridged ||
-                                               endsInRim(stroke.view, *last, hit, depth));
-        if (lifts) {
-            const double over = std::max(heightOf(*last), heightOf(hit)) + clearance;
-            waypoints.push_back(above(*last, over));
-            waypoints.push_back(above(hit, over));
+        const glm::dvec3 pressed = hit->point - depth * hit->normal;
+        if (last == nullptr) {
+            waypoints.push_back(raised(pressed, top));
+        } else if (skipped || breaksOff(view, *last, *hit, kStep * stroke.spacing)) {
+            waypoints.push_back(raised(waypoints.back(), highest + kHop));
+            waypoints.push_back(raised(pressed, highest + kHop));
         }
-        waypoints.push_back(hit.point - depth * hit.normal);
-        last = &hit;
-        gap = 0;
+        waypoints.push_back(pressed);
+        last = hit;
+        highest = view.viewed(hit->point).z;
+        skipped = false;
     }
-    waypoints.push_back(above(*last, top));
+    waypoints.push_back(raised(waypoints.back(), top));
     return waypoints;
 }
 
@@ -183,7 +190,7 @@ StrokePath plan(const TriangleSource& triangles, const StrokeOptions& options) {
     const double depth = bounds.empty() ? 0.0 : std::min(options.depth, kDeepest * bounds.diagonal());
     std::vector<glm::dvec3> waypoints;
     if (!bounds.empty()) {
-        const Stroke stroke = bestStroke(triangles, bounds, options);
+        const Stroke stroke = bestStroke(triangles, bounds, options, depth);
         waypoints = stroke.share() >= kHardlyAnything
                         ? waypointsAlong(stroke, depth, options.clearance)
                         : pressesFromAround(triangles, bounds, depth, options.clearance);

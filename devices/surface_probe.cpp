@@ -1,6 +1,7 @@
 #include "devices/surface_probe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -42,7 +43,7 @@ class PointGrid {
     }
 
   private:
-    static constexpr uint32_t kSide = 64;
+    static constexpr uint32_t kSide = 128;
 
     [[nodiscard]] glm::uvec2 coordinates(const glm::dvec2& p) const {
         return glm::uvec2(glm::clamp((p - low_) * perMetre_, glm::dvec2(0.0), glm::dvec2(kSide - 1)));
@@ -59,6 +60,29 @@ class PointGrid {
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
+
+/// Distance from `p` to a triangle: to its plane above the inside, else to the nearest edge.
+double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners,
+                          const glm::dvec3& normal) {
+    bool inside = true;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 &from = corners[i], along = corners[(i + 1) % 3] - from;
+        inside = inside && glm::dot(glm::cross(along, p - from), normal) >= 0.0;
+        const double t = glm::clamp(glm::dot(p - from, along) / glm::dot(along, along), 0.0, 1.0);
+        nearest = std::min(nearest, glm::distance(p, from + t * along));
+    }
+    return inside ? std::abs(glm::dot(p - corners[0], normal)) : nearest;
+}
+
+/// Cosine between the normals of a surface and of a wall beside it, at most: 75 degrees. Pressed in by d, a
+/// proxy reaches the top of what is less steep after some 4 d; of a true wall it never does.
+constexpr double kWallCosine = 0.26;
+/// Of the reach: how far a wall must rise above the plane of the surface. Less is the facets of a smooth
+/// surface.
+constexpr double kLeastRise = 0.01;
+/// Of the reach: how far above a hit the space is taken to be free.
+constexpr double kFree = 0.25;
 
 } // namespace
 
@@ -109,6 +133,46 @@ std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, co
         });
     });
     return hits;
+}
+
+std::vector<double> wallsBeside(const TriangleSource& triangles, const View& view,
+                                std::span<const glm::dvec2> points,
+                                std::span<const std::optional<SurfaceHit>> hits, double reach) {
+    std::vector<double> highest(points.size(), -std::numeric_limits<double>::infinity());
+    if (points.empty())
+        return highest;
+    const PointGrid grid(points);
+    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        const glm::dvec3 cross3 = glm::cross(b - a, c - a);
+        const double length = glm::length(cross3);
+        if (!(length > 0.0))
+            return;
+        const glm::dvec3 normal = cross3 / length;
+        const glm::dvec3 viewedA = view.viewed(a), viewedB = view.viewed(b), viewedC = view.viewed(c);
+        const glm::dvec2 a2(viewedA), b2(viewedB), c2(viewedC);
+        const double top = std::max({viewedA.z, viewedB.z, viewedC.z});
+        grid.near(
+            glm::min(a2, glm::min(b2, c2)) - reach, glm::max(a2, glm::max(b2, c2)) + reach, [&](uint32_t i) {
+                if (!hits[i] || top <= highest[i])
+                    return;
+                // Whichever way the triangle is wound, its outside is where the free space above the hit
+                // lies: so the back of a thin plate, seen from the hit, faces as the plate's front does and
+                // is no wall.
+                const glm::dvec3 &surface = hits[i]->normal, free = hits[i]->point + kFree * reach * surface;
+                const double facing =
+                    glm::dot(normal, surface) * (glm::dot(free - a, normal) < 0.0 ? -1.0 : 1.0);
+                if (facing > kWallCosine)
+                    return;
+                const double rise =
+                    std::max({glm::dot(a - hits[i]->point, surface), glm::dot(b - hits[i]->point, surface),
+                              glm::dot(c - hits[i]->point, surface)});
+                if (rise < kLeastRise * reach)
+                    return;
+                if (distanceToTriangle(hits[i]->point, {a, b, c}, normal) <= reach)
+                    highest[i] = top;
+            });
+    });
+    return highest;
 }
 
 } // namespace touchstone

@@ -44,4 +44,11 @@ struct SurfaceHit {
 [[nodiscard]] std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const View& view,
                                                            std::span<const glm::dvec2> points);
 
+/// For each of `points` the height of the highest wall within `reach` m of its hit, or minus infinity: a wall
+/// is a triangle that rises beside the surface there by over 75 degrees or leans over it, however low it is.
+/// A proxy that is pressed in does not climb it.
+[[nodiscard]] std::vector<double> wallsBeside(const TriangleSource& triangles, const View& view,
+                                              std::span<const glm::dvec2> points,
+                                              std::span<const std::optional<SurfaceHit>> hits, double reach);
+
 } // namespace touchstone

@@ -110,6 +110,62 @@ TEST(SimulatedHand, HopsOverGaps) {
     EXPECT_TRUE(leftHigh) << "in between the hand is in the air";
 }
 
+void addQuad(std::vector<glm::dvec3>& corners, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+             const glm::dvec3& d) {
+    corners.insert(corners.end(), {a, b, c, a, c, d});
+}
+
+/// A level sheet from x0 to x1 at height z, 0.1 m long in y.
+void addSheet(std::vector<glm::dvec3>& corners, double x0, double x1, double z) {
+    addQuad(corners, {x0, -0.05, z}, {x1, -0.05, z}, {x1, 0.05, z}, {x0, 0.05, z});
+}
+
+TEST(SimulatedHand, KeepsOffTheFootOfAStepHoweverLow) {
+    // A hand that went on into the wall would leave its proxy at the foot: the force would grow with the way.
+    for (const double step : {0.0001, 0.0005, 0.002, 0.01}) {
+        SCOPED_TRACE(step);
+        std::vector<glm::dvec3> corners;
+        addSheet(corners, -0.05, 0.0, 0.0);
+        addSheet(corners, 0.0, 0.05, step);
+        addQuad(corners, {0, -0.05, 0}, {0, 0.05, 0}, {0, 0.05, step}, {0, -0.05, step});
+        const StrokePath path = strokeOver(corners);
+        bool low = false, high = false;
+        for (double t = 0.0; t < path.period(); t += kTick) {
+            const glm::dvec3 p = path.position(t);
+            const bool atTheFoot = p.x < -0.0001 && p.x > -0.0015;
+            EXPECT_TRUE(!atTheFoot || p.z > 0.0) << "x " << p.x << ", z " << p.z;
+            low = low || (p.x < 0.0 && p.z < -0.0009);
+            high = high || (p.x > 0.0 && p.z < step - 0.0009);
+        }
+        EXPECT_TRUE(low && high) << "both levels are stroked";
+    }
+}
+
+TEST(SimulatedHand, DoesNotSlipUnderASheetThroughASlit) {
+    std::vector<glm::dvec3> corners;
+    addSheet(corners, -0.05, -0.0015, 0.0);
+    addSheet(corners, 0.0015, 0.05, 0.0);
+    const StrokePath path = strokeOver(corners);
+    for (double t = 0.0; t < path.period(); t += kTick) {
+        const glm::dvec3 p = path.position(t);
+        EXPECT_TRUE(std::abs(p.x) > 0.0014 || p.z > 0.0) << "x " << p.x << ", z " << p.z;
+    }
+}
+
+TEST(SimulatedHand, HopsOverAFenceHigherThanBothItsSides) {
+    std::vector<glm::dvec3> corners;
+    addSheet(corners, -0.05, 0.05, 0.0);
+    addQuad(corners, {0, -0.05, 0}, {0, 0.05, 0}, {0.002, 0.05, 0.02}, {0.002, -0.05, 0.02});
+    addQuad(corners, {0.002, -0.05, 0.02}, {0.002, 0.05, 0.02}, {0.004, 0.05, 0}, {0.004, -0.05, 0});
+    const StrokePath path = strokeOver(corners);
+    for (double t = 0.0; t < path.period(); t += kTick) {
+        const glm::dvec3 p = path.position(t);
+        // Under the nearer flank, whose normal is (10, 0, 1) / sqrt(101).
+        const double under = (std::min(p.x, 0.004 - p.x) * 10.0 - p.z) / std::sqrt(101.0);
+        EXPECT_LT(under, 0.0011) << "x " << p.x << ", z " << p.z;
+    }
+}
+
 TEST(SimulatedHand, FindsATriangleThatIsAllThereIs) {
     // A long thin sliver that no ellipse meets, and a speck far away that stretches the bounds.
     const std::vector<glm::dvec3> sliver{{0, 0, 0},       {0.002, 0, 0},     {0, 0.002, 0.001},
