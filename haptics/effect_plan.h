@@ -28,7 +28,7 @@ struct PlannedEffect {
 /// What the scene calls for. What no material needs costs nothing in the tick (DESIGN §7).
 struct EffectPlan {
     std::vector<PlannedEffect> effects;
-    bool anyShading = false, anyTexture = false, anyFriction = false, anyDamping = false;
+    bool anyShading = false; ///< else stage 4 is not there
 };
 
 [[nodiscard]] const char* effectName(Effect effect);

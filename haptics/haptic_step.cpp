@@ -28,16 +28,28 @@ FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const Hapti
     const double depth = glm::length(offset);
     const Contact& holder = rest.contacts[rest.hold.count > 0 ? static_cast<size_t>(rest.hold.active[0]) : 0];
     const glm::dvec3 direct = depth > 100.0 * kContactGap ? offset / depth : holder.normal;
-    if (settings.forceShading == ShadingMode::Direction || settings.forceShading == ShadingMode::Projected) {
+    // With several planes there is no one facet to turn the force of or to project onto: the true force
+    // holds.
+    const bool oneFacet = rest.hold.count == 1 && (settings.forceShading == ShadingMode::Direction ||
+                                                   settings.forceShading == ShadingMode::Projected);
+    if (oneFacet) {
         const glm::dvec3 m =
             interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
         // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the
         // facet along the interpolated normal [000 §4.1].
         if (settings.forceShading == ShadingMode::Direction)
             return {m, depth};
-        return {m, glm::dot(offset, holder.normal) / glm::dot(m, holder.normal)};
+        constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
+        return {m, glm::dot(offset, holder.normal) / std::max(glm::dot(m, holder.normal), kSteepest)};
     }
     return {direct, depth};
+}
+
+/// Velocity of the HIP against the anchor's surface, m/s, in the anchor frame.
+glm::dvec3 surfaceVelocity(const ObjectMotion& anchor, const DeviceState& state, double dt) {
+    const Similarity& now = anchor.workspaceFromObject;
+    const glm::dvec3 carried = (now.point(state.proxy) - anchor.before.point(state.proxy)) / dt;
+    return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
 void publish(const ObjectMotions motions, const DeviceState& state, const ProxyRest& rest,
@@ -98,7 +110,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Shading);
 
     // 5. Texture: what the maps say there.
-    const double speed = glm::length(state.velocity - glm::dot(state.velocity, shape.normal) * shape.normal);
+    const glm::dvec3 velocity = surfaceVelocity(motions[static_cast<size_t>(state.anchor)], state, input.dt);
+    const double speed = glm::length(velocity - glm::dot(velocity, shape.normal) * shape.normal);
     const SurfaceFeel feel = readSurface(scene, motions, settings, state.anchor, rest, shape.normal,
                                          shape.depth * workspaceFromAnchor.scale, speed, input.dt);
     if (feel.tiltCompressed)
@@ -112,10 +125,15 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
 
     // 7. Force.
     const glm::dvec3 stretch = workspaceFromAnchor.scale * (state.proxy - frictionless);
-    const glm::dvec3 velocity = glm::conjugate(workspaceFromAnchor.rotation) * state.velocity;
     output.force = workspaceFromAnchor.direction(springDamperForce(feel, stretch, velocity));
     output.flags |= rest.flags;
     publish(motions, state, rest, feel, output);
+    // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
+    // tick can hold feels nothing until the hand is in the open again.
+    if (feel.touching && !input.objects.empty())
+        changeAnchor(state, motions, feel.object);
+    if (rest.contactCount == 0 && has(rest.flags, TickFlag::CandidatesFull))
+        state.placed = false;
     stopwatch.lap(Stage::Force);
 }
 
@@ -142,6 +160,8 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         // 2. to 7.
         if (sampled && !scene.objects.empty())
             touch(scene, settings, input, state, output, stopwatch);
+        else if (!input.objects.empty())
+            state.placed = false; // objects move on unseen: touch begins anew where the hand is next
 
         // 8. Safety: the only thing that may reach a device.
         const SafetyInputs safety{.limits = scene.limits,

@@ -30,7 +30,7 @@ struct Candidate {
 class CandidateCache {
   public:
     /// Room for the densest neighbourhood in which the proxy still moves; beyond it the ball is made smaller.
-    static constexpr size_t kCapacity = 1024;
+    static constexpr size_t kCapacity = 4096;
 
     CandidateCache() : items_(kCapacity), lowerBounds_(kCapacity) {}
 

@@ -126,8 +126,12 @@ void MeshProxy::findContacts() noexcept {
             known = glm::dot(lean, lean) < 1e-30 &&
                     std::abs(other.gap - (d.distance - radius_)) < 0.25 * kContactGap;
         }
-        if (known || rest_.contactCount == ProxyRest::kMaxContacts)
+        if (known)
             continue;
+        if (rest_.contactCount == ProxyRest::kMaxContacts) {
+            rest_.flags = rest_.flags | TickFlag::CandidatesFull;
+            continue;
+        }
         rest_.contacts[rest_.contactCount++] = {.normal = d.gradient,
                                                 .point = d.closest,
                                                 .gap = d.distance - radius_,
@@ -287,9 +291,22 @@ void MeshProxy::carry() noexcept {
     }
     if (struck < 0)
         return;
+    changeAnchor(state_, motions_, struck);
     state_.proxy = place;
     adoptAnchor(struck);
-    state_.candidates.invalidate();
+}
+
+void changeAnchor(DeviceState& state, ObjectMotions motions, int anchor) noexcept {
+    if (anchor == state.anchor)
+        return;
+    const Similarity newFromOld = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverse() *
+                                  motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
+    state.anchor = anchor;
+    state.proxy = newFromOld.point(state.proxy);
+    state.stictionPoint = newFromOld.point(state.stictionPoint);
+    state.shadedNormal = newFromOld.direction(state.shadedNormal);
+    state.shadedTurn = newFromOld.direction(state.shadedTurn);
+    state.candidates.invalidate();
 }
 
 } // namespace touchstone

@@ -76,4 +76,7 @@ class MeshProxy {
     ProxyRest& rest_;
 };
 
+/// Makes `anchor` the frame in which the device's proxy lives, stiction point and shading along with it.
+void changeAnchor(DeviceState& state, ObjectMotions motions, int anchor) noexcept;
+
 } // namespace touchstone

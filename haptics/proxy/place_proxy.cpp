@@ -27,6 +27,7 @@ bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec
     for (size_t k = 0; k < scene.objects.size(); ++k)
         if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inverse().point(hip)))
             return false;
+    state.candidates.invalidate(); // what moved since the last try is not where it was gathered
     state.placed = proxy.isFree();
     return state.placed;
 }

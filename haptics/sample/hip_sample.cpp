@@ -23,6 +23,7 @@ bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevic
                 DeviceState& state, uint32_t& flags) noexcept {
     if (!sample.valid || !usable(sample.position)) {
         flags = flags | TickFlag::InputInvalid;
+        state.sampled = false; // the velocity starts anew: a gap is not one tick long
         return false;
     }
     const glm::dvec3 hip = workspaceFromDevice.point(sample.position);

@@ -27,26 +27,24 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
             : smooth      ? "vertex normals leave the face normals: the surface is meant to be smooth"
                           : "vertex normals equal the face normals: facets are meant",
             0);
-    plan.anyTexture |= add(Effect::NormalMap, !data.normal.empty(),
-                           !data.normal.empty()     ? "normal map, felt share " + percent(data.normalScale)
-                           : material.normalTexture ? "the normal map is not felt or could not be read"
-                                                    : "no normal map",
-                           data.normal.memoryBytes());
-    plan.anyTexture |= add(Effect::HeightMap, !data.height.empty(),
-                           data.height.empty() ? "no height map"
-                                               : "height map, " + std::to_string(data.heightScale * 1e3) +
-                                                     " mm black to white",
-                           data.height.memoryBytes());
-    plan.anyFriction |=
-        add(Effect::Friction, data.staticFriction > 0.0,
-            data.staticFriction > 0.0 ? "static " + std::to_string(data.staticFriction) + ", dynamic " +
-                                            std::to_string(data.dynamicFriction)
-                                      : "no coefficient stated or derived",
-            data.friction.map.memoryBytes());
+    add(Effect::NormalMap, !data.normal.empty(),
+        !data.normal.empty()     ? "normal map, felt share " + percent(data.normalScale)
+        : material.normalTexture ? "the normal map is not felt or could not be read"
+                                 : "no normal map",
+        data.normal.memoryBytes());
+    add(Effect::HeightMap, !data.height.empty(),
+        data.height.empty() ? "no height map"
+                            : "height map, " + std::to_string(data.heightScale * 1e3) + " mm black to white",
+        data.height.memoryBytes());
+    add(Effect::Friction, data.staticFriction > 0.0,
+        data.staticFriction > 0.0 ? "static " + std::to_string(data.staticFriction) + ", dynamic " +
+                                        std::to_string(data.dynamicFriction)
+                                  : "no coefficient stated or derived",
+        data.friction.map.memoryBytes());
     add(Effect::ViscousFriction, data.viscousFriction > 0.0,
         data.viscousFriction > 0.0 ? "stated" : "none stated", 0);
-    plan.anyDamping |= add(Effect::Damping, data.damping > 0.0 || !data.dampingMap.map.empty(),
-                           data.damping > 0.0 ? "stated" : "none stated", data.dampingMap.map.memoryBytes());
+    add(Effect::Damping, data.damping > 0.0 || !data.dampingMap.map.empty(),
+        data.damping > 0.0 ? "stated" : "none stated", data.dampingMap.map.memoryBytes());
     add(Effect::StiffnessMap, !data.stiffnessMap.map.empty(),
         data.stiffnessMap.map.empty() ? "no stiffness map" : "stiffness map",
         data.stiffnessMap.map.memoryBytes());

@@ -25,7 +25,7 @@ int wrapIndex(int i, int size, Wrap wrap) {
 /// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must not
 /// harm.
 double bounded(double x) {
-    return std::isfinite(x) ? std::clamp(x, -1e6, 1e6) : 0.0;
+    return std::isfinite(x) ? std::clamp(x, -1e9, 1e9) : 0.0;
 }
 
 } // namespace
@@ -93,7 +93,7 @@ glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
 
 glm::dvec3 HapticMap::bilinear(const Level& level, const glm::dvec2& uv) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
-    const double x = bounded(uv.x) * level.width - 0.5, y = bounded(uv.y) * level.height - 0.5;
+    const double x = bounded(uv.x * level.width - 0.5), y = bounded(uv.y * level.height - 0.5);
     const double fx = std::floor(x), fy = std::floor(y);
     const double wx = x - fx, wy = y - fy;
     const int x0 = wrapIndex(static_cast<int>(fx), level.width, wrapS_);

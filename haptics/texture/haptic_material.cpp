@@ -67,7 +67,13 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, std::vecto
     data.stiffnessMap = factorOf(scene, haptic.stiffnessMap, place + ".stiffnessTexture", warnings);
     data.dampingMap = factorOf(scene, haptic.dampingMap, place + ".dampingTexture", warnings);
     data.shading = haptic.forceShading != ShadingChoice::Off;
-    data.frontOnly = haptic.sides == SideChoice::Front;
+    // Told, never silently ignored: these fields are read and kept, and the tick does not know them yet.
+    if (haptic.sides == SideChoice::Front)
+        warnings.push_back({place, "sides: front is not yet available; both sides are touchable"});
+    if (haptic.forceShading != ShadingChoice::Auto && haptic.forceShading != ShadingChoice::Off &&
+        haptic.forceShading != ShadingChoice::TwoPass)
+        warnings.push_back(
+            {place, "this forceShading is not yet available per material; the session's is used"});
     return data;
 }
 

@@ -26,7 +26,6 @@ struct HapticMaterialData {
     double heightScale = 0.0;                           ///< model metres, black to white
     HapticFactor friction, stiffnessMap, dampingMap;
     bool shading = true; ///< the material does not forbid force shading
-    bool frontOnly = false;
 
     [[nodiscard]] bool textured() const { return !normal.empty() || (!height.empty() && heightScale != 0.0); }
     [[nodiscard]] uint64_t memoryBytes() const {

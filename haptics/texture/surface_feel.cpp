@@ -225,6 +225,8 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
                                                           : material.stiffness;
     feel.stiffness = (settings.stiffness > 0.0 ? given : spot.attribute(object.stiffness, given)) *
                      spot.factor(material.stiffnessMap, 0.0);
+    if (!(settings.stiffness > 0.0)) // what a person asks for in so many words is not cut
+        feel.stiffness = std::min(feel.stiffness, scene.limits.maxStiffness);
     const double damping = settings.damping >= 0.0        ? settings.damping
                            : std::isnan(material.damping) ? 0.0
                                                           : material.damping;

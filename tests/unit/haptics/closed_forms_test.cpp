@@ -183,6 +183,79 @@ TEST(ClosedForm, ABoxThatRisesIntoAStillHipLiftsTheProxy) {
     }
 }
 
+TEST(ClosedForm, ATipOfMoreFacetsThanATickHoldsLetsTheHandGo) {
+    for (const int facets : {1500, 6000}) {
+        assets::Shape cone;
+        cone.positions.push_back({0.0f, 0.0f, 0.0f});
+        for (int i = 0; i < facets; ++i) {
+            const double a = 2.0 * 3.141592653589793 * i / facets;
+            cone.positions.emplace_back(glm::dvec3(0.03 * std::cos(a), -0.05, 0.03 * std::sin(a)));
+            const auto next = static_cast<uint32_t>((i + 1) % facets);
+            cone.indices.insert(cone.indices.end(), {0u, next + 1, static_cast<uint32_t>(i) + 1});
+        }
+        TouchBench bench(sceneOf(cone), plainSettings(0.0));
+        bench.step({0.0, 0.02, 0.0});
+        bench.moveTo({0.0, -0.002, 0.0}, 0.1);
+        if (facets < 4096) {
+            EXPECT_GT(bench.output.force.y, 1.0);
+        } else {
+            EXPECT_TRUE(has(bench.output.flags, TickFlag::StartedInside) ||
+                        has(bench.output.flags, TickFlag::CandidatesFull));
+        }
+        // Out and round to the flank: touch goes on there.
+        bench.moveTo({0.0, 0.02, 0.0}, 0.1);
+        bench.moveTo({0.06, -0.025, 0.0}, 0.1);
+        EXPECT_LT(bench.output.penetration, 1e-9);
+        bench.moveTo({0.013, -0.025, 0.0}, 0.1);
+        EXPECT_GT(bench.output.force.x, 0.5);
+    }
+}
+
+TEST(ClosedForm, AGrooveIsNotTurnedAwayByADirectionOfOneWall) {
+    assets::Shape groove;
+    for (const glm::dvec3& p : {glm::dvec3(-0.05, 0.05, -0.05),
+                                {-0.05, 0.05, 0.05},
+                                {0, 0, 0.05},
+                                {0, 0, -0.05},
+                                {0.05, 0.05, 0.05},
+                                {0.05, 0.05, -0.05}})
+        groove.positions.emplace_back(p);
+    groove.indices = {0, 1, 2, 0, 2, 3, 3, 2, 4, 3, 4, 5};
+    for (const ShadingMode mode : {ShadingMode::Off, ShadingMode::Direction, ShadingMode::Projected}) {
+        HapticSettings s = plainSettings(0.0);
+        s.forceShading = mode;
+        TouchBench bench(sceneOf(groove), s);
+        bench.step({0.0, 0.02, 0.0});
+        bench.moveTo({-0.001, -0.003, 0.0}, 0.1);
+        EXPECT_NEAR(bench.output.force.x, 1.0, 2e-3);
+        EXPECT_NEAR(bench.output.force.y, 3.0, 2e-3);
+    }
+}
+
+TEST(ClosedForm, FrictionHoldsOnTheMovingObjectThatIsTouchedWhereverTheHandBegan) {
+    Scene scene = sceneOf(assets::box({0.1, 0.1, 0.1}));
+    glm::dmat4 away(1.0);
+    away[3] = {0.3, 0.0, 0.0, 1.0};
+    addShape(scene, assets::box({0.1, 0.1, 0.1}), away);
+    for (const double start : {0.0, 0.3}) { // nearer to the box at rest, nearer to the belt
+        HapticSettings s = plainSettings(0.0);
+        s.friction = FrictionMode::Zilles;
+        s.staticFriction = s.dynamicFriction = 0.5;
+        TouchBench bench(scene, s);
+        bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+        bench.step({start, 0.08, 0.0});
+        bench.moveTo({0.3, 0.08, 0.0}, 1.0);
+        bench.moveTo({0.3, 0.049, 0.0}, 0.1);
+        for (int i = 0; i < 200; ++i) {
+            bench.motions[1].before = bench.motions[1].workspaceFromObject;
+            bench.motions[1].workspaceFromObject.translation.z +=
+                5e-5; // the second box runs along at 50 mm/s
+            bench.step({0.3, 0.049, 0.0});
+        }
+        EXPECT_NEAR(bench.output.force.z, 0.5 * bench.output.force.y, 1e-3) << "from " << start;
+    }
+}
+
 TEST(ClosedForm, TheSameInputsGiveTheSameBits) {
     const Scene scene = sceneOf(assets::torus(0.06, 0.025, 60, 30));
     std::vector<HapticOutput> first;
