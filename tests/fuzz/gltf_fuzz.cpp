@@ -93,6 +93,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 }
 
 #ifndef TOUCHSTONE_LIBFUZZER
+#include "tests/support/compressed_gltf.h"
 #include "tests/support/gltf_maker.h"
 
 #include <gtest/gtest.h>
@@ -261,6 +262,25 @@ TEST_P(GltfFuzz, ChangedBinary) {
         loaded += loadAndCheck(bytes.data(), bytes.size()) ? 1 : 0;
     }
     EXPECT_GT(loaded, 0u);
+}
+
+TEST_P(GltfFuzz, ChangedStreamsOfCompressedFiles) {
+    Random random(GetParam() + 3000);
+    const test::Wave sheet = test::wave(5);
+    const GltfMaker seeds[] = {test::dracoFile(sheet, test::DracoMethod::Sequential).maker,
+                               test::dracoFile(sheet, test::DracoMethod::Edgebreaker).maker,
+                               test::meshoptFile(sheet)};
+    for (const GltfMaker& seed : seeds) {
+        size_t loaded = 0;
+        for (int round = 0; round < 200; ++round) {
+            GltfMaker maker = seed;
+            for (unsigned changes = random() % 5; changes > 0; --changes)
+                maker.bytes[random() % maker.bytes.size()] = static_cast<uint8_t>(random());
+            const std::vector<uint8_t> bytes = maker.glb();
+            loaded += loadAndCheck(bytes.data(), bytes.size()) ? 1 : 0;
+        }
+        EXPECT_GT(loaded, 0u);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, GltfFuzz, testing::Range(1u, 6u));

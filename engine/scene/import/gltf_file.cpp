@@ -1,5 +1,7 @@
 #include "engine/scene/import/gltf_file.h"
 
+#include "engine/scene/import/gltf_uri.h"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -29,9 +31,16 @@ class JsonMeter : public json::json_sax_t {
     bool number_integer(number_integer_t) override { return value(); }
     bool number_unsigned(number_unsigned_t) override { return value(); }
     bool number_float(number_float_t, const string_t&) override { return value(); }
-    bool string(string_t&) override { return value(); }
+    bool string(string_t& text) override {
+        if (!isDataUri(text))
+            countText(text);
+        return value();
+    }
     bool binary(binary_t&) override { return value(); }
-    bool key(string_t&) override { return true; }
+    bool key(string_t& text) override {
+        countText(text);
+        return true;
+    }
     bool start_object(size_t) override { return open(); }
     bool start_array(size_t) override { return open(); }
     bool end_object() override { return close(); }
@@ -45,6 +54,13 @@ class JsonMeter : public json::json_sax_t {
     }
 
   private:
+    void countText(const string_t& text) {
+        textBytes_ += text.size();
+        if (textBytes_ > kMaxTextBytes)
+            context_.fail("",
+                          "the JSON holds more than " + std::to_string(kMaxTextBytes >> 20) + " MiB of text",
+                          "shorten its names and extras");
+    }
     bool value() {
         if (++values_ > kMaxJsonValues)
             context_.fail("", "the JSON holds more than " + std::to_string(kMaxJsonValues) + " values",
@@ -63,7 +79,7 @@ class JsonMeter : public json::json_sax_t {
     }
 
     const ImportContext& context_;
-    size_t values_ = 0;
+    size_t values_ = 0, textBytes_ = 0;
     int depth_ = 0;
 };
 

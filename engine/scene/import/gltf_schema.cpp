@@ -319,6 +319,10 @@ void checkSchema(ImportContext& context, const json& gltf) {
                      "holds " + std::to_string(total) + " objects, more than the limit of " +
                          std::to_string(kMaxJsonObjects),
                      "split the model into several files");
+    const auto materials = gltf.find("materials");
+    if (materials != gltf.end() && materials->size() > kMaxMaterials)
+        context.fail("materials", "holds more than the limit of " + std::to_string(kMaxMaterials),
+                     "split the model into several files");
     SchemaCheck(context, gltf).checkObject(gltf, kRoot, "");
     for (const char* unused : {"cameras", "skins"}) {
         const auto found = gltf.find(unused);

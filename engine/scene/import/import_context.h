@@ -24,8 +24,15 @@ inline constexpr size_t kMaxJsonValues = 2'000'000;
 inline constexpr int kMaxJsonDepth = 64;
 /// Entries of all top-level arrays together (nodes, accessors, materials, ...).
 inline constexpr size_t kMaxJsonObjects = 400'000;
+/// Materials of the file; a typed one takes about 3 KB.
+inline constexpr size_t kMaxMaterials = 65'536;
+/// Bytes of all the file's texts together, but for data URIs, which are counted as the data that they are.
+inline constexpr size_t kMaxTextBytes = 64u << 20;
 /// Meshes placed in the scene.
 inline constexpr size_t kMaxInstances = 262'144;
+/// Triangles that any file may place, over all instances; beyond it, one for every byte of the file's own
+/// data. What is built from a scene (BVHs, vertex buffers) grows with them.
+inline constexpr uint64_t kFreePlacedTriangles = 5'000'000;
 /// Bytes of geometry that any file may expand to; beyond it, kGeometryExpansion times the file's own data.
 /// Sparse and absent buffer views, many primitives on one accessor and compression all make much of little.
 inline constexpr uint64_t kFreeGeometryBytes = 256ull << 20;

@@ -4,6 +4,7 @@
 #include "engine/scene/import/gltf_haptics.h"
 #include "engine/scene/import/mesh_build.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -107,6 +108,7 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
     std::vector<glm::dmat4> sceneFromNode(scene.nodes.size());
     MeshVariants variants(context, document, materials, scene);
     bool skinned = false;
+    uint64_t placedTriangles = 0;
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         const glm::dmat4 local = parentFromNode(node);
@@ -130,8 +132,15 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
         if (scene.instances.size() + meshes.size() > kMaxInstances)
             context.fail(place, "places more than " + std::to_string(kMaxInstances) + " meshes",
                          "split the model into several files");
-        for (const int mesh : meshes)
+        for (const int mesh : meshes) {
+            placedTriangles += scene.meshes[static_cast<size_t>(mesh)].triangleCount();
             scene.instances.push_back({static_cast<int>(n), mesh, sceneFromNode[n]});
+        }
+        if (placedTriangles > std::max(kFreePlacedTriangles, context.fileBytes()))
+            context.fail(place,
+                         "the scene places more than " + std::to_string(placedTriangles) +
+                             " triangles, far beyond the file's own data",
+                         "place its meshes fewer times, or simplify them");
     }
     if (skinned)
         context.warn("skins", "skinned meshes stay in their rest pose");

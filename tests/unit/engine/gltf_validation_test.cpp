@@ -105,6 +105,29 @@ TEST(GltfLimits, CountsThatTheFileCannotHoldAreRefused) {
     EXPECT_TRUE(contains(test::loadError(repeated).problem(), "would expand"));
 }
 
+TEST(GltfLimits, MaterialsTextAndPlacedTrianglesAreBounded) {
+    GltfMaker maker = GltfMaker::square();
+    json materials = json::array();
+    for (int i = 0; i < 65'537; ++i)
+        materials.push_back(json::object());
+    maker.json["materials"] = materials;
+    EXPECT_REFUSED(maker, "materials", "limit");
+
+    maker = GltfMaker::square();
+    maker.json["extras"] = std::string((64u << 20) + 1, 'x');
+    EXPECT_REFUSED(maker, "", "MiB of text");
+
+    maker = GltfMaker::square();
+    std::vector<uint8_t> indices;
+    for (int i = 0; i < 3000; ++i)
+        indices.insert(indices.end(), {0, 1, 2});
+    maker.primitive()["indices"] = maker.addAccessor<uint8_t>(indices, "SCALAR");
+    for (int i = 0; i < 2000; ++i)
+        maker.append("nodes", {{"mesh", 0}});
+    maker.json.erase("scenes");
+    EXPECT_TRUE(contains(test::loadError(maker).problem(), "triangles"));
+}
+
 TEST(GltfValidation, EveryRangeIsChecked) {
     const auto refuse = [](const char* pointer, const json& value, const std::string& place,
                            const std::string& why) {
