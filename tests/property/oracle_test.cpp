@@ -18,11 +18,7 @@ TEST(Oracle, EveryTickOfAStrokeEndsWhereTheOracleEnds) {
     double worst = 0.0; // m, of those that ended at the same rest
     for (const StrokeCase& c : strokeCases()) {
         SCOPED_TRACE(c.name + " r " + std::to_string(c.radius) + " v " + std::to_string(c.speed));
-        HapticSettings settings;
-        settings.proxyRadius = c.radius;
-        settings.forceShading = ShadingMode::Off;
-        settings.friction = FrictionMode::Off;
-        TouchBench bench(sceneOf(c.shape), settings);
+        TouchBench bench(sceneOf(c.shape), strokeSettings(c));
         const HapticObject& object = *bench.scene->objects[0];
         const double unit = object.workspaceFromObject.scale;
         const long double radius =

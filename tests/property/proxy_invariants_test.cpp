@@ -17,11 +17,7 @@ namespace {
 TEST(ProxyInvariants, ClearanceSideAndRestHoldAtEveryTick) {
     for (const StrokeCase& c : strokeCases()) {
         SCOPED_TRACE(c.name + " r " + std::to_string(c.radius) + " v " + std::to_string(c.speed));
-        HapticSettings settings;
-        settings.proxyRadius = c.radius;
-        settings.forceShading = ShadingMode::Off;
-        settings.friction = FrictionMode::Off;
-        TouchBench bench(sceneOf(c.shape), settings);
+        TouchBench bench(sceneOf(c.shape), strokeSettings(c));
         const HapticObject& object = *bench.scene->objects[0];
         const double unit = object.workspaceFromObject.scale;
         const double radius = std::max(c.radius / unit, 0.5 * kWeldTolerance * object.diagonal);

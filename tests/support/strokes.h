@@ -1,7 +1,8 @@
 #pragma once
-// Strokes with taps over our shapes: the same hand for the invariants, the oracle and the benchmark.
+// Strokes with taps over our shapes: the same hand for the invariants and the oracle.
 
 #include "assets/shapes.h"
+#include "haptics/haptic_settings.h"
 
 #include <cmath>
 #include <string>
@@ -20,6 +21,15 @@ struct StrokeCase {
     int ticks;
     int oracleTicks; ///< of which the oracle, which is slow, checks the first
 };
+
+/// The bare solve: no shading and no friction move the proxy off its rest.
+inline HapticSettings strokeSettings(const StrokeCase& c) {
+    HapticSettings settings;
+    settings.proxyRadius = c.radius;
+    settings.forceShading = ShadingMode::Off;
+    settings.friction = FrictionMode::Off;
+    return settings;
+}
 
 inline std::vector<StrokeCase> strokeCases() {
     std::vector<StrokeCase> all;
