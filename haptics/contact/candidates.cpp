@@ -13,9 +13,10 @@ struct CandidateCache::Visit {
     int objectIndex;
     bool sameFrame; ///< the object is the anchor
     Similarity anchorFromObject;
-    glm::vec3 centre;    ///< of the ball, object frame
+    glm::dvec3 centreInAnchor;
+    glm::dvec3 centre; ///< of the ball, object frame
+    glm::vec3 floatCentre;
     float radiusSquared; ///< with the float margin
-    double floatMargin;  ///< what rounding the centre to float may hide, object units
     double anchorPerObject;
     bool overflow = false;
 
@@ -25,9 +26,9 @@ struct CandidateCache::Visit {
                         &c = object->vertices[index[2]];
         // A leaf holds several triangles: drop those whose own box misses the ball.
         const glm::vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-        const glm::vec3 outside = glm::max(glm::max(low - centre, centre - high), glm::vec3(0.0f));
-        const float squared = glm::dot(outside, outside);
-        if (squared > radiusSquared || index[0] == index[1] || index[1] == index[2] || index[2] == index[0])
+        const glm::vec3 outside = glm::max(glm::max(low - floatCentre, floatCentre - high), glm::vec3(0.0f));
+        if (glm::dot(outside, outside) > radiusSquared || index[0] == index[1] || index[1] == index[2] ||
+            index[2] == index[0])
             return true;
         if (cache->count_ == kCapacity)
             return false;
@@ -40,8 +41,13 @@ struct CandidateCache::Visit {
             item.triangle =
                 Triangle(anchorFromObject.point(glm::dvec3(a)), anchorFromObject.point(glm::dvec3(b)),
                          anchorFromObject.point(glm::dvec3(c)));
-        const double away = static_cast<double>(std::sqrt(squared)) - floatMargin;
-        cache->lowerBounds_[cache->count_] = away * anchorPerObject;
+        const glm::dvec3 away = centre - glm::clamp(centre, glm::dvec3(low), glm::dvec3(high));
+        const double distance = glm::length(away);
+        glm::dvec3 gradient = distance > 0.0 ? away / distance : glm::dvec3(0.0);
+        if (!sameFrame)
+            gradient = anchorFromObject.direction(gradient);
+        item.measured = 0;
+        cache->setBound(cache->count_, centreInAnchor, distance * anchorPerObject, gradient);
         ++cache->count_;
         return true;
     }
@@ -71,14 +77,15 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index, const S
                 .objectIndex = index,
                 .sameFrame = !foreign,
                 .anchorFromObject = foreign ? objectFromAnchor->inverse() : Similarity{},
-                .centre = glm::vec3(local),
+                .centreInAnchor = centre,
+                .centre = local,
+                .floatCentre = glm::vec3(local),
                 .radiusSquared = floatRadius * floatRadius,
-                .floatMargin = floatMargin,
                 .anchorPerObject = 1.0 / scale};
     RTCPointQuery query{};
-    query.x = visit.centre.x;
-    query.y = visit.centre.y;
-    query.z = visit.centre.z;
+    query.x = visit.floatCentre.x;
+    query.y = visit.floatCentre.y;
+    query.z = visit.floatCentre.z;
     query.radius = floatRadius;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -114,8 +121,36 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
             return false;
         }
     }
+    for (size_t i = count_; i % kBlock != 0; ++i)
+        setBound(i, glm::dvec3(0.0), INFINITY, glm::dvec3(0.0));
     valid_ = true;
     return true;
+}
+
+std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3& p, const glm::dvec3& move,
+                                                                double limit, double reach) noexcept {
+    const double doubt = uncertainty();
+    size_t found = 0;
+    for (size_t first = 0; first < count_; first += kBlock) {
+        const Block& block = bounds_[first / kBlock];
+        std::array<double, kBlock> gap, rate;
+        for (size_t k = 0; k < kBlock; ++k) {
+            gap[k] = block.x[k] * p.x + block.y[k] * p.y + block.z[k] * p.z + block.offset[k] - reach;
+            rate[k] = block.x[k] * move.x + block.y[k] * move.y + block.z[k] * move.z;
+        }
+        for (size_t k = 0; k < kBlock; ++k) {
+            if (gap[k] + std::min(0.0, limit * rate[k]) > doubt)
+                continue;
+            // Where the bound was evaluated at p there is no doubt about it.
+            const auto i = static_cast<uint32_t>(first + k);
+            const bool here = items_[i].measured == place_;
+            if (here && rate[k] >= 0.0)
+                continue;
+            const double free = here ? gap[k] : gap[k] - doubt;
+            approaches_[found++] = {.time = free > 0.0 ? free / -rate[k] : 0.0, .index = i, .steps = 0};
+        }
+    }
+    return {approaches_.data(), found};
 }
 
 } // namespace touchstone

@@ -9,6 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,20 +24,32 @@ struct Candidate {
     int object = -1;       ///< HapticScene::objects
     uint32_t index = 0;    ///< triangle of that object
     bool prepared = false; ///< `triangle` is filled in
+    uint32_t measured = 0; ///< CandidateCache::place_ when its distance was last evaluated
     Triangle triangle;     ///< frame of the anchor object, object units
 };
 
 /// Every triangle that meets the ball (centre, radius) is in `items`; those alone can stop a proxy that stays
 /// in it. Preallocated; gather neither allocates nor throws.
+///
+/// The distance from a triangle is a convex function of the place, so each evaluation (d and gradient g at q)
+/// bounds it from below everywhere: distance(p) >= d + g . (p - q). These half-spaces, kept side by side,
+/// answer for most triangles, wherever the proxy has gone since; only where one reaches up to the surface is
+/// the distance evaluated again. The box of a triangle gives the first of them.
 class CandidateCache {
+    /// Half-spaces of eight triangles, for the vector unit; unused ones are far away.
+    static constexpr size_t kBlock = 8;
+    struct alignas(64) Block {
+        std::array<double, kBlock> x, y, z, offset;
+    };
+
   public:
     /// Room for the densest neighbourhood in which the proxy still moves; beyond it the ball is made smaller.
     static constexpr size_t kCapacity = 4096;
 
-    CandidateCache() : items_(kCapacity), lowerBounds_(kCapacity) {}
+    CandidateCache() : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity) {}
 
-    /// Collects what meets the ball, in the frame of `anchor`; the lower bounds hold for a proxy at `centre`.
-    /// False when there are more than kCapacity: then the cache is empty and invalid.
+    /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
+    /// the cache is empty and invalid.
     bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses, int anchor,
                 const glm::dvec3& centre, double radius) noexcept;
 
@@ -59,14 +73,45 @@ class CandidateCache {
             prepare(items_[i]);
         return items_[i].triangle;
     }
-    /// A distance that triangle i is surely not nearer than, from where the proxy stands now.
-    [[nodiscard]] double lowerBound(size_t i) const noexcept { return lowerBounds_[i]; }
-    void setDistance(size_t i, double distance) noexcept { lowerBounds_[i] = distance; }
-    /// The proxy moved by `length`: every bound shrinks by it.
-    void moved(double length) noexcept {
-        for (size_t i = 0; i < count_; ++i)
-            lowerBounds_[i] -= length;
+    /// The distance of triangle i from the proxy's place p, evaluated; sharpens its bound.
+    TriangleDistance measure(size_t i, const glm::dvec3& p) noexcept {
+        items_[i].measured = place_;
+        return measureAhead(i, p);
     }
+    /// The same for a place ahead of the proxy.
+    TriangleDistance measureAhead(size_t i, const glm::dvec3& p) noexcept {
+        const TriangleDistance d = distanceTo(triangle(i), p);
+        setBound(i, p, d.distance, d.gradient);
+        return d;
+    }
+    /// The proxy is somewhere else now.
+    void moved() noexcept { ++place_; }
+
+    /// Calls visit(i) for every triangle that may be within `reach` of p.
+    template <class Visit>
+    void eachNear(const glm::dvec3& p, double reach, const Visit& visit) noexcept {
+        const double near = reach + uncertainty();
+        for (size_t first = 0; first < count_; first += kBlock) {
+            const Block& block = bounds_[first / kBlock];
+            std::array<double, kBlock> least;
+            for (size_t k = 0; k < kBlock; ++k)
+                least[k] = block.x[k] * p.x + block.y[k] * p.y + block.z[k] * p.z + block.offset[k];
+            for (size_t k = 0; k < kBlock; ++k)
+                if (least[k] <= near)
+                    visit(first + k);
+        }
+    }
+
+    /// A triangle that a move may run into, not before `time`.
+    struct Approach {
+        double time; ///< in moves
+        uint32_t index;
+        uint32_t steps;
+    };
+    /// All triangles that a proxy at p may come within `reach` of before p + limit * move. Valid until the
+    /// next call.
+    std::span<Approach> approaching(const glm::dvec3& p, const glm::dvec3& move, double limit,
+                                    double reach) noexcept;
 
   private:
     struct Visit;
@@ -74,12 +119,26 @@ class CandidateCache {
     bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,
                       const glm::dvec3& centre, double radius) noexcept;
 
+    void setBound(size_t i, const glm::dvec3& p, double distance, const glm::dvec3& gradient) noexcept {
+        Block& block = bounds_[i / kBlock];
+        const size_t k = i % kBlock;
+        block.x[k] = gradient.x;
+        block.y[k] = gradient.y;
+        block.z[k] = gradient.z;
+        block.offset[k] = distance - glm::dot(gradient, p);
+    }
+
+    /// A bound may be too high by this: the gradient beside a radius of 5e-7 is good to 6e-10.
+    [[nodiscard]] double uncertainty() const noexcept { return 2e-9 * radius_; }
+
     std::vector<Candidate> items_;
-    std::vector<double> lowerBounds_;
+    std::vector<Block> bounds_;
+    std::vector<Approach> approaches_;
     size_t count_ = 0;
     glm::dvec3 centre_{0.0};
     double radius_ = 0.0;
     bool valid_ = false;
+    uint32_t place_ = 1; ///< counts the proxy's places
 };
 
 } // namespace touchstone

@@ -1,5 +1,6 @@
 #include "haptics/proxy/mesh_proxy.h"
 
+#include "haptics/contact/sweep.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
@@ -8,12 +9,6 @@
 namespace touchstone {
 
 namespace {
-
-/// A swept distance is convex in time, so Newton's method started on the near side never oversteps the first
-/// touch: every iterate is a safe place. Quadratic for a crossing, linear for a graze; hence the bound.
-constexpr int kNewtonSteps = 40;
-/// Below this approach speed (object units per move length) rounding decides; the surface is not approached.
-constexpr double kParallel = 1e-13;
 
 /// Moves without progress after which the proxy counts as resting.
 constexpr int kFruitlessMoves = 2;
@@ -28,27 +23,6 @@ constexpr size_t kFewCandidates = 6;
 /// A sweep ends at this gap, short of the resting one: a surface that the proxy rests on at kContactGap and
 /// slides along is then not struck again at once by the rounding of its gradient.
 constexpr double kStrikeGap = 0.5 * kContactGap;
-
-/// Time in 0..limit at which a sphere of radius `reach` around start + t * move first touches, or `limit`.
-double firstTouch(const Triangle& triangle, const glm::dvec3& start, const glm::dvec3& move, double reach,
-                  TriangleDistance atStart, double limit) {
-    const double length = glm::length(move);
-    double t = 0.0;
-    TriangleDistance here = atStart;
-    for (int step = 0; step < kNewtonSteps; ++step) {
-        const double rate = glm::dot(here.gradient, move);
-        if (rate >= -kParallel * length)
-            return limit;
-        const double gap = here.distance - reach;
-        if (gap <= 0.1 * kContactGap)
-            return t;
-        t += gap / -rate;
-        if (t >= limit)
-            return limit;
-        here = distanceTo(triangle, start + t * move);
-    }
-    return t;
-}
 
 } // namespace
 
@@ -109,13 +83,10 @@ void MeshProxy::findContacts() noexcept {
     CandidateCache& cache = state_.candidates;
     const double reach = radius_ + kContactReach;
     rest_.contactCount = 0;
-    for (size_t i = 0; i < cache.count(); ++i) {
-        if (cache.lowerBound(i) > reach)
-            continue;
-        const TriangleDistance d = distanceTo(cache.triangle(i), state_.proxy);
-        cache.setDistance(i, d.distance);
+    cache.eachNear(state_.proxy, reach, [&](size_t i) {
+        const TriangleDistance d = cache.measure(i, state_.proxy);
         if (d.distance > reach)
-            continue;
+            return;
         // Coplanar neighbours say the same: one plane for both. The same to the last bits, no less: a
         // neighbour seen from beside its edge may lean by 1e-8, and what leans is a plane of its own or it
         // blocks unseen.
@@ -127,17 +98,17 @@ void MeshProxy::findContacts() noexcept {
                     std::abs(other.gap - (d.distance - radius_)) < 0.25 * kContactGap;
         }
         if (known)
-            continue;
+            return;
         if (rest_.contactCount == ProxyRest::kMaxContacts) {
             rest_.flags = rest_.flags | TickFlag::CandidatesFull;
-            continue;
+            return;
         }
         rest_.contacts[rest_.contactCount++] = {.normal = d.gradient,
                                                 .point = d.closest,
                                                 .gap = d.distance - radius_,
                                                 .object = cache.item(i).object,
                                                 .triangle = cache.item(i).index};
-    }
+    });
 }
 
 /// A plane lets the proxy down to the resting gap, or lifts it there after a strike. Around that gap it asks
@@ -151,24 +122,8 @@ void MeshProxy::buildPlanes() noexcept {
     }
 }
 
-/// Share of `move` that is free, at most `limit`.
-double MeshProxy::sweep(const glm::dvec3& move, double limit) noexcept {
-    CandidateCache& cache = state_.candidates;
-    const double length = glm::length(move);
-    const double reach = radius_ + kStrikeGap;
-    double first = limit;
-    for (size_t i = 0; i < cache.count(); ++i) {
-        if (cache.lowerBound(i) > reach + first * length)
-            continue;
-        const TriangleDistance d = distanceTo(cache.triangle(i), state_.proxy);
-        cache.setDistance(i, d.distance);
-        first = firstTouch(cache.triangle(i), state_.proxy, move, reach, d, first);
-    }
-    return first;
-}
-
 void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
-    state_.candidates.moved(glm::length(p - state_.proxy));
+    state_.candidates.moved();
     state_.proxy = p;
 }
 
@@ -216,9 +171,10 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
     if (!cover(length))
         return false;
     const double known = state_.candidates.slack(state_.proxy, radius_ + kContactReach);
-    const double share = sweep(move, std::min(1.0, known / length));
+    const double share =
+        freeShare(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, std::min(1.0, known / length));
     state_.proxy += share * move;
-    state_.candidates.moved(share * length);
+    state_.candidates.moved();
     ++rest_.iterations;
     withoutProgress_ = share * length <= kRestLength ? withoutProgress_ + 1 : 0;
     return true;
@@ -241,11 +197,8 @@ double MeshProxy::sweepObject(size_t object, const glm::dvec3& from, const glm::
             piece *= 0.5;
             continue;
         }
-        double first = piece;
-        for (size_t c = 0; c < cache.count(); ++c) {
-            const Triangle& triangle = cache.triangle(c);
-            first = firstTouch(triangle, start, move, reach, distanceTo(triangle, start), first);
-        }
+        cache.moved();
+        const double first = freeShare(cache, start, move, reach, piece);
         if (first < piece)
             return done + first;
         done += piece;

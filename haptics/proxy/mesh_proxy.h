@@ -62,7 +62,6 @@ class MeshProxy {
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts() noexcept;
     bool cover(double length) noexcept;
-    double sweep(const glm::dvec3& move, double limit) noexcept;
     void buildPlanes() noexcept;
 
     const HapticScene& scene_;

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "haptics/contact/candidates.h"
+
+namespace touchstone {
+
+/// Share of `move` (at most `limit`) for which a sphere of radius `reach` around p + t * move is free of
+/// every candidate. Never too much: the place where it ends is free, too. Bounded.
+[[nodiscard]] double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move,
+                               double reach, double limit) noexcept;
+
+} // namespace touchstone
