@@ -165,6 +165,22 @@ void defineInspect(CLI::App& app, InspectOptions& options) {
     app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
 }
 
+void defineBench(CLI::App& app, BenchOptions& options) {
+    app.add_option("WHAT", options.what,
+                   "fast: the bounds of a tick in rays; growth: its time over the number of triangles; both "
+                   "without it")
+        ->type_name("")
+        ->check(CLI::IsMember({"fast", "growth"}));
+    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
+    app.add_option("--largest", options.largestTriangles,
+                   "Leave out what has more triangles [1000000]; 10000000 takes 4 GB and a minute or two")
+        ->type_name("N");
+    app.add_option("--rounds", options.rounds, "Turns of 1000 ticks for each case [20]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    app.add_flag("--check", options.check, "Exit status 1 where a bound is missed");
+}
+
 } // namespace
 
 std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
@@ -179,6 +195,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     TouchOptions touch;
     RenderOptions render;
     InspectOptions inspect;
+    BenchOptions bench;
     bool headless = false;
     defineWindow(app, window);
     CLI::App* runApp =
@@ -191,13 +208,15 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     CLI::App* inspectApp =
         app.add_subcommand("inspect", "What a model is, what it would feel like, and its problems");
     defineInspect(*inspectApp, inspect);
+    CLI::App* benchApp = app.add_subcommand("bench", "What a tick costs against Embree's floor");
+    defineBench(*benchApp, bench);
     CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in");
 
     status = 0;
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        for (CLI::App* command : {runApp, touchApp, renderApp, inspectApp, devicesApp})
+        for (CLI::App* command : {runApp, touchApp, renderApp, inspectApp, benchApp, devicesApp})
             if (command->parsed()) {
                 if (command == runApp || command == touchApp)
                     command->footer(settingsHelp());
@@ -222,6 +241,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         return render;
     if (inspectApp->parsed())
         return inspect;
+    if (benchApp->parsed())
+        return bench;
     if (devicesApp->parsed())
         return DevicesOptions{};
     return window;

@@ -62,6 +62,16 @@ struct InspectOptions {
 };
 int inspectCommand(const InspectOptions& options);
 
+/// touchstone bench [fast|growth]
+struct BenchOptions {
+    std::string what;           ///< empty: all of it
+    std::filesystem::path json; ///< empty: not asked for
+    size_t largestTriangles = 1'000'000;
+    int rounds = 20;    ///< of 1000 ticks for each rung
+    bool check = false; ///< status 1 where a bound is missed
+};
+int benchCommand(const BenchOptions& options);
+
 /// touchstone devices
 int devicesCommand();
 

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
                                      [](const TouchOptions& options) { return touchCommand(options); },
                                      [](const RenderOptions& options) { return renderCommand(options); },
                                      [](const InspectOptions& options) { return inspectCommand(options); },
+                                     [](const BenchOptions& options) { return benchCommand(options); },
                                      [](const DevicesOptions&) { return devicesCommand(); }},
                           *command);
     } catch (const Error& error) {

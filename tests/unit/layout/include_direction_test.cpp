@@ -26,7 +26,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"devices", {"engine"}},
     {"assets", {}},
     {"shaders", {}},
-    {"workbench", {"engine", "haptics", "renderer", "devices"}},
+    {"workbench", {"engine", "haptics", "renderer", "devices", "assets"}},
 };
 
 struct Survey {

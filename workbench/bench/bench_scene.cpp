@@ -1,0 +1,140 @@
+#include "workbench/bench/bench_scene.h"
+
+#include "assets/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kRing = 0.060, kTube = 0.025, kBall = 0.050, kSide = 0.1, kDepth = 1e-3; // m
+
+/// Shapes without normals get one a facet, and corners of their own with it, as the loader does.
+Mesh meshOf(assets::Shape shape) {
+    Mesh mesh;
+    mesh.indices = std::move(shape.indices);
+    mesh.positions = std::move(shape.positions);
+    mesh.normals = std::move(shape.normals);
+    mesh.normalsFromFile = !mesh.normals.empty();
+    if (mesh.normalsFromFile)
+        return mesh;
+    Mesh flat;
+    for (size_t i = 0; i < mesh.indices.size(); ++i) {
+        const size_t first = i - i % 3;
+        const glm::vec3 &a = mesh.positions[mesh.indices[first]],
+                        &b = mesh.positions[mesh.indices[first + 1]],
+                        &c = mesh.positions[mesh.indices[first + 2]];
+        flat.positions.push_back(mesh.positions[mesh.indices[i]]);
+        flat.normals.push_back(glm::normalize(glm::cross(b - a, c - a)));
+        flat.indices.push_back(static_cast<uint32_t>(i));
+    }
+    return flat;
+}
+
+void place(Scene& scene, int mesh, const glm::dvec3& at) {
+    Instance instance;
+    instance.node = static_cast<int>(scene.nodes.size());
+    instance.mesh = mesh;
+    instance.sceneFromMesh[3] = glm::dvec4(at, 1.0);
+    scene.nodes.emplace_back();
+    scene.instances.push_back(instance);
+}
+
+/// The scene itself is let go of: of ten million triangles the hand's half is enough.
+std::shared_ptr<const HapticScene> compile(assets::Shape shape, const std::vector<glm::dvec3>& places) {
+    Scene scene;
+    scene.path = "bench";
+    scene.materials.emplace_back();
+    scene.meshes.push_back(meshOf(std::move(shape)));
+    for (const glm::dvec3& at : places)
+        place(scene, 0, at);
+    return compileHapticScene(scene, Similarity{});
+}
+
+/// A spiral along the ring and around the tube, `reach` from the tube's centre line.
+BenchStroke alongTorus(double reach) {
+    return [reach](double metres, double lift) {
+        const double r = reach + lift;
+        const double a = metres / (kRing + reach), v = 0.37 * a;
+        const double out = kRing + r * std::cos(v);
+        return glm::dvec3(out * std::cos(a), out * std::sin(a), r * std::sin(v));
+    };
+}
+
+/// Around the ball, slowly up and down between the 34th degrees of latitude.
+BenchStroke aroundBall(double reach) {
+    return [reach](double metres, double lift) {
+        const double a = metres / reach, tilt = 0.6 * std::sin(0.37 * a);
+        return (reach + lift) *
+               glm::dvec3(std::cos(a) * std::cos(tilt), std::sin(tilt), std::sin(a) * std::cos(tilt));
+    };
+}
+
+/// A circle on the box's upper face; it crosses the face's diagonal.
+BenchStroke onBox() {
+    return [](double metres, double lift) {
+        constexpr double kCircle = 0.03;
+        const double a = metres / kCircle;
+        return glm::dvec3(kCircle * std::cos(a), 0.5 * kSide - kDepth + lift, kCircle * std::sin(a));
+    };
+}
+
+BenchScene coarseTorus() {
+    // Six facets around the tube: 1 mm below the middle of a facet is 4.4 mm below an edge.
+    constexpr uint32_t kAroundTube = 6;
+    const double middle = kTube * std::cos(3.141592653589793 / kAroundTube);
+    return {"object 2", compile(assets::torus(kRing, kTube, 38, kAroundTube), {glm::dvec3(0.0)}),
+            alongTorus(middle - kDepth)};
+}
+
+} // namespace
+
+size_t BenchScene::triangles() const {
+    size_t count = 0;
+    for (const auto& object : haptic->objects)
+        count += object->triangleCount();
+    return count;
+}
+
+size_t BenchScene::vertices() const {
+    size_t count = 0;
+    for (const auto& object : haptic->objects)
+        count += object->vertices.size() - 1;
+    return count;
+}
+
+BenchScene tableOneScene(int number) {
+    const std::vector<glm::dvec3> centre{glm::dvec3(0.0)};
+    if (number == 1)
+        return {"object 1", compile(assets::boxWithSharedCorners(glm::dvec3(kSide)), centre), onBox()};
+    if (number == 2)
+        return coarseTorus();
+    if (number == 3)
+        return {"object 3", compile(assets::sphere(kBall, 30, 30), centre), aroundBall(kBall - kDepth)};
+    return {"object 4", compile(assets::sphere(kBall, 180, 180), centre), aroundBall(kBall - kDepth)};
+}
+
+BenchScene torusScene(size_t triangles) {
+    const auto side =
+        static_cast<uint32_t>(std::max(3L, std::lround(std::sqrt(0.5 * static_cast<double>(triangles)))));
+    return {"torus", compile(assets::torus(kRing, kTube, side, side), {glm::dvec3(0.0)}),
+            alongTorus(kTube - kDepth)};
+}
+
+BenchScene sphereGridScene(size_t count) {
+    constexpr double kPitch = 2.0 * kBall + 2e-4;
+    const auto side = static_cast<size_t>(std::ceil(std::cbrt(static_cast<double>(count)) - 1e-9));
+    const size_t middle = side / 2;
+    std::vector<glm::dvec3> places;
+    for (size_t i = 0; places.size() < count; ++i) {
+        const glm::dvec3 cell(i % side, i / side % side, i / side / side);
+        places.push_back(kPitch * (cell - glm::dvec3(static_cast<double>(middle))));
+    }
+    return {count == 1 ? "1 object" : std::to_string(count) + " objects",
+            compile(assets::sphere(kBall, 30, 30), places), aroundBall(kBall - kDepth)};
+}
+
+} // namespace touchstone

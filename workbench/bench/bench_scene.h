@@ -1,0 +1,38 @@
+#pragma once
+// What the benchmarks touch: shapes in closed form, made in the program, and a hand that strokes each.
+
+#include "haptics/haptic_scene.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace touchstone {
+
+/// Where the hand is after `metres` of its stroke, `lift` m above the depth that it strokes at. Workspace.
+using BenchStroke = std::function<glm::dvec3(double metres, double lift)>;
+
+/// A scene with a stroke 1 mm below its surface. Shapes are in metres and are touched as large as they are.
+struct BenchScene {
+    std::string name;
+    std::shared_ptr<const HapticScene> haptic;
+    BenchStroke stroke;
+
+    [[nodiscard]] size_t triangles() const;
+    [[nodiscard]] size_t vertices() const; ///< after welding
+};
+
+/// Objects 1, 2 and 3 of [000 Table I], as in assets/scenes: a box of 12 triangles, a torus of 456, a sphere
+/// of 1800, and object 4, a sphere of 64,800. `number` 1..4.
+[[nodiscard]] BenchScene tableOneScene(int number);
+
+/// The torus of the issues, 60 mm and 25 mm, of about `triangles` triangles.
+[[nodiscard]] BenchScene torusScene(size_t triangles);
+
+/// `count` spheres of 1800 triangles on a grid, 0.2 mm from each other; the one in the middle is stroked.
+[[nodiscard]] BenchScene sphereGridScene(size_t count);
+
+} // namespace touchstone
