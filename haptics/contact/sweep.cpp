@@ -1,21 +1,58 @@
 #include "haptics/contact/sweep.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace touchstone {
 
 namespace {
 
-/// Quadratic for a crossing, linear for a graze; hence the bound. Stopping early is safe.
-constexpr uint32_t kNewtonSteps = 40;
+/// Most moves need one or two steps at each triangle. Stopping early is safe.
+constexpr uint32_t kSteps = 40;
 /// Below this approach speed (object units per move length) rounding decides; the surface is not approached.
 constexpr double kParallel = 1e-13;
 /// A gap that counts as touch, object units.
 constexpr double kTouch = 1e-13;
 
+/// Time at which p + t * move comes within `reach` of the half-plane that holds the triangle and ends where
+/// the triangle is nearest to p. The triangle cannot be touched earlier, and is touched just then while the
+/// nearest feature stays the same: a slab, then the half cylinder around the half-plane's edge. (A tangent
+/// plane alone, Newton's method, halves the distance in each step where the proxy grazes an edge, which is
+/// what it does wherever it crosses from facet to facet: fifteen evaluations, here two.)
+double timeToHalfPlane(const Triangle& triangle, const TriangleDistance& here, const glm::dvec3& p,
+                       const glm::dvec3& move, double reach, double rate) {
+    const double gap = here.distance - reach;
+    const double newton = gap / -rate;
+    const glm::dvec3 away = p - here.closest;
+    const double height = glm::dot(triangle.normal, away), sink = glm::dot(triangle.normal, move);
+    const glm::dvec3 out = away - height * triangle.normal;
+    const double outside = glm::length(out);
+    if (here.face || triangle.normal == glm::dvec3(0.0) || outside == 0.0)
+        return newton;
+    // Around the edge: |outside + t drift, height + t sink| = reach; the root that is reached first.
+    const double drift = glm::dot(out, move) / outside;
+    const double a = drift * drift + sink * sink;
+    const double b = outside * drift + height * sink;
+    const double c = gap * (here.distance + reach);
+    const double discriminant = b * b - a * c;
+    if (b < 0.0 && discriminant >= 0.0) {
+        const double t = c / (-b + std::sqrt(discriminant));
+        if (outside + t * drift >= 0.0)
+            return t;
+    }
+    // Past the edge and over the plane.
+    const double above = std::abs(height), closing = height >= 0.0 ? -sink : sink;
+    if (drift >= 0.0 || closing <= 0.0)
+        return INFINITY;
+    return std::max(newton, (above - reach) / closing);
+}
+
 } // namespace
 
-// A triangle is convex, so its distance along a straight move is a convex function of time, and Newton's
-// method started before the first touch never oversteps it. The triangle whose next step is the earliest goes
-// first; when that one touches, every other one touches later, wherever its own steps stand.
+// A triangle is convex, so its distance along a straight move is a convex function of time, and steps that
+// end where a convex set around it is touched never overstep the first touch. The triangle whose next step is
+// the earliest goes first; when that one touches, every other one touches later, wherever its own steps
+// stand.
 double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move, double reach,
                  double limit) noexcept {
     const std::span<CandidateCache::Approach> all = cache.approaching(p, move, limit, reach);
@@ -38,9 +75,10 @@ double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& m
             approach = all[--left];
             continue;
         }
-        if (gap <= kTouch || ++approach.steps > kNewtonSteps)
+        if (gap <= kTouch || ++approach.steps > kSteps)
             return time;
-        approach.time = time + gap / -rate;
+        approach.time =
+            time + timeToHalfPlane(cache.triangle(approach.index), here, p + time * move, move, reach, rate);
     }
     return limit;
 }
