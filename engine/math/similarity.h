@@ -22,6 +22,16 @@ struct Similarity {
         return {1.0 / scale, back, (back * -translation) / scale};
     }
 
+    /// `inverse().point(a)`, without its cancellation where both are far from a's origin.
+    [[nodiscard]] glm::dvec3 inversePoint(const glm::dvec3& a) const {
+        return glm::conjugate(rotation) * (a - translation) / scale;
+    }
+    /// `inverse() * aFromC`, which is bFromC; the same holds.
+    [[nodiscard]] Similarity inverseTimes(const Similarity& aFromC) const {
+        return {aFromC.scale / scale, glm::normalize(glm::conjugate(rotation) * aFromC.rotation),
+                inversePoint(aFromC.translation)};
+    }
+
     /// `aFromB * bFromC` is `aFromC`.
     [[nodiscard]] Similarity operator*(const Similarity& bFromC) const {
         return {scale * bFromC.scale, glm::normalize(rotation * bFromC.rotation), point(bFromC.translation)};

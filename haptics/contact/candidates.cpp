@@ -113,7 +113,8 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
         if (index == anchor) {
             fits = gatherObject(*objects[k], index, nullptr, centre, radius);
         } else {
-            const Similarity objectFromAnchor = poses[k].workspaceFromObject.inverse() * workspaceFromAnchor;
+            const Similarity objectFromAnchor =
+                poses[k].workspaceFromObject.inverseTimes(workspaceFromAnchor);
             fits = gatherObject(*objects[k], index, &objectFromAnchor, centre, radius);
         }
         if (!fits) {

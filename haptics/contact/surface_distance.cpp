@@ -35,9 +35,8 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
     if (motions.empty())
         motions = scene.restMotions;
     for (size_t k = 0; k < scene.objects.size(); ++k) {
-        const Similarity objectFromWorkspace = motions[k].workspaceFromObject.inverse();
-        const double start = within * objectFromWorkspace.scale;
-        Nearest nearest{scene.objects[k].get(), objectFromWorkspace.point(point), start};
+        const double start = within / motions[k].workspaceFromObject.scale;
+        Nearest nearest{scene.objects[k].get(), motions[k].workspaceFromObject.inversePoint(point), start};
         // Embree rounds to float: a ball a little wider loses nothing, the double distance decides.
         RTCPointQuery query{};
         query.x = static_cast<float>(nearest.point.x);

@@ -23,9 +23,9 @@ bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec
                 DeviceState& state) noexcept {
     if (state.placed)
         return true;
-    proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inverse().point(hip));
+    proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inversePoint(hip));
     for (size_t k = 0; k < scene.objects.size(); ++k)
-        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inverse().point(hip)))
+        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inversePoint(hip)))
             return false;
     state.candidates.invalidate(); // what moved since the last try is not where it was gathered
     state.placed = proxy.isFree();

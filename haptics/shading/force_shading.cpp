@@ -79,8 +79,8 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
     Similarity anchorFromObject;
     const bool foreign = contact.object != anchor;
     if (foreign) {
-        anchorFromObject = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverse() *
-                           motions[k].workspaceFromObject;
+        anchorFromObject = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(
+            motions[k].workspaceFromObject);
         const Similarity back = anchorFromObject.inverse();
         point = back.point(point);
         trueNormal = back.direction(trueNormal);

@@ -203,7 +203,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
     const bool foreign = contact.object != anchor;
     if (foreign)
         anchorFromObject =
-            motions[static_cast<size_t>(anchor)].workspaceFromObject.inverse() * workspaceFromObject;
+            motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(workspaceFromObject);
     const Similarity objectFromAnchor = anchorFromObject.inverse();
     const size_t first = 3 * static_cast<size_t>(contact.triangle);
     const Triangle triangle(glm::dvec3(object.vertices[object.indices[first]]),

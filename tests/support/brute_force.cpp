@@ -15,15 +15,18 @@ LVec3 nearestOnSegment(const LVec3& p, const LVec3& a, const LVec3& b) {
     return a + std::min(1.0L, std::max(0.0L, t)) * ab;
 }
 
+Corners cornersOf(const HapticObject& object, size_t t) {
+    return {LVec3(object.vertices[object.indices[3 * t]]), LVec3(object.vertices[object.indices[3 * t + 1]]),
+            LVec3(object.vertices[object.indices[3 * t + 2]])};
+}
+
 } // namespace
 
-BruteContact bruteDistance(const HapticObject& object, size_t t, const LVec3& p) {
-    const LVec3 a(object.vertices[object.indices[3 * t]]), b(object.vertices[object.indices[3 * t + 1]]),
-        c(object.vertices[object.indices[3 * t + 2]]);
+BruteContact distanceFrom(const Corners& corners, const LVec3& p) {
+    const LVec3 &a = corners.a, &b = corners.b, &c = corners.c;
     const LVec3 area = glm::cross(b - a, c - a);
     const long double squared = glm::dot(area, area);
     BruteContact contact;
-    contact.triangle = t;
     if (squared > 0.0L) {
         const LVec3 n = area / std::sqrt(squared);
         const bool inside = glm::dot(glm::cross(b - a, p - a), n) > 0.0L &&
@@ -55,7 +58,8 @@ BruteContact bruteNearest(const HapticObject& object, const LVec3& p) {
     BruteContact nearest;
     nearest.distance = INFINITY;
     for (size_t t = 0; t < object.triangleCount(); ++t) {
-        const BruteContact contact = bruteDistance(object, t, p);
+        BruteContact contact = distanceFrom(cornersOf(object, t), p);
+        contact.triangle = t;
         if (contact.distance < nearest.distance)
             nearest = contact;
     }
@@ -65,7 +69,8 @@ BruteContact bruteNearest(const HapticObject& object, const LVec3& p) {
 std::vector<BruteContact> bruteWithin(const HapticObject& object, const LVec3& p, long double reach) {
     std::vector<BruteContact> contacts;
     for (size_t t = 0; t < object.triangleCount(); ++t) {
-        const BruteContact contact = bruteDistance(object, t, p);
+        BruteContact contact = distanceFrom(cornersOf(object, t), p);
+        contact.triangle = t;
         if (contact.distance <= reach)
             contacts.push_back(contact);
     }

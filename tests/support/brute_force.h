@@ -1,16 +1,20 @@
 #pragma once
-// The oracle's eye: every triangle of an object in long double, without any acceleration.
+// The oracle's eye: the distance of a point from a triangle in long double; shares no code with haptics/.
 
 #include "haptics/contact/haptic_object.h"
 
 #include <glm/glm.hpp>
 
-#include <span>
 #include <vector>
 
 namespace touchstone::test {
 
 using LVec3 = glm::vec<3, long double>;
+
+/// Any frame.
+struct Corners {
+    LVec3 a{0.0L}, b{0.0L}, c{0.0L};
+};
 
 struct BruteContact {
     LVec3 normal{0.0L}; ///< unit, from the surface to the point
@@ -18,11 +22,11 @@ struct BruteContact {
     size_t triangle = 0;
 };
 
-/// Distance of `p` (object frame) from one triangle of the object.
-[[nodiscard]] BruteContact bruteDistance(const HapticObject& object, size_t triangle, const LVec3& p);
-/// The least over all triangles.
+/// Distance of `p` from one triangle, which may be as thin as it likes.
+[[nodiscard]] BruteContact distanceFrom(const Corners& corners, const LVec3& p);
+/// The least over all triangles of the object, one by one; object frame.
 [[nodiscard]] BruteContact bruteNearest(const HapticObject& object, const LVec3& p);
-/// All triangles within `reach` of `p`.
+/// All triangles within `reach` of `p`, one by one; object frame.
 [[nodiscard]] std::vector<BruteContact> bruteWithin(const HapticObject& object, const LVec3& p,
                                                     long double reach);
 

@@ -11,6 +11,8 @@ namespace {
 constexpr long double kGap = 1e-14L;
 constexpr long double kTouch = 3e-14L;
 constexpr long double kStill = 1e-14L;
+/// What rounding may take off the gap in one move.
+constexpr long double kErosion = 1e-16L;
 
 /// Nearest point to `wish` in the cone of directions that no plane forbids (n . x >= 0), by enumeration of
 /// all sets of up to three planes.
@@ -45,24 +47,27 @@ LVec3 nearestAllowed(const LVec3& wish, const std::vector<LVec3>& n) {
 }
 
 /// First touch of the sphere with one triangle along from + t * move by bisection on the convex distance:
-/// find the least distance, and if it is below `reach`, the crossing before it.
-long double touchTime(const HapticObject& object, size_t triangle, const LVec3& from, const LVec3& move,
-                      long double reach, long double limit) {
-    const auto distance = [&](long double t) {
-        return bruteDistance(object, triangle, from + t * move).distance;
-    };
-    const BruteContact start = bruteDistance(object, triangle, from);
-    if (start.distance > reach + limit * glm::length(move))
-        return limit;
-    if (glm::dot(start.normal, move) >= 0.0L)
+/// find the least distance, and if it is below `reach`, the crossing before it. A surface that touches
+/// already is one that the move does not go into but for rounding: it stops the move only where that eats
+/// into the gap.
+long double touchTime(const Corners& triangle, const LVec3& from, const LVec3& move, long double radius,
+                      long double limit) {
+    const auto distance = [&](long double t) { return distanceFrom(triangle, from + t * move).distance; };
+    const BruteContact start = distanceFrom(triangle, from);
+    const long double reach = std::max(radius, std::min(radius + kGap, start.distance - kErosion));
+    // The distance is convex: it never falls faster than at the start.
+    const long double fall = glm::dot(start.normal, move);
+    if (fall >= 0.0L || start.distance + limit * fall > reach)
         return limit;
     long double low = 0.0L, high = limit;
     for (int i = 0; i < 200 && high - low > 1e-19L; ++i) { // ternary search of the minimum
         const long double a = low + (high - low) / 3.0L, b = high - (high - low) / 3.0L;
-        if (distance(a) < distance(b))
-            high = b;
-        else
-            low = a;
+        const long double atA = distance(a), atB = distance(b);
+        (atA < atB ? high : low) = atA < atB ? b : a;
+        if (std::min(atA, atB) < reach) { // any place beyond the crossing will do
+            low = high = atA < atB ? a : b;
+            break;
+        }
     }
     const long double bottom = 0.5L * (low + high);
     if (distance(bottom) >= reach)
@@ -77,23 +82,18 @@ long double touchTime(const HapticObject& object, size_t triangle, const LVec3& 
 
 } // namespace
 
-OracleRest oracleRest(const HapticObject& object, const LVec3& from, const LVec3& goal, long double radius) {
+OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, long double radius) {
     OracleRest rest;
     rest.proxy = from;
     // Only triangles that the way could meet: the proxy never leaves the ball through itself around the goal.
     const long double reach = glm::length(goal - from) + radius + kTouch;
-    std::vector<size_t> near;
-    for (size_t t = 0; t < object.triangleCount(); ++t) {
-        const uint32_t* i = &object.indices[3 * t];
-        if (i[0] == i[1] || i[1] == i[2] || i[2] == i[0])
-            continue;
-        if (bruteDistance(object, t, goal).distance <= reach)
-            near.push_back(t);
-    }
+    std::vector<Corners> near;
+    for (const size_t t : soup.near(goal, reach))
+        near.push_back(soup.corners(t));
     for (; rest.moves < kOracleMoves; ++rest.moves) {
         rest.touching.clear();
-        for (const size_t t : near) {
-            const BruteContact contact = bruteDistance(object, t, rest.proxy);
+        for (const Corners& t : near) {
+            const BruteContact contact = distanceFrom(t, rest.proxy);
             if (contact.distance <= radius + kTouch)
                 rest.touching.push_back(contact.normal);
         }
@@ -103,27 +103,10 @@ OracleRest oracleRest(const HapticObject& object, const LVec3& from, const LVec3
             return rest;
         }
         long double share = 1.0L;
-        for (const size_t t : near)
-            share = std::min(share, touchTime(object, t, rest.proxy, move, radius + kGap, share));
-        if (share <= 0.0L) { // struck by a surface that is near but not yet touching: take it in
-            for (const size_t t : near) {
-                const BruteContact contact = bruteDistance(object, t, rest.proxy);
-                if (contact.distance <= radius + 4.0L * kTouch && glm::dot(contact.normal, move) < 0.0L)
-                    rest.touching.push_back(contact.normal);
-            }
-            const LVec3 second = nearestAllowed(goal - rest.proxy, rest.touching);
-            if (glm::length(second) <= kStill) {
-                rest.settled = true;
-                return rest;
-            }
-            long double part = 1.0L;
-            for (const size_t t : near)
-                part = std::min(part, touchTime(object, t, rest.proxy, second, radius + kGap, part));
-            rest.proxy += part * second;
-            if (part <= 0.0L)
-                return rest;
-            continue;
-        }
+        for (const Corners& t : near)
+            share = std::min(share, touchTime(t, rest.proxy, move, radius, share));
+        if (share <= 0.0L)
+            return rest;
         rest.proxy += share * move;
     }
     return rest;

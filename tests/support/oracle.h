@@ -1,9 +1,8 @@
 #pragma once
-// The oracle: the virtual proxy over all triangles in long double, without search tree, cache, warm start or
+// The oracle: the virtual proxy over all triangles of a scene in long double, without cache, warm start or
 // budget. Slow on purpose; shares no code with haptics/.
 
-#include "haptics/contact/haptic_object.h"
-#include "tests/support/brute_force.h"
+#include "tests/support/soup.h"
 
 #include <vector>
 
@@ -16,11 +15,12 @@ struct OracleRest {
     bool settled = false; ///< false: it ran out of moves (kOracleMoves)
 };
 
-inline constexpr int kOracleMoves = 20000;
+/// Around a rounded edge of radius r, with the goal a distance e from its axis, a radian takes r / e moves.
+inline constexpr int kOracleMoves = 200000;
 
-/// Moves a sphere of `radius` from `from` (free) towards `goal` along free space until it rests; object
+/// Moves a sphere of `radius` from `from` (free) towards `goal` along free space until it rests; the soup's
 /// frame.
-[[nodiscard]] OracleRest oracleRest(const HapticObject& object, const LVec3& from, const LVec3& goal,
+[[nodiscard]] OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal,
                                     long double radius);
 
 /// What is left of the wish to move at `proxy`, given the surfaces that touch there: the distance from

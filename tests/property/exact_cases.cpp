@@ -1,0 +1,101 @@
+#include "tests/property/exact_cases.h"
+
+#include "engine/scene/scene_loader.h"
+#include "tests/support/shared_files.h"
+#include "tests/support/surface_hand.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+
+namespace touchstone::test {
+
+std::vector<HandCase> handsOver(const std::string& name, int ticks, double compared) {
+    std::vector<HandCase> hands;
+    for (const double radius : {0.0, 0.5e-3}) {
+        const std::string r = radius > 0.0 ? " r.5" : " r0";
+        hands.push_back({name + r + " 0.1 m/s", radius, 0.1, ticks, compared});
+        hands.push_back({name + r + " 1 m/s", radius, 1.0, ticks, compared});
+        hands.push_back({name + r + " taps", radius, 0.3, ticks / 2, compared, true});
+    }
+    return hands;
+}
+
+ExactFigures runStroke(const StrokeCase& c, int ticks) {
+    const Scene scene = sceneOf(c.shape);
+    const double fitted = workspaceFromScene(scene, Fit::Workspace).scale;
+    char speed[32];
+    std::snprintf(speed, sizeof speed, " %g m/s", c.speed);
+    ExactTrial trial(c.name + (c.radius > 0.0 ? " r.5" : " r0") + speed, scene, Fit::None,
+                     {.radius = c.radius * fitted});
+    trial.tick({0.2, 0.0, 0.0}, false);
+    trial.forget();
+    trial.tick(1.5 * strokeHand(c, 0));
+    for (int i = 0; i < ticks; ++i)
+        trial.tick(strokeHand(c, i));
+    trial.forget();
+    return trial.figures();
+}
+
+ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit) {
+    ExactTrial trial(c.name, scene, fit, {.radius = c.radius, .freeRunning = c.compared >= 1.0});
+    const LSimilarity workspaceFromObject(trial.scene().objects[0]->workspaceFromObject);
+    const double unit = trial.scene().objects[0]->workspaceFromObject.scale / trial.workspacePerFitted();
+    SurfaceHand hand(trial.soup(0), unit, {.speed = c.speed, .length = c.taps ? 0.0 : 8e-3}, 7);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    // A stroke that starts inside a closed object or between two sheets is felt by nobody.
+    for (int strokes = 0; strokes < 40 * c.ticks && trial.figures().ticks < c.ticks; ++strokes) {
+        for (const LVec3& hip : hand.stroke()) {
+            trial.tick(glm::dvec3(workspaceFromObject.point(hip)), share(random) < c.compared);
+            if (!trial.placed())
+                break;
+        }
+        trial.forget();
+    }
+    return trial.figures();
+}
+
+std::vector<ExactFigures> runModels(int ticks) {
+    std::vector<ExactFigures> all;
+    const auto folder = modelsFolder();
+    if (!folder)
+        return all;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(*folder))
+        if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+        LoadOptions options;
+        options.images = {.visual = false, .haptic = false};
+        const ScenePtr scene = loadScene(file, options);
+        for (const HandCase& c : handsOver(file.stem().string(), ticks))
+            all.push_back(runHand(c, *scene, Fit::Workspace));
+    }
+    return all;
+}
+
+void expectExact(const std::vector<ExactFigures>& all) {
+    std::printf("%s\n", exactHead().c_str());
+    ASSERT_FALSE(all.empty());
+    for (const ExactFigures& f : all)
+        std::printf("%s\n", exactLine(f).c_str());
+    for (const ExactFigures& f : all)
+        for (const std::string& line : f.divergences)
+            std::printf("%s\n", line.c_str());
+    for (const ExactFigures& f : all) {
+        SCOPED_TRACE(f.name);
+        EXPECT_GT(f.touching, f.ticks / 4);
+        for (size_t i = 0; i < std::min<size_t>(f.faults.size(), 5); ++i)
+            ADD_FAILURE() << f.faults[i] << (i == 4 ? ", and more" : "");
+        // Where two ends parted, the oracle's too is free and a rest.
+        EXPECT_LE(f.oracleShortfall, 0.0L);
+        EXPECT_LT(f.oracleCone, 1e-9L);
+    }
+}
+
+} // namespace touchstone::test

@@ -1,0 +1,35 @@
+#pragma once
+// The cases of "how exact it is" in docs/architecture.md: short ones for every run, long ones for the sweep.
+
+#include "tests/support/exact_trial.h"
+#include "tests/support/strokes.h"
+
+#include <string>
+#include <vector>
+
+namespace touchstone::test {
+
+/// A hand over a scene, anywhere on it.
+struct HandCase {
+    std::string name;
+    double radius = 0.0;   ///< fitted m
+    double speed = 0.1;    ///< fitted m/s
+    int ticks = 500;       ///< at least, in whole strokes
+    double compared = 1.0; ///< share of the ticks that the oracle checks too, by chance
+    bool taps = false;     ///< no strokes
+};
+
+/// The four hands of a scene: both radii at 0.1 and 1 m/s, or taps.
+[[nodiscard]] std::vector<HandCase> handsOver(const std::string& name, int ticks, double compared = 1.0);
+
+/// Strokes in closed form over one of our shapes, for `ticks` ticks.
+[[nodiscard]] ExactFigures runStroke(const StrokeCase& c, int ticks);
+/// Random taps and strokes over a scene.
+[[nodiscard]] ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit);
+/// The same over each scene file of the shared models, if there are any.
+[[nodiscard]] std::vector<ExactFigures> runModels(int ticks);
+
+/// What every case must show; prints the table and the list of divergences.
+void expectExact(const std::vector<ExactFigures>& all);
+
+} // namespace touchstone::test

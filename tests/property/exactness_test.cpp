@@ -1,0 +1,122 @@
+// How exact the proxy is: every tick against the oracle and against invariants. The long form is in
+// exactness_sweep.cpp.
+
+#include "tests/property/exact_cases.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace touchstone::test {
+namespace {
+
+TEST(Soup, FindsWhatTheLoopOverAllTrianglesFinds) {
+    for (const auto& shape : {assets::torus(0.06, 0.025, 40, 30), assets::sphere(0.05, 30, 30),
+                              assets::box({1000.0, 0.1, 10.0}, 6)}) {
+        const auto scene = compileHapticScene(sceneOf(shape), Similarity{});
+        const HapticObject& object = *scene->objects[0];
+        const Soup soup(*scene, 0);
+        std::mt19937 random(5);
+        std::uniform_real_distribution<double> in(-0.6, 0.6), size(-4.0, -0.5);
+        size_t found = 0;
+        for (int trial = 0; trial < 40; ++trial) {
+            LVec3 p(in(random), in(random), in(random));
+            if (trial % 2 == 0)
+                p = LVec3(object.vertices[random() % (object.vertices.size() - 1)]) * (1.0L + 1e-4L * p.x);
+            EXPECT_EQ(soup.nearest(p).distance, bruteNearest(object, p).distance);
+            const auto reach = static_cast<long double>(std::pow(10.0, size(random)));
+            const size_t count = bruteWithin(object, p, reach).size();
+            EXPECT_EQ(soup.within(p, reach).size(), count);
+            found += count;
+            // A way's clearance is that of its nearest place.
+            const LVec3 q = p + LVec3(0.03L * p.y, 0.02L * p.z, -0.05L * p.x);
+            long double least = INFINITY;
+            for (int i = 0; i <= 50; ++i)
+                least = std::min(least, bruteNearest(object, p + (q - p) * (0.02L * i)).distance);
+            const long double clearance = soup.clearance(p, q, 1.0L);
+            EXPECT_LE(clearance, least);
+            EXPECT_GT(clearance, least - 0.02L * glm::length(q - p));
+        }
+        EXPECT_GT(found, 100u);
+    }
+}
+
+TEST(Exactness, StrokesOverOurShapes) {
+    std::vector<ExactFigures> all;
+    for (const StrokeCase& c : strokeCases())
+        all.push_back(runStroke(c, c.ticks));
+    expectExact(all);
+}
+
+TEST(Exactness, HandsOverOurShapes) {
+    std::vector<ExactFigures> all;
+    for (const auto& [name, shape] : {std::pair{"sphere1800", assets::sphere(0.05, 30, 30)},
+                                      {"torus6480", assets::torus(0.06, 0.025, 72, 45)},
+                                      {"torus64800", assets::torus(0.06, 0.025, 180, 180)}})
+        for (const HandCase& c : handsOver(name, 300))
+            all.push_back(runHand(c, sceneOf(shape), Fit::Workspace));
+    expectExact(all);
+}
+
+/// The worst distance of any corner of the compiled scene from the source's place for it, which is taken
+/// through all transforms in long double; in diagonals of its object.
+long double vertexError(const Scene& source, Fit fit) {
+    const auto scene = compileHapticScene(source, workspaceFromScene(source, fit));
+    const LSimilarity toWorkspace(scene->workspaceFromScene);
+    long double worst = 0.0L;
+    for (const auto& object : scene->objects) {
+        const Instance& instance = source.instances[static_cast<size_t>(object->instance)];
+        const Mesh& mesh = source.meshes[static_cast<size_t>(instance.mesh)];
+        const glm::mat<4, 4, long double> sceneFromMesh(instance.sceneFromMesh);
+        const LSimilarity workspaceFromObject(object->workspaceFromObject);
+        const auto diagonal = static_cast<long double>(object->diagonal * object->workspaceFromObject.scale);
+        for (size_t i = 0; i < object->indices.size(); ++i) {
+            const LVec3 there(sceneFromMesh * glm::vec<4, long double>(
+                                                  LVec3(mesh.positions[object->sourceIndices[i]]), 1.0L));
+            const LVec3 here = workspaceFromObject.point(LVec3(object->vertices[object->indices[i]]));
+            worst = std::max(worst, glm::length(here - toWorkspace.point(there)) / diagonal);
+        }
+    }
+    return worst;
+}
+
+glm::dmat4 placedAt(double scale, const glm::dvec3& offset) {
+    const glm::dmat4 turned = glm::mat4_cast(glm::normalize(glm::dquat(0.8, 0.1, -0.5, 0.3)));
+    glm::dmat4 matrix = turned * glm::dmat4(glm::dmat3(scale));
+    matrix[3] = glm::dvec4(offset, 1.0);
+    return matrix;
+}
+
+const glm::dvec3 kFar(1e6, -7e5, 3e5);
+
+TEST(Exactness, ScalesAndFarNodes) {
+    std::vector<ExactFigures> all;
+    for (const double scale : {1e-3, 1.0, 1e3})
+        for (const bool far : {false, true})
+            for (const Fit fit : {Fit::None, Fit::Workspace})
+                for (const double radius : {0.0, 0.5e-3}) {
+                    const glm::dmat4 place = placedAt(scale, far ? kFar : glm::dvec3(0.0));
+                    Scene scene = sceneOf(assets::torus(0.06, 0.025, 72, 45), place);
+                    char name[64];
+                    std::snprintf(name, sizeof name, "torus %g%s%s%s", scale, far ? " far" : "",
+                                  fit == Fit::None ? " bare" : " fit", radius > 0.0 ? " r.5" : " r0");
+                    all.push_back(runHand({name, radius, 0.3, 60}, scene, fit));
+                    const long double error = vertexError(scene, fit);
+                    EXPECT_LT(error, 1e-6L) << name;
+                    std::printf("%-28s vertices within %.1Le diagonals\n", name, error);
+                    // Two that overlap: edges where both are touched.
+                    addShape(scene, assets::sphere(0.05, 30, 30),
+                             place * glm::translate(glm::dmat4(1.0), glm::dvec3(0.05, 0.02, 0.0)));
+                    all.push_back(runHand({std::string(name) + " +sphere", radius, 0.3, 60}, scene, fit));
+                }
+    expectExact(all);
+}
+
+TEST(Exactness, HandsOverRealModels) {
+    expectExact(runModels(100));
+}
+
+} // namespace
+} // namespace touchstone::test
