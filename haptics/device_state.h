@@ -20,7 +20,7 @@ struct DeviceState {
     // Stage 1
     bool sampled = false;     ///< a valid sample has been seen since the reset
     glm::dvec3 hip{0.0};      ///< workspace, last tick
-    double travel = 0.0;      ///< m, of the HIP since the last tick
+    glm::dvec3 travel{0.0};   ///< m, of the HIP since the last tick, workspace
     glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
 
     // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor

@@ -99,7 +99,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
 
     // 3. Proxy solve: as near to the goal as free space allows.
     const bool shading = scene.plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
-    const glm::dvec3 goal = shading ? warmGoal(state, hip, state.travel / workspaceFromAnchor.scale) : hip;
+    const glm::dvec3 goal =
+        shading ? warmGoal(state, hip, glm::length(state.travel) / workspaceFromAnchor.scale) : hip;
     proxy.moveTowards(goal);
     stopwatch.lap(Stage::Proxy);
 

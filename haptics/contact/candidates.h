@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -58,10 +59,19 @@ class CandidateCache {
         count_ = 0;
     }
 
-    /// How far the proxy may go from `p` in any direction and still know every triangle within `reach` of it;
-    /// negative when p itself is not covered.
-    [[nodiscard]] double slack(const glm::dvec3& p, double reach) const noexcept {
-        return valid_ ? radius_ - reach - glm::length(p - centre_) : -1.0;
+    /// How far the proxy may go from `p` along the unit vector `direction` and still know every triangle
+    /// within `reach` of it; negative when p itself is not covered. Zero direction: zero or negative.
+    [[nodiscard]] double freeAlong(const glm::dvec3& p, const glm::dvec3& direction,
+                                   double reach) const noexcept {
+        const double room = radius_ - reach;
+        const glm::dvec3 offset = p - centre_;
+        const double inside = room * room - glm::dot(offset, offset);
+        if (!valid_ || room < 0.0 || inside < 0.0)
+            return -1.0;
+        if (direction == glm::dvec3(0.0))
+            return 0.0;
+        const double along = glm::dot(offset, direction);
+        return std::sqrt(along * along + inside) - along;
     }
 
     [[nodiscard]] size_t count() const noexcept { return count_; }

@@ -17,8 +17,11 @@ constexpr int kFruitlessMoves = 2;
 constexpr double kSmallestMargin = 1e-7;
 constexpr double kLargestMargin = 4.0;
 /// The margin shrinks above and grows below these candidate counts.
-constexpr size_t kManyCandidates = 24;
-constexpr size_t kFewCandidates = 6;
+constexpr size_t kManyCandidates = 48;
+constexpr size_t kFewCandidates = 12;
+/// How far ahead of the proxy the middle of a new ball lies, in margins.
+constexpr double kAhead = 0.5;
+constexpr double kLasting = 2.0;
 
 /// A sweep ends at this gap, short of the resting one: a surface that the proxy rests on at kContactGap and
 /// slides along is then not struck again at once by the rounding of its gradient.
@@ -43,21 +46,27 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
     const double skin = 0.5 * kWeldTolerance * scene_.objects[index]->diagonal;
     const double scaled = workspaceRadius_ / motions_[index].workspaceFromObject.scale;
     radius_ = std::max(scaled, skin);
-    travel_ = state_.travel / motions_[index].workspaceFromObject.scale;
+    const glm::dvec3 travel = motions_[index].workspaceFromObject.inverse().direction(state_.travel);
+    const double workspaceTravel = glm::length(travel);
+    travel_ = workspaceTravel / motions_[index].workspaceFromObject.scale;
+    heading_ = workspaceTravel > 0.0 ? travel / workspaceTravel : glm::dvec3(0.0);
 }
 
-/// Makes sure that all triangles are known which a proxy moving by `length` could touch, or by a quarter of
-/// the usual margin if that is shorter: a long move that a near surface ends must not gather what lies behind
-/// it. False if not even the place itself can be covered.
-bool MeshProxy::cover(double length) noexcept {
+/// Makes sure that all triangles are known that a proxy moving by `length` along `direction` could touch; or
+/// as far as the hand went in this tick, if that is less: a long move that a near surface ends must not
+/// gather what lies behind it. False if not even the place itself can be covered.
+bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     const double reach = radius_ + kContactReach;
-    if (state_.candidates.slack(state_.proxy, reach) >= std::min(length, 0.25 * state_.gatherMargin))
+    const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
+    if (state_.candidates.freeAlong(state_.proxy, direction, reach) >= wanted)
         return true;
     constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const double margin = state_.gatherMargin;
+        // The ball lies ahead of the hand, where it lasts longer.
+        const glm::dvec3 centre = state_.proxy + kAhead * margin * heading_;
         const bool fits =
-            state_.candidates.gather(scene_.objects, motions_, state_.anchor, state_.proxy, reach + margin);
+            state_.candidates.gather(scene_.objects, motions_, state_.anchor, centre, reach + margin);
         const size_t count = state_.candidates.count();
         double next = margin;
         if (!fits)
@@ -70,7 +79,7 @@ bool MeshProxy::cover(double length) noexcept {
             next = 1.5 * margin;
         // However dense the mesh, a ball that does not last for two ticks of this motion costs more than it
         // saves.
-        const double lasting = fits ? std::min(2.0 * travel_, margin) : 0.0;
+        const double lasting = fits ? std::min(kLasting * travel_, margin) : 0.0;
         state_.gatherMargin = std::clamp(next, std::max(kSmallestMargin, lasting), kLargestMargin);
         if (fits)
             return true;
@@ -128,7 +137,7 @@ void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
 }
 
 bool MeshProxy::isFree() noexcept {
-    if (!cover(0.0))
+    if (!cover(glm::dvec3(0.0), 0.0))
         return false;
     for (size_t i = 0; i < state_.candidates.count(); ++i)
         if (distanceTo(state_.candidates.triangle(i), state_.proxy).distance < radius_ + kContactGap)
@@ -153,7 +162,7 @@ void MeshProxy::dropTowards(const glm::dvec3& goal) noexcept {
 
 /// One move: false when the proxy rests, or may not or cannot go on; then contacts and hold are up to date.
 bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
-    if (!cover(0.0))
+    if (!cover(glm::dvec3(0.0), 0.0))
         return false;
     findContacts();
     buildPlanes();
@@ -168,9 +177,10 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
         rest_.flags = rest_.flags | TickFlag::BudgetReached;
         return false;
     }
-    if (!cover(length))
+    const glm::dvec3 direction = move / length;
+    if (!cover(direction, length))
         return false;
-    const double known = state_.candidates.slack(state_.proxy, radius_ + kContactReach);
+    const double known = state_.candidates.freeAlong(state_.proxy, direction, radius_ + kContactReach);
     const double share =
         freeShare(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, std::min(1.0, known / length));
     state_.proxy += share * move;

@@ -61,7 +61,7 @@ class MeshProxy {
                        double limit) noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts() noexcept;
-    bool cover(double length) noexcept;
+    bool cover(const glm::dvec3& direction, double length) noexcept;
     void buildPlanes() noexcept;
 
     const HapticScene& scene_;
@@ -69,7 +69,8 @@ class MeshProxy {
     double workspaceRadius_;
     double radius_ = 0.0;
     int withoutProgress_ = 0;
-    double travel_ = 0.0;
+    double travel_ = 0.0; ///< of the HIP in this tick
+    glm::dvec3 heading_{0.0};
     int budget_;
     DeviceState& state_;
     ProxyRest& rest_;

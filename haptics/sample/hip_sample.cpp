@@ -27,10 +27,10 @@ bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevic
         return false;
     }
     const glm::dvec3 hip = workspaceFromDevice.point(sample.position);
-    state.travel = 0.0;
+    state.travel = glm::dvec3(0.0);
     if (state.sampled) {
-        state.travel = glm::length(hip - state.hip);
-        const glm::dvec3 velocity = (hip - state.hip) / dt;
+        state.travel = hip - state.hip;
+        const glm::dvec3 velocity = state.travel / dt;
         if (glm::length(velocity) > kFastestHand)
             flags = flags | TickFlag::Teleported;
         constexpr double kTwoPi = 6.283185307179586;
