@@ -61,13 +61,13 @@ ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit) {
 
 std::vector<ExactFigures> runModels(int ticks) {
     std::vector<ExactFigures> all;
-    const auto folder = modelsFolder();
-    if (!folder)
-        return all;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(*folder))
-        if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
-            files.push_back(entry.path());
+    std::vector<std::filesystem::path> folders{TOUCHSTONE_ASSETS}, files;
+    if (const auto models = modelsFolder())
+        folders.push_back(*models);
+    for (const auto& folder : folders)
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+                files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
         LoadOptions options;

@@ -26,7 +26,7 @@ struct HandCase {
 [[nodiscard]] ExactFigures runStroke(const StrokeCase& c, int ticks);
 /// Random taps and strokes over a scene.
 [[nodiscard]] ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit);
-/// The same over each scene file of the shared models, if there are any.
+/// The same over each of our scene files, and over the shared models where there are any.
 [[nodiscard]] std::vector<ExactFigures> runModels(int ticks);
 
 /// What every case must show; prints the table and the list of divergences.

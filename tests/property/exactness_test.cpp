@@ -1,7 +1,9 @@
 // How exact the proxy is: every tick against the oracle and against invariants. The long form is in
 // exactness_sweep.cpp.
 
+#include "engine/scene/scene_loader.h"
 #include "tests/property/exact_cases.h"
+#include "tests/support/gltf_maker.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -114,7 +116,46 @@ TEST(Exactness, ScalesAndFarNodes) {
     expectExact(all);
 }
 
-TEST(Exactness, HandsOverRealModels) {
+/// A sphere of 1800 triangles under two nodes, the outer of which stands 1000 km away.
+GltfMaker farSphere(double scale) {
+    const assets::Shape shape = assets::sphere(0.05, 30, 30);
+    std::vector<float> positions;
+    for (const glm::vec3& p : shape.positions)
+        positions.insert(positions.end(), {p.x, p.y, p.z});
+    GltfMaker maker;
+    const size_t position = maker.addAccessor<float>(positions, "VEC3");
+    maker.json["accessors"][position]["min"] = {-0.05, -0.05, -0.05};
+    maker.json["accessors"][position]["max"] = {0.05, 0.05, 0.05};
+    const size_t indices = maker.addAccessor<uint32_t>(shape.indices, "SCALAR");
+    maker.append("meshes",
+                 {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", indices}}}}});
+    const size_t inner = maker.append(
+        "nodes", {{"mesh", 0}, {"rotation", {0.0, 0.6, 0.0, 0.8}}, {"scale", {scale, 0.75 * scale, scale}}});
+    const size_t outer =
+        maker.append("nodes", {{"children", {inner}}, {"translation", {kFar.x, kFar.y, kFar.z}}});
+    maker.json["scenes"] = {{{"nodes", {outer}}}};
+    return maker;
+}
+
+TEST(Exactness, AFileWithAFarNode) {
+    std::vector<ExactFigures> all;
+    for (const double scale : {1e-3, 1.0, 1e3}) {
+        const ScenePtr scene = loadSceneFromMemory(farSphere(scale).glb(), ".");
+        ASSERT_EQ(scene->triangleCount(), 1800u);
+        EXPECT_NEAR(scene->bounds.centre().x, kFar.x, 1e-4 * scale);
+        for (const Fit fit : {Fit::None, Fit::Workspace}) {
+            char name[64];
+            std::snprintf(name, sizeof name, "far file %g%s", scale, fit == Fit::None ? " bare" : " fit");
+            const long double error = vertexError(*scene, fit);
+            std::printf("%-28s vertices within %.1Le diagonals\n", name, error);
+            EXPECT_LT(error, 1e-6L) << name;
+            all.push_back(runHand({name, 0.5e-3, 0.3, 100}, *scene, fit));
+        }
+    }
+    expectExact(all);
+}
+
+TEST(Exactness, HandsOverSceneFiles) {
     expectExact(runModels(100));
 }
 

@@ -139,6 +139,15 @@ long double ExactTrial::coneResidual(const Frame& f, const LVec3& proxy) const {
     return restResidual(normals, proxy, f.goal);
 }
 
+/// Where the ends differ, ours is a rest only if the oracle, put there, stays.
+void ExactTrial::checkHeld(const Frame& f, const LVec3& ours) {
+    const OracleRest rest = oracleRest(*f.soup, ours, f.goal, f.radius);
+    const long double drift = glm::length(rest.proxy - ours);
+    if (drift > f.tolerance)
+        fault(text("is no rest: put there, the oracle goes on for %.2Lg m in %d moves", drift * f.unit,
+                   rest.moves));
+}
+
 void ExactTrial::compareRestarted(const Frame& f, const LVec3& before) {
     const LVec3 ours(bench_.state[0].proxy);
     const OracleRest rest = oracleRest(*f.soup, before, f.goal, f.radius);
@@ -156,6 +165,7 @@ void ExactTrial::compareRestarted(const Frame& f, const LVec3& before) {
         return;
     }
     ++figures_.apart;
+    checkHeld(f, ours);
     const long double cone = restResidual(rest.touching, rest.proxy, f.goal);
     const long double shortfall = f.radius - f.soup->nearest(rest.proxy).distance;
     figures_.oracleCone = std::max(figures_.oracleCone, cone * f.unit);
@@ -184,6 +194,8 @@ void ExactTrial::compareFree(const Frame& f) {
     figures_.oracleShortfall =
         std::max(figures_.oracleShortfall, f.unit * (f.radius - f.soup->nearest(rest.proxy).distance));
     if (!parting_) {
+        if (finished_)
+            checkHeld(f, ours);
         ++figures_.partings;
         parting_ = {.start = static_cast<int>(bench_.tick),
                     .first = error * f.unit,

@@ -72,6 +72,7 @@ class ExactTrial {
     std::vector<glm::dvec3> replay(const glm::dvec3& hip);
     void checkPath(const Frame& f, const std::vector<glm::dvec3>& places);
     long double coneResidual(const Frame& f, const LVec3& proxy) const;
+    void checkHeld(const Frame& f, const LVec3& ours);
     void compareRestarted(const Frame& f, const LVec3& before);
     void compareFree(const Frame& f);
     void closeParting();
