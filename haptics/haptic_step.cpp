@@ -3,6 +3,7 @@
 #include "haptics/force/spring_damper.h"
 #include "haptics/friction/stiction.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/proxy/carry.h"
 #include "haptics/proxy/mesh_proxy.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/safety/force_limiter.h"
@@ -83,6 +84,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     ProxyRest& rest = state.rest;
     if (state.anchor < 0)
         state.anchor = nearestObject(scene, motions, state.hip);
+    if (state.placed)
+        carryProxy(scene, motions, settings.proxyRadius, state);
     MeshProxy proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
     if (!placeProxy(scene, motions, state.hip, proxy, state)) {
         state.friction = FrictionState::Free;
@@ -91,7 +94,6 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
         output.flags = output.flags | TickFlag::StartedInside;
         return;
     }
-    proxy.carry();
     const Similarity workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
     const glm::dvec3 hip = workspaceFromAnchor.inverse().point(state.hip);
     const glm::dvec3 held = state.proxy;

@@ -35,10 +35,6 @@ class MeshProxy {
     MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
               ProxyRest& rest) noexcept;
 
-    /// Sweeps the proxy along what the objects did since the last tick. An object that runs into it becomes
-    /// the anchor and carries it.
-    void carry() noexcept;
-
     /// Moves the proxy to a rest: the point nearest to `goal` (anchor frame) that can be reached by sliding
     /// without leaving free space. Anytime: every move ends in free space and none goes away from the goal.
     void moveTowards(const glm::dvec3& goal) noexcept;
@@ -57,8 +53,6 @@ class MeshProxy {
 
   private:
     void adoptAnchor(int anchor) noexcept;
-    double sweepObject(size_t object, const glm::dvec3& from, const glm::dvec3& move, double reach,
-                       double limit) noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts() noexcept;
     bool cover(const glm::dvec3& direction, double length) noexcept;
