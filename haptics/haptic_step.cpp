@@ -95,7 +95,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
         return;
     }
     const Similarity workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
-    const glm::dvec3 hip = workspaceFromAnchor.inverse().point(state.hip);
+    const glm::dvec3 hip = workspaceFromAnchor.inversePoint(state.hip);
     const glm::dvec3 held = state.proxy;
     stopwatch.lap(Stage::Contact);
 

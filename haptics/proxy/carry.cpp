@@ -54,8 +54,8 @@ void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, 
         if (static_cast<int>(k) == state.anchor)
             continue;
         const HapticObject& object = *scene.objects[k];
-        const glm::dvec3 from = motions[k].before.inverse().point(before);
-        const glm::dvec3 to = motions[k].workspaceFromObject.inverse().point(now);
+        const glm::dvec3 from = motions[k].before.inversePoint(before);
+        const glm::dvec3 to = motions[k].workspaceFromObject.inversePoint(now);
         const glm::dvec3 move = to - from;
         const double length = glm::length(move);
         const double scale = motions[k].workspaceFromObject.scale;

@@ -193,8 +193,8 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
 void changeAnchor(DeviceState& state, ObjectMotions motions, int anchor) noexcept {
     if (anchor == state.anchor)
         return;
-    const Similarity newFromOld = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverse() *
-                                  motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
+    const Similarity newFromOld = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(
+        motions[static_cast<size_t>(state.anchor)].workspaceFromObject);
     state.anchor = anchor;
     state.proxy = newFromOld.point(state.proxy);
     state.stictionPoint = newFromOld.point(state.stictionPoint);
