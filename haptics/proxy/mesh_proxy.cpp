@@ -78,8 +78,10 @@ bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
         else if (count < kFewCandidates)
             next = 1.5 * margin;
         // However dense the mesh, a ball that does not last for two ticks of this motion costs more than it
-        // saves.
-        const double lasting = fits ? std::min(kLasting * travel_, margin) : 0.0;
+        // saves. A hand that rested has shrunk it to nothing: it must grow again, while four times the ball
+        // still holds, or the proxy would creep.
+        const double growth = 16 * count <= CandidateCache::kCapacity ? 4.0 : 1.0;
+        const double lasting = fits ? std::min(kLasting * travel_, growth * margin) : 0.0;
         state_.gatherMargin = std::clamp(next, std::max(kSmallestMargin, lasting), kLargestMargin);
         if (fits)
             return true;

@@ -3,6 +3,7 @@
 #include "haptics/contact/triangle.h"
 #include "haptics/tick_flags.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -130,6 +131,7 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
     const bool wasShaded = state.shaded;
     const glm::dvec3 lastNormal = state.shadedNormal;
     glm::dvec3 lastGoal = firstGoal, lastStep(0.0);
+    double relax = 1.0;
     for (int round = 0; round < kMaxRounds; ++round) {
         const ShadedGoal shaded = shadedGoal(scene, motions, state, settings.shadingTiltLimit, hip, rest);
         state.shaded = shaded.held;
@@ -145,28 +147,26 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
             return;
         // Steps shrink by a ratio that changes little: go to where they would end (Aitken). In a hollow that
         // is pressed deeper than it is wide the goal swings to and fro instead: meet it half way.
-        const double before = glm::dot(lastStep, lastStep);
-        if (before > 0.0 && shaded.held) {
-            const double ratio = glm::dot(step, lastStep) / before;
-            step *= ratio < -0.5 ? 0.5 : ratio > 0.0 && ratio < 0.3 ? 1.0 / (1.0 - ratio) : 1.0;
-        }
-        lastGoal = shaded.held ? onTruePlanes(lastGoal + step, state.proxy, rest) : shaded.goal;
+        const glm::dvec3 change = lastStep - step;
+        const double before = glm::dot(change, change);
+        relax = before > 0.0 && shaded.held && glm::dot(lastStep, lastStep) > 0.0
+                    ? std::clamp(relax * glm::dot(lastStep, change) / before, 0.1, 1.45)
+                    : 1.0;
+        lastGoal = shaded.held ? onTruePlanes(lastGoal + relax * step, state.proxy, rest) : shaded.goal;
         lastStep = shaded.held ? step : glm::dvec3(0.0);
         proxy.moveTowards(lastGoal);
         // Over a rounded edge the true planes' goal is in the air: the surface is below it along the shaded
         // normal.
         if (rest.contactCount == 0 && shaded.held)
             proxy.dropTowards(hip);
-        // Half of the tick's moves, so that the other half can bring the proxy back to the true contact.
-        if (2 * rest.iterations >= static_cast<uint32_t>(settings.iterationBudget))
+        // A third of the tick's moves, so that the others can bring the proxy back to the true contact.
+        if (3 * rest.iterations >= static_cast<uint32_t>(settings.iterationBudget))
             break;
     }
     rest.flags = rest.flags | TickFlag::ShadingNotConverged;
-    // Whatever the rounds came to, the true contact is not lost.
-    if (rest.contactCount == 0) {
-        state.shaded = false;
-        proxy.moveTowards(hip);
-    }
+    // Where the rounds come to nothing, the true contact holds: a rest, and the same one in the next tick.
+    state.shaded = false;
+    proxy.moveTowards(hip);
 }
 
 } // namespace touchstone

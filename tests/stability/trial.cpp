@@ -6,7 +6,7 @@
 namespace touchstone::test {
 
 std::string Variant::name() const {
-    return "r " + std::to_string(radius * 1e3) + " mm " + (shaded ? "shaded" : "flat");
+    return std::string(radius > 0.0 ? "r 0.5 mm" : "r 0") + (shaded ? ", shaded" : ", flat");
 }
 
 HapticSettings Variant::settings() const {

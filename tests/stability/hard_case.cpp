@@ -1,0 +1,280 @@
+#include "tests/stability/hard_case.h"
+
+#include "haptics/proxy/mesh_proxy.h"
+#include "tests/stability/case_table.h"
+#include "tests/support/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace touchstone::test {
+
+namespace {
+
+constexpr double kStiffness = 1000.0; // N/m, Variant::settings
+
+/// Of the anchor: a rest is known to a few contact gaps, and whatever is nearer than this touches.
+constexpr double kTouchReach = 8.0 * kContactGap;
+/// Of the anchor and of the depth: rounding of a rest. The gradient of a distance of 5e-7 is good to 2e-10.
+constexpr double kRestRounding = 1e-9;
+/// Of the anchor, while shaded: the shading ends when its goal moves by less than 1e-8; the goals' steps
+/// shrink by at most a half, so what is left is as much again.
+constexpr double kShadedRounding = 2e-8;
+/// N: forces are depths times 1000 N/m, and depths are good to kRestRounding.
+constexpr double kForceRounding = 1e-6;
+constexpr double kEnergyRounding = 1e-12; // J
+/// Ticks until a held force is judged.
+constexpr int kSettleTicks = 20;
+
+double jumpOf(double depth, double angle) {
+    return kStiffness * 2.0 * depth * std::sin(0.5 * std::min(angle, 3.141592653589793));
+}
+
+/// Every direction of one has its like in the other.
+bool sameDirections(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+    const auto within = [](const std::vector<glm::dvec3>& x, const std::vector<glm::dvec3>& y) {
+        return std::all_of(x.begin(), x.end(), [&](const glm::dvec3& n) {
+            return std::any_of(y.begin(), y.end(),
+                               [&](const glm::dvec3& m) { return glm::distance(n, m) < 1e-9; });
+        });
+    };
+    return within(a, b) && within(b, a);
+}
+
+/// Keeps the worse of two figures: the larger share of what is allowed.
+void worsen(Figure& figure, const Figure& other) {
+    if (other.share() > figure.share())
+        figure = other;
+}
+
+} // namespace
+
+double Figure::share() const {
+    return measured <= 0.0 ? 0.0 : allowed > 0.0 ? measured / allowed : INFINITY;
+}
+
+HardCase::HardCase(std::string name, const Scene& scene, const Variant& variant)
+    : HardCase(std::move(name), scene, variant, variant.settings()) {}
+
+HardCase::HardCase(std::string name, const Scene& scene, const Variant& variant,
+                   const HapticSettings& settings)
+    : bench(scene, settings), name_(std::move(name)), variant_(variant),
+      surface_(*bench.scene, variant.shaded ? settings.shadingTiltLimit : 0.0), soup_(*bench.scene, 0) {
+    figures_.runs = 1;
+    figures_.jitter.allowed = figures_.jump.allowed = kForceRounding;
+    figures_.energy.allowed = kEnergyRounding;
+}
+
+void HardCase::side(std::function<double(const glm::dvec3&)> outside, double allowed) {
+    outside_ = std::move(outside);
+    figures_.passes.allowed = allowed;
+}
+
+double HardCase::effectiveRadius() const {
+    const int anchor = std::max(bench.state[0].anchor, 0);
+    const HapticObject& object = *bench.scene->objects[static_cast<size_t>(anchor)];
+    const Similarity& pose = bench.motions.empty()
+                                 ? object.workspaceFromObject
+                                 : bench.motions[static_cast<size_t>(anchor)].workspaceFromObject;
+    return std::max(variant_.radius, 0.5 * kWeldTolerance * object.diagonal * pose.scale);
+}
+
+ObjectMotions HardCase::motions() const {
+    return bench.motions.empty() ? ObjectMotions(bench.scene->restMotions) : ObjectMotions(bench.motions);
+}
+
+void HardCase::startAt(const glm::dvec3& hip) {
+    way_ = {hip};
+    bench.step(hip);
+    take();
+}
+
+void HardCase::moveTo(const glm::dvec3& hip, double speed) {
+    way_.push_back(hip);
+    bench.moveTo(hip, speed, [&](const HapticOutput&) { take(); });
+}
+
+void HardCase::teleportTo(const glm::dvec3& hip) {
+    way_.push_back(hip);
+    bench.step(hip);
+    take();
+}
+
+void HardCase::hold(int ticks) {
+    for (int i = 0; i < kSettleTicks + ticks; ++i) {
+        holding_ = i >= kSettleTicks;
+        bench.step(bench.output.hip);
+        take();
+    }
+    holding_ = false;
+}
+
+void HardCase::leave(double speed) {
+    std::vector<glm::dvec3> back(way_.rbegin() + 1, way_.rend());
+    for (const glm::dvec3& hip : back)
+        bench.moveTo(hip, speed, [&](const HapticOutput&) { take(); });
+    EXPECT_EQ(bench.output.contacts, 0u) << "free again at the start";
+    EXPECT_LE(figures_.energy.measured, figures_.energy.allowed) << "energy over the closed path, J";
+    judge();
+}
+
+void HardCase::judge() {
+    if (bench.output.contacts > 0 || glm::distance(bench.output.hip, way_.front()) > 0.0)
+        figures_.energy = Figure{}; // not a closed path
+    figures_.energy.measured = std::max(figures_.energy.measured, 0.0);
+    EXPECT_LE(figures_.passes.measured, figures_.passes.allowed) << "passes through, m";
+    EXPECT_EQ(figures_.notFinite.measured, 0.0);
+    EXPECT_LE(figures_.sticks.measured, figures_.sticks.allowed) << "sticks, m";
+    EXPECT_LE(figures_.jitter.measured, figures_.jitter.allowed) << "jitters while held, N";
+    EXPECT_LE(figures_.jump.measured, figures_.jump.allowed) << "force jump in a tick, N";
+    EXPECT_EQ(figures_.budgetReached, 0);
+    addToCaseTable(name_, variant_.name(), figures_);
+}
+
+void HardCase::take() {
+    const HapticOutput& now = bench.output;
+    ++figures_.ticks;
+    for (const glm::dvec3& v : {now.proxy, now.force, now.normal, now.commandInWorkspace})
+        for (int i = 0; i < 3; ++i)
+            figures_.notFinite.measured += std::isfinite(v[i]) ? 0.0 : 1.0;
+    figures_.budgetReached += has(now.flags, TickFlag::BudgetReached) ? 1 : 0;
+    figures_.notConverged += has(now.flags, TickFlag::ShadingNotConverged) ? 1 : 0;
+    if (has(now.flags, TickFlag::StartedInside)) {
+        EXPECT_EQ(glm::length(now.force), 0.0) << "a hand inside feels nothing";
+        last_ = now;
+        lastTouching_ = Touching{};
+        first_ = false;
+        return;
+    }
+
+    const double radius = effectiveRadius();
+    const double unit = bench.scene->objects[0]->workspaceFromObject.scale;
+    const Touching touching = surface_.touching(motions(), now.proxy, radius + kTouchReach * unit);
+    // Passes through: nearer to a triangle than its radius, or on the wrong side. Half the gap that a rest
+    // keeps is there for rounding.
+    const double lack = radius - touching.nearest;
+    figures_.passes.measured = std::max(figures_.passes.measured, lack);
+    if (outside_)
+        figures_.passes.measured = std::max(figures_.passes.measured, -outside_(now.proxy));
+    takeRest(touching, unit);
+    takeForce(touching);
+    last_ = now;
+    lastTouching_ = touching;
+    first_ = false;
+}
+
+/// Sticks: what is left of the wish to go to the HIP, held by all that touches there and, where shaded, by
+/// what it feels like. With friction: how far the oracle, which knows none, goes on from there; the
+/// coefficient times its depth is allowed.
+void HardCase::takeRest(const Touching& touching, double unit) {
+    const HapticOutput& now = bench.output;
+    if (bench.settings.friction != FrictionMode::Off) {
+        const HapticObject& object = *bench.scene->objects[0];
+        const Similarity& pose = object.workspaceFromObject;
+        const OracleRest free =
+            oracleRest(soup_, LVec3(bench.state[0].proxy), LVec3(pose.inverse().point(now.hip)),
+                       static_cast<long double>(effectiveRadius() / pose.scale));
+        const glm::dvec3 rest = pose.point(glm::dvec3(free.proxy));
+        friction_ = glm::distance(rest, now.hip);
+        worsen(figures_.sticks, {glm::distance(rest, now.proxy),
+                                 bench.settings.staticFriction * friction_ + kRestRounding * unit});
+        return;
+    }
+    std::vector<LVec3> holding(touching.normals.begin(), touching.normals.end());
+    if (touching.tilt() > 0.0)
+        holding.insert(holding.end(), touching.felt.begin(), touching.felt.end());
+    const auto left =
+        static_cast<double>(restResidual(holding, LVec3(now.proxy / unit), LVec3(now.hip / unit)) *
+                            static_cast<long double>(unit));
+    const double depth = glm::distance(now.proxy, now.hip);
+    const double allowed =
+        kRestRounding * (unit + depth) + (touching.tilt() > 0.0 ? kShadedRounding * unit : 0.0);
+    worsen(figures_.sticks, {left, allowed});
+}
+
+void HardCase::takeForce(const Touching& touching) {
+    const HapticOutput& now = bench.output;
+    if (first_)
+        return;
+    // What the world did to the HIP counts as the HIP's motion.
+    double travel = glm::distance(now.hip, last_.hip), grown = 0.0;
+    if (!bench.motions.empty()) {
+        const ObjectMotion& anchor = bench.motions[static_cast<size_t>(bench.state[0].anchor)];
+        travel = glm::distance(now.hip,
+                               anchor.workspaceFromObject.point(anchor.before.inverse().point(last_.hip)));
+        grown = std::abs(anchor.workspaceFromObject.scale / anchor.before.scale - 1.0);
+    }
+    const double change = glm::length(now.force - last_.force);
+    const double depth = std::max(glm::distance(now.proxy, now.hip), glm::distance(last_.proxy, last_.hip));
+    const double steady = kStiffness * travel + grown * glm::length(last_.force);
+    const bool other = !sameDirections(touching.normals, lastTouching_.normals);
+    double turn = 0.0;
+    if (other || change > steady + 1e-9) {
+        const double radius = effectiveRadius();
+        turn = surface_.turnAlong(motions(), last_.proxy, now.proxy,
+                                  1.01 * radius + 0.25 * glm::distance(last_.proxy, now.proxy), 2.0 * radius);
+        turn = std::min(turn, largestAngle(touching.normals, lastTouching_.normals));
+    }
+    const double tilt = std::max(touching.tilt(), lastTouching_.tilt());
+    const double felt = tilt > 0.0 ? largestAngle(touching.felt, lastTouching_.felt) : 0.0;
+    const double unit = bench.scene->objects[0]->workspaceFromObject.scale;
+    const double demanded = jumpOf(depth, turn) + jumpOf(depth, felt) +
+                            (tilt > 0.0 ? kStiffness * 2.0 * kShadedRounding * unit : 0.0);
+    // A stretch that is mu d long grows with the depth and slips from mu_s d to mu_d d. Where several planes
+    // hold, the others may stand in the way of what is kept, and all of it goes.
+    const HapticSettings& set = bench.settings;
+    double slip = 0.0;
+    if (set.friction != FrictionMode::Off) {
+        const double kept = std::max(now.planeCount, last_.planeCount) > 1 ? 0.0 : set.dynamicFriction;
+        slip = kStiffness *
+               ((set.staticFriction - kept) * std::max(friction_, depth) + set.staticFriction * travel);
+    }
+    worsen(figures_.jump, {change - steady, demanded + slip + kForceRounding});
+    if (holding_)
+        figures_.jitter.measured = std::max(figures_.jitter.measured, change);
+
+    const glm::dvec3 moved = now.hip - last_.hip;
+    figures_.energy.measured += glm::dot(0.5 * (now.force + last_.force), moved);
+    figures_.energy.allowed += (other ? kStiffness * travel * travel / 8.0 : 0.0) +
+                               0.5 * (jumpOf(depth, turn) + slip) * travel +
+                               kStiffness * depth * std::sin(std::min(tilt, 1.5)) * travel + 1e-15;
+}
+
+assets::Shape smoothed(const assets::Shape& shape, double crease) {
+    const auto corner = [&](size_t t, size_t k) {
+        const glm::vec3& p = shape.positions[shape.indices[3 * t + k]];
+        return std::tuple{p.x, p.y, p.z};
+    };
+    std::vector<glm::dvec3> areas;
+    std::map<std::tuple<float, float, float>, std::vector<size_t>> at;
+    for (size_t t = 0; t < shape.triangleCount(); ++t) {
+        const uint32_t* i = &shape.indices[3 * t];
+        const glm::dvec3 a(shape.positions[i[0]]), b(shape.positions[i[1]]), c(shape.positions[i[2]]);
+        areas.push_back(glm::cross(b - a, c - a));
+        for (size_t k = 0; k < 3; ++k)
+            at[corner(t, k)].push_back(t);
+    }
+    assets::Shape result;
+    for (size_t t = 0; t < shape.triangleCount(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            glm::dvec3 sum(0.0);
+            for (const size_t other : at[corner(t, k)])
+                if (angleBetween(areas[t], areas[other]) < crease)
+                    sum += areas[other];
+            const double length = glm::length(sum);
+            result.indices.push_back(static_cast<uint32_t>(result.positions.size()));
+            result.positions.push_back(shape.positions[shape.indices[3 * t + k]]);
+            result.normals.emplace_back(length > 0.0 ? sum / length : glm::dvec3(0, 1, 0));
+        }
+    return result;
+}
+
+Scene sceneFor(const assets::Shape& shape, const Variant& variant) {
+    return sceneOf(variant.shaded ? smoothed(shape) : shape);
+}
+
+} // namespace touchstone::test
