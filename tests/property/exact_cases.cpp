@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <random>
 
 namespace touchstone::test {
@@ -59,8 +58,7 @@ ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit) {
     return trial.figures();
 }
 
-std::vector<ExactFigures> runModels(int ticks) {
-    std::vector<ExactFigures> all;
+std::vector<std::filesystem::path> sceneFiles() {
     std::vector<std::filesystem::path> folders{TOUCHSTONE_ASSETS}, files;
     if (const auto models = modelsFolder())
         folders.push_back(*models);
@@ -69,13 +67,16 @@ std::vector<ExactFigures> runModels(int ticks) {
             if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
                 files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    for (const auto& file : files) {
-        LoadOptions options;
-        options.images = {.visual = false, .haptic = false};
-        const ScenePtr scene = loadScene(file, options);
-        for (const HandCase& c : handsOver(file.stem().string(), ticks))
-            all.push_back(runHand(c, *scene, Fit::Workspace));
-    }
+    return files;
+}
+
+std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks) {
+    LoadOptions options;
+    options.images = {.visual = false, .haptic = false};
+    const ScenePtr scene = loadScene(file, options);
+    std::vector<ExactFigures> all;
+    for (const HandCase& c : handsOver(file.stem().string(), ticks))
+        all.push_back(runHand(c, *scene, Fit::Workspace));
     return all;
 }
 
@@ -87,6 +88,7 @@ void expectExact(const std::vector<ExactFigures>& all) {
     for (const ExactFigures& f : all)
         for (const std::string& line : f.divergences)
             std::printf("%s\n", line.c_str());
+    std::fflush(stdout);
     for (const ExactFigures& f : all) {
         SCOPED_TRACE(f.name);
         EXPECT_GT(f.touching, f.ticks / 4);

@@ -4,6 +4,7 @@
 #include "tests/support/exact_trial.h"
 #include "tests/support/strokes.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct HandCase {
 [[nodiscard]] ExactFigures runStroke(const StrokeCase& c, int ticks);
 /// Random taps and strokes over a scene.
 [[nodiscard]] ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit);
-/// The same over each of our scene files, and over the shared models where there are any.
-[[nodiscard]] std::vector<ExactFigures> runModels(int ticks);
+/// The same hands over a scene file.
+[[nodiscard]] std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks);
+/// Our scene files, and the shared models where there are any.
+[[nodiscard]] std::vector<std::filesystem::path> sceneFiles();
 
 /// What every case must show; prints the table and the list of divergences.
 void expectExact(const std::vector<ExactFigures>& all);

@@ -50,10 +50,9 @@ LVec3 nearestAllowed(const LVec3& wish, const std::vector<LVec3>& n) {
 /// find the least distance, and if it is below `reach`, the crossing before it. A surface that touches
 /// already is one that the move does not go into but for rounding: it stops the move only where that eats
 /// into the gap.
-long double touchTime(const Corners& triangle, const LVec3& from, const LVec3& move, long double radius,
-                      long double limit) {
+long double touchTime(const Corners& triangle, const BruteContact& start, const LVec3& from,
+                      const LVec3& move, long double radius, long double limit) {
     const auto distance = [&](long double t) { return distanceFrom(triangle, from + t * move).distance; };
-    const BruteContact start = distanceFrom(triangle, from);
     const long double reach = std::max(radius, std::min(radius + kGap, start.distance - kErosion));
     // The distance is convex: it never falls faster than at the start.
     const long double fall = glm::dot(start.normal, move);
@@ -80,6 +79,19 @@ long double touchTime(const Corners& triangle, const LVec3& from, const LVec3& m
     return low;
 }
 
+/// A triangle and a distance that it is surely not nearer than; so far triangles are not looked at in every
+/// move.
+struct Near {
+    Corners corners;
+    long double atLeast = 0.0L;
+
+    BruteContact look(const LVec3& p) {
+        const BruteContact contact = distanceFrom(corners, p);
+        atLeast = contact.distance;
+        return contact;
+    }
+};
+
 } // namespace
 
 OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, long double radius) {
@@ -87,27 +99,32 @@ OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, lo
     rest.proxy = from;
     // Only triangles that the way could meet: the proxy never leaves the ball through itself around the goal.
     const long double reach = glm::length(goal - from) + radius + kTouch;
-    std::vector<Corners> near;
+    std::vector<Near> near;
     for (const size_t t : soup.near(goal, reach))
-        near.push_back(soup.corners(t));
+        near.push_back({soup.corners(t), 0.0L});
     for (; rest.moves < kOracleMoves; ++rest.moves) {
         rest.touching.clear();
-        for (const Corners& t : near) {
-            const BruteContact contact = distanceFrom(t, rest.proxy);
-            if (contact.distance <= radius + kTouch)
-                rest.touching.push_back(contact.normal);
-        }
+        for (Near& t : near)
+            if (t.atLeast <= radius + kTouch) {
+                const BruteContact contact = t.look(rest.proxy);
+                if (contact.distance <= radius + kTouch)
+                    rest.touching.push_back(contact.normal);
+            }
         const LVec3 move = nearestAllowed(goal - rest.proxy, rest.touching);
-        if (glm::length(move) <= kStill) {
+        const long double length = glm::length(move);
+        if (length <= kStill) {
             rest.settled = true;
             return rest;
         }
         long double share = 1.0L;
-        for (const Corners& t : near)
-            share = std::min(share, touchTime(t, rest.proxy, move, radius, share));
+        for (Near& t : near)
+            if (t.atLeast <= radius + kGap + share * length)
+                share = touchTime(t.corners, t.look(rest.proxy), rest.proxy, move, radius, share);
         if (share <= 0.0L)
             return rest;
         rest.proxy += share * move;
+        for (Near& t : near)
+            t.atLeast -= share * length + kErosion;
     }
     return rest;
 }

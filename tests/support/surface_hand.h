@@ -9,9 +9,11 @@
 namespace touchstone::test {
 
 struct HandOptions {
-    double speed = 0.1;   ///< fitted m/s, 1 kHz
-    double depth = 1e-3;  ///< fitted m under the surface, at most
-    double height = 2e-3; ///< fitted m above it, where it starts and ends
+    double speed = 0.1;  ///< fitted m/s, 1 kHz
+    double depth = 1e-3; ///< fitted m under the surface, at most
+    /// Fitted m above it, where it starts and ends. No multiple of a step: the HIP should not stop on the
+    /// surface.
+    double height = 2.3e-3;
     double length = 8e-3; ///< fitted m of each stroke; 0: taps
 };
 
