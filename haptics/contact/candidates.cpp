@@ -1,57 +1,10 @@
 #include "haptics/contact/candidates.h"
 
-#include <embree3/rtcore.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace touchstone {
-
-/// What Embree's callback needs for one object.
-struct CandidateCache::Visit {
-    CandidateCache* cache;
-    const HapticObject* object;
-    int objectIndex;
-    bool sameFrame; ///< the object is the anchor
-    Similarity anchorFromObject;
-    glm::dvec3 centreInAnchor;
-    glm::dvec3 centre; ///< of the ball, object frame
-    glm::vec3 floatCentre;
-    float radiusSquared; ///< with the float margin
-    double anchorPerObject;
-    bool overflow = false;
-
-    bool add(uint32_t triangle) {
-        const uint32_t* index = &object->indices[3 * triangle];
-        const glm::vec3 &a = object->vertices[index[0]], &b = object->vertices[index[1]],
-                        &c = object->vertices[index[2]];
-        // A leaf holds several triangles: drop those whose own box misses the ball.
-        const glm::vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-        const glm::vec3 outside = glm::max(glm::max(low - floatCentre, floatCentre - high), glm::vec3(0.0f));
-        if (glm::dot(outside, outside) > radiusSquared || index[0] == index[1] || index[1] == index[2] ||
-            index[2] == index[0])
-            return true;
-        if (cache->count_ == kCapacity)
-            return false;
-        Candidate& item = cache->items_[cache->count_];
-        item.source = object;
-        item.object = objectIndex;
-        item.index = triangle;
-        item.prepared = !sameFrame;
-        if (!sameFrame)
-            item.triangle =
-                Triangle(anchorFromObject.point(glm::dvec3(a)), anchorFromObject.point(glm::dvec3(b)),
-                         anchorFromObject.point(glm::dvec3(c)));
-        const glm::dvec3 away = centre - glm::clamp(centre, glm::dvec3(low), glm::dvec3(high));
-        const double distance = glm::length(away);
-        glm::dvec3 gradient = distance > 0.0 ? away / distance : glm::dvec3(0.0);
-        if (!sameFrame)
-            gradient = anchorFromObject.direction(gradient);
-        item.measured = 0;
-        cache->setBound(cache->count_, centreInAnchor, distance * anchorPerObject, gradient);
-        ++cache->count_;
-        return true;
-    }
-};
 
 void CandidateCache::prepare(Candidate& item) noexcept {
     const HapticObject& object = *item.source;
@@ -69,36 +22,51 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index, const S
     const double localRadius = scale * radius;
     if (glm::length(local) - object.boundingRadius > localRadius)
         return true;
-    // Embree works in float on vertices of magnitude one: widen the ball by more than their rounding.
-    const double floatMargin = 4e-7 * (1.0 + glm::length(local));
-    const float floatRadius = static_cast<float>(localRadius + floatMargin);
-    Visit visit{.cache = this,
-                .object = &object,
-                .objectIndex = index,
-                .sameFrame = !foreign,
-                .anchorFromObject = foreign ? objectFromAnchor->inverse() : Similarity{},
-                .centreInAnchor = centre,
-                .centre = local,
-                .floatCentre = glm::vec3(local),
-                .radiusSquared = floatRadius * floatRadius,
-                .anchorPerObject = 1.0 / scale};
-    RTCPointQuery query{};
-    query.x = visit.floatCentre.x;
-    query.y = visit.floatCentre.y;
-    query.z = visit.floatCentre.z;
-    query.radius = floatRadius;
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    const auto collect = [](RTCPointQueryFunctionArguments* arguments) -> bool {
-        auto& v = *static_cast<Visit*>(arguments->userPtr);
-        if (v.overflow || v.add(arguments->primID))
-            return false;
-        v.overflow = true;
-        arguments->query->radius = 0.0f; // nothing more is wanted: let the traversal end
-        return true;
-    };
-    rtcPointQuery(object.bvh.get(), &query, &context, collect, &visit);
-    return !visit.overflow;
+    // The search works in float on vertices of magnitude one: widen the ball by more than their rounding.
+    const double rounding = 4e-7 * (1.0 + glm::length(local));
+    const std::span<TriangleTree::Near> found(found_.data(), kCapacity - count_);
+    const size_t near =
+        object.tree.collect(glm::vec3(local), static_cast<float>(localRadius + rounding), found);
+    if (near == found.size())
+        return false;
+    // The float gradient of a box is good to 1e-6 of the ball.
+    const double doubt = rounding + static_cast<double>(TriangleTree::kDoubt) + 2e-6 * localRadius;
+    const size_t before = count_;
+    for (const TriangleTree::Near& n : found.first(near)) {
+        Candidate& item = items_[count_];
+        item.source = &object;
+        item.object = index;
+        item.index = n.triangle;
+        item.measured = 0;
+        item.prepared = false;
+        const auto distance = static_cast<double>(n.distance);
+        setBound(count_, local, distance - doubt, glm::dvec3(n.away) * (1.0 / std::max(distance, 1e-30)));
+        ++count_;
+    }
+    if (foreign)
+        turnIntoAnchor(before, objectFromAnchor->inverse());
+    return true;
+}
+
+/// Items gathered in the frame of their own object, from `first` on, are put into that of the anchor.
+void CandidateCache::turnIntoAnchor(size_t first, const Similarity& anchorFromObject) noexcept {
+    for (size_t i = first; i < count_; ++i) {
+        Candidate& item = items_[i];
+        prepare(item);
+        item.triangle =
+            Triangle(anchorFromObject.point(item.triangle.a), anchorFromObject.point(item.triangle.b),
+                     anchorFromObject.point(item.triangle.c));
+        // distance >= offset + g . p, and p is where the anchor's frame has it.
+        Block& block = bounds_[i / kBlock];
+        const size_t k = i % kBlock;
+        const glm::dvec3 gradient =
+            anchorFromObject.direction(glm::dvec3(block.x[k], block.y[k], block.z[k]));
+        const double scaled = anchorFromObject.scale * block.offset[k];
+        block.x[k] = gradient.x;
+        block.y[k] = gradient.y;
+        block.z[k] = gradient.z;
+        block.offset[k] = scaled - glm::dot(gradient, anchorFromObject.translation);
+    }
 }
 
 bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses,

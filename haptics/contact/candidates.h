@@ -47,7 +47,8 @@ class CandidateCache {
     /// Room for the densest neighbourhood in which the proxy still moves; beyond it the ball is made smaller.
     static constexpr size_t kCapacity = 4096;
 
-    CandidateCache() : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity) {}
+    CandidateCache()
+        : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity) {}
 
     /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
     /// the cache is empty and invalid.
@@ -75,6 +76,7 @@ class CandidateCache {
     }
 
     [[nodiscard]] size_t count() const noexcept { return count_; }
+    [[nodiscard]] double radius() const noexcept { return radius_; }
     [[nodiscard]] const Candidate& item(size_t i) const noexcept { return items_[i]; }
     /// Ready for distance queries. Most of a ball's triangles are never come near to, so each is prepared at
     /// its first use.
@@ -124,8 +126,8 @@ class CandidateCache {
                                     double reach) noexcept;
 
   private:
-    struct Visit;
     static void prepare(Candidate& item) noexcept;
+    void turnIntoAnchor(size_t first, const Similarity& anchorFromObject) noexcept;
     bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,
                       const glm::dvec3& centre, double radius) noexcept;
 
@@ -144,6 +146,7 @@ class CandidateCache {
     std::vector<Candidate> items_;
     std::vector<Block> bounds_;
     std::vector<Approach> approaches_;
+    std::vector<TriangleTree::Near> found_; ///< of one object
     size_t count_ = 0;
     glm::dvec3 centre_{0.0};
     double radius_ = 0.0;

@@ -1,6 +1,7 @@
 #include "haptics/contact/haptic_object.h"
 
 #include "engine/core/error.h"
+#include "haptics/contact/embree_device.h"
 #include "haptics/contact/weld.h"
 
 #include <embree3/rtcore.h>
@@ -11,17 +12,6 @@
 namespace touchstone {
 
 namespace {
-
-/// One Embree device for the process. Errors are read after each commit.
-RTCDevice embreeDevice() {
-    static const std::shared_ptr<RTCDeviceTy> device = [] {
-        RTCDevice made = rtcNewDevice("threads=2");
-        if (made == nullptr)
-            throw Error("Embree", "", "no device could be made", "check that libembree3-3 is intact");
-        return std::shared_ptr<RTCDeviceTy>(made, rtcReleaseDevice);
-    }();
-    return device.get();
-}
 
 std::shared_ptr<RTCSceneTy> buildBvh(const HapticObject& object) {
     RTCDevice device = embreeDevice();
@@ -116,7 +106,8 @@ void weldGeometry(const std::vector<glm::vec3>& local, HapticObject& object) {
 uint64_t HapticObject::memoryBytes() const {
     const auto bytes = [](const auto& v) { return static_cast<uint64_t>(v.size() * sizeof(v[0])); };
     return bytes(vertices) + bytes(indices) + bytes(sourceIndices) + bytes(normals) + bytes(tangents) +
-           bytes(uv[0]) + bytes(uv[1]) + bytes(stiffness) + bytes(damping) + bytes(friction) + bytes(smooth);
+           bytes(uv[0]) + bytes(uv[1]) + bytes(stiffness) + bytes(damping) + bytes(friction) + bytes(smooth) +
+           tree.memoryBytes();
 }
 
 std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instanceIndex,
@@ -164,6 +155,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     copyAttributes(mesh, linear, mirrored, *object);
     markSmoothTriangles(*object);
     object->bvh = buildBvh(*object);
+    object->tree = TriangleTree(object->vertices, object->indices);
     return object;
 }
 

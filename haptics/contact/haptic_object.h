@@ -3,6 +3,7 @@
 
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
+#include "haptics/contact/triangle_tree.h"
 
 #include <glm/glm.hpp>
 
@@ -44,7 +45,8 @@ struct HapticObject {
     uint32_t droppedTriangles = 0;  ///< triangles with two equal corners after welding
     bool closed = false;            ///< every edge has an even number of triangles
     bool anySmooth = false;
-    std::shared_ptr<RTCSceneTy> bvh;
+    std::shared_ptr<RTCSceneTy> bvh; ///< for rays
+    TriangleTree tree;               ///< for what is near
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] uint64_t memoryBytes() const;

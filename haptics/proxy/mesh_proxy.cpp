@@ -17,8 +17,8 @@ constexpr int kFruitlessMoves = 2;
 constexpr double kSmallestMargin = 1e-7;
 constexpr double kLargestMargin = 4.0;
 /// The margin shrinks above and grows below these candidate counts.
-constexpr size_t kManyCandidates = 48;
-constexpr size_t kFewCandidates = 12;
+constexpr size_t kManyCandidates = 16;
+constexpr size_t kFewCandidates = 4;
 /// How far ahead of the proxy the middle of a new ball lies, in margins.
 constexpr double kAhead = 0.5;
 constexpr double kLasting = 2.0;
@@ -58,7 +58,13 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
 bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     const double reach = radius_ + kContactReach;
     const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
-    if (state_.candidates.freeAlong(state_.proxy, direction, reach) >= wanted)
+    // A ball gathered in flight may hold thousands of triangles: of little use to a hand that has landed.
+    const double ball = state_.candidates.radius();
+    const bool crowded =
+        state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + kLasting * travel_);
+    if (crowded)
+        state_.gatherMargin = 0.25 * ball;
+    else if (state_.candidates.freeAlong(state_.proxy, direction, reach) >= wanted)
         return true;
     constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

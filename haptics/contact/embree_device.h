@@ -1,0 +1,11 @@
+#pragma once
+
+struct RTCDeviceTy;
+
+namespace touchstone {
+
+/// One Embree device for the process, made at the first call. Errors are read after each build. Throws Error
+/// when there is none. Not for the servo thread.
+[[nodiscard]] RTCDeviceTy* embreeDevice();
+
+} // namespace touchstone

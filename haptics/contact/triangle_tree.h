@@ -1,0 +1,69 @@
+#pragma once
+// Which triangles are near a point: the search that the tick lives on.
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+/// A bounding volume hierarchy for one question, built by Embree (rtcBuildBVH) and walked here. Eight
+/// children a node; sixteen triangles a leaf with their own boxes in a byte a side, so that a gather reads
+/// about ten nodes and ten leaves and no vertex. (rtcPointQuery on Embree's own tree calls back for every
+/// triangle of four times as many leaves and took three times as long: docs/architecture.md.) Immutable.
+class TriangleTree {
+  public:
+    /// A triangle near the point, by its box.
+    struct Near {
+        uint32_t triangle;
+        float distance; ///< not less than this, but for kDoubt
+        glm::vec3 away; ///< from the nearest point of the box to the point; length `distance`
+    };
+    /// What rounding may hide, for points and triangles of magnitude one.
+    static constexpr float kDoubt = 1e-6f;
+
+    TriangleTree() = default;
+    /// Three indices a triangle; triangles with two equal corners are left out. Coordinates of magnitude one.
+    /// Throws Error when Embree fails.
+    TriangleTree(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices);
+
+    /// Writes all triangles whose boxes meet the ball; at most a few that do not. Returns their number, or
+    /// `out.size()` when there may be more than fit. Deterministic; safe on the servo thread.
+    [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept;
+
+    [[nodiscard]] uint64_t memoryBytes() const noexcept {
+        return nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Leaf);
+    }
+
+  private:
+    struct Builder;
+
+    static constexpr size_t kWidth = 8;
+    static constexpr size_t kLeafSize = 16;
+    static constexpr uint32_t kLeafBit = 1u << 31;
+    static constexpr size_t kMaxDepth = 64;
+
+    struct alignas(32) Node {
+        std::array<std::array<float, kWidth>, 3> low, high; ///< an unused child is farther than anything
+        std::array<uint32_t, kWidth> child;                 ///< node, or leaf with kLeafBit
+    };
+    /// Boxes are origin + step * byte, rounded outwards.
+    struct alignas(64) Leaf {
+        std::array<uint32_t, kLeafSize> triangle;
+        std::array<std::array<uint8_t, kLeafSize>, 3> low, high;
+        glm::vec3 origin, step;
+        uint32_t count;
+    };
+    static void pack(Leaf& leaf, std::span<const glm::vec3> vertices, std::span<const uint32_t> indices);
+    size_t collectLeaf(const Leaf& leaf, const glm::vec3& centre, float radiusSquared,
+                       std::span<Near> out) const noexcept;
+
+    std::vector<Node> nodes_; ///< root first
+    std::vector<Leaf> leaves_;
+};
+
+} // namespace touchstone
