@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <vector>
@@ -39,13 +40,15 @@ class CaseTable : public ::testing::Environment {
             return;
         std::printf("\nHard cases: measured / allowed by the geometry, in the run that came nearest to it\n\n"
                     "| case | variant | runs | ticks | passes, µm | NaN | sticks, µm | jitter, µN | jump, mN "
-                    "| energy, µJ |\n|---|---|---|---|---|---|---|---|---|---|\n");
+                    "| energy, µJ | late ticks, in a row, µm behind "
+                    "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
         for (const Row& row : rows()) {
             const Figures& f = row.worst;
-            std::printf("| %s | %s | %d | %d | %s | %.0f | %s | %s | %s | %s |\n", row.name.c_str(),
-                        row.variant.c_str(), f.runs, f.ticks, cell(f.passes, 1e-6).c_str(),
+            std::printf("| %s | %s | %d | %d | %s | %.0f | %s | %s | %s | %s | %d, %d, %.2g |\n",
+                        row.name.c_str(), row.variant.c_str(), f.runs, f.ticks, cell(f.passes, 1e-6).c_str(),
                         f.notFinite.measured, cell(f.sticks, 1e-6).c_str(), cell(f.jitter, 1e-6).c_str(),
-                        cell(f.jump, 1e-3).c_str(), cell(f.energy, 1e-6).c_str());
+                        cell(f.jump, 1e-3).c_str(), cell(f.energy, 1e-6).c_str(), f.late, f.lateInARow,
+                        f.behind / 1e-6);
         }
     }
 };
@@ -72,7 +75,9 @@ void addToCaseTable(const std::string& name, const std::string& variant, const F
     keepWorse(worst.energy, figures.energy);
     worst.runs += figures.runs;
     worst.ticks += figures.ticks;
-    worst.budgetReached += figures.budgetReached;
+    worst.late += figures.late;
+    worst.lateInARow = std::max(worst.lateInARow, figures.lateInARow);
+    worst.behind = std::max(worst.behind, figures.behind);
     worst.notConverged += figures.notConverged;
 }
 

@@ -1,11 +1,11 @@
 // Convex features: needle tips, facets that are hardly apart, a cube's edge held and rocked.
 
-#include "tests/stability/trial.h"
+#include "tests/stability/hard_case.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace touchstone::test {
 namespace {
@@ -13,16 +13,32 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kDegree = kPi / 180.0;
 
-/// A needle along +y: a cone of 16 facets, 40 mm high, base radius 2 mm, tip at the origin.
+constexpr int kNeedleFacets = 16;
+constexpr double kNeedleLength = 0.04, kNeedleRadius = 0.002; // m
+
+/// A needle along +y, tip at the origin.
 assets::Shape needle() {
     std::vector<glm::dvec3> corners;
-    for (int i = 0; i < 16; ++i) {
-        const double a = 2.0 * kPi * i / 16, b = 2.0 * kPi * (i + 1) / 16;
-        const glm::dvec3 p(0.002 * std::cos(a), -0.04, 0.002 * std::sin(a)),
-            q(0.002 * std::cos(b), -0.04, 0.002 * std::sin(b));
-        corners.insert(corners.end(), {{0, 0, 0}, q, p, {0, -0.04, 0}, p, q});
+    for (int i = 0; i < kNeedleFacets; ++i) {
+        const double a = 2.0 * kPi * i / kNeedleFacets, b = 2.0 * kPi * (i + 1) / kNeedleFacets;
+        const glm::dvec3 p(kNeedleRadius * std::cos(a), -kNeedleLength, kNeedleRadius * std::sin(a)),
+            q(kNeedleRadius * std::cos(b), -kNeedleLength, kNeedleRadius * std::sin(b));
+        corners.insert(corners.end(), {{0, 0, 0}, q, p, {0, -kNeedleLength, 0}, p, q});
     }
     return soup(corners);
+}
+
+/// How far `p` is outside of the needle, m, or less; negative inside.
+double outsideNeedle(const glm::dvec3& p) {
+    double out = -kNeedleLength - p.y;
+    const double apothem = kNeedleRadius * std::cos(kPi / kNeedleFacets);
+    for (int i = 0; i < kNeedleFacets; ++i) {
+        const double m = 2.0 * kPi * (i + 0.5) / kNeedleFacets;
+        const glm::dvec3 n =
+            glm::normalize(glm::dvec3(kNeedleLength * std::cos(m), apothem, kNeedleLength * std::sin(m)));
+        out = std::max(out, glm::dot(n, p));
+    }
+    return out;
 }
 
 TEST(Edges, ANeedleTipOnAndBesideItsAxis) {
@@ -31,69 +47,102 @@ TEST(Edges, ANeedleTipOnAndBesideItsAxis) {
             for (const double speed : allSpeeds()) {
                 SCOPED_TRACE(std::to_string(beside * 1e6) + " um " + v.name() + " at " +
                              std::to_string(speed) + " m/s");
-                TouchBench bench(sceneOf(needle()), v.settings());
-                Gauge gauge;
-                bench.step({beside, 0.02, 0.0});
-                bench.moveTo({beside, -0.001, 0.0}, speed, [&](const HapticOutput& out) { gauge.take(out); });
-                EXPECT_FALSE(has(bench.output.flags, TickFlag::StartedInside));
-                // Never inside: the proxy keeps its radius from the axis below the tip.
-                const glm::dvec3 p = bench.output.proxy;
-                if (p.y < 0.0) {
-                    EXPECT_GE(std::hypot(p.x, p.z), -p.y * 0.05 * std::cos(kPi / 16) * 0.99);
-                }
-                EXPECT_LT(holdStill(bench, 100), 1e-3);
-                EXPECT_EQ(gauge.measured().notFinite, 0);
-                // Slipping off the tip at depth d releases at most k d.
-                EXPECT_LT(gauge.measured().largestJump, 1000.0 * (0.001 + v.radius + 1e-6));
+                HardCase run(beside > 0.0 ? "needle tip, 20 µm off its axis" : "needle tip, on its axis",
+                             sceneFor(needle(), v), v);
+                run.side(outsideNeedle);
+                run.startAt({beside, 0.02, 0.0});
+                run.moveTo({beside, -0.001, 0.0}, speed);
+                run.hold();
+                run.moveTo({0.0, -0.002, beside}, speed); // pressed deeper, and round the axis
+                run.hold();
+                run.moveTo({0.0, 0.02, 0.0}, speed);
+                run.moveTo({beside, 0.02, 0.0}, speed);
+                run.judge();
             }
+}
+
+/// A ridge along z of two facets that lean by `deviation` (rad) to each other, its top line at the origin.
+assets::Shape ridge(double deviation) {
+    const double drop = 0.05 * std::tan(0.5 * deviation);
+    std::vector<glm::dvec3> corners;
+    addQuad(corners, {-0.05, -drop, -0.05}, {-0.05, -drop, 0.05}, {0, 0, 0.05}, {0, 0, -0.05});
+    addQuad(corners, {0, 0, -0.05}, {0, 0, 0.05}, {0.05, -drop, 0.05}, {0.05, -drop, -0.05});
+    return soup(corners);
 }
 
 TEST(Edges, FacetsAQuarterDegreeApartNeverHoldThroughAMove) {
     // CHAI3D stuck for good in 17 to 26 of 40 such holds.
-    for (const Variant& v : allVariants()) {
-        int stuck = 0;
+    for (const Variant& v : allVariants())
         for (int hold = 0; hold < 40; ++hold) {
             const double deviation = (0.25 + 0.5 * hold / 39.0) * kDegree;
-            std::vector<glm::dvec3> corners; // a ridge of two facets
-            const double drop = 0.05 * std::tan(0.5 * deviation);
-            addQuad(corners, {-0.05, -drop, -0.05}, {-0.05, -drop, 0.05}, {0, 0, 0.05}, {0, 0, -0.05});
-            addQuad(corners, {0, 0, -0.05}, {0, 0, 0.05}, {0.05, -drop, 0.05}, {0.05, -drop, -0.05});
-            TouchBench bench(sceneOf(soup(corners)), v.settings());
-            bench.step({-0.01, 0.01, 0.0});
-            bench.moveTo({-0.01, -0.001, 0.0}, 0.05);
-            bench.moveTo({0.0, -0.001, 0.0}, 0.05);
-            EXPECT_LT(holdStill(bench, 50), 1e-9);
-            bench.moveTo({0.004, -0.001, 0.0}, 0.05);
+            const double speed = allSpeeds()[static_cast<size_t>(hold) % allSpeeds().size()];
+            SCOPED_TRACE(v.name() + " at " + std::to_string(speed) + " m/s, hold " + std::to_string(hold));
+            HardCase run("facets 0.25..0.75° apart", sceneFor(ridge(deviation), v), v);
+            run.side(
+                [deviation](const glm::dvec3& p) { return p.y + std::abs(p.x) * std::tan(0.5 * deviation); });
+            run.startAt({-0.01, 0.01, 0.0});
+            run.moveTo({-0.01, -0.001, 0.0}, speed);
+            run.moveTo({0.0, -0.001, 0.0}, speed);
+            run.hold();
+            run.moveTo({0.004, -0.001, 0.0}, speed);
             // Over the edge the proxy stands within depth times the slope of the HIP.
-            if (std::abs(bench.output.proxy.x - bench.output.hip.x) > 0.0015 * std::tan(deviation) + 1e-6)
-                ++stuck;
+            const double depth = run.bench.output.penetration;
+            EXPECT_LE(std::abs(run.bench.output.proxy.x - 0.004), depth * std::sin(0.5 * deviation) + 1e-9);
+            run.hold();
+            run.moveTo({-0.004, -0.001, 0.01}, speed);
+            run.leave(speed);
         }
-        EXPECT_EQ(stuck, 0) << v.name();
-    }
 }
 
 TEST(Edges, ACubesEdgeHeldAndRockedIsQuiet) {
-    for (const Variant& v : allVariants()) {
-        SCOPED_TRACE(v.name());
-        TouchBench bench(sceneOf(assets::box({0.1, 0.1, 0.1}, 3)), v.settings());
-        Gauge gauge;
-        const double depth = 0.002, theta = 0.5 * kPi;
-        bench.step({0.06, 0.06, 0.003});
-        bench.moveTo({0.049, 0.0495, 0.003}, 0.05);
-        const auto take = [&](const HapticOutput& out) { gauge.take(out); };
-        for (int rock = 0; rock < 20; ++rock) { // across the bisector and back
-            bench.moveTo({0.05 - depth, 0.05 - 0.6 * depth, 0.003}, 0.02, take);
-            bench.moveTo({0.05 - 0.6 * depth, 0.05 - depth, 0.003}, 0.02, take);
+    for (const Variant& v : allVariants())
+        for (const double speed : allSpeeds()) {
+            SCOPED_TRACE(v.name() + " at " + std::to_string(speed) + " m/s");
+            HardCase run("cube's edge, held and rocked", sceneFor(assets::box({0.1, 0.1, 0.1}, 3), v), v);
+            run.side([](const glm::dvec3& p) {
+                const glm::dvec3 out = glm::abs(p) - glm::dvec3(0.05);
+                return std::max({out.x, out.y, out.z});
+            });
+            const double depth = 0.002;
+            run.startAt({0.06, 0.06, 0.003});
+            run.moveTo({0.049, 0.0495, 0.003}, speed);
+            run.hold();
+            for (int rock = 0; rock < 20; ++rock) { // across the bisector and back
+                run.moveTo({0.05 - depth, 0.05 - 0.6 * depth, 0.003}, speed);
+                run.moveTo({0.05 - 0.6 * depth, 0.05 - depth, 0.003}, speed);
+            }
+            run.hold();
+            for (int rock = 0; rock < 5; ++rock) { // until it goes over, and back
+                run.moveTo({0.0501, 0.05 - depth, 0.003}, speed);
+                run.moveTo({0.05 - depth, 0.0501, 0.003}, speed);
+            }
+            run.hold();
+            run.leave(speed);
         }
-        EXPECT_LT(holdStill(bench, 100), 1e-9);
-        EXPECT_EQ(gauge.measured().notFinite, 0);
-        // Crossing the bisector at depth d: the proxy goes round the edge, at most 2 d sin(theta / 2) in one
-        // tick, and the hand must go back as far before it returns: energy of the hysteresis, bounded by k
-        // d^2 a rock.
-        EXPECT_LT(gauge.measured().largestJump,
-                  1000.0 * 2.0 * (depth + v.radius) * std::sin(0.5 * theta) + 1e-3);
-        EXPECT_LT(gauge.measured().energy, 1e-9) << "rocking creates no energy";
-    }
+}
+
+TEST(Edges, AnEdgeTurnsTheForceWhereTheGeometrySaysAndNotBefore) {
+    // Pressed to depth d along the bisector of an edge that deviates by theta, the foot on the one face runs
+    // over the edge d tan(theta / 2) beyond the bisector: a hysteresis of twice that.
+    const double depth = 0.002, speed = 0.02;
+    for (const double degrees : {10.0, 30.0, 60.0, 85.0})
+        for (const double radius : {0.0, 0.5e-3}) {
+            const Variant v{radius, false};
+            const double theta = degrees * kDegree;
+            SCOPED_TRACE(std::to_string(degrees) + " degrees " + v.name());
+            HardCase run("edges of 10 to 85°, hysteresis", sceneFor(ridge(theta), v), v);
+            run.side([theta](const glm::dvec3& p) { return p.y + std::abs(p.x) * std::tan(0.5 * theta); });
+            const double over = depth * std::tan(0.5 * theta), stride = speed * run.bench.dt;
+            run.startAt({-0.01, 0.01, 0.0});
+            run.moveTo({-0.01, -depth, 0.0}, speed);
+            for (const double way : {1.0, -1.0, 1.0}) {
+                run.moveTo({way * (over - 2.0 * stride), -depth, 0.0}, speed);
+                EXPECT_LT(way * run.bench.output.force.x, 0.0) << "still on the face that it came from";
+                run.moveTo({way * (over + 2.0 * stride), -depth, 0.0}, speed);
+                EXPECT_GT(way * run.bench.output.force.x, 0.0) << "gone over the edge";
+            }
+            run.leave(speed);
+        }
 }
 
 } // namespace

@@ -24,9 +24,15 @@ constexpr double kRestRounding = 1e-9;
 /// Of the anchor, while shaded: the shading ends when its goal moves by less than 1e-8; the goals' steps
 /// shrink by at most a half, so what is left is as much again.
 constexpr double kShadedRounding = 2e-8;
-/// N: forces are depths times 1000 N/m, and depths are good to kRestRounding.
-constexpr double kForceRounding = 1e-6;
-constexpr double kEnergyRounding = 1e-12; // J
+/// Of the anchor, times the stiffness: what forces are good to.
+constexpr double kForceRounding = 10.0 * kRestRounding;
+/// Of the anchor, times the stiffness, squared.
+constexpr double kEnergyRounding = 1e-13;
+/// A solve may end at the budget of moves, safe but short of its rest: round a rounded tip, and on facets
+/// 1e-8 to 1e-4 rad apart, the solver takes more than 64 moves now and then. It must catch up within so many
+/// ticks.
+constexpr int kLateTicks = 20;
+constexpr double kBehind = 1e-5; // of the anchor: 1 µm
 /// Ticks until a held force is judged.
 constexpr int kSettleTicks = 20;
 
@@ -63,10 +69,13 @@ HardCase::HardCase(std::string name, const Scene& scene, const Variant& variant)
 HardCase::HardCase(std::string name, const Scene& scene, const Variant& variant,
                    const HapticSettings& settings)
     : bench(scene, settings), name_(std::move(name)), variant_(variant),
-      surface_(*bench.scene, variant.shaded ? settings.shadingTiltLimit : 0.0), soup_(*bench.scene, 0) {
+      surface_(*bench.scene, variant.shaded ? settings.shadingTiltLimit : 0.0) {
     figures_.runs = 1;
-    figures_.jitter.allowed = figures_.jump.allowed = kForceRounding;
-    figures_.energy.allowed = kEnergyRounding;
+    figures_.sticks.allowed = kRestRounding * unit();
+    figures_.jitter.allowed = figures_.jump.allowed = kStiffness * unit() * kForceRounding;
+    figures_.energy.allowed = kStiffness * unit() * unit() * kEnergyRounding;
+    if (settings.friction != FrictionMode::Off)
+        soup_ = std::make_unique<const Soup>(*bench.scene, 0);
 }
 
 void HardCase::side(std::function<double(const glm::dvec3&)> outside, double allowed) {
@@ -87,8 +96,15 @@ ObjectMotions HardCase::motions() const {
     return bench.motions.empty() ? ObjectMotions(bench.scene->restMotions) : ObjectMotions(bench.motions);
 }
 
+double HardCase::unit() const {
+    return bench.scene->objects[0]->workspaceFromObject.scale;
+}
+
 void HardCase::startAt(const glm::dvec3& hip) {
     way_ = {hip};
+    first_ = true;
+    bench.state[0].forgetTouch();
+    lastTouching_ = Touching{};
     bench.step(hip);
     take();
 }
@@ -131,7 +147,7 @@ void HardCase::judge() {
     EXPECT_LE(figures_.sticks.measured, figures_.sticks.allowed) << "sticks, m";
     EXPECT_LE(figures_.jitter.measured, figures_.jitter.allowed) << "jitters while held, N";
     EXPECT_LE(figures_.jump.measured, figures_.jump.allowed) << "force jump in a tick, N";
-    EXPECT_EQ(figures_.budgetReached, 0);
+    EXPECT_LE(figures_.lateInARow, kLateTicks) << "ticks in a row that left more than 1 um to go";
     addToCaseTable(name_, variant_.name(), figures_);
 }
 
@@ -141,8 +157,9 @@ void HardCase::take() {
     for (const glm::dvec3& v : {now.proxy, now.force, now.normal, now.commandInWorkspace})
         for (int i = 0; i < 3; ++i)
             figures_.notFinite.measured += std::isfinite(v[i]) ? 0.0 : 1.0;
-    figures_.budgetReached += has(now.flags, TickFlag::BudgetReached) ? 1 : 0;
+    figures_.late += has(now.flags, TickFlag::BudgetReached) ? 1 : 0;
     figures_.notConverged += has(now.flags, TickFlag::ShadingNotConverged) ? 1 : 0;
+    takeCommand();
     if (has(now.flags, TickFlag::StartedInside)) {
         EXPECT_EQ(glm::length(now.force), 0.0) << "a hand inside feels nothing";
         last_ = now;
@@ -152,51 +169,68 @@ void HardCase::take() {
     }
 
     const double radius = effectiveRadius();
-    const double unit = bench.scene->objects[0]->workspaceFromObject.scale;
-    const Touching touching = surface_.touching(motions(), now.proxy, radius + kTouchReach * unit);
-    // Passes through: nearer to a triangle than its radius, or on the wrong side. Half the gap that a rest
-    // keeps is there for rounding.
-    const double lack = radius - touching.nearest;
+    const Touching touching = surface_.touching(motions(), now.proxy, radius + kTouchReach * unit());
+    // Passes through: nearer to a triangle than its radius, or on the wrong side. The gap that a rest keeps
+    // is there for rounding, and as much again.
+    const double lack = radius - kContactGap * unit() - touching.nearest;
     figures_.passes.measured = std::max(figures_.passes.measured, lack);
     if (outside_)
         figures_.passes.measured = std::max(figures_.passes.measured, -outside_(now.proxy));
-    takeRest(touching, unit);
-    takeForce(touching);
+    const double wasBehind = behind_;
+    takeRest(touching);
+    takeForce(touching, behind_ + wasBehind);
     last_ = now;
     lastTouching_ = touching;
     first_ = false;
 }
 
+/// No spike: what goes to the device stays within its limits, whatever the world does.
+void HardCase::takeCommand() {
+    const DeviceLimits& limits = bench.scene->limits;
+    EXPECT_LE(glm::length(bench.output.commandInWorkspace), limits.maxForce * (1.0 + 1e-9));
+    if (!first_) {
+        EXPECT_LE(glm::distance(bench.output.commandInWorkspace, last_.commandInWorkspace),
+                  limits.maxForceRate * bench.dt * (1.0 + 1e-9));
+    }
+}
+
 /// Sticks: what is left of the wish to go to the HIP, held by all that touches there and, where shaded, by
 /// what it feels like. With friction: how far the oracle, which knows none, goes on from there; the
 /// coefficient times its depth is allowed.
-void HardCase::takeRest(const Touching& touching, double unit) {
+void HardCase::takeRest(const Touching& touching) {
     const HapticOutput& now = bench.output;
     if (bench.settings.friction != FrictionMode::Off) {
         const HapticObject& object = *bench.scene->objects[0];
         const Similarity& pose = object.workspaceFromObject;
         const OracleRest free =
-            oracleRest(soup_, LVec3(bench.state[0].proxy), LVec3(pose.inverse().point(now.hip)),
+            oracleRest(*soup_, LVec3(bench.state[0].proxy), LVec3(pose.inverse().point(now.hip)),
                        static_cast<long double>(effectiveRadius() / pose.scale));
         const glm::dvec3 rest = pose.point(glm::dvec3(free.proxy));
         friction_ = glm::distance(rest, now.hip);
         worsen(figures_.sticks, {glm::distance(rest, now.proxy),
-                                 bench.settings.staticFriction * friction_ + kRestRounding * unit});
+                                 bench.settings.staticFriction * friction_ + kRestRounding * unit()});
         return;
     }
     std::vector<LVec3> holding(touching.normals.begin(), touching.normals.end());
     if (touching.tilt() > 0.0)
         holding.insert(holding.end(), touching.felt.begin(), touching.felt.end());
     const auto left =
-        static_cast<double>(restResidual(holding, LVec3(now.proxy / unit), LVec3(now.hip / unit)) *
-                            static_cast<long double>(unit));
+        static_cast<double>(restResidual(holding, LVec3(now.proxy / unit()), LVec3(now.hip / unit())) *
+                            static_cast<long double>(unit()));
     const double depth = glm::distance(now.proxy, now.hip);
     const double allowed =
-        kRestRounding * (unit + depth) + (touching.tilt() > 0.0 ? kShadedRounding * unit : 0.0);
-    worsen(figures_.sticks, {left, allowed});
+        kRestRounding * (unit() + depth) + (touching.tilt() > 0.0 ? kShadedRounding * unit() : 0.0);
+    behind_ = has(now.flags, TickFlag::BudgetReached) ? left : 0.0;
+    lateInARow_ = behind_ > kBehind * unit() ? lateInARow_ + 1 : 0;
+    figures_.lateInARow = std::max(figures_.lateInARow, lateInARow_);
+    if (behind_ > 0.0)
+        figures_.behind = std::max(figures_.behind, behind_);
+    else
+        worsen(figures_.sticks, {left, allowed});
 }
 
-void HardCase::takeForce(const Touching& touching) {
+/// `behind`: m, what a solve that ended at the budget leaves to the next tick, which catches up.
+void HardCase::takeForce(const Touching& touching, double behind) {
     const HapticOutput& now = bench.output;
     if (first_)
         return;
@@ -210,20 +244,26 @@ void HardCase::takeForce(const Touching& touching) {
     }
     const double change = glm::length(now.force - last_.force);
     const double depth = std::max(glm::distance(now.proxy, now.hip), glm::distance(last_.proxy, last_.hip));
-    const double steady = kStiffness * travel + grown * glm::length(last_.force);
+    const double tilt = std::max(touching.tilt(), lastTouching_.tilt());
+    // Along an interpolated normal that leans by tau, the way to the face is 1 / cos(tau) as long.
+    const double steady =
+        kStiffness * travel / std::cos(std::min(tilt, 1.5)) + grown * glm::length(last_.force);
     const bool other = !sameDirections(touching.normals, lastTouching_.normals);
     double turn = 0.0;
     if (other || change > steady + 1e-9) {
+        // It may have gone round a corner: by Thales no farther from the chord than half of it.
         const double radius = effectiveRadius();
         turn = surface_.turnAlong(motions(), last_.proxy, now.proxy,
-                                  1.01 * radius + 0.25 * glm::distance(last_.proxy, now.proxy), 2.0 * radius);
+                                  1.01 * radius + 0.51 * glm::distance(last_.proxy, now.proxy), 2.0 * radius);
         turn = std::min(turn, largestAngle(touching.normals, lastTouching_.normals));
     }
-    const double tilt = std::max(touching.tilt(), lastTouching_.tilt());
-    const double felt = tilt > 0.0 ? largestAngle(touching.felt, lastTouching_.felt) : 0.0;
-    const double unit = bench.scene->objects[0]->workspaceFromObject.scale;
-    const double demanded = jumpOf(depth, turn) + jumpOf(depth, felt) +
-                            (tilt > 0.0 ? kStiffness * 2.0 * kShadedRounding * unit : 0.0);
+    const bool shaded = tilt > 0.0 && !touching.felt.empty() && !lastTouching_.felt.empty();
+    // On an edge the shaded force may lie anywhere between what the faces feel like and what they are.
+    const bool onEdge = std::max(touching.normals.size(), lastTouching_.normals.size()) > 1;
+    const double felt =
+        shaded ? largestAngle(touching.felt, lastTouching_.felt) + (onEdge ? tilt : 0.0) : 0.0;
+    const double demanded = jumpOf(depth, turn) + jumpOf(depth, felt) + kStiffness * behind +
+                            (tilt > 0.0 ? kStiffness * 2.0 * kShadedRounding * unit() : 0.0);
     // A stretch that is mu d long grows with the depth and slips from mu_s d to mu_d d. Where several planes
     // hold, the others may stand in the way of what is kept, and all of it goes.
     const HapticSettings& set = bench.settings;
@@ -233,15 +273,15 @@ void HardCase::takeForce(const Touching& touching) {
         slip = kStiffness *
                ((set.staticFriction - kept) * std::max(friction_, depth) + set.staticFriction * travel);
     }
-    worsen(figures_.jump, {change - steady, demanded + slip + kForceRounding});
+    worsen(figures_.jump, {change - steady, demanded + slip + kStiffness * unit() * kForceRounding});
     if (holding_)
         figures_.jitter.measured = std::max(figures_.jitter.measured, change);
 
     const glm::dvec3 moved = now.hip - last_.hip;
     figures_.energy.measured += glm::dot(0.5 * (now.force + last_.force), moved);
     figures_.energy.allowed += (other ? kStiffness * travel * travel / 8.0 : 0.0) +
-                               0.5 * (jumpOf(depth, turn) + slip) * travel +
-                               kStiffness * depth * std::sin(std::min(tilt, 1.5)) * travel + 1e-15;
+                               0.5 * (jumpOf(depth, turn) + slip + kStiffness * behind) * travel +
+                               kStiffness * depth * std::sin(std::min(tilt, 1.5)) * travel;
 }
 
 assets::Shape smoothed(const assets::Shape& shape, double crease) {

@@ -38,7 +38,10 @@ struct Figures {
     Figure jitter;    ///< N, largest change of force in a tick while the HIP stands still
     Figure jump;      ///< N, change of force in a tick beyond k times the HIP's motion
     Figure energy;    ///< J, work done on the hand over the closed path
-    int runs = 0, ticks = 0, budgetReached = 0, notConverged = 0;
+    int runs = 0, ticks = 0, notConverged = 0;
+    int late = 0;        ///< ticks whose solve ended at the budget of moves
+    int lateInARow = 0;  ///< the longest row of those that left more than 1e-5 of the object
+    double behind = 0.0; ///< m, what they left of the wish to move, at most
 };
 
 /// Runs one variant of a case. Use: construct, startAt, then moveTo, hold and leave as needed; leave returns
@@ -53,6 +56,7 @@ class HardCase {
     /// so that no mesh and no solver has a say. `allowed`: m, infinite where the geometry lets it through.
     void side(std::function<double(const glm::dvec3& proxy)> outside, double allowed = 0.0);
 
+    /// A new touch.
     void startAt(const glm::dvec3& hip);
     void moveTo(const glm::dvec3& hip, double speed); ///< m/s
     void teleportTo(const glm::dvec3& hip);           ///< in one tick
@@ -66,26 +70,34 @@ class HardCase {
 
     TouchBench bench;
 
-    /// What the tick's gap between vertices may be bridged by: the proxy's diameter, m.
+    /// Takes a tick that was stepped on the bench itself.
+    void take();
+    /// m: the variant's, or half the weld tolerance.
     [[nodiscard]] double effectiveRadius() const;
+    /// m, the longest side of the first object.
+    [[nodiscard]] double unit() const;
+    [[nodiscard]] const Surface& surface() const { return surface_; }
+    [[nodiscard]] const Touching& touching() const { return lastTouching_; } ///< of the last tick
+    [[nodiscard]] ObjectMotions motions() const;
     [[nodiscard]] const Figures& figures() const { return figures_; }
 
   private:
-    void take();
-    void takeRest(const Touching& touching, double unit);
-    void takeForce(const Touching& touching);
-    [[nodiscard]] ObjectMotions motions() const;
+    void takeRest(const Touching& touching);
+    void takeForce(const Touching& touching, double behind);
+    void takeCommand();
 
     std::string name_;
     Variant variant_;
     Surface surface_;
-    Soup soup_;
+    std::unique_ptr<const Soup> soup_; ///< for the oracle, where friction needs one
     std::function<double(const glm::dvec3&)> outside_;
     Figures figures_;
     std::vector<glm::dvec3> way_;
     bool first_ = true, holding_ = false;
     HapticOutput last_;
     Touching lastTouching_;
+    int lateInARow_ = 0;
+    double behind_ = 0.0;   ///< m, Figures::behind of the last tick
     double friction_ = 0.0; ///< m, depth of the frictionless rest
 };
 

@@ -53,7 +53,8 @@ double largestAngle(const std::vector<glm::dvec3>& a, const std::vector<glm::dve
 double Touching::tilt() const {
     double largest = 0.0;
     for (size_t i = 0; i < normals.size(); ++i)
-        largest = std::max(largest, angleBetween(normals[i], felt[i]));
+        if (felt[i] != normals[i])
+            largest = std::max(largest, angleBetween(normals[i], felt[i]));
     return largest;
 }
 
@@ -157,9 +158,38 @@ double Surface::freeSector(size_t k, const std::vector<size_t>& near, const glm:
     return left == INFINITY ? 0.0 : left + right;
 }
 
+/// rad, what a ball that bridges gaps up to `gap`, its diameter, turns by where the surface goes on from an
+/// open edge only at some distance: over a step of height h by acos(1 - h / r).
+double Surface::stepAt(size_t k, const std::vector<size_t>& near, std::pair<uint32_t, uint32_t> edge,
+                       const glm::dvec3& at, double gap) const {
+    const HapticObject& object = *scene_.objects[k];
+    int sharing = 0;
+    double nearest = INFINITY;
+    for (const size_t t : near) {
+        const uint32_t* i = &object.indices[3 * t];
+        const bool has0 = i[0] == edge.first || i[1] == edge.first || i[2] == edge.first,
+                   has1 = i[0] == edge.second || i[1] == edge.second || i[2] == edge.second;
+        if (has0 && has1)
+            ++sharing;
+        else
+            nearest = std::min(nearest,
+                               static_cast<double>(distanceFrom(cornersOf(object, t), LVec3(at)).distance));
+    }
+    return sharing > 1 || nearest > gap ? 0.0 : std::acos(1.0 - std::min(2.0 * nearest / gap, 1.0));
+}
+
 double Surface::turnAlong(ObjectMotions motions, const glm::dvec3& p, const glm::dvec3& q, double reach,
                           double gap) const {
     double sum = 0.0;
+    for (const double turn : edgesAlong(motions, p, q, reach, gap, kPi))
+        sum += std::max(turn, 0.0);
+    return std::min(sum, kPi);
+}
+
+std::vector<double> Surface::edgesAlong(ObjectMotions motions, const glm::dvec3& p, const glm::dvec3& q,
+                                        double reach, double gap, double enough) const {
+    std::vector<double> turns;
+    double convex = 0.0;
     for (size_t k = 0; k < balls_.size(); ++k) {
         const HapticObject& object = *scene_.objects[k];
         const Similarity& pose = motions[k].workspaceFromObject;
@@ -190,16 +220,15 @@ double Surface::turnAlong(ObjectMotions motions, const glm::dvec3& p, const glm:
                 const double off = std::min(0.5, 4.0 * close / length + 1e-3);
                 const glm::dvec3 at = a + std::clamp(share, off, 1.0 - off) * (b - a);
                 const glm::dvec3 along = (b - a) / length;
-                for (const glm::dvec3& eye : {from, to}) {
-                    const double sector = freeSector(k, near, at, along, eye, close);
-                    if (sector > kPi) {
-                        sum += sector - kPi;
-                        break;
-                    }
-                }
+                const double one = freeSector(k, near, at, along, from, close),
+                             other = freeSector(k, near, at, along, to, close);
+                turns.push_back(std::max(one, other) - kPi + stepAt(k, near, {i0, i1}, at, close));
+                convex += std::max(turns.back(), 0.0);
+                if (convex >= enough)
+                    return turns;
             }
     }
-    return std::min(sum, kPi);
+    return turns;
 }
 
 } // namespace touchstone::test

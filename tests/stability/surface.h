@@ -7,7 +7,9 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace touchstone::test {
@@ -29,10 +31,14 @@ class Surface {
     /// All triangles within `reach` (m) of `p`; `motions` as in TickInput.
     [[nodiscard]] Touching touching(ObjectMotions motions, const glm::dvec3& p, double reach) const;
 
-    /// What the convex edges along the way from p to q turn a surface by, rad, at most pi: the sum over the
-    /// edges nearer than `reach` to the way of the angle theta by which the free sector round the edge
-    /// exceeds half a turn. Triangles nearer to an edge than `gap` (m) continue the surface there; where none
-    /// does, the surface ends and theta is pi.
+    /// By how much the free sector round each edge nearer than `reach` (m) to the way from p to q exceeds
+    /// half a turn, rad: positive at a convex edge as seen from the way, negative at a concave one, zero
+    /// where the surface goes straight on, pi where it ends. Triangles nearer to an edge than `gap` (m)
+    /// continue the surface there. Looks no further once the convex ones turn by `enough`.
+    [[nodiscard]] std::vector<double> edgesAlong(ObjectMotions motions, const glm::dvec3& p,
+                                                 const glm::dvec3& q, double reach, double gap,
+                                                 double enough = INFINITY) const;
+    /// The sum over the convex ones, at most pi: what a surface turns by along the way.
     [[nodiscard]] double turnAlong(ObjectMotions motions, const glm::dvec3& p, const glm::dvec3& q,
                                    double reach, double gap) const;
 
@@ -45,6 +51,9 @@ class Surface {
                                         const glm::dvec3& normal) const;
     [[nodiscard]] double freeSector(size_t object, const std::vector<size_t>& near, const glm::dvec3& at,
                                     const glm::dvec3& along, const glm::dvec3& seenFrom, double gap) const;
+
+    [[nodiscard]] double stepAt(size_t object, const std::vector<size_t>& near,
+                                std::pair<uint32_t, uint32_t> edge, const glm::dvec3& at, double gap) const;
 
     const HapticScene& scene_;
     double tiltLimit_;

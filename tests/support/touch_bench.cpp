@@ -68,6 +68,7 @@ const HapticOutput& TouchBench::step(const glm::dvec3& hip) {
     input.dt = dt;
     input.devices = {&sample, 1};
     input.objects = motions;
+    input.workspaceFromDevice = workspaceFromDevice;
     NoStopwatch none;
     hapticStep(*scene, settings, input, world, state, {&output, 1}, none);
     ++tick;
