@@ -13,6 +13,12 @@
 
 namespace touchstone {
 
+/// Where the neighbourhood watch is, with `contact=neighbourhood`.
+struct WatchState {
+    uint32_t side = 0;     ///< TriangleSide of the anchor
+    bool touching = false; ///< else the proxy is where the HIP is
+};
+
 enum class FrictionState : uint8_t { Free, Sticking, Sliding };
 
 /// Construct before the servo starts (it allocates); the step only writes into it.
@@ -31,6 +37,7 @@ struct DeviceState {
     CandidateCache candidates;
     CandidateCache carryCandidates; ///< of one object that moves towards the proxy
     double gatherMargin = 1e-3;     ///< object units; adapts to the density of triangles
+    WatchState watch;
 
     ProxyRest rest; ///< of this tick; kept here because clearing it each tick costs more than a sweep
 
@@ -48,7 +55,7 @@ struct DeviceState {
 
     /// Forgets the touch, keeps what the device still feels (the limiter's last command).
     void forgetTouch() noexcept {
-        sampled = placed = shaded = false;
+        sampled = placed = shaded = watch.touching = false;
         shadedTurn = glm::dvec3(0.0);
         velocity = glm::dvec3(0.0);
         anchor = -1;

@@ -6,11 +6,14 @@
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
 #include "haptics/contact/haptic_object.h"
+#include "haptics/contact/mesh_adjacency.h"
 #include "haptics/effect_plan.h"
 #include "haptics/object_motion.h"
 #include "haptics/texture/haptic_material.h"
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,18 @@ class HapticScene {
     Similarity workspaceFromScene;
     DeviceLimits limits;
     std::vector<Warning> warnings;
+
+    /// What contact=neighbourhood walks on, one per object; null until somebody asked for it. Wait-free.
+    [[nodiscard]] const std::vector<MeshAdjacency>* neighbourhoods() const noexcept {
+        return neighbourhoods_.load(std::memory_order_acquire);
+    }
+    /// Builds that, once; the servo may be touching meanwhile. Any thread but the servo.
+    void buildNeighbourhoods() const;
+
+  private:
+    mutable std::mutex building_;
+    mutable std::unique_ptr<const std::vector<MeshAdjacency>> built_;
+    mutable std::atomic<const std::vector<MeshAdjacency>*> neighbourhoods_{nullptr};
 };
 
 /// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error.

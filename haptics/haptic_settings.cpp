@@ -10,7 +10,8 @@ namespace touchstone {
 namespace {
 
 constexpr std::array kInfos{
-    SettingInfo{"contact", "", "sweep", "how contacts are found"},
+    SettingInfo{"contact", "", "sweep, neighbourhood",
+                "how contacts are found; neighbourhood: Ho's walk over the mesh, a point without a radius"},
     SettingInfo{"forceShading", "", "off, twoPass, projected, direction",
                 "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's direction"},
     SettingInfo{"texture", "", "off, law", "normal and height maps by the displacement force law"},
@@ -48,7 +49,7 @@ bool setNumber(double& field, std::string_view value, double low, double high, d
     return true;
 }
 
-constexpr std::array<std::string_view, 1> kContactNames{"sweep"};
+constexpr std::array<std::string_view, 2> kContactNames{"sweep", "neighbourhood"};
 constexpr std::array<std::string_view, 4> kShadingNames{"off", "twoPass", "projected", "direction"};
 constexpr std::array<std::string_view, 2> kTextureNames{"off", "law"};
 constexpr std::array<std::string_view, 2> kFrictionNames{"off", "zilles"};
@@ -124,6 +125,13 @@ std::string setSetting(HapticSettings& settings, std::string_view name, std::str
     for (const SettingInfo& info : kInfos)
         known += (known.empty() ? "" : ", ") + std::string(info.name);
     return "there is no setting '" + std::string(name) + "'; known: " + known;
+}
+
+std::vector<std::string> settingWarnings(const HapticSettings& settings) {
+    std::vector<std::string> warnings;
+    if (settings.contact == ContactMethod::Neighbourhood && settings.proxyRadius > 0.0)
+        warnings.emplace_back("contact=neighbourhood is a point method: proxyRadius is ignored");
+    return warnings;
 }
 
 std::string settingValue(const HapticSettings& s, std::string_view name) {

@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone {
 
-enum class ContactMethod : uint8_t { Sweep };
+/// Neighbourhood: Ho's walk over the mesh, a point method (proxy/neighbourhood_watch.h).
+enum class ContactMethod : uint8_t { Sweep, Neighbourhood };
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction };
 enum class TextureMode : uint8_t { Off, Law };
 enum class FrictionMode : uint8_t { Off, Zilles };
@@ -20,7 +22,7 @@ struct HapticSettings {
     ShadingMode forceShading = ShadingMode::TwoPass;
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
-    /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves.
+    /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves. See feltRadius.
     double proxyRadius = 0.0;
     /// N/m; 0: the material's, else the device's recommendation.
     double stiffness = 0.0;
@@ -41,6 +43,14 @@ struct HapticSettings {
 
     bool operator==(const HapticSettings&) const = default;
 };
+
+/// The radius with which the hand touches, m: the neighbourhood watch is a point, whatever proxyRadius says.
+[[nodiscard]] constexpr double feltRadius(const HapticSettings& settings) {
+    return settings.contact == ContactMethod::Neighbourhood ? 0.0 : settings.proxyRadius;
+}
+
+/// What a person should know about settings that do not go together, one sentence each.
+[[nodiscard]] std::vector<std::string> settingWarnings(const HapticSettings& settings);
 
 /// One row for `--set`, `--help` and the panel.
 struct SettingInfo {

@@ -5,11 +5,14 @@
 #include "haptics/haptic_scene.h"
 #include "haptics/proxy/carry.h"
 #include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/neighbourhood_watch.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/safety/force_limiter.h"
 #include "haptics/sample/hip_sample.h"
 #include "haptics/shading/force_shading.h"
 #include "haptics/texture/surface_feel.h"
+
+#include <type_traits>
 
 namespace touchstone {
 
@@ -74,8 +77,33 @@ void publish(const ObjectMotions motions, const DeviceState& state, const ProxyR
     output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
 }
 
-/// Stages 2 to 7 for a hand whose place is known.
-template <class Stopwatch>
+/// What the objects' own motion does to the proxy before the contact model moves it. The watch meets moving
+/// objects along the HIP's path, which is relative to them.
+template <class Model>
+void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+           DeviceState& state) {
+    if constexpr (std::is_same_v<Model, MeshProxy>) {
+        if (state.watch.touching)
+            leaveWatch(scene, motions, state);
+        if (state.placed)
+            carryProxy(scene, motions, settings.proxyRadius, state);
+    }
+}
+
+/// Places the proxy in the first tick. False while the HIP is inside a body.
+bool meet(const HapticScene& scene, ObjectMotions motions, MeshProxy& proxy, DeviceState& state) {
+    return placeProxy(scene, motions, state.hip, proxy, state);
+}
+bool meet(const HapticScene&, ObjectMotions, NeighbourhoodWatch& watch, DeviceState&) {
+    if (!watch.place())
+        return false;
+    watch.query();
+    return true;
+}
+
+/// Stages 2 to 7 for a hand whose place is known. `Model` is the contact model, all of stages 2 and 3; what
+/// it must offer is what MeshProxy and NeighbourhoodWatch have in common.
+template <class Model, class Stopwatch>
 void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
            DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
@@ -84,10 +112,9 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     ProxyRest& rest = state.rest;
     if (state.anchor < 0)
         state.anchor = nearestObject(scene, motions, state.hip);
-    if (state.placed)
-        carryProxy(scene, motions, settings.proxyRadius, state);
-    MeshProxy proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
-    if (!placeProxy(scene, motions, state.hip, proxy, state)) {
+    carry<Model>(scene, motions, settings, state);
+    Model proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
+    if (!meet(scene, motions, proxy, state)) {
         state.friction = FrictionState::Free;
         state.shaded = false;
         output.proxy = output.hip;
@@ -140,6 +167,18 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Force);
 }
 
+/// The contact model that the settings name.
+template <class Stopwatch>
+void touchWithModel(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                    DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
+    if (settings.contact == ContactMethod::Sweep)
+        return touch<MeshProxy>(scene, settings, input, state, output, stopwatch);
+    if (scene.neighbourhoods() != nullptr)
+        return touch<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
+    touch<MeshProxy>(scene, settings, input, state, output, stopwatch);
+    output.flags = output.flags | TickFlag::NeighbourhoodMissing;
+}
+
 } // namespace
 
 template <class Stopwatch>
@@ -162,7 +201,7 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
 
         // 2. to 7.
         if (sampled && !scene.objects.empty())
-            touch(scene, settings, input, state, output, stopwatch);
+            touchWithModel(scene, settings, input, state, output, stopwatch);
         else if (!input.objects.empty())
             state.placed = false; // objects move on unseen: touch begins anew where the hand is next
 

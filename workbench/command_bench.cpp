@@ -78,9 +78,7 @@ Json rungJson(const Rung& rung, const RungTimes& times) {
             {"ray_p50_ns", times.rayMedian()},
             {"ray_p99_ns", times.ray.percentile(0.99)},
             {"step_in_rays", times.inRays()},
-            {"mean_iterations", times.contactTicks > 0 ? static_cast<double>(times.iterations) /
-                                                             static_cast<double>(times.contactTicks)
-                                                       : 0.0},
+            {"mean_iterations", times.meanIterations()},
             {"flagged_ticks", times.flaggedTicks},
             {"allocations_in_tick", times.allocations}};
 }
@@ -216,16 +214,25 @@ struct Ladder {
     HapticSettings settings;
 };
 
+HapticSettings walking(HapticSettings settings) {
+    settings.contact = ContactMethod::Neighbourhood;
+    return settings;
+}
+
 std::vector<Ladder> growthLadder() {
     return {{"sweep, r = 0", bare(0.0)},
             {"sweep, r = 0.5 mm", bare(0.5e-3)},
-            {"sweep, r = 0, all effects", HapticSettings{}}};
+            {"neighbourhood watch", walking(bare(0.0))},
+            {"sweep, r = 0, all effects", HapticSettings{}},
+            {"neighbourhood watch, all effects", walking(HapticSettings{})}};
 }
 
 Json benchGrowth(const BenchOptions& options) {
     const std::deque<GrowthColumn> columns = growthColumns(options.largestTriangles);
     const std::vector<Ladder> ladder = growthLadder();
     std::vector<Rung> rungs;
+    for (const GrowthColumn& column : columns)
+        column.scene.haptic->buildNeighbourhoods();
     for (const GrowthColumn& column : columns)
         for (const Ladder& method : ladder)
             rungs.push_back({method.name, &column.scene, method.settings, 0.1});
@@ -244,14 +251,16 @@ Json benchGrowth(const BenchOptions& options) {
     row("", [&](size_t c) { return columns[c].scene.name; });
     row("---", [](size_t) { return "---"; });
     row("Number of vertices", [&](size_t c) { return grouped(columns[c].scene.vertices()); });
-    row("Number of lines", [&](size_t c) { return grouped(columns[c].scene.triangles() * 3 / 2); });
+    row("Number of lines", [&](size_t c) { return grouped(columns[c].scene.lines()); });
     row("Number of polygons", [&](size_t c) { return grouped(columns[c].scene.triangles()); });
     row("Haptic servo rate [000 Table I], kHz", [&](size_t c) { return columns[c].seedRate; });
     for (size_t m = 0; m < ladder.size(); ++m) {
         row(std::string(ladder[m].name) + ", kHz by median (p99)",
             [&](size_t c) { return kilohertz(at(c, m).median()) + " (" + kilohertz(at(c, m).p99()) + ")"; });
-        row("its step, median / p99, µs",
-            [&](size_t c) { return microseconds(at(c, m).median()) + " / " + microseconds(at(c, m).p99()); });
+        row("its step, median / p99, µs (mean moves)", [&](size_t c) {
+            return microseconds(at(c, m).median()) + " / " + microseconds(at(c, m).p99()) +
+                   number(" (%.1f)", at(c, m).meanIterations());
+        });
     }
     row("ray floor, ns", [&](size_t c) { return number("%.0f", at(c, 0).rayMedian()); });
     std::printf("\n");

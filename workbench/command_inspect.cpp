@@ -5,6 +5,7 @@
 #include "engine/core/float_mode.h"
 #include "engine/time/samples.h"
 #include "haptics/haptic_step.h"
+#include "haptics/servo/realtime_thread.h"
 #include "workbench/commands.h"
 #include "workbench/model.h"
 #include "workbench/output_file.h"
@@ -180,6 +181,23 @@ Json tickCostJson(const Model& model) {
     return json;
 }
 
+/// What contact=neighbourhood would cost this model: nothing of it is there unless that is asked for.
+Json neighbourhoodJson(const Model& model) {
+    const long long begin = monotonicNs();
+    model.haptic->buildNeighbourhoods();
+    const double seconds = 1e-9 * static_cast<double>(monotonicNs() - begin);
+    uint64_t bytes = 0, borders = 0, nonManifold = 0;
+    for (const MeshAdjacency& adjacency : *model.haptic->neighbourhoods()) {
+        bytes += adjacency.memoryBytes();
+        borders += adjacency.borderEdges();
+        nonManifold += adjacency.nonManifoldEdges();
+    }
+    return {{"memory_bytes", bytes},
+            {"build_s", seconds},
+            {"border_edges", borders},
+            {"non_manifold_edges", nonManifold}};
+}
+
 Json inspectionJson(const InspectOptions& options, const Model& model) {
     const Scene& scene = *model.scene;
     Json animations = Json::array();
@@ -204,6 +222,7 @@ Json inspectionJson(const InspectOptions& options, const Model& model) {
             {"materials", materialsJson(model)},
             {"objects", objectsJson(model)},
             {"tick_p50_ns", tickCostJson(model)},
+            {"neighbourhood", neighbourhoodJson(model)},
             {"warnings", warningsJson(model)}};
 }
 
@@ -257,6 +276,12 @@ void printInspection(const Json& json) {
                 std::printf(" %s %s", stage.c_str(), text(cost).c_str());
         std::printf("\n");
     }
+    const Json& walk = json["neighbourhood"];
+    std::printf(
+        "  contact=neighbourhood would take %s bytes and %.3f s; %s border edges, %s of more than two "
+        "triangles\n",
+        text(walk["memory_bytes"]).c_str(), walk["build_s"].get<double>(), text(walk["border_edges"]).c_str(),
+        text(walk["non_manifold_edges"]).c_str());
     for (const Json& warning : json["warnings"])
         print("  warning: %s: %s\n", text(warning["place"]), text(warning["message"]));
 }

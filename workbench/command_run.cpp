@@ -151,6 +151,7 @@ int runCommand(const RunOptions& options) {
     catchInterrupts();
     const Model model = loadModel(options.scene, Fit::Workspace, DeviceLimits{});
     printWarnings(model);
+    prepareFor(model, options.settings);
     SimulatedHand hand(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
     std::optional<OutputFile> report;
     if (!options.json.empty())
@@ -193,6 +194,7 @@ int runCommand(const RunOptions& options) {
             {"seconds", frames.seconds},
             {"triangles", model.scene->triangleCount()},
             {"settings", settingsJson(options.settings)},
+            {"setting_warnings", settingWarnings(options.settings)},
             {"servo", servoJson(servo, reader.statistics, frames.seconds)},
             {"step", reader.statistics.stepJson()},
             {"frames",

@@ -145,6 +145,7 @@ int touchCommand(const TouchOptions& options) {
     const HipPath path = readHipPath(options.path);
     const Model model = loadModel(options.scene, options.fit, DeviceLimits{});
     printWarnings(model);
+    prepareFor(model, options.settings);
     OutputFile out(options.out);
     std::optional<OutputFile> report;
     if (!options.json.empty())
@@ -188,6 +189,7 @@ int touchCommand(const TouchOptions& options) {
             {"path", options.path.string()},
             {"fit", options.fit == Fit::None ? "none" : "workspace"},
             {"settings", settingsJson(options.settings)},
+            {"setting_warnings", settingWarnings(options.settings)},
             {"ticks", planned.size()},
             {"step", statistics.stepJson()},
             {"ray_floor", floorJson(rays)},

@@ -29,6 +29,13 @@ Model loadModelToSee(const std::filesystem::path& path, Fit fit) {
     return model;
 }
 
+void prepareFor(const Model& model, const HapticSettings& settings) {
+    for (const std::string& warning : settingWarnings(settings))
+        std::fprintf(stderr, "touchstone: warning: %s\n", warning.c_str());
+    if (settings.contact == ContactMethod::Neighbourhood)
+        model.haptic->buildNeighbourhoods();
+}
+
 Bounds workspaceBounds(const Model& model) {
     Bounds bounds;
     if (model.scene->bounds.empty())

@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene_loader.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/haptic_settings.h"
 
 #include <filesystem>
 #include <memory>
@@ -21,6 +22,10 @@ struct Model {
                               const LoadOptions& options = {});
 /// The eye's half only.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit);
+
+/// Builds what these settings call for besides the plan, so that the first tick has it, and says on stderr
+/// what they ask for that cannot be had.
+void prepareFor(const Model& model, const HapticSettings& settings);
 
 /// The scene's bounds as they stand in the workspace (rest pose).
 [[nodiscard]] Bounds workspaceBounds(const Model& model);

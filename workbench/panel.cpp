@@ -112,10 +112,21 @@ class Panel {
         mark(name);
     }
 
+    void contact() {
+        constexpr std::array kLabels{"contact: swept sphere", "contact: neighbourhood watch"};
+        ImGui::PushItemWidth(-1.0f);
+        int method = static_cast<int>(state_.settings.contact);
+        if (ImGui::Combo("##contact", &method, kLabels.data(), static_cast<int>(kLabels.size())))
+            state_.settings.contact = static_cast<ContactMethod>(method);
+        mark("contact");
+        ImGui::PopItemWidth();
+    }
+
     void feel() {
         section("FEEL");
         HapticSettings& settings = state_.settings;
         HapticSettings& chosen = state_.chosen;
+        contact();
         toggle("Force shading", "forceShading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
                ShadingMode::TwoPass);
         toggle("Texture", "texture", settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
@@ -127,10 +138,16 @@ class Panel {
         if (ImGui::SliderFloat("##stiffness", &stiffness, 0.0f, 3000.0f, shown))
             settings.stiffness = static_cast<double>(stiffness);
         mark("stiffness");
+        const bool point = settings.contact == ContactMethod::Neighbourhood;
+        if (point)
+            ImGui::BeginDisabled();
         auto radius = static_cast<float>(1e3 * settings.proxyRadius);
-        if (ImGui::SliderFloat("##proxyRadius", &radius, 0.0f, 5.0f, "proxy radius %.2f mm"))
+        if (ImGui::SliderFloat("##proxyRadius", &radius, 0.0f, 5.0f,
+                               point ? "proxy radius: a point" : "proxy radius %.2f mm"))
             settings.proxyRadius = 1e-3 * static_cast<double>(radius);
         mark("proxyRadius");
+        if (point)
+            ImGui::EndDisabled();
         ImGui::PopItemWidth();
     }
 

@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::array<std::pair<TickFlag, std::string_view>, 11> kFlagNames{{
+constexpr std::array<std::pair<TickFlag, std::string_view>, 12> kFlagNames{{
     {TickFlag::InputInvalid, "input_invalid"},
     {TickFlag::StartedInside, "started_inside"},
     {TickFlag::BudgetReached, "budget_reached"},
@@ -23,6 +23,7 @@ constexpr std::array<std::pair<TickFlag, std::string_view>, 11> kFlagNames{{
     {TickFlag::Teleported, "teleported"},
     {TickFlag::ForceRamping, "force_ramping"},
     {TickFlag::SafetyLatched, "safety_latched"},
+    {TickFlag::NeighbourhoodMissing, "neighbourhood_missing"},
 }};
 
 nlohmann::ordered_json nanoseconds(const Samples& samples) {
@@ -115,8 +116,8 @@ nlohmann::ordered_json TickStatistics::flagsJson() const {
 double proxyGap(const HapticScene& scene, ObjectMotions motions, const HapticOutput& output,
                 const HapticSettings& settings) {
     constexpr double kLookedAt = 1e-3;
-    return surfaceDistance(scene, motions, output.proxy, settings.proxyRadius + kLookedAt) -
-           settings.proxyRadius;
+    return surfaceDistance(scene, motions, output.proxy, feltRadius(settings) + kLookedAt) -
+           feltRadius(settings);
 }
 
 } // namespace touchstone

@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <string>
 
 namespace touchstone {
@@ -68,6 +69,7 @@ class Workbench {
     void frame() {
         const double start = secondsNow();
         takeModel();
+        prepareContact();
         if (const auto dropped = window_.takeDropped())
             open(*dropped);
         servo_.updateSnapshot();
@@ -107,6 +109,18 @@ class Workbench {
         window_.setTitle(shown_.model.scene->path + " – Touchstone");
     }
 
+    /// What contact=neighbourhood walks on is built on a worker when it is first asked for; the servo sweeps
+    /// until it is there.
+    void prepareContact() {
+        const bool wanted = hasModel() && state_.settings.contact == ContactMethod::Neighbourhood &&
+                            shown_.model.haptic->neighbourhoods() == nullptr;
+        const bool busy =
+            building_.valid() && building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+        if (wanted && !busy)
+            building_ = std::async(std::launch::async,
+                                   [haptic = shown_.model.haptic] { haptic->buildNeighbourhoods(); });
+    }
+
     void draw() {
         const glm::ivec2 area = pictureArea();
         const PanelInput input = panelInput(resolution_.sceneSize(area));
@@ -142,6 +156,10 @@ class Workbench {
             for (const auto* warnings : {&scene.warnings, &shown_.model.haptic->warnings})
                 for (const Warning& warning : *warnings)
                     input.warnings.push_back(warning.place + ": " + warning.message);
+            for (std::string& warning : settingWarnings(state_.settings))
+                input.warnings.push_back(std::move(warning));
+            if (has(servoView_.last.output.flags, TickFlag::NeighbourhoodMissing))
+                input.warnings.emplace_back("the neighbourhood watch is being prepared: swept until then");
         }
         input.problem = problem_;
         input.loading = loader_.loading();
@@ -197,6 +215,7 @@ class Workbench {
     Overlay overlay_;
     StatusFile status_;
     std::string problem_;
+    std::future<void> building_;
     double framesPerSecond_ = 0.0;
 };
 

@@ -1,9 +1,12 @@
 #include "haptics/friction/stiction.h"
 
+#include "haptics/proxy/neighbourhood_watch.h"
+
 namespace touchstone {
 
-void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor,
-                   MeshProxy& proxy, DeviceState& state) noexcept {
+template <class Model>
+void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor, Model& proxy,
+                   DeviceState& state) noexcept {
     if (!feel.touching || !(feel.staticFriction > 0.0)) {
         state.friction = FrictionState::Free;
         return;
@@ -31,5 +34,9 @@ void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double works
     proxy.moveTowards(frictionless + kept - depth * feel.normal);
     state.stictionPoint = state.proxy;
 }
+
+template void applyStiction(const SurfaceFeel&, const glm::dvec3&, double, MeshProxy&, DeviceState&) noexcept;
+template void applyStiction(const SurfaceFeel&, const glm::dvec3&, double, NeighbourhoodWatch&,
+                            DeviceState&) noexcept;
 
 } // namespace touchstone

@@ -13,7 +13,9 @@ namespace touchstone {
 /// the proxy goes back to `held` to the last bit, so that nothing drifts; beyond it the stiction point slips
 /// to mu_d times the depth behind the frictionless place (mu N / K = mu d: normal and tangential stiffness
 /// are one). The proxy is moved by the solver, so it stays on the surface and inside all planes.
-void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor,
-                   MeshProxy& proxy, DeviceState& state) noexcept;
+/// Model: MeshProxy or NeighbourhoodWatch.
+template <class Model>
+void applyStiction(const SurfaceFeel& feel, const glm::dvec3& held, double workspacePerAnchor, Model& proxy,
+                   DeviceState& state) noexcept;
 
 } // namespace touchstone

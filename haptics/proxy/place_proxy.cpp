@@ -19,14 +19,20 @@ int nearestObject(const HapticScene& scene, ObjectMotions motions, const glm::dv
     return nearest;
 }
 
+bool isInsideAny(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
+    for (size_t k = 0; k < scene.objects.size(); ++k)
+        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inversePoint(hip)))
+            return true;
+    return false;
+}
+
 bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip, MeshProxy& proxy,
                 DeviceState& state) noexcept {
     if (state.placed)
         return true;
     proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inversePoint(hip));
-    for (size_t k = 0; k < scene.objects.size(); ++k)
-        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inversePoint(hip)))
-            return false;
+    if (isInsideAny(scene, motions, hip))
+        return false;
     state.candidates.invalidate(); // what moved since the last try is not where it was gathered
     state.placed = proxy.isFree();
     return state.placed;

@@ -12,6 +12,10 @@ namespace touchstone {
 [[nodiscard]] int nearestObject(const HapticScene& scene, ObjectMotions motions,
                                 const glm::dvec3& hip) noexcept;
 
+/// True where `hip` (workspace) is inside a closed object.
+[[nodiscard]] bool isInsideAny(const HapticScene& scene, ObjectMotions motions,
+                               const glm::dvec3& hip) noexcept;
+
 /// Starts touch: the proxy may be placed only in free space. False while the HIP is inside a closed object or
 /// within the proxy's radius of a surface: it feels nothing until it has left (DESIGN §4). True from then on.
 [[nodiscard]] bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip,

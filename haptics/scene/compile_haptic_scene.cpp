@@ -72,6 +72,18 @@ const char* effectName(Effect effect) {
     return "";
 }
 
+void HapticScene::buildNeighbourhoods() const {
+    const std::lock_guard lock(building_);
+    if (built_ != nullptr)
+        return;
+    std::vector<MeshAdjacency> all;
+    all.reserve(objects.size());
+    for (const auto& object : objects)
+        all.emplace_back(object->vertices, object->indices);
+    built_ = std::make_unique<const std::vector<MeshAdjacency>>(std::move(all));
+    neighbourhoods_.store(built_.get(), std::memory_order_release);
+}
+
 std::shared_ptr<const HapticScene>
 compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, const DeviceLimits& limits) {
     auto haptic = std::make_shared<HapticScene>();

@@ -1,6 +1,7 @@
 #include "haptics/shading/force_shading.h"
 
 #include "haptics/contact/triangle.h"
+#include "haptics/proxy/neighbourhood_watch.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
@@ -125,8 +126,9 @@ glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip, double trav
     return depth > 0.0 ? hip + depth * normal : hip;
 }
 
+template <class Model>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                  const glm::dvec3& hip, const glm::dvec3& firstGoal, MeshProxy& proxy, DeviceState& state,
+                  const glm::dvec3& hip, const glm::dvec3& firstGoal, Model& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept {
     const bool wasShaded = state.shaded;
     const glm::dvec3 lastNormal = state.shadedNormal;
@@ -168,5 +170,10 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
     state.shaded = false;
     proxy.moveTowards(hip);
 }
+
+template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
+                           const glm::dvec3&, MeshProxy&, DeviceState&, ProxyRest&) noexcept;
+template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
+                           const glm::dvec3&, NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

@@ -24,8 +24,10 @@ namespace touchstone {
 /// planes through the proxy; then the proxy moves to the point of the true surface nearest to that goal;
 /// repeated with the normals of the new place until the goal stands still. There the force is along the
 /// interpolated normal of the final proxy. Sets ShadingNotConverged.
+/// Model: MeshProxy or NeighbourhoodWatch.
+template <class Model>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                  const glm::dvec3& hip, const glm::dvec3& firstGoal, MeshProxy& proxy, DeviceState& state,
+                  const glm::dvec3& hip, const glm::dvec3& firstGoal, Model& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept;
 
 } // namespace touchstone

@@ -106,6 +106,14 @@ size_t BenchScene::vertices() const {
     return count;
 }
 
+size_t BenchScene::lines() const {
+    size_t count = 0;
+    if (const auto* neighbourhoods = haptic->neighbourhoods())
+        for (const MeshAdjacency& adjacency : *neighbourhoods)
+            count += adjacency.edges();
+    return count;
+}
+
 BenchScene tableOneScene(int number) {
     const std::vector<glm::dvec3> centre{glm::dvec3(0.0)};
     if (number == 1)

@@ -23,6 +23,7 @@ struct BenchScene {
 
     [[nodiscard]] size_t triangles() const;
     [[nodiscard]] size_t vertices() const; ///< after welding
+    [[nodiscard]] size_t lines() const;    ///< 0 where the neighbourhoods are not built
 };
 
 /// Objects 1, 2 and 3 of [000 Table I], as in assets/scenes: a box of 12 triangles, a torus of 456, a sphere

@@ -35,6 +35,9 @@ struct RungTimes {
     [[nodiscard]] double median() const { return static_cast<double>(step.percentile(0.5)); }
     [[nodiscard]] double p99() const { return static_cast<double>(step.percentile(0.99)); }
     [[nodiscard]] double rayMedian() const { return static_cast<double>(ray.percentile(0.5)); }
+    [[nodiscard]] double meanIterations() const {
+        return contactTicks > 0 ? static_cast<double>(iterations) / static_cast<double>(contactTicks) : 0.0;
+    }
     [[nodiscard]] double inRays() const { return median() / rayMedian(); }
 };
 

@@ -1,0 +1,225 @@
+#include "haptics/proxy/neighbourhood_watch.h"
+
+#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/place_proxy.h"
+#include "haptics/tick_flags.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+/// How far Embree's floats may be off in the object's frame: the HIP's path is lengthened by this at both
+/// ends, and what it strikes is judged in double.
+double floatMargin(const glm::dvec3& p) {
+    return 4e-7 * (1.0 + glm::length(p));
+}
+
+struct Strike {
+    uint32_t triangle;
+    double distance;
+};
+
+/// The first triangle along a ray between two distances.
+bool castRay(const HapticObject& object, const glm::dvec3& from, const glm::dvec3& direction, double near,
+             double far, Strike& strike) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit hit{};
+    hit.ray.org_x = static_cast<float>(from.x);
+    hit.ray.org_y = static_cast<float>(from.y);
+    hit.ray.org_z = static_cast<float>(from.z);
+    hit.ray.dir_x = static_cast<float>(direction.x);
+    hit.ray.dir_y = static_cast<float>(direction.y);
+    hit.ray.dir_z = static_cast<float>(direction.z);
+    hit.ray.tnear = static_cast<float>(near);
+    hit.ray.tfar = static_cast<float>(far);
+    hit.ray.mask = ~0u;
+    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(object.bvh.get(), &context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+    strike = {hit.hit.primID, static_cast<double>(hit.ray.tfar)};
+    return true;
+}
+
+} // namespace
+
+NeighbourhoodWatch::NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, double, int budget,
+                                       DeviceState& state, ProxyRest& rest) noexcept
+    : scene_(scene), motions_(motions), state_(state),
+      rest_(rest), budget_{.steps = static_cast<uint32_t>(budget)}, steps_(budget_.steps),
+      before_(state.watch.side) {
+    rest_.contactCount = 0;
+    rest_.iterations = 0;
+    rest_.flags = 0;
+    rest_.hold = SubGoal{};
+}
+
+SurfaceView NeighbourhoodWatch::surface(size_t object) const noexcept {
+    return {*scene_.objects[object], (*scene_.neighbourhoods())[object]};
+}
+
+bool NeighbourhoodWatch::place() noexcept {
+    if (state_.placed)
+        return true;
+    state_.proxy =
+        motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
+    state_.watch.touching = false;
+    state_.placed = !isInsideAny(scene_, motions_, state_.hip);
+    return state_.placed;
+}
+
+void NeighbourhoodWatch::query() noexcept {
+    const auto anchor = static_cast<size_t>(state_.anchor);
+    if (state_.watch.touching) {
+        const glm::dvec3 hip = motions_[anchor].workspaceFromObject.inversePoint(state_.hip);
+        const SurfacePlace here = walkTowards(surface(anchor), state_.watch.side, hip, budget_);
+        state_.watch.side = here.side;
+        if (budget_.spent || !isOnFreeSide(surface(anchor), here, hip, budget_))
+            return;
+        // Off this surface: from where it was left, the way to the HIP may be barred by another.
+        state_.watch.touching = false;
+        state_.shaded = false;
+        if (acquire(here.point))
+            return;
+    } else {
+        acquire(state_.proxy);
+    }
+}
+
+/// Looks for the first triangle of any object that the HIP's path crosses, in each object's own frame, so
+/// that what moves towards a resting HIP crosses it too. `start`: anchor frame, where the path begins.
+bool NeighbourhoodWatch::acquire(const glm::dvec3& start) noexcept {
+    const auto anchor = static_cast<size_t>(state_.anchor);
+    const bool left = start != state_.proxy;
+    const glm::dvec3 begin = motions_[anchor].before.point(start);
+    double first = 1.0;
+    int struck = -1;
+    SurfacePlace place;
+    for (size_t k = 0; k < scene_.objects.size(); ++k) {
+        const ObjectMotion& motion = motions_[k];
+        const double near = glm::length(state_.hip - motion.workspaceFromObject.translation) -
+                            glm::length(begin - state_.hip) -
+                            glm::length(motion.workspaceFromObject.translation - motion.before.translation);
+        if (near > 1.01 * motion.workspaceFromObject.scale * scene_.objects[k]->boundingRadius)
+            continue;
+        const glm::dvec3 from = k == anchor ? start : motion.before.inversePoint(begin);
+        const glm::dvec3 to = motion.workspaceFromObject.inversePoint(state_.hip);
+        // What it has just left lies under its first step.
+        const double skip = left && k == anchor ? 2.0 * floatMargin(from) : -floatMargin(from);
+        if (strikes(k, from, to, skip, first, place))
+            struck = static_cast<int>(k);
+    }
+    if (struck < 0)
+        return false;
+    changeAnchor(state_, motions_, struck);
+    state_.watch = {.side = place.side, .touching = true};
+    state_.friction = FrictionState::Free; // another place: nothing sticks there yet
+    return true;
+}
+
+/// Whether the path from `from` to `to` ends behind a surface of this object that it crosses before `first`
+/// (share of the path), which then becomes that share. `skip`: distance from `from` at which to begin.
+bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const glm::dvec3& to, double skip,
+                                 double& first, SurfacePlace& place) noexcept {
+    constexpr int kAttempts = 4;
+    const SurfaceView view = surface(object);
+    const double length = glm::length(to - from);
+    if (!(length > 0.0))
+        return false;
+    const glm::dvec3 direction = (to - from) / length;
+    const double margin = floatMargin(from);
+    // Embree wants distances from 0 up: the ray starts where the path does, or just before.
+    const glm::dvec3 origin = from + std::min(skip, 0.0) * direction;
+    double near = std::max(skip, 0.0);
+    const double far = length - std::min(skip, 0.0) + margin;
+    for (int attempt = 0; attempt < kAttempts && near < far; ++attempt) {
+        Strike strike;
+        if (!castRay(view.object, origin, direction, near, far, strike))
+            return false;
+        const double share = std::clamp((strike.distance + std::min(skip, 0.0)) / length, 0.0, 1.0);
+        if (share > first)
+            return false;
+        // Float has found the triangle; which side the path comes from, and whether its end is behind the
+        // surface, is told by doubles.
+        const Triangle triangle = view.triangle(2 * strike.triangle);
+        const bool front = glm::dot(from - triangle.a, triangle.normal) >= 0.0;
+        if (triangle.normal != glm::dvec3(0.0)) {
+            const TriangleSide side = 2 * strike.triangle + (front ? 0u : 1u);
+            const SurfacePlace there = walkTowards(view, side, to, budget_);
+            if (budget_.spent || !isOnFreeSide(view, there, to, budget_)) {
+                first = share;
+                place = there;
+                return true;
+            }
+        }
+        near = strike.distance + 2.0 * margin;
+    }
+    return false;
+}
+
+void NeighbourhoodWatch::moveTowards(const glm::dvec3& goal) noexcept {
+    if (!state_.watch.touching) {
+        state_.proxy = goal;
+        return;
+    }
+    report(goal);
+}
+
+/// Walks to the goal and says what is touched there: one feature, with the normal from the goal to it (on a
+/// face the face's own, to the last bit).
+void NeighbourhoodWatch::report(const glm::dvec3& goal) noexcept {
+    const auto anchor = static_cast<size_t>(state_.anchor);
+    const SurfaceView view = surface(anchor);
+    const SurfacePlace here = walkTowards(view, state_.watch.side, goal, budget_);
+    state_.watch.side = here.side;
+    state_.proxy = here.point;
+    rest_.iterations = steps_ - budget_.steps;
+    if (budget_.spent)
+        rest_.flags = rest_.flags | TickFlag::BudgetReached;
+
+    glm::dvec3 normal = view.normal(here.side);
+    const double distance = std::sqrt(here.squared);
+    if (here.feature != Feature::Face && distance > 100.0 * kContactGap) {
+        const glm::dvec3 away = (goal - here.point) / distance;
+        normal = isOnFreeSide(view, here, goal, budget_) ? away : -away;
+    }
+    rest_.contactCount = 1;
+    rest_.contacts[0] = {.normal = normal,
+                         .point = here.point,
+                         .gap = kContactGap,
+                         .object = state_.anchor,
+                         .triangle = triangleOf(here.side)};
+    rest_.planes[0] = {normal, 0.0};
+    rest_.hold = SubGoal{};
+    rest_.hold.count = 1;
+    rest_.hold.multiplier[0] = distance;
+}
+
+void NeighbourhoodWatch::placeAt(const glm::dvec3& p) noexcept {
+    state_.proxy = p;
+    state_.watch.side = before_;
+}
+
+void leaveWatch(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
+    state.watch.touching = false;
+    const auto anchor = static_cast<size_t>(state.anchor);
+    const HapticObject& object = *scene.objects[anchor];
+    const auto* neighbourhoods = scene.neighbourhoods();
+    if (neighbourhoods == nullptr) {
+        state.placed = false;
+        return;
+    }
+    const SurfaceView view{object, (*neighbourhoods)[anchor]};
+    state.proxy += kWeldTolerance * object.diagonal * view.normal(state.watch.side);
+    state.candidates.invalidate();
+    MeshProxy proxy(scene, motions, 0.0, 1, state, state.rest);
+    state.placed = proxy.isFree();
+}
+
+} // namespace touchstone
