@@ -137,6 +137,8 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
     // Embree wants distances from 0 up: the ray starts where the path does, or just before.
     const glm::dvec3 origin = from + std::min(skip, 0.0) * direction;
     double near = std::max(skip, 0.0);
+    bool passed = false;
+    glm::dvec3 passedAt(0.0);
     const double far = length - std::min(skip, 0.0) + margin;
     for (int attempt = 0; attempt < kAttempts && near < far; ++attempt) {
         Strike strike;
@@ -145,18 +147,23 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
         const double share = std::clamp((strike.distance + std::min(skip, 0.0)) / length, 0.0, 1.0);
         if (share > first)
             return false;
-        // Float has found the triangle; which side the path comes from, and whether its end is behind the
-        // surface, is told by doubles.
-        const Triangle triangle = view.triangle(2 * strike.triangle);
-        const bool front = glm::dot(from - triangle.a, triangle.normal) >= 0.0;
-        if (triangle.normal != glm::dvec3(0.0)) {
-            const TriangleSide side = 2 * strike.triangle + (front ? 0u : 1u);
-            const SurfacePlace there = walkTowards(view, side, to, budget_);
-            if (budget_.spent || !isOnFreeSide(view, there, to, budget_)) {
+        // Float has found the triangle; whether the path crosses it, and whether its end is then behind the
+        // surface, is told by doubles. Where it is not, the path has gone through an edge of the body and out
+        // again: the same place seen from within is no contact either.
+        const glm::dvec3 normal = view.normal(2 * strike.triangle);
+        const bool front = glm::dot(direction, normal) < 0.0;
+        const double height = glm::dot(from - view.triangle(2 * strike.triangle).a, normal);
+        if (normal != glm::dvec3(0.0) && (front ? height >= 0.0 : height <= 0.0)) {
+            const SurfacePlace there =
+                walkTowards(view, 2 * strike.triangle + (front ? 0u : 1u), to, budget_);
+            const bool seen = passed && glm::length(there.point - passedAt) < margin;
+            if (!seen && (budget_.spent || !isOnFreeSide(view, there, to, budget_))) {
                 first = share;
                 place = there;
                 return true;
             }
+            passed = true;
+            passedAt = there.point;
         }
         near = strike.distance + 2.0 * margin;
     }
