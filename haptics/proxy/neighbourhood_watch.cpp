@@ -67,8 +67,7 @@ SurfaceView NeighbourhoodWatch::surface(size_t object) const noexcept {
 bool NeighbourhoodWatch::place() noexcept {
     if (state_.placed)
         return true;
-    state_.proxy =
-        motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
+    state_.proxy = motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
     state_.watch.touching = false;
     state_.placed = !isInsideAny(scene_, motions_, state_.hip);
     return state_.placed;
