@@ -173,7 +173,7 @@ void defineBench(CLI::App& app, BenchOptions& options) {
         ->check(CLI::IsMember({"fast", "growth"}));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
     app.add_option("--largest", options.largestTriangles,
-                   "Leave out what has more triangles [1000000]; 10000000 takes 4 GB and a minute or two")
+                   "Leave out what has more triangles [1000000]; 10000000 takes 2.5 GB and half a minute")
         ->type_name("N");
     app.add_option("--rounds", options.rounds, "Turns of 1000 ticks for each case [20]")
         ->type_name("N")

@@ -212,6 +212,27 @@ TEST_F(Touch, TwoRunsAreByteIdenticalButForTheTime) {
     EXPECT_GT(most, 0.0) << "the path must touch for this to mean anything";
 }
 
+TEST_F(Touch, TheNeighbourhoodWatchIsAPointAndSaysSo) {
+    const std::string json = (scratch / "figures.json").string();
+    const ProgramResult result = touch(kPlane, kDown,
+                                       {"--json", json, "--set", "contact=neighbourhood", "--set",
+                                        "proxyRadius=0.001", "--set", "stiffness=800"});
+    ASSERT_EQ(result.status, 0);
+    EXPECT_TRUE(contains(result.err, "proxyRadius is ignored")) << result.err;
+    const auto figures = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(figures["settings"]["contact"], "neighbourhood");
+    EXPECT_EQ(figures["setting_warnings"].size(), 1u);
+    EXPECT_EQ(figures["flags"]["neighbourhood_missing"], 0);
+    EXPECT_EQ(figures["allocations_in_tick"], 0);
+    EXPECT_EQ(figures["contact"]["proxy_on_mesh_share"], 1.0);
+    const Table ticks = readTable(out());
+    for (size_t i = 0; i < ticks.rows; ++i) {
+        const double depth = -ticks["hip_y"][i]; // of a point, not of a sphere
+        EXPECT_EQ(ticks["contacts"][i], depth > 0.0 ? 1.0 : 0.0) << i;
+        EXPECT_NEAR(ticks["force_y"][i], 800.0 * std::max(depth, 0.0), 1e-9) << i;
+    }
+}
+
 TEST_F(Touch, ReportsStepAndRayFloor) {
     const std::string json = (scratch / "figures.json").string();
     ASSERT_EQ(touch(kPlane, kDown, {"--json", json, "--set", "proxyRadius=0.001"}).status, 0);
@@ -319,6 +340,39 @@ TEST(Inspect, TellsWhatTheDoughnutIsAndWouldFeelLike) {
     EXPECT_TRUE(height);
     EXPECT_TRUE(contains(result.out, "64800 triangles"));
     EXPECT_TRUE(contains(result.out, "height map"));
+}
+
+TEST(Inspect, TellsWhatTheNeighbourhoodWatchWouldCost) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "box.json").string();
+    ASSERT_EQ(runProgram({kProgram, "inspect", kBox, "--json", json}).status, 0);
+    const auto answer = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(answer["neighbourhood"]["memory_bytes"], 12 * 24);
+    EXPECT_EQ(answer["neighbourhood"]["border_edges"], 0);
+    EXPECT_EQ(answer["neighbourhood"]["non_manifold_edges"], 0);
+}
+
+TEST(Bench, PrintsEveryFigureBesideItsBound) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "bench.json").string();
+    const ProgramResult result =
+        runProgram({kProgram, "bench", "--largest", "64800", "--rounds", "1", "--json", json});
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const char* words : {"torus 64,800, r = 0.0 mm", "of 6, ", "of 12, ", "1,000 objects take",
+                              "allocations and frees in ticks: 0, met", "Number of polygons",
+                              "| 12 | 456 | 1,800 | 64,800 |", "neighbourhood watch"})
+        EXPECT_TRUE(contains(result.out, words)) << words;
+    EXPECT_FALSE(contains(result.out, "1,000,000")) << "larger than was asked for";
+    const auto figures = nlohmann::json::parse(readFile(json));
+    for (const char* part : {"fast", "growth"})
+        for (const auto& rung : figures[part]) {
+            EXPECT_EQ(rung["allocations_in_tick"], 0) << rung["name"];
+            EXPECT_EQ(rung["flagged_ticks"], 0) << rung["name"];
+            EXPECT_GT(rung["ticks_in_contact"], 700) << rung["name"];
+            EXPECT_LE(rung["step_p50_ns"], rung["step_p99_ns"]);
+            EXPECT_GT(rung["ray_p50_ns"], 0);
+        }
+    expectRefused(runProgram({kProgram, "bench", "slow"}), 2, {"fast", "growth"});
 }
 
 TEST(Inspect, APlainModelNeedsNoEffect) {
