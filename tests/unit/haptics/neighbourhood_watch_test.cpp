@@ -201,6 +201,85 @@ TEST(NeighbourhoodWatch, ConcaveEdgesAndCornersHoldTheHip) {
     }
 }
 
+TEST(NeighbourhoodWatch, GroovesHoldItAsTheyHoldTheSweep) {
+    for (const double degrees : {90.0, 20.0, 5.0}) {
+        // Two sheets that rise from the z axis, `degrees` between them.
+        const double half = 0.5 * degrees * kPi / 180.0;
+        assets::Shape groove;
+        for (const double side : {-1.0, 0.0, 1.0})
+            for (const double z : {-0.05, 0.05})
+                groove.positions.emplace_back(0.05 * side * std::sin(half),
+                                              0.05 * std::abs(side) * std::cos(half), z);
+        groove.indices = {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4};
+        TouchBench walk = watchBench(sceneOf(groove)), sweep(sceneOf(groove), bare(ContactMethod::Sweep));
+        walk.step({0.0, 0.04, 0.001});
+        sweep.step({0.0, 0.04, 0.001});
+        for (const glm::dvec2& to : {glm::dvec2{0.0, 0.02},
+                                     {0.0, -0.002},
+                                     {0.001, -0.001},
+                                     {-0.002, -0.0005},
+                                     {0.0, -0.003},
+                                     {0.0, 0.03}}) {
+            walk.moveTo({to, 0.001}, 0.1);
+            sweep.moveTo({to, 0.001}, 0.1);
+            for (int i = 0; i < 3; ++i) {
+                walk.step({to, 0.001});
+                sweep.step({to, 0.001});
+            }
+            // Between two walls the skin of the sweep keeps it off the edge by skin / sin(half).
+            EXPECT_LT(glm::length(walk.output.proxy - sweep.output.proxy), 1e-6 / std::sin(half)) << degrees;
+            EXPECT_EQ(walk.output.contacts > 0, sweep.output.contacts > 0) << degrees;
+        }
+    }
+}
+
+/// Which way the triangles are wound says nothing about where the hand comes from.
+TEST(NeighbourhoodWatch, MixedWindingsChangeNothing) {
+    const assets::Shape sphere = assets::sphere(0.05, 24, 24);
+    assets::Shape mixed = sphere;
+    std::mt19937 random(3);
+    for (size_t t = 0; t < mixed.triangleCount(); ++t)
+        if (random() % 2 == 0)
+            std::swap(mixed.indices[3 * t + 1], mixed.indices[3 * t + 2]);
+    TouchBench plain = watchBench(sceneOf(sphere)), turned = watchBench(sceneOf(mixed));
+    int touching = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 hip = strokeOf(0.049, 0.5, i);
+        plain.step(hip);
+        turned.step(hip);
+        ASSERT_EQ(plain.output.contacts, turned.output.contacts) << i;
+        ASSERT_LT(glm::length(plain.output.proxy - turned.output.proxy), 1e-12) << i;
+        touching += turned.output.contacts > 0 ? 1 : 0;
+    }
+    EXPECT_GT(touching, 1000);
+}
+
+/// A fin that stands on a sheet: at their common edge three triangles meet, and each side has its own corner.
+TEST(NeighbourhoodWatch, AtAnEdgeOfThreeTrianglesItStaysOnItsSide) {
+    assets::Shape fin;
+    fin.positions = {{-0.05f, 0, -0.05f}, {-0.05f, 0, 0.05f}, {0, 0, -0.05f},     {0, 0, 0.05f},
+                     {0.05f, 0, -0.05f},  {0.05f, 0, 0.05f},  {0, 0.05f, -0.05f}, {0, 0.05f, 0.05f}};
+    fin.indices = {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4, 2, 3, 7, 2, 7, 6};
+    for (const double side : {-1.0, 1.0}) {
+        TouchBench bench = watchBench(sceneOf(fin));
+        bench.step({0.02 * side, 0.02, 0.001});
+        bench.moveTo({0.02 * side, -0.002, 0.001}, 0.1);  // into the sheet
+        bench.moveTo({-0.01 * side, -0.002, 0.001}, 0.1); // along it, past the fin's foot
+        EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-9);
+        EXPECT_NEAR(bench.output.proxy.y, 0.0, 1e-9);
+        bench.moveTo({-0.01 * side, 0.01, 0.001}, 0.1); // up, behind the fin
+        EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-9);
+        EXPECT_NEAR(bench.output.proxy.y, 0.01, 1e-9);
+        // From underneath it is one sheet.
+        TouchBench below = watchBench(sceneOf(fin));
+        below.step({0.02 * side, -0.02, 0.001});
+        below.moveTo({0.02 * side, 0.002, 0.001}, 0.1);
+        below.moveTo({-0.01 * side, 0.002, 0.001}, 0.1);
+        EXPECT_NEAR(below.output.proxy.x, -0.01 * side, 1e-9);
+        EXPECT_NEAR(below.output.proxy.y, 0.0, 1e-9);
+    }
+}
+
 TEST(NeighbourhoodWatch, TheTorusHoldsOnItsSaddleForMinutes) {
     TouchBench bench = watchBench(sceneOf(assets::torus(0.06, 0.025, 90, 60)));
     for (int i = 0; i < 120000; ++i) {
@@ -386,6 +465,62 @@ TEST(NeighbourhoodWatch, TheWalkIsBoundedWhateverTheMesh) {
     while (has(bench.step(goal).flags, TickFlag::BudgetReached))
         ASSERT_LT(++ticks, 100);
     EXPECT_LT(glm::length(bench.output.proxy - goal), 1.2e-3);
+}
+
+/// Soup: triangles that share vertices at random, slivers, triangles without area, edges of many triangles.
+assets::Shape soup(uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-0.05, 0.05);
+    std::uniform_int_distribution<uint32_t> vertex(0, 59);
+    assets::Shape shape;
+    for (int i = 0; i < 60; ++i)
+        shape.positions.emplace_back(place(random), place(random), place(random));
+    for (uint32_t i = 3; i < 60; i += 9) // on the line between two others
+        shape.positions[i] = 0.5f * (shape.positions[i - 1] + shape.positions[i - 2]);
+    for (uint32_t i = 5; i < 60; i += 13) // and all but on it
+        shape.positions[i] = 0.3f * shape.positions[i - 1] + 0.7f * shape.positions[i - 2] + glm::vec3(1e-7f);
+    for (int t = 0; t < 300; ++t)
+        for (int k = 0; k < 3; ++k)
+            shape.indices.push_back(vertex(random));
+    for (uint32_t i = 3; i < 60; i += 9)
+        shape.indices.insert(shape.indices.end(), {i, i - 1, i - 2});
+    shape.normals.assign(shape.positions.size(), glm::vec3(0, 1, 0));
+    return shape;
+}
+
+TEST(NeighbourhoodWatch, InASoupItStaysOnTheSurfaceAndWithinItsBudget) {
+    for (uint32_t seed = 1; seed <= 8; ++seed) {
+        HapticSettings settings;
+        settings.contact = ContactMethod::Neighbourhood;
+        settings.staticFriction = settings.dynamicFriction = 0.3;
+        TouchBench bench = watchBench(sceneOf(soup(seed)), settings);
+        const HapticObject& object = *bench.scene->objects.front();
+        std::mt19937 random(seed);
+        std::normal_distribution<double> step(0.0, 1e-3);
+        glm::dvec3 hip(0.06, 0.0, 0.0);
+        int touching = 0;
+        const uint64_t before = allocationsOnThisThread();
+        for (int i = 0; i < 3000; ++i) {
+            hip = 0.995 * hip + glm::dvec3(step(random), step(random), step(random));
+            if (i % 97 == 0)
+                hip = -0.5 * hip;
+            bench.step(hip);
+            ASSERT_TRUE(std::isfinite(glm::length(bench.output.force))) << seed << " " << i;
+            ASSERT_LE(bench.output.iterations, static_cast<uint32_t>(settings.iterationBudget));
+            touching += bench.output.contacts > 0 ? 1 : 0;
+        }
+        EXPECT_EQ(allocationsOnThisThread() - before, 0u);
+        EXPECT_GT(touching, 100);
+        for (int i = 0; i < 300; ++i) {
+            hip = 0.99 * hip + glm::dvec3(step(random), step(random), step(random));
+            bench.step(hip);
+            if (bench.output.contacts == 0)
+                continue;
+            const Similarity& workspaceFromObject = bench.scene->restMotions.front().workspaceFromObject;
+            const glm::dvec3 proxy = workspaceFromObject.inversePoint(bench.output.proxy);
+            EXPECT_LT(bruteNearest(object, LVec3(proxy)).distance, 1e-13L) << seed << " " << i;
+        }
+    }
 }
 
 TEST(NeighbourhoodWatch, AllocatesNothingAndRepeatsToTheLastBit) {
