@@ -80,11 +80,12 @@ std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks) 
     return all;
 }
 
-void expectExact(const std::vector<ExactFigures>& all) {
+void expectExact(const std::string& name, const std::vector<ExactFigures>& all) {
     std::printf("%s\n", exactHead().c_str());
     ASSERT_FALSE(all.empty());
     for (const ExactFigures& f : all)
         std::printf("%s\n", exactLine(f).c_str());
+    std::printf("%s\n", exactLine(together("= " + name, all)).c_str());
     for (const ExactFigures& f : all)
         for (const std::string& line : f.divergences)
             std::printf("%s\n", line.c_str());

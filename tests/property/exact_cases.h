@@ -32,7 +32,7 @@ struct HandCase {
 /// Our scene files, and the shared models where there are any.
 [[nodiscard]] std::vector<std::filesystem::path> sceneFiles();
 
-/// What every case must show; prints the table and the list of divergences.
-void expectExact(const std::vector<ExactFigures>& all);
+/// What every case must show; prints the table, its sum as `name`, and the list of divergences.
+void expectExact(const std::string& name, const std::vector<ExactFigures>& all);
 
 } // namespace touchstone::test

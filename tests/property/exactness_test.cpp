@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene_loader.h"
 #include "tests/property/exact_cases.h"
+#include "tests/property/hard_shapes.h"
 #include "tests/support/gltf_maker.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -49,7 +50,7 @@ TEST(Exactness, StrokesOverOurShapes) {
     std::vector<ExactFigures> all;
     for (const StrokeCase& c : strokeCases())
         all.push_back(runStroke(c, c.ticks));
-    expectExact(all);
+    expectExact("strokes in closed form", all);
 }
 
 TEST(Exactness, HandsOverOurShapes) {
@@ -59,7 +60,7 @@ TEST(Exactness, HandsOverOurShapes) {
                                       {"torus64800", assets::torus(0.06, 0.025, 180, 180)}})
         for (const HandCase& c : handsOver(name, 300))
             all.push_back(runHand(c, sceneOf(shape), Fit::Workspace));
-    expectExact(all);
+    expectExact("our shapes", all);
 }
 
 /// The worst distance of any corner of the compiled scene from the source's place for it, which is taken
@@ -113,7 +114,7 @@ TEST(Exactness, ScalesAndFarNodes) {
                              place * glm::translate(glm::dmat4(1.0), glm::dvec3(0.05, 0.02, 0.0)));
                     all.push_back(runHand({std::string(name) + " +sphere", radius, 0.3, 60}, scene, fit));
                 }
-    expectExact(all);
+    expectExact("scales and far nodes", all);
 }
 
 /// A sphere of 1800 triangles under two nodes, the outer of which stands 1000 km away.
@@ -152,12 +153,20 @@ TEST(Exactness, AFileWithAFarNode) {
             all.push_back(runHand({name, 0.5e-3, 0.3, 100}, *scene, fit));
         }
     }
-    expectExact(all);
+    expectExact("far file", all);
+}
+
+TEST(Exactness, HandsOverHardShapes) {
+    std::vector<ExactFigures> all;
+    for (const HardShape& hard : hardShapes())
+        for (const HandCase& c : handsOver(hard.name, 150))
+            all.push_back(runHand(c, sceneOf(hard.shape), Fit::Workspace));
+    expectExact("hard shapes", all);
 }
 
 TEST(Exactness, HandsOverSceneFiles) {
     for (const auto& file : sceneFiles())
-        expectExact(runFile(file, 100));
+        expectExact(file.stem().string(), runFile(file, 100));
 }
 
 } // namespace

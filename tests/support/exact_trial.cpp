@@ -113,10 +113,29 @@ std::vector<glm::dvec3> ExactTrial::replay(const glm::dvec3& hip) {
     return places;
 }
 
+/// The clearance of the straight way, or of the way over a corner that is on a tangent plane at either end:
+/// so the proxy rolls around a rounded edge.
+long double ExactTrial::wayClearance(const Frame& f, const LVec3& from, const LVec3& to) const {
+    long double best = f.soup->clearance(from, to, f.radius);
+    if (best >= f.radius)
+        return best;
+    for (const BruteContact& a : f.soup->within(from, f.radius + kTouching))
+        for (const BruteContact& b : f.soup->within(to, f.radius + kTouching)) {
+            const LVec3 along = b.normal - glm::dot(a.normal, b.normal) * a.normal;
+            const long double rate = glm::dot(along, b.normal);
+            if (!(rate > 0.0L))
+                continue;
+            const LVec3 corner = from + glm::dot(to - from, b.normal) / rate * along;
+            best = std::max(best, std::min(f.soup->clearance(from, corner, f.radius),
+                                           f.soup->clearance(corner, to, f.radius)));
+        }
+    return best;
+}
+
 void ExactTrial::checkPath(const Frame& f, const std::vector<glm::dvec3>& places) {
     for (size_t k = 1; k < places.size(); ++k) {
         const LVec3 from(places[k - 1]), to(places[k]);
-        const long double shortfall = f.radius - f.soup->clearance(from, to, f.radius);
+        const long double shortfall = f.radius - wayClearance(f, from, to);
         figures_.shortfall = std::max(figures_.shortfall, shortfall * f.unit);
         if (shortfall > f.placing)
             fault(text("move %zu comes %.2Lg m nearer to a triangle than the radius", k, shortfall * f.unit));
@@ -252,6 +271,27 @@ void ExactTrial::tick(const glm::dvec3& hip, bool compare) {
     }
     if (compare && options_.freeRunning)
         compareFree(f);
+}
+
+ExactFigures together(const std::string& name, const std::vector<ExactFigures>& all) {
+    ExactFigures sum;
+    sum.name = name;
+    for (const ExactFigures& f : all) {
+        sum.ticks += f.ticks;
+        sum.touching += f.touching;
+        sum.compared += f.compared;
+        sum.unfinished += f.unfinished;
+        sum.moves = std::max(sum.moves, f.moves);
+        sum.apart += f.apart;
+        sum.partings += f.partings;
+        sum.partedTicks += f.partedTicks;
+        sum.error = std::max(sum.error, f.error);
+        sum.relative = std::max(sum.relative, f.relative);
+        sum.cone = std::max(sum.cone, f.cone);
+        sum.shortfall = std::max(sum.shortfall, f.shortfall);
+        sum.retreat = std::max(sum.retreat, f.retreat);
+    }
+    return sum;
 }
 
 std::string exactHead() {

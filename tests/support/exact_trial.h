@@ -70,6 +70,7 @@ class ExactTrial {
     };
     Frame frame();
     std::vector<glm::dvec3> replay(const glm::dvec3& hip);
+    long double wayClearance(const Frame& f, const LVec3& from, const LVec3& to) const;
     void checkPath(const Frame& f, const std::vector<glm::dvec3>& places);
     long double coneResidual(const Frame& f, const LVec3& proxy) const;
     void checkHeld(const Frame& f, const LVec3& ours);
@@ -94,6 +95,9 @@ class ExactTrial {
     };
     std::optional<Parting> parting_;
 };
+
+/// Sums and worsts of several.
+[[nodiscard]] ExactFigures together(const std::string& name, const std::vector<ExactFigures>& all);
 
 /// The table's head and a line of it, as the tests print them and docs/architecture.md quotes them.
 [[nodiscard]] std::string exactHead();
