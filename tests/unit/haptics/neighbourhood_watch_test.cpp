@@ -638,14 +638,36 @@ TEST(NeighbourhoodWatchLimits, FallsThroughASlitThatTheSweepCloses) {
     EXPECT_EQ(walk.output.contacts, 0u);
 }
 
-/// The walk goes downhill only. On a ridge line from which both ways rise it stays, though over the hill lies
-/// a nearer place; the sweep, which slides in free space, stays there too: both are the physics of a proxy.
-/// But where a HIP jumps along a folded sheet in one tick, the sweep goes through free space to what is in
-/// the way, and the walk along the surface to the nearest local minimum on its side of the hill.
-TEST(NeighbourhoodWatchLimits, AfterAJumpItEndsInTheLocalMinimumOfTheSurface) {
-    // A profile along x: floor, a hill of 45 degrees and 10 mm, floor.
+/// While it touches one object it does not see another one come.
+TEST(NeighbourhoodWatchLimits, DoesNotSeeAnotherObjectComeWhileItTouches) {
+    Scene scene = sceneOf(assets::plane(0.1, 0.1, 3, 3));
+    glm::dmat4 aside(1.0);
+    aside[3] = glm::dvec4(0.03, 0.002, 0.001, 1.0);
+    addShape(scene, assets::box(glm::dvec3(0.01)), aside); // its left wall at x = 0.025
+    TouchBench walk = watchBench(scene), sweep(scene, bare(ContactMethod::Sweep));
+    for (TouchBench* bench : {&walk, &sweep}) {
+        bench->motions = bench->scene->restMotions;
+        bench->step({0.001, 0.01, 0.001});
+        bench->moveTo({0.001, -0.001, 0.001}, 0.1);
+        ASSERT_EQ(bench->output.object, 0);
+        for (int i = 0; i < 245; ++i) { // to the left: its wall ends at x = 0.0005
+            ObjectMotion& box = bench->motions[1];
+            box.before = box.workspaceFromObject;
+            box.workspaceFromObject.translation.x -= 1e-4;
+            bench->step({0.001, -0.001, 0.001});
+        }
+    }
+    EXPECT_NEAR(sweep.output.proxy.x, 0.0005, 1e-6); // pushed along
+    EXPECT_NEAR(walk.output.proxy.x, 0.001, 1e-9);   // inside the box
+}
+
+// Where a walk downhill might be thought to differ and does not: the sweep's rest is a local minimum too.
+
+/// A ridge along z, `width` wide at its foot and 10 mm high, on a floor.
+assets::Shape ridge(double width) {
     assets::Shape hill;
-    const double profile[][2] = {{-0.05, 0.0}, {-0.01, 0.0}, {0.0, 0.01}, {0.01, 0.0}, {0.05, 0.0}};
+    const double profile[][2] = {
+        {-0.05, 0.0}, {-0.5 * width, 0.0}, {0.0, 0.01}, {0.5 * width, 0.0}, {0.05, 0.0}};
     for (const auto& [x, y] : profile)
         for (const double z : {-0.05, 0.05})
             hill.positions.emplace_back(x, y, z);
@@ -653,29 +675,25 @@ TEST(NeighbourhoodWatchLimits, AfterAJumpItEndsInTheLocalMinimumOfTheSurface) {
         const uint32_t a = 2 * i;
         hill.indices.insert(hill.indices.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
     }
-    TouchBench walk = watchBench(sceneOf(hill));
-    walk.step({-0.03, 0.02, 0.001});
-    walk.step({-0.03, -0.001, 0.001});
-    ASSERT_NEAR(walk.output.proxy.x, -0.03, 1e-9);
-    walk.step({0.03, -0.001, 0.001}); // under the floor on the far side, 1 mm below it
-    // From (-0.01, 0) the flank rises; its nearest point to the HIP is where the HIP projects onto it, or its
-    // top: the distance along the flank has its minimum at t = (x + y) / 2 from the foot, beyond the top, so
-    // the top is nearer than the foot. Over the top the other flank falls towards the HIP: the walk gets
-    // over.
-    EXPECT_NEAR(walk.output.proxy.x, 0.03, 1e-9);
-    // A steeper hill, 10 mm high and 4 mm wide, stops it: at its foot (-0.002, 0) the way up leads away from
-    // a HIP at (0.001, -0.004): (dx, dy) . (2, 10) = 6 - 40 < 0.
-    for (size_t i = 2; i < 8; ++i)
-        if (i < 4 || i > 5)
-            hill.positions[i].x *= 0.2f;
-    TouchBench steep = watchBench(sceneOf(hill));
-    steep.step({-0.03, 0.02, 0.001});
-    steep.step({-0.03, -0.004, 0.001});
-    steep.step({0.001, -0.004, 0.001});
-    EXPECT_NEAR(steep.output.proxy.x, -0.002, 1e-8);
-    EXPECT_NEAR(steep.output.proxy.y, 0.0, 1e-9);
-    // The other foot, at (0.002, 0), is nearer to the HIP than the one where it stays.
-    EXPECT_GT(steep.output.penetration, std::hypot(0.002 - 0.001, 0.004) + 5e-4);
+    return hill;
+}
+
+TEST(NeighbourhoodWatch, AfterAJumpUnderAHillItEndsWhereTheSweepDoes) {
+    for (const double width : {0.02, 0.004}) {
+        const Scene scene = sceneOf(ridge(width));
+        TouchBench walk = watchBench(scene), sweep(scene, bare(ContactMethod::Sweep));
+        // A steep hill is an obstacle: from its foot at (-0.002, 0) the way up leads away from a HIP at
+        // (0.001, -0.004), since (3, -4) . (2, 10) < 0. A gentle one is gone over.
+        const bool steep = width < 0.01;
+        const glm::dvec3 to = steep ? glm::dvec3(0.001, -0.004, 0.001) : glm::dvec3(0.03, -0.001, 0.001);
+        for (TouchBench* bench : {&walk, &sweep}) {
+            bench->step({-0.03, 0.02, 0.001});
+            bench->step({-0.03, -0.004, 0.001});
+            bench->step(to);
+        }
+        EXPECT_NEAR(walk.output.proxy.x, steep ? -0.002 : 0.03, 1e-8);
+        EXPECT_LT(glm::length(walk.output.proxy - sweep.output.proxy), 1e-6);
+    }
 }
 
 } // namespace
