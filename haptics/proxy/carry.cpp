@@ -47,6 +47,12 @@ void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, 
     const ObjectMotion anchor = motions[static_cast<size_t>(state.anchor)];
     const glm::dvec3 before = anchor.before.point(state.proxy),
                      now = anchor.workspaceFromObject.point(state.proxy);
+    // The proxy is as large as its anchor makes it. Were it swept with the other object's larger skin, it
+    // would stand within that from the start, and a rounding would let the surface it slides on strike it out
+    // of the hold of the wall that pushes it.
+    const double size =
+        std::max(radius, 0.5 * kWeldTolerance * scene.objects[static_cast<size_t>(state.anchor)]->diagonal *
+                             anchor.workspaceFromObject.scale);
     int struck = -1;
     double first = 1.0;
     glm::dvec3 place(0.0);
@@ -59,8 +65,7 @@ void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, 
         const glm::dvec3 move = to - from;
         const double length = glm::length(move);
         const double scale = motions[k].workspaceFromObject.scale;
-        const double skin = 0.5 * kWeldTolerance * object.diagonal;
-        const double reach = std::max(radius / scale, skin) + kContactGap;
+        const double reach = size / scale + kContactGap;
         if (length <= kRestLength)
             continue;
         const double nearest = std::min(glm::length(from), glm::length(to)) - length;

@@ -163,6 +163,34 @@ TEST(ClosedForm, FrictionHoldsBelowTheConeAndSlipsBeyondIt) {
     EXPECT_GE(-bench.output.force.x, 0.3 * bench.output.force.y - 1e-3);
 }
 
+/// A wall slides over the sheet on which the proxy is held and pushes it along, for the smallest radii of a
+/// wall smaller and larger than the sheet, too.
+TEST(ClosedForm, AWallThatSlidesAlongASheetPushesTheProxyAlong) {
+    for (const double radius : {0.0, 0.5e-3})
+        for (const double side : {0.01, 0.03, 0.3}) {
+            Scene scene = sceneOf(assets::plane(0.1, 0.1, 3, 3));
+            glm::dmat4 aside(1.0);
+            aside[3] = glm::dvec4(0.025 + 0.5 * side, 0.002, 0.001, 1.0); // its near wall at x = 0.025
+            addShape(scene, assets::box(glm::dvec3(side)), aside);
+            HapticSettings settings;
+            settings.proxyRadius = radius;
+            settings.forceShading = ShadingMode::Off;
+            TouchBench bench(scene, settings);
+            bench.motions = bench.scene->restMotions;
+            bench.step({0.001, 0.01, 0.001});
+            bench.moveTo({0.001, -0.001, 0.001}, 0.1);
+            for (int i = 1; i <= 300; ++i) {
+                ObjectMotion& box = bench.motions[1];
+                box.before = box.workspaceFromObject;
+                box.workspaceFromObject.translation.x -= 1e-4;
+                bench.step({0.001, -0.001, 0.001});
+                const double free = std::min(0.001, 0.025 - 1e-4 * i - radius);
+                ASSERT_NEAR(bench.output.proxy.x, free, 1e-6) << radius << " " << side << " tick " << i;
+                ASSERT_NEAR(bench.output.proxy.y, radius, 1e-6) << radius << " " << side << " tick " << i;
+            }
+        }
+}
+
 TEST(ClosedForm, ABoxThatRisesIntoAStillHipLiftsTheProxy) {
     Scene scene = sceneOf(assets::box({0.1, 0.1, 0.1}));
     glm::dmat4 away(1.0);
