@@ -174,7 +174,8 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
         const double ratio = medianRatio(times[i + 1], times[i]);
         verdict += grouped(kObjects) + " objects take " + number("%.2f", ratio) + " times as long as one" +
                    number(" (r = %.1f mm), of ", 1e3 * rungs[i].settings.proxyRadius) +
-                   number("%.0f", kObjectsBound) + ": " + verdicts.word(ratio <= kObjectsBound) + "\n";
+                   number("%.0f", kObjectsBound) + ": " + verdicts.word(ratio <= kObjectsBound) +
+                   number("; their p99 is %.0f times as long\n", times[i + 1].p99() / times[i].p99());
     }
     std::printf("\n%s", verdict.c_str());
     Json json = Json::array();

@@ -90,6 +90,25 @@ bool touching(const Json& s) {
     return s["recent"]["in_contact"].get<bool>();
 }
 
+TEST_F(WindowTest, TheContactMethodCanBeChosenWhileTouching) {
+    open(kDoughnut, {"--hand", "simulated", "--set", "texture=off"});
+    const Json swept = until("the hand to touch", touching);
+    ASSERT_EQ(swept["settings"]["contact"], "sweep");
+    // The list drops down under its box; the second line is the other method.
+    VirtualDisplay::Place choice = middleOf("contact");
+    const auto height = swept["widgets"]["contact"]["height"].get<double>();
+    display_.click(choice);
+    later();
+    choice.y += static_cast<int>(2.2 * height);
+    display_.click(choice);
+    until("the neighbourhood watch to be chosen",
+          [](const Json& s) { return s["settings"]["contact"] == "neighbourhood"; });
+    later();
+    const Json walked = until("the hand to touch again", touching);
+    EXPECT_GT(walked["recent"]["mean_force_n"], 0.05);
+    expectCleanEnd();
+}
+
 TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
     open(kDoughnut, {"--hand", "simulated", "--set", "staticFriction=0.6", "--set", "dynamicFriction=0.5",
                      "--set", "texture=off"});
