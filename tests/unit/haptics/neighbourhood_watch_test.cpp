@@ -308,6 +308,55 @@ TEST(NeighbourhoodWatch, ABoxThatRisesIntoAStillHipHoldsItAndCarriesIt) {
     EXPECT_NEAR(bench.output.proxy.x, 0.003, 1e-9);
 }
 
+TEST(NeighbourhoodWatch, OnATurningAndSlidingBoxItRestsWhereTheSweepRests) {
+    const Scene scene = sceneOf(assets::box({0.08, 0.02, 0.08}, 4));
+    TouchBench walk = watchBench(scene), sweep(scene, bare(ContactMethod::Sweep));
+    const Similarity rest = walk.scene->restMotions.front().workspaceFromObject;
+    Similarity before = rest;
+    int touching = 0;
+    for (int i = 0; i < 2000; ++i) {
+        Similarity now = rest;
+        now.rotation = glm::angleAxis(2e-3 * i, glm::normalize(glm::dvec3(0.1, 1.0, 0.05)));
+        now.translation = {0.01 * std::sin(3e-3 * i), 2e-3 * std::sin(0.01 * i), 0.0};
+        for (TouchBench* bench : {&walk, &sweep}) {
+            bench->motions = {{now, i == 0 ? now : before}};
+            bench->step({0.012, i < 20 ? 0.03 : 0.0092, 0.005});
+        }
+        before = now;
+        if (walk.output.contacts == 0 || sweep.output.contacts == 0) {
+            EXPECT_LT(std::max(walk.output.penetration, sweep.output.penetration), 1e-6) << i;
+            continue;
+        }
+        ++touching;
+        ASSERT_LT(glm::length(walk.output.proxy - sweep.output.proxy), 1e-6) << i;
+    }
+    EXPECT_GT(touching, 500);
+}
+
+TEST(NeighbourhoodWatch, ScaleAndPlaceChangeNothing) {
+    for (const double scale : {1e-6, 1e-3, 1.0, 1e3})
+        for (const double offset : {0.0, 1e3}) { // the largest 1000 km off
+            glm::dmat4 at(scale);
+            at[3] = glm::dvec4(offset * scale, 0.0, -offset * scale, 1.0);
+            const Scene scene = sceneOf(assets::sphere(0.05, 30, 30), at);
+            TouchBench walk = watchBench(scene), sweep(scene, bare(ContactMethod::Sweep));
+            int touching = 0;
+            for (int i = 0; i < 1500; ++i) {
+                const glm::dvec3 hip = glm::dvec3(at[3]) + scale * strokeOf(0.049, 0.1, i);
+                const HapticOutput &a = walk.step(hip), &b = sweep.step(hip);
+                if ((a.contacts > 0) != (b.contacts > 0)) {
+                    EXPECT_LT(std::max(a.penetration, b.penetration), 1e-6 * scale) << scale << " " << i;
+                    continue;
+                }
+                touching += a.contacts > 0 ? 1 : 0;
+                // The skin, and the rounding of places that far out.
+                ASSERT_LT(glm::length(a.proxy - b.proxy), 1e-6 * scale + 4e-16 * offset * scale)
+                    << scale << " at " << offset << " tick " << i;
+            }
+            EXPECT_GT(touching, 300);
+        }
+}
+
 TEST(NeighbourhoodWatch, OfSeveralObjectsItTouchesTheOneInFront) {
     Scene scene = sceneOf(assets::box(glm::dvec3(0.02), 3));
     glm::dmat4 behind(1.0);
