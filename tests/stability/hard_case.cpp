@@ -74,8 +74,6 @@ HardCase::HardCase(std::string name, const Scene& scene, const Variant& variant,
     figures_.sticks.allowed = kRestRounding * unit();
     figures_.jitter.allowed = figures_.jump.allowed = kStiffness * unit() * kForceRounding;
     figures_.energy.allowed = kStiffness * unit() * unit() * kEnergyRounding;
-    if (settings.friction != FrictionMode::Off)
-        soup_ = std::make_unique<const Soup>(*bench.scene, 0);
 }
 
 void HardCase::side(std::function<double(const glm::dvec3&)> outside, double allowed) {
@@ -194,18 +192,24 @@ void HardCase::takeCommand() {
     }
 }
 
+/// Where the oracle, which knows no budget, no shading and no friction, comes to rest from this tick's place.
+glm::dvec3 HardCase::oracleFrom(const HapticOutput& now) {
+    if (!soup_)
+        soup_ = std::make_unique<const Soup>(*bench.scene, 0);
+    const Similarity& pose = bench.scene->objects[0]->workspaceFromObject;
+    const Similarity back = pose.inverse();
+    const OracleRest rest = oracleRest(*soup_, LVec3(back.point(now.proxy)), LVec3(back.point(now.hip)),
+                                       static_cast<long double>(effectiveRadius() / pose.scale));
+    return pose.point(glm::dvec3(rest.proxy));
+}
+
 /// Sticks: what is left of the wish to go to the HIP, held by all that touches there and, where shaded, by
 /// what it feels like. With friction: how far the oracle, which knows none, goes on from there; the
 /// coefficient times its depth is allowed.
 void HardCase::takeRest(const Touching& touching) {
     const HapticOutput& now = bench.output;
     if (bench.settings.friction != FrictionMode::Off) {
-        const HapticObject& object = *bench.scene->objects[0];
-        const Similarity& pose = object.workspaceFromObject;
-        const OracleRest free =
-            oracleRest(*soup_, LVec3(bench.state[0].proxy), LVec3(pose.inverse().point(now.hip)),
-                       static_cast<long double>(effectiveRadius() / pose.scale));
-        const glm::dvec3 rest = pose.point(glm::dvec3(free.proxy));
+        const glm::dvec3 rest = oracleFrom(now);
         friction_ = glm::distance(rest, now.hip);
         worsen(figures_.sticks, {glm::distance(rest, now.proxy),
                                  bench.settings.staticFriction * friction_ + kRestRounding * unit()});
@@ -220,7 +224,9 @@ void HardCase::takeRest(const Touching& touching) {
     const double depth = glm::distance(now.proxy, now.hip);
     const double allowed =
         kRestRounding * (unit() + depth) + (touching.tilt() > 0.0 ? kShadedRounding * unit() : 0.0);
-    behind_ = has(now.flags, TickFlag::BudgetReached) ? left : 0.0;
+    behind_ = has(now.flags, TickFlag::BudgetReached)
+                  ? std::max(left, glm::distance(oracleFrom(now), now.proxy))
+                  : 0.0;
     lateInARow_ = behind_ > kBehind * unit() ? lateInARow_ + 1 : 0;
     figures_.lateInARow = std::max(figures_.lateInARow, lateInARow_);
     if (behind_ > 0.0)
@@ -258,10 +264,12 @@ void HardCase::takeForce(const Touching& touching, double behind) {
         turn = std::min(turn, largestAngle(touching.normals, lastTouching_.normals));
     }
     const bool shaded = tilt > 0.0 && !touching.felt.empty() && !lastTouching_.felt.empty();
-    // On an edge the shaded force may lie anywhere between what the faces feel like and what they are.
+    // On an edge, and where the rounds came to nothing in one of the two ticks, the force may lie anywhere
+    // between what the faces feel like and what they are.
     const bool onEdge = std::max(touching.normals.size(), lastTouching_.normals.size()) > 1;
+    const bool gaveUp = has(now.flags | last_.flags, TickFlag::ShadingNotConverged);
     const double felt =
-        shaded ? largestAngle(touching.felt, lastTouching_.felt) + (onEdge ? tilt : 0.0) : 0.0;
+        shaded ? largestAngle(touching.felt, lastTouching_.felt) + (onEdge || gaveUp ? tilt : 0.0) : 0.0;
     const double demanded = jumpOf(depth, turn) + jumpOf(depth, felt) + kStiffness * behind +
                             (tilt > 0.0 ? kStiffness * 2.0 * kShadedRounding * unit() : 0.0);
     // A stretch that is mu d long grows with the depth and slips from mu_s d to mu_d d. Where several planes

@@ -41,7 +41,7 @@ struct Figures {
     int runs = 0, ticks = 0, notConverged = 0;
     int late = 0;        ///< ticks whose solve ended at the budget of moves
     int lateInARow = 0;  ///< the longest row of those that left more than 1e-5 of the object
-    double behind = 0.0; ///< m, what they left of the wish to move, at most
+    double behind = 0.0; ///< m, how far they were from their rest, at most
 };
 
 /// Runs one variant of a case. Use: construct, startAt, then moveTo, hold and leave as needed; leave returns
@@ -85,11 +85,12 @@ class HardCase {
     void takeRest(const Touching& touching);
     void takeForce(const Touching& touching, double behind);
     void takeCommand();
+    [[nodiscard]] glm::dvec3 oracleFrom(const HapticOutput& now);
 
     std::string name_;
     Variant variant_;
     Surface surface_;
-    std::unique_ptr<const Soup> soup_; ///< for the oracle, where friction needs one
+    std::unique_ptr<const Soup> soup_; ///< for the oracle, made where one is needed
     std::function<double(const glm::dvec3&)> outside_;
     Figures figures_;
     std::vector<glm::dvec3> way_;
