@@ -96,9 +96,9 @@ bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     return false;
 }
 
-void MeshProxy::findContacts() noexcept {
+void MeshProxy::findContacts(double within) noexcept {
     CandidateCache& cache = state_.candidates;
-    const double reach = radius_ + kContactReach;
+    const double reach = radius_ + within;
     rest_.contactCount = 0;
     cache.eachNear(state_.proxy, reach, [&](size_t i) {
         const TriangleDistance d = cache.measure(i, state_.proxy);
@@ -183,6 +183,9 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
     }
     if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
         rest_.flags = rest_.flags | TickFlag::BudgetReached;
+        // In the air over what it was sliding on: that still holds the hand, or the force would drop out.
+        if (rest_.contactCount == 0)
+            findContacts(lastMove_);
         return false;
     }
     const glm::dvec3 direction = move / length;
@@ -193,6 +196,7 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
         freeShare(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, std::min(1.0, known / length));
     state_.proxy += share * move;
     state_.candidates.moved();
+    lastMove_ = share * length;
     ++rest_.iterations;
     withoutProgress_ = share * length <= kRestLength ? withoutProgress_ + 1 : 0;
     return true;

@@ -54,7 +54,7 @@ class MeshProxy {
   private:
     void adoptAnchor(int anchor) noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
-    void findContacts() noexcept;
+    void findContacts(double within = kContactReach) noexcept;
     bool cover(const glm::dvec3& direction, double length) noexcept;
     void buildPlanes() noexcept;
 
@@ -63,7 +63,8 @@ class MeshProxy {
     double workspaceRadius_;
     double radius_ = 0.0;
     int withoutProgress_ = 0;
-    double travel_ = 0.0; ///< of the HIP in this tick
+    double lastMove_ = 0.0; ///< object units, of this tick
+    double travel_ = 0.0;   ///< of the HIP in this tick
     glm::dvec3 heading_{0.0};
     int budget_;
     DeviceState& state_;

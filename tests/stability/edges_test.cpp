@@ -61,6 +61,29 @@ TEST(Edges, ANeedleTipOnAndBesideItsAxis) {
             }
 }
 
+TEST(Edges, ASolveThatSpendsItsMovesInTheAirStillHolds) {
+    // Round a tip the moves go up a tangent and down again: with any budget of them the force is the way that
+    // is left to the proxy, never nothing for a tick.
+    for (const double radius : {0.0, 0.5e-3})
+        for (int budget = 1; budget <= 16; ++budget) {
+            const Variant v{radius, false};
+            SCOPED_TRACE(v.name() + ", budget " + std::to_string(budget));
+            HapticSettings settings = v.settings();
+            settings.iterationBudget = budget;
+            TouchBench bench(sceneOf(needle()), settings);
+            int late = 0;
+            const auto check = [&](const HapticOutput& out) {
+                late += has(out.flags, TickFlag::BudgetReached) ? 1 : 0;
+                EXPECT_LT(glm::length(out.force - 1000.0 * (out.proxy - out.hip)), 1e-6);
+            };
+            bench.step({20e-6, 0.002, 0.0});
+            bench.moveTo({20e-6, -0.001, 0.0}, 0.05, check);
+            bench.moveTo({5e-6, -0.0001, 20e-6}, 0.05, check);
+            bench.moveTo({0.0, 0.002, 0.0}, 0.05, check);
+            EXPECT_TRUE(late > 0 || radius == 0.0 || budget > 8);
+        }
+}
+
 /// A ridge along z of two facets that lean by `deviation` (rad) to each other, its top line at the origin.
 assets::Shape ridge(double deviation) {
     const double drop = 0.05 * std::tan(0.5 * deviation);
