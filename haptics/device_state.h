@@ -4,12 +4,14 @@
 
 #include "engine/math/similarity.h"
 #include "haptics/contact/candidates.h"
+#include "haptics/proxy/carried_object.h"
 #include "haptics/proxy/proxy_rest.h"
 #include "haptics/safety/force_limiter.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace touchstone {
 
@@ -36,7 +38,9 @@ struct DeviceState {
     glm::dvec3 proxy{0.0}; ///< anchor frame, object units
     CandidateCache candidates;
     CandidateCache carryCandidates; ///< of one object that moves towards the proxy
-    double gatherMargin = 1e-3;     ///< object units; adapts to the density of triangles
+    std::vector<CarriedObject> carried = std::vector<CarriedObject>(256); ///< those near, while a tick runs
+    PinchedObjects pinched;
+    double gatherMargin = 1e-3; ///< object units; adapts to the density of triangles
     WatchState watch;
 
     ProxyRest rest; ///< of this tick; kept here because clearing it each tick costs more than a sweep
@@ -61,6 +65,8 @@ struct DeviceState {
         anchor = -1;
         friction = FrictionState::Free;
         candidates.invalidate();
+        pinched.count = 0;
+        candidates.ignore({});
     }
 };
 

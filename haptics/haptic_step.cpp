@@ -52,7 +52,8 @@ FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const Hapti
 /// Velocity of the HIP against the anchor's surface, m/s, in the anchor frame.
 glm::dvec3 surfaceVelocity(const ObjectMotion& anchor, const DeviceState& state, double dt) {
     const Similarity& now = anchor.workspaceFromObject;
-    const glm::dvec3 carried = (now.point(state.proxy) - anchor.before.point(state.proxy)) / dt;
+    const glm::dvec3 carried =
+        anchor.jumped ? glm::dvec3(0.0) : (now.point(state.proxy) - anchor.before.point(state.proxy)) / dt;
     return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
@@ -81,12 +82,11 @@ void publish(const ObjectMotions motions, const DeviceState& state, const ProxyR
 /// objects along the HIP's path, which is relative to them.
 template <class Model>
 void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-           DeviceState& state) {
+           DeviceState& state, uint32_t& flags) {
     if constexpr (std::is_same_v<Model, MeshProxy>) {
         if (state.watch.touching)
             leaveWatch(scene, motions, state);
-        if (state.placed)
-            carryProxy(scene, motions, settings.proxyRadius, state);
+        carryProxy(scene, motions, settings.proxyRadius, state, flags);
     }
 }
 
@@ -112,7 +112,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     ProxyRest& rest = state.rest;
     if (state.anchor < 0)
         state.anchor = nearestObject(scene, motions, state.hip);
-    carry<Model>(scene, motions, settings, state);
+    carry<Model>(scene, motions, settings, state, output.flags);
     Model proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
     if (!meet(scene, motions, proxy, state)) {
         state.friction = FrictionState::Free;

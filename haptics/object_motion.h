@@ -10,6 +10,7 @@ namespace touchstone {
 struct ObjectMotion {
     Similarity workspaceFromObject;
     Similarity before;
+    bool jumped = false; ///< it was put here and did not come here from `before`
 };
 
 /// Index = HapticScene::objects.

@@ -20,6 +20,8 @@ enum class TickFlag : uint32_t {
     ForceRamping = 1u << 9,   ///< safety fades the force in (enabled, scene swapped) or out (input stale)
     NeighbourhoodMissing = 1u << 11, ///< contact=neighbourhood, but its adjacency is not built yet: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
+    Pinched = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
+    ObjectJumped = 1u << 13, ///< an object was put elsewhere (an animation began again) and swept nothing
 };
 [[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) {
     return flags | static_cast<uint32_t>(flag);

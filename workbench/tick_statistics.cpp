@@ -11,10 +11,12 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::array<std::pair<TickFlag, std::string_view>, 12> kFlagNames{{
+constexpr std::array<std::pair<TickFlag, std::string_view>, 14> kFlagNames{{
     {TickFlag::InputInvalid, "input_invalid"},
     {TickFlag::StartedInside, "started_inside"},
     {TickFlag::BudgetReached, "budget_reached"},
+    {TickFlag::Pinched, "pinched"},
+    {TickFlag::ObjectJumped, "object_jumped"},
     {TickFlag::CandidatesFull, "candidates_full"},
     {TickFlag::ShadingNotConverged, "shading_not_converged"},
     {TickFlag::TiltCompressed, "tilt_compressed"},

@@ -43,7 +43,7 @@ class TickStatistics {
     [[nodiscard]] nlohmann::ordered_json flagsJson() const;
 
   private:
-    static constexpr size_t kFlagCount = 12;
+    static constexpr size_t kFlagCount = 14;
 
     Samples wake_, period_, step_, stepInContact_;
     int64_t lastWakeNs_ = -1;

@@ -77,6 +77,9 @@ bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>>
     const Similarity& workspaceFromAnchor = poses[static_cast<size_t>(anchor)].workspaceFromObject;
     for (size_t k = 0; k < objects.size(); ++k) {
         const int index = static_cast<int>(k);
+        const auto end = ignored_.begin() + static_cast<std::ptrdiff_t>(ignoredCount_);
+        if (std::find(ignored_.begin(), end, index) != end)
+            continue;
         bool fits = true;
         if (index == anchor) {
             fits = gatherObject(*objects[k], index, nullptr, centre, radius);

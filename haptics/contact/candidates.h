@@ -55,6 +55,13 @@ class CandidateCache {
     bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses, int anchor,
                 const glm::dvec3& centre, double radius) noexcept;
 
+    /// What a gather leaves out from now on: at most kMostIgnored objects.
+    static constexpr size_t kMostIgnored = 8;
+    void ignore(std::span<const int> objects) noexcept {
+        ignoredCount_ = std::min(objects.size(), kMostIgnored);
+        std::copy_n(objects.begin(), ignoredCount_, ignored_.begin());
+    }
+
     void invalidate() noexcept {
         valid_ = false;
         count_ = 0;
@@ -147,6 +154,8 @@ class CandidateCache {
     std::vector<Block> bounds_;
     std::vector<Approach> approaches_;
     std::vector<TriangleTree::Near> found_; ///< of one object
+    std::array<int, kMostIgnored> ignored_{};
+    size_t ignoredCount_ = 0;
     size_t count_ = 0;
     glm::dvec3 centre_{0.0};
     double radius_ = 0.0;

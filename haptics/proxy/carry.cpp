@@ -1,88 +1,485 @@
+// A tick in which objects move, as each of them sees it.
+//
+// Every object D keeps a copy of the proxy in its own frame. When D moves the copy goes along, so that D
+// never meets it; the copies then disagree about where in the workspace the proxy is, and the tick is solved
+// when they meet again in one place to which each of them found a way clear of its own object. That is all
+// that "never passes through" says, and no order of the objects, no normal and no speed enters into it.
+//
+// The place is found like a rest of the proxy: the point nearest to where it was (the wish) in the meet of
+// half-spaces. A half-space is the linearised distance from a triangle that stopped a copy,
+//     d(c) + grad d(c) . (x - c) >= reach,
+// with D where it will be at the end of the step. The distance from a triangle is convex, so this never
+// admits a place that is too near; and a copy that goes straight from c, where the inequality holds or the
+// move leads away, to such a place cannot meet that triangle on the way. So each round either ends with all
+// copies in one place or finds a triangle that was not known. That a surface moves enters by its place alone:
+// the same inequality says "it stands" and "it pushes".
+//
+// Planes reach on where surfaces end, and normals turn: what finds no place in one step of the tick is tried
+// in half of it. Steps are also short enough for an object to turn by little, because a copy goes along the
+// chord of what is an arc in its object's frame: with turns of 1/8 rad they part by 0.0017 of the object's
+// longest side at most. Whatever the chord, it is a way clear of the object.
+
 #include "haptics/proxy/carry.h"
 
 #include "haptics/contact/sweep.h"
+#include "haptics/contact/triangle.h"
 #include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/sub_goal.h"
+#include "haptics/tick_flags.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace touchstone {
 
 namespace {
 
-/// Share of `move` (frame of `object`, from `from`) that is free of that one object; at most `limit`. A
-/// stretch with too many triangles is halved; after the last halving the object counts as touched, which is
-/// safe.
-double sweepObject(const HapticScene& scene, ObjectMotions motions, DeviceState& state, size_t object,
-                   const glm::dvec3& from, const glm::dvec3& move, double reach, double limit) noexcept {
+/// Distance beyond the radius at which the places of a tick end, object units: more than the rounding between
+/// frames, less than a thousandth of the smallest radius. A sweep ends at half of it.
+constexpr double kCarryGap = 1e-10;
+/// A move shorter than this is rounding, object units.
+constexpr double kNoMove = 1e-12;
+/// The largest turn of a step, rad.
+constexpr double kLargestTurn = 0.125;
+/// The shortest step, in ticks: what is squeezed flat is found out that exactly.
+constexpr double kShortestStep = 1.0 / 4096.0;
+constexpr int kRounds = 24;
+/// Bound of a tick's work. A step without conflict takes one sweep an object.
+constexpr int kSweepBudget = 512;
+constexpr int kFollowRounds = 8;
+/// Where a pinched object has gone on by this much (its longest side is 1), the proxy has been left behind
+/// for good.
+constexpr double kGivenUp = 0.5;
+
+class Carry {
+  public:
+    Carry(const HapticScene& scene, ObjectMotions motions, double radius, DeviceState& state,
+          uint32_t& flags) noexcept
+        : scene_(scene), motions_(motions), state_(state), flags_(flags) {
+        const ObjectMotion& anchor = motions_[index(state_.anchor)];
+        const double skin = 0.5 * kWeldTolerance * scene_.objects[index(state_.anchor)]->diagonal;
+        radius_ = std::max(radius, skin * anchor.before.scale);
+        place_ = anchor.before.point(state_.proxy);
+        start_ = place_;
+    }
+
+    void run() noexcept;
+
+  private:
+    struct Struck {
+        size_t copy;
+        Triangle triangle; // object frame
+    };
+    static constexpr size_t kMaxStruck = 32;
+
+    static size_t index(int object) { return static_cast<size_t>(object); }
+    const HapticObject& objectOf(const CarriedObject& copy) const {
+        return *scene_.objects[index(copy.object)];
+    }
+    bool moves(size_t k) const;
+    bool isNear(size_t k, double within) const;
+    bool settleJumps() noexcept;
+    bool blockedAt(size_t k, const glm::dvec3& place) noexcept;
+    bool listNear() noexcept;
+    void startStep(double from, double to) noexcept;
+    bool solve(const glm::dvec3& wish) noexcept;
+    glm::dvec3 wish(double step) const noexcept;
+    void advance() noexcept;
+    void pinch(double from) noexcept;
+    bool carryWith(size_t holder, bool commit) noexcept;
+    bool followPinched() noexcept;
+    bool follow(CarriedObject& copy) noexcept;
+    bool sweep(size_t copy, CarriedObject& object, const glm::dvec3& to) noexcept;
+    void note(size_t copy, const CarriedObject& object) noexcept;
+    bool nearestPlace(std::span<const CarriedObject> copies, const glm::dvec3& wish, double unit,
+                      glm::dvec3& place) noexcept;
+    void lose() noexcept;
+    void finish() noexcept;
+
+    const HapticScene& scene_;
+    ObjectMotions motions_;
+    DeviceState& state_;
+    uint32_t& flags_;
+    double radius_; // workspace
+    glm::dvec3 start_, place_;
+    double room_ = 0.0; // how far from start_ every near object is known, workspace
+    double unit_ = 1.0; // workspace metres per unit of the solve
+    double largestAngle_ = 0.0;
+    size_t near_ = 0; // copies in use
+    int sweeps_ = 0;
+    std::array<Struck, kMaxStruck> struck_;
+    std::array<ConstraintPlane, kMaxStruck> planes_;
+    size_t struckCount_ = 0;
+    int pusher_ = -1; // object whose plane held the last place that was pushed
+    bool anchorPushes_ = false;
+};
+
+bool same(const Similarity& a, const Similarity& b) {
+    return a.translation == b.translation && a.rotation == b.rotation && a.scale == b.scale;
+}
+
+bool Carry::moves(size_t k) const {
+    return !motions_[k].jumped && !same(motions_[k].before, motions_[k].workspaceFromObject);
+}
+
+/// Whether any part of object k may come within `within` of the place where the proxy starts, by bounding
+/// spheres. The origin goes along less than half a circle, which lies in the ball around its chord.
+bool Carry::isNear(size_t k, double within) const {
+    const ObjectMotion& motion = motions_[k];
+    const Similarity& from = motion.jumped ? motion.workspaceFromObject : motion.before;
+    const glm::dvec3 half = 0.5 * (motion.workspaceFromObject.translation - from.translation);
+    const glm::dvec3 away = start_ - (from.translation + half);
+    const double reach =
+        glm::length(half) + within +
+        scene_.objects[k]->boundingRadius * std::max(from.scale, motion.workspaceFromObject.scale);
+    return glm::dot(away, away) <= reach * reach;
+}
+
+/// Whether a proxy cannot be at `place` (workspace) for object k as it stands now.
+bool Carry::blockedAt(size_t k, const glm::dvec3& place) noexcept {
+    const Similarity& pose = motions_[k].workspaceFromObject;
+    const glm::dvec3 p = pose.inversePoint(place);
+    if (insideObject(*scene_.objects[k], p))
+        return true;
+    CandidateCache& cache = state_.carryCandidates;
+    const double reach = radius_ / pose.scale + kCarryGap;
+    if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), 0, p, reach))
+        return true;
+    for (size_t i = 0; i < cache.count(); ++i)
+        if (distanceTo(cache.triangle(i), p).distance < reach)
+            return true;
+    return false;
+}
+
+/// False when something was put where the proxy is.
+bool Carry::settleJumps() noexcept {
+    for (size_t k = 0; k < motions_.size(); ++k) {
+        if (!motions_[k].jumped)
+            continue;
+        flags_ = flags_ | TickFlag::ObjectJumped;
+        const int object = static_cast<int>(k);
+        if (object == state_.anchor)
+            state_.friction = FrictionState::Free;
+        for (size_t i = 0; i < state_.pinched.count; ++i)
+            if (state_.pinched.objects[i] == object)
+                state_.pinched.remove(i--);
+        if (isNear(k, 2.0 * radius_) && blockedAt(k, start_))
+            return false;
+    }
+    return true;
+}
+
+/// Lists all objects that can have a say in this tick. False when there are too many.
+bool Carry::listNear() noexcept {
+    near_ = 0;
+    for (size_t k = 0; k < scene_.objects.size(); ++k) {
+        const int object = static_cast<int>(k);
+        if (!isNear(k, room_) || state_.pinched.holds(object))
+            continue;
+        if (near_ == state_.carried.size())
+            return false;
+        CarriedObject& copy = state_.carried[near_++];
+        ObjectMotion motion = motions_[k];
+        if (motion.jumped)
+            motion.before = motion.workspaceFromObject;
+        copy.object = object;
+        copy.path = ObjectPath(motion);
+        copy.bounding = scene_.objects[k]->boundingRadius;
+        unit_ = std::min(unit_, motion.workspaceFromObject.scale);
+        largestAngle_ = std::max(largestAngle_, copy.path.angle());
+    }
+    return true;
+}
+
+void Carry::startStep(double from, double to) noexcept {
+    for (CarriedObject& copy : std::span(state_.carried).first(near_)) {
+        copy.place = copy.origin = copy.path.at(from).inversePoint(place_);
+        copy.pose = copy.path.at(to);
+        copy.reach = radius_ / copy.pose.scale + kCarryGap;
+    }
+    struckCount_ = 0;
+}
+
+/// Remembers the triangles that stopped the copy.
+void Carry::note(size_t copy, const CarriedObject& object) noexcept {
+    CandidateCache& cache = state_.carryCandidates;
+    const double touching = object.reach - 0.4 * kCarryGap;
+    cache.eachNear(object.place, touching, [&](size_t i) {
+        if (struckCount_ < kMaxStruck && distanceTo(cache.triangle(i), object.place).distance <= touching)
+            struck_[struckCount_++] = {copy, cache.triangle(i)};
+    });
+}
+
+/// Moves a copy straight to `to` (object frame) or as far as its object lets it; true when it arrives. A
+/// stretch with too many triangles is halved; one that stays too dense ends there.
+bool Carry::sweep(size_t copy, CarriedObject& object, const glm::dvec3& to) noexcept {
     constexpr int kPieces = 64;
-    CandidateCache& cache = state.carryCandidates;
+    const glm::dvec3 from = object.place, move = to - from;
     const double length = glm::length(move);
-    double done = 0.0, piece = limit;
-    for (int i = 0; i < kPieces && done < limit; ++i) {
+    if (length <= kNoMove)
+        return true;
+    const double nearest = std::clamp(-glm::dot(from, move) / (length * length), 0.0, 1.0);
+    if (glm::length(from + nearest * move) > object.bounding + object.reach) {
+        object.place = to;
+        return true;
+    }
+    ++sweeps_;
+    const size_t k = index(object.object);
+    CandidateCache& cache = state_.carryCandidates;
+    double done = 0.0, piece = 1.0;
+    for (int i = 0; i < kPieces; ++i) {
         const glm::dvec3 start = from + done * move;
-        const double ball = 0.5 * piece * length + reach + kContactReach;
-        if (!cache.gather({&scene.objects[object], 1}, motions.subspan(object, 1), 0,
-                          start + 0.5 * piece * move, ball)) {
+        const double ball = 0.5 * piece * length + object.reach + kCarryGap;
+        if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), 0, start + 0.5 * piece * move,
+                          ball)) {
             piece *= 0.5;
             continue;
         }
         cache.moved();
-        const double first = freeShare(cache, start, move, reach, piece);
-        if (first < piece)
-            return done + first;
+        const double first = freeShare(cache, start, move, object.reach - 0.5 * kCarryGap, piece);
+        if (first < piece) {
+            object.place = start + first * move;
+            note(copy, object);
+            return false;
+        }
         done += piece;
-        piece = std::min(piece, limit - done);
+        object.place = from + done * move;
+        if (done >= 1.0) {
+            object.place = to;
+            return true;
+        }
+        piece = std::min(2.0 * piece, 1.0 - done);
     }
-    return std::min(done, limit);
+    flags_ = flags_ | TickFlag::CandidatesFull;
+    return false;
+}
+
+/// The place nearest to `wish` that all struck triangles allow; false where they allow none.
+bool Carry::nearestPlace(std::span<const CarriedObject> copies, const glm::dvec3& wish, double unit,
+                         glm::dvec3& place) noexcept {
+    for (size_t i = 0; i < struckCount_; ++i) {
+        const CarriedObject& copy = copies[struck_[i].copy];
+        const TriangleDistance d = distanceTo(struck_[i].triangle, copy.place);
+        const glm::dvec3 normal = copy.pose.direction(d.gradient);
+        const double lack = copy.pose.scale * (copy.reach - d.distance);
+        planes_[i] = {normal, (lack + glm::dot(normal, copy.pose.point(copy.place) - wish)) / unit};
+    }
+    const SubGoal goal = nearestFeasible(glm::dvec3(0.0), {planes_.data(), struckCount_});
+    if (!goal.exact)
+        return false;
+    place = wish + unit * goal.point;
+    if (goal.count > 0) {
+        pusher_ = copies[struck_[index(goal.active[0])].copy].object;
+        anchorPushes_ = false;
+        for (int i = 0; i < goal.count; ++i)
+            anchorPushes_ |=
+                copies[struck_[index(goal.active[static_cast<size_t>(i)])].copy].object == state_.anchor;
+    }
+    return true;
+}
+
+/// Brings the copies together at the end of a step. False: no such place was found.
+bool Carry::solve(const glm::dvec3& wish) noexcept {
+    const std::span<CarriedObject> copies = std::span(state_.carried).first(near_);
+    for (int round = 0; round < kRounds && sweeps_ < kSweepBudget; ++round) {
+        glm::dvec3 place;
+        if (!nearestPlace(copies, wish, unit_, place) || glm::length(place - start_) > room_ - radius_)
+            return false;
+        const size_t known = struckCount_;
+        bool together = true;
+        for (size_t i = 0; i < near_; ++i)
+            together &= sweep(i, copies[i], copies[i].pose.inversePoint(place));
+        if (together) {
+            place_ = place;
+            return true;
+        }
+        if (struckCount_ == known || struckCount_ == kMaxStruck)
+            return false;
+    }
+    return false;
+}
+
+/// Where the proxy would be if nothing stood in its way: where it is, unless a surface that it sticks to
+/// takes it along; no farther than friction can hold it back.
+glm::dvec3 Carry::wish(double step) const noexcept {
+    if (state_.friction == FrictionState::Free)
+        return place_;
+    for (const CarriedObject& copy : std::span(state_.carried).first(near_))
+        if (copy.object == state_.anchor) {
+            const glm::dvec3 drag = copy.pose.point(copy.place) - place_;
+            const double length = glm::length(drag), most = 2.0 * step * glm::length(start_ - state_.hip);
+            return length > most ? place_ + most / length * drag : place_ + drag;
+        }
+    return place_;
+}
+
+/// Moves everything that the holder does not carry out of the way, if it lets itself be: the proxy goes to
+/// where the holder takes it. With `commit` those that do not are pinched; else false tells of one.
+bool Carry::carryWith(size_t holder, bool commit) noexcept {
+    const std::span<CarriedObject> copies = std::span(state_.carried).first(near_);
+    const glm::dvec3 target = copies[holder].pose.point(copies[holder].origin);
+    for (size_t i = 0; i < near_; ++i) {
+        CarriedObject& copy = copies[i];
+        copy.place = copy.origin;
+        struckCount_ = 0;
+        if (i == holder || sweep(i, copy, copy.pose.inversePoint(target)))
+            continue;
+        if (!commit)
+            return false;
+        if (!state_.pinched.add(copy.object, copy.place)) {
+            lose();
+            return true;
+        }
+    }
+    place_ = target;
+    pusher_ = copies[holder].object;
+    anchorPushes_ = pusher_ == state_.anchor;
+    return true;
+}
+
+/// No place was found. One of those that met may still take the proxy along through the rest of the tick, as
+/// where a slide between many facets is too long for one tick; else it stays with the one it touched last.
+void Carry::pinch(double from) noexcept {
+    std::array<int, 4> touched{-1, -1, -1, -1};
+    size_t count = 0, holder = near_;
+    for (size_t i = 0; i < near_; ++i)
+        if (state_.carried[i].object == state_.anchor)
+            holder = i;
+    if (holder < near_)
+        touched[count++] = static_cast<int>(holder);
+    for (size_t i = 0; i < struckCount_ && count < touched.size(); ++i) {
+        const int copy = static_cast<int>(struck_[i].copy);
+        if (std::find(touched.begin(), touched.end(), copy) == touched.end())
+            touched[count++] = copy;
+    }
+    if (count == 0)
+        return lose();
+    startStep(from, 1.0);
+    for (size_t i = 0; i < count; ++i)
+        if (carryWith(index(touched[i]), false))
+            return;
+    carryWith(index(touched[0]), true);
+}
+
+void Carry::advance() noexcept {
+    const double longest = largestAngle_ > kLargestTurn ? kLargestTurn / largestAngle_ : 1.0;
+    double time = 0.0, step = longest;
+    while (time < 1.0) {
+        const double end = time + step > 1.0 - 0.5 * kShortestStep ? 1.0 : time + step;
+        startStep(time, end);
+        if (solve(wish(end - time))) {
+            time = end;
+            step = std::min(2.0 * step, longest);
+            continue;
+        }
+        step *= 0.5;
+        if (sweeps_ >= kSweepBudget)
+            flags_ = flags_ | TickFlag::BudgetReached;
+        if (step < kShortestStep || sweeps_ >= kSweepBudget)
+            return pinch(time);
+    }
+}
+
+/// Slides the copy of a pinched object as near to the proxy as that object lets it; true when it is there.
+bool Carry::follow(CarriedObject& copy) noexcept {
+    struckCount_ = 0;
+    const std::span<const CarriedObject> only(&copy, 1);
+    for (int round = 0; round < kFollowRounds; ++round) {
+        glm::dvec3 place;
+        if (!nearestPlace(only, place_, copy.pose.scale, place))
+            return false;
+        if (sweep(0, copy, copy.pose.inversePoint(place)))
+            return glm::length(place - place_) <= 10.0 * kCarryGap * copy.pose.scale;
+    }
+    return false;
+}
+
+/// Takes the copies of the pinched objects along. False when one is so far gone that touch has to begin anew.
+bool Carry::followPinched() noexcept {
+    for (size_t i = 0; i < state_.pinched.count; ++i) {
+        const size_t k = index(state_.pinched.objects[i]);
+        CarriedObject copy;
+        copy.object = state_.pinched.objects[i];
+        copy.pose = motions_[k].workspaceFromObject;
+        copy.place = state_.pinched.places[i];
+        copy.reach = radius_ / copy.pose.scale + kCarryGap;
+        copy.bounding = scene_.objects[k]->boundingRadius;
+        const bool together = follow(copy);
+        state_.pinched.places[i] = copy.place;
+        const double apart = glm::length(copy.pose.inversePoint(place_) - copy.place);
+        if (together)
+            state_.pinched.remove(i--);
+        else if (apart > kGivenUp)
+            return false;
+    }
+    if (state_.pinched.count > 0)
+        flags_ = flags_ | TickFlag::Pinched;
+    return true;
+}
+
+void Carry::lose() noexcept {
+    state_.placed = false;
+    state_.pinched.count = 0;
+}
+
+void Carry::finish() noexcept {
+    const int pusher = anchorPushes_ ? state_.anchor : pusher_;
+    if (!followPinched()) {
+        flags_ = flags_ | TickFlag::Pinched;
+        return lose();
+    }
+    if (pusher >= 0)
+        changeAnchor(state_, motions_, pusher);
+    state_.proxy = motions_[index(state_.anchor)].workspaceFromObject.inversePoint(place_);
+}
+
+void Carry::run() noexcept {
+    state_.candidates.invalidate();
+    if (!settleJumps())
+        return lose();
+    // Who moves where the proxy is?
+    bool pushed = false, byAnchorOnly = true;
+    double way = 0.0, largest = 0.0;
+    for (size_t k = 0; k < scene_.objects.size(); ++k) {
+        if (!moves(k) || !isNear(k, 2.0 * radius_) || state_.pinched.holds(static_cast<int>(k)))
+            continue;
+        pushed = true;
+        byAnchorOnly &= static_cast<int>(k) == state_.anchor;
+        way = std::max(way, ObjectPath(motions_[k]).longestWay(scene_.objects[k]->boundingRadius));
+        largest = std::max(largest, motions_[k].workspaceFromObject.scale);
+    }
+    if (!pushed)
+        return finish();
+    // Pushed about by a wedge the proxy may go farther than what pushes it.
+    room_ = 2.0 * radius_ + 8.0 * way + 0.25 * largest;
+    unit_ = motions_[index(state_.anchor)].workspaceFromObject.scale;
+    if (!listNear()) {
+        flags_ = flags_ | TickFlag::CandidatesFull;
+        return lose();
+    }
+    if (byAnchorOnly && near_ == 1 && state_.pinched.count == 0)
+        return; // it goes with the anchor, as with an object that is alone
+    advance();
+    if (state_.placed)
+        finish();
 }
 
 } // namespace
 
-void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, DeviceState& state) noexcept {
-    // With one object the anchor's own motion is the whole relative motion, and moveTowards sweeps it.
-    if (scene.objects.size() < 2 || motions.data() == scene.restMotions.data())
-        return;
-    state.candidates.invalidate();
-    const ObjectMotion anchor = motions[static_cast<size_t>(state.anchor)];
-    const glm::dvec3 before = anchor.before.point(state.proxy),
-                     now = anchor.workspaceFromObject.point(state.proxy);
-    // The proxy is as large as its anchor makes it. Were it swept with the other object's larger skin, it
-    // would stand within that from the start, and a rounding would let the surface it slides on strike it out
-    // of the hold of the wall that pushes it.
-    const double size =
-        std::max(radius, 0.5 * kWeldTolerance * scene.objects[static_cast<size_t>(state.anchor)]->diagonal *
-                             anchor.workspaceFromObject.scale);
-    int struck = -1;
-    double first = 1.0;
-    glm::dvec3 place(0.0);
-    for (size_t k = 0; k < scene.objects.size(); ++k) {
-        if (static_cast<int>(k) == state.anchor)
-            continue;
-        const HapticObject& object = *scene.objects[k];
-        const glm::dvec3 from = motions[k].before.inversePoint(before);
-        const glm::dvec3 to = motions[k].workspaceFromObject.inversePoint(now);
-        const glm::dvec3 move = to - from;
-        const double length = glm::length(move);
-        const double scale = motions[k].workspaceFromObject.scale;
-        const double reach = size / scale + kContactGap;
-        if (length <= kRestLength)
-            continue;
-        const double nearest = std::min(glm::length(from), glm::length(to)) - length;
-        if (nearest > object.boundingRadius + reach)
-            continue;
-        // The object alone, in its own frame, from the old place to the new one.
-        const double share = sweepObject(scene, motions, state, k, from, move, reach, first);
-        if (share < first) {
-            first = share;
-            struck = static_cast<int>(k);
-            place = from + share * move;
+void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, DeviceState& state,
+                uint32_t& flags) noexcept {
+    if (!state.placed || motions.data() == scene.restMotions.data()) {
+        if (state.pinched.count > 0) {
+            state.pinched.count = 0;
+            state.candidates.ignore({});
         }
-    }
-    if (struck < 0)
         return;
-    changeAnchor(state, motions, struck);
-    state.proxy = place;
+    }
+    if (scene.objects.size() < 2 && !motions[0].jumped)
+        return;
+    Carry(scene, motions, radius, state, flags).run();
+    state.candidates.ignore(state.pinched.ignored());
 }
 
 } // namespace touchstone
