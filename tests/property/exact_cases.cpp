@@ -58,6 +58,26 @@ ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit) {
     return trial.figures();
 }
 
+long double vertexError(const Scene& source, Fit fit) {
+    const auto scene = compileHapticScene(source, workspaceFromScene(source, fit));
+    const LSimilarity toWorkspace(scene->workspaceFromScene);
+    long double worst = 0.0L;
+    for (const auto& object : scene->objects) {
+        const Instance& instance = source.instances[static_cast<size_t>(object->instance)];
+        const Mesh& mesh = source.meshes[static_cast<size_t>(instance.mesh)];
+        const glm::mat<4, 4, long double> sceneFromMesh(instance.sceneFromMesh);
+        const LSimilarity workspaceFromObject(object->workspaceFromObject);
+        const auto diagonal = static_cast<long double>(object->diagonal * object->workspaceFromObject.scale);
+        for (size_t i = 0; i < object->indices.size(); ++i) {
+            const LVec3 there(sceneFromMesh * glm::vec<4, long double>(
+                                                  LVec3(mesh.positions[object->sourceIndices[i]]), 1.0L));
+            const LVec3 here = workspaceFromObject.point(LVec3(object->vertices[object->indices[i]]));
+            worst = std::max(worst, glm::length(here - toWorkspace.point(there)) / diagonal);
+        }
+    }
+    return worst;
+}
+
 std::vector<std::filesystem::path> sceneFiles() {
     std::vector<std::filesystem::path> folders{TOUCHSTONE_ASSETS}, files;
     if (const auto models = modelsFolder())
@@ -74,6 +94,8 @@ std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks) 
     LoadOptions options;
     options.images = {.visual = false, .haptic = false};
     const ScenePtr scene = loadScene(file, options);
+    // Welding moves a vertex by at most its tolerance.
+    EXPECT_LT(vertexError(*scene, Fit::Workspace), 1.1e-6L) << file;
     std::vector<ExactFigures> all;
     for (const HandCase& c : handsOver(file.stem().string(), ticks))
         all.push_back(runHand(c, *scene, Fit::Workspace));

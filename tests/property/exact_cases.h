@@ -27,6 +27,9 @@ struct HandCase {
 [[nodiscard]] ExactFigures runStroke(const StrokeCase& c, int ticks);
 /// Random taps and strokes over a scene.
 [[nodiscard]] ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit);
+/// The worst distance of any corner of the compiled scene from the source's place for it, which is taken
+/// through all transforms in long double; in diagonals of its object.
+[[nodiscard]] long double vertexError(const Scene& source, Fit fit);
 /// The same hands over a scene file.
 [[nodiscard]] std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks);
 /// Our scene files, and the shared models where there are any.

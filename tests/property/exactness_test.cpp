@@ -63,28 +63,6 @@ TEST(Exactness, HandsOverOurShapes) {
     expectExact("our shapes", all);
 }
 
-/// The worst distance of any corner of the compiled scene from the source's place for it, which is taken
-/// through all transforms in long double; in diagonals of its object.
-long double vertexError(const Scene& source, Fit fit) {
-    const auto scene = compileHapticScene(source, workspaceFromScene(source, fit));
-    const LSimilarity toWorkspace(scene->workspaceFromScene);
-    long double worst = 0.0L;
-    for (const auto& object : scene->objects) {
-        const Instance& instance = source.instances[static_cast<size_t>(object->instance)];
-        const Mesh& mesh = source.meshes[static_cast<size_t>(instance.mesh)];
-        const glm::mat<4, 4, long double> sceneFromMesh(instance.sceneFromMesh);
-        const LSimilarity workspaceFromObject(object->workspaceFromObject);
-        const auto diagonal = static_cast<long double>(object->diagonal * object->workspaceFromObject.scale);
-        for (size_t i = 0; i < object->indices.size(); ++i) {
-            const LVec3 there(sceneFromMesh * glm::vec<4, long double>(
-                                                  LVec3(mesh.positions[object->sourceIndices[i]]), 1.0L));
-            const LVec3 here = workspaceFromObject.point(LVec3(object->vertices[object->indices[i]]));
-            worst = std::max(worst, glm::length(here - toWorkspace.point(there)) / diagonal);
-        }
-    }
-    return worst;
-}
-
 glm::dmat4 placedAt(double scale, const glm::dvec3& offset) {
     const glm::dmat4 turned = glm::mat4_cast(glm::normalize(glm::dquat(0.8, 0.1, -0.5, 0.3)));
     glm::dmat4 matrix = turned * glm::dmat4(glm::dmat3(scale));
