@@ -39,7 +39,8 @@ struct OfflineTick {
     double time = 0.0;
     HapticOutput output;
     int64_t stepNs = 0;
-    double gap = 0.0; // m, of the proxy; in contact and where a report was asked for
+    Similarity touched; // workspaceFromObject of the touched object
+    double gap = 0.0;   // m, of the proxy; in contact and where a report was asked for
 };
 
 /// The ticks that the path asks for: one a row, or at a rate of its own straight between the rows.
@@ -90,6 +91,10 @@ class OfflineTouch {
         hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, none);
         tick.stepNs = monotonicNs() - begin;
         objects_ = input.objects;
+        if (tick.output.object >= 0)
+            tick.touched = (objects_.empty() ? ObjectMotions(model_.haptic->restMotions)
+                                             : objects_)[static_cast<size_t>(tick.output.object)]
+                               .workspaceFromObject;
     }
     [[nodiscard]] bool moving() const { return moving_.moving(); }
     /// Of the last step.
@@ -112,7 +117,7 @@ void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks,
         if (tick.output.contacts == 0 || tick.output.object < 0)
             continue;
         const long long begin = monotonicNs();
-        sum += castFloorRay(scene, tick.output.object, tick.output.proxy, tick.output.hip);
+        sum += castFloorRay(scene, tick.output.object, tick.touched, tick.output.proxy, tick.output.hip);
         rays.add(monotonicNs() - begin);
     }
     [[maybe_unused]] static volatile float sink;

@@ -10,8 +10,14 @@ namespace touchstone {
 
 float castFloorRay(const HapticScene& scene, int object, const glm::dvec3& proxy,
                    const glm::dvec3& hip) noexcept {
+    return castFloorRay(scene, object, scene.restMotions[static_cast<size_t>(object)].workspaceFromObject,
+                        proxy, hip);
+}
+
+float castFloorRay(const HapticScene& scene, int object, const Similarity& workspaceFromObject,
+                   const glm::dvec3& proxy, const glm::dvec3& hip) noexcept {
     const auto k = static_cast<size_t>(object);
-    const Similarity objectFromWorkspace = scene.restMotions[k].workspaceFromObject.inverse();
+    const Similarity objectFromWorkspace = workspaceFromObject.inverse();
     const glm::vec3 from(objectFromWorkspace.point(proxy));
     const glm::vec3 along = glm::vec3(objectFromWorkspace.point(hip)) - from;
     RTCIntersectContext context;

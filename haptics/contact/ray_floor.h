@@ -1,5 +1,7 @@
 #pragma once
 
+#include "engine/math/similarity.h"
+
 #include <glm/glm.hpp>
 
 namespace touchstone {
@@ -11,5 +13,8 @@ class HapticScene;
 /// object units, infinity for none, so that no compiler can leave the ray out. Any thread.
 float castFloorRay(const HapticScene& scene, int object, const glm::dvec3& proxy,
                    const glm::dvec3& hip) noexcept;
+/// The same against the object as it stands at a tick.
+float castFloorRay(const HapticScene& scene, int object, const Similarity& workspaceFromObject,
+                   const glm::dvec3& proxy, const glm::dvec3& hip) noexcept;
 
 } // namespace touchstone

@@ -34,6 +34,14 @@ bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) {
     return true;
 }
 
+/// Whether two poses are one but for the rounding of keys in a file: a thousandth of the object.
+bool meet(const Similarity& a, const Similarity& b) {
+    constexpr double kSame = 1e-3;
+    return glm::length(a.translation - b.translation) < kSame * a.scale &&
+           std::abs(a.scale - b.scale) < kSame * a.scale &&
+           std::abs(glm::dot(a.rotation, b.rotation)) > 1.0 - 0.125 * kSame * kSame;
+}
+
 glm::dmat4 matrixOf(const Similarity& similarity) {
     glm::dmat4 matrix = glm::mat4_cast(similarity.rotation);
     for (int column = 0; column < 3; ++column)
@@ -84,8 +92,20 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
     }
     if (movers_.empty())
         return;
-    pose_.emplace_back(*scene_);
+    ScenePose& pose = pose_.emplace_back(*scene_);
     motions_ = haptic.restMotions;
+    for (Mover& mover : movers_) {
+        Similarity first = motions_[mover.object].workspaceFromObject, last = first;
+        pose.evaluate(*scene_, animation_, 0.0);
+        nearestSimilarity(matrixOf(workspaceFromScene_) * pose.sceneFromMesh()[mover.instance] *
+                              mover.meshFromObject,
+                          first);
+        pose.evaluate(*scene_, animation_, animation_->duration);
+        nearestSimilarity(matrixOf(workspaceFromScene_) * pose.sceneFromMesh()[mover.instance] *
+                              mover.meshFromObject,
+                          last);
+        mover.jumps = !meet(first, last);
+    }
 }
 
 ObjectMotions MovingObjects::at(double time) noexcept {
@@ -93,10 +113,14 @@ ObjectMotions MovingObjects::at(double time) noexcept {
         return {};
     ScenePose& pose = pose_.front();
     pose.evaluate(*scene_, animation_, loopedTime(*animation_, time));
+    const double lap = animation_->duration > 0.0 ? std::floor(time / animation_->duration) : 0.0;
+    const bool again = sampled_ && lap != lap_;
+    lap_ = lap;
     const glm::dmat4 workspaceFromScene = matrixOf(workspaceFromScene_);
     for (const Mover& mover : movers_) {
         ObjectMotion& motion = motions_[mover.object];
         motion.before = motion.workspaceFromObject;
+        motion.jumped = again && mover.jumps;
         nearestSimilarity(workspaceFromScene * pose.sceneFromMesh()[mover.instance] * mover.meshFromObject,
                           motion.workspaceFromObject);
         if (!sampled_)

@@ -35,7 +35,8 @@ class MovingObjects {
     [[nodiscard]] bool moving() const { return !movers_.empty(); }
 
     /// The poses at `time` (s since the start of the animation, any) and at the call before; empty when
-    /// nothing moves, which is what TickInput takes for rest.
+    /// nothing moves, which is what TickInput takes for rest. Where the animation begins again somewhere else
+    /// than it ended the object has `jumped`.
     [[nodiscard]] ObjectMotions at(double time) noexcept;
 
   private:
@@ -43,6 +44,7 @@ class MovingObjects {
         size_t object;                  // HapticScene::objects
         size_t instance;                // Scene::instances
         glm::dmat4 meshFromObject{1.0}; // rest pose: what takes the object's frame to the mesh's, unevenly
+        bool jumps = false;             // the animation does not end where it begins
     };
 
     ScenePtr scene_;
@@ -51,6 +53,7 @@ class MovingObjects {
     Similarity workspaceFromScene_;
     std::vector<Mover> movers_;
     std::vector<ObjectMotion> motions_;
+    double lap_ = 0.0; // of the animation, in the tick before
     bool sampled_ = false;
 };
 

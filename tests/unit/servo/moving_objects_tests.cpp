@@ -80,6 +80,22 @@ TEST(MovingObjects, FollowsAParentsTranslationInTheWorkspaceAndRemembersTheTickB
     EXPECT_NEAR(moved.moving.at(7.25)[0].workspaceFromObject.translation.y, before, 1e-7) << "plays again";
 }
 
+TEST(MovingObjects, AnAnimationThatEndsElsewhereThanItBeginsJumpsWhenItBeginsAgain) {
+    for (const float end : {0.2f, 0.0f}) {
+        Scene scene = squareOnTwoNodes();
+        scene.animations.push_back({"lift",
+                                    1.0,
+                                    {channel(0, AnimatedPath::Translation, {0.0f, 0.5f, 1.0f},
+                                             {glm::vec4(0.0f), glm::vec4(0.0f, 0.2f, 0.0f, 0.0f),
+                                              glm::vec4(0.0f, end, 0.0f, 0.0f)})}});
+        Moved moved(std::move(scene));
+        EXPECT_FALSE(moved.moving.at(0.9)[0].jumped);
+        EXPECT_FALSE(moved.moving.at(0.999)[0].jumped);
+        EXPECT_EQ(moved.moving.at(1.001)[0].jumped, end != 0.0f);
+        EXPECT_FALSE(moved.moving.at(1.002)[0].jumped);
+    }
+}
+
 TEST(MovingObjects, FollowsRotationAndEvenScale) {
     const float half = std::sqrt(0.5f);
     Scene scene = squareOnTwoNodes();
