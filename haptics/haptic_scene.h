@@ -27,6 +27,7 @@ class HapticScene {
 
     std::vector<std::unique_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
     std::vector<ObjectMotion> restMotions;                    ///< one per object: at rest
+    std::vector<glm::dvec4> restSpheres;                      ///< one per object: boundingSphere at rest
     std::vector<HapticMaterialData> materials;                ///< index = Scene material
     EffectPlan plan;
     Similarity workspaceFromScene;

@@ -20,8 +20,6 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index, const S
     const double scale = foreign ? objectFromAnchor->scale : 1.0;
     const glm::dvec3 local = foreign ? objectFromAnchor->point(centre) : centre;
     const double localRadius = scale * radius;
-    if (glm::length(local) - object.boundingRadius > localRadius)
-        return true;
     // The search works in float on vertices of magnitude one: widen the ball by more than their rounding.
     const double rounding = 4e-7 * (1.0 + glm::length(local));
     const std::span<TriangleTree::Near> found(found_.data(), kCapacity - count_);
@@ -70,12 +68,22 @@ void CandidateCache::turnIntoAnchor(size_t first, const Similarity& anchorFromOb
 }
 
 bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses,
-                            int anchor, const glm::dvec3& centre, double radius) noexcept {
+                            std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
+                            double radius) noexcept {
     invalidate();
     centre_ = centre;
     radius_ = radius;
     const Similarity& workspaceFromAnchor = poses[static_cast<size_t>(anchor)].workspaceFromObject;
+    const glm::dvec3 place = workspaceFromAnchor.point(centre);
+    // A share more than double rounds at the far end of a scene.
+    const double room = workspaceFromAnchor.scale * radius + 1e-14 * glm::length(place);
     for (size_t k = 0; k < objects.size(); ++k) {
+        const glm::dvec4 sphere =
+            spheres.empty() ? boundingSphere(*objects[k], poses[k].workspaceFromObject) : spheres[k];
+        const glm::dvec3 apart = place - glm::dvec3(sphere);
+        const double touching = sphere.w + room;
+        if (glm::dot(apart, apart) > touching * touching)
+            continue;
         const int index = static_cast<int>(k);
         const auto end = ignored_.begin() + static_cast<std::ptrdiff_t>(ignoredCount_);
         if (std::find(ignored_.begin(), end, index) != end)

@@ -52,8 +52,11 @@ class CandidateCache {
 
     /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
     /// the cache is empty and invalid.
-    bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses, int anchor,
-                const glm::dvec3& centre, double radius) noexcept;
+    /// `spheres`: bounding spheres of the objects at these poses (centre, radius; workspace) where they are
+    /// known, or empty.
+    bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses,
+                std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
+                double radius) noexcept;
 
     /// What a gather leaves out from now on: at most kMostIgnored objects.
     static constexpr size_t kMostIgnored = 8;

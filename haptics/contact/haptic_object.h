@@ -56,6 +56,12 @@ struct HapticObject {
 [[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,
                                                                     const Similarity& workspaceFromScene);
 
+/// Centre and radius of a sphere around the object at a pose, workspace.
+[[nodiscard]] inline glm::dvec4 boundingSphere(const HapticObject& object,
+                                               const Similarity& workspaceFromObject) {
+    return {workspaceFromObject.translation, workspaceFromObject.scale * object.boundingRadius};
+}
+
 /// True where `point` (object frame) lies inside the closed object: parity of crossings, majority of three
 /// directions. Bounded; safe on the servo thread. Always false for open objects.
 [[nodiscard]] bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept;

@@ -144,7 +144,7 @@ bool Carry::blockedAt(size_t k, const glm::dvec3& place) noexcept {
         return true;
     CandidateCache& cache = state_.carryCandidates;
     const double reach = radius_ / pose.scale + kCarryGap;
-    if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), 0, p, reach))
+    if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), {}, 0, p, reach))
         return true;
     for (size_t i = 0; i < cache.count(); ++i)
         if (distanceTo(cache.triangle(i), p).distance < reach)
@@ -231,7 +231,7 @@ bool Carry::sweep(size_t copy, CarriedObject& object, const glm::dvec3& to) noex
     for (int i = 0; i < kPieces; ++i) {
         const glm::dvec3 start = from + done * move;
         const double ball = 0.5 * piece * length + object.reach + kCarryGap;
-        if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), 0, start + 0.5 * piece * move,
+        if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), {}, 0, start + 0.5 * piece * move,
                           ball)) {
             piece *= 0.5;
             continue;

@@ -100,6 +100,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
         if (object->anySmooth)
             smooth[material] = true;
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
+        haptic->restSpheres.push_back(boundingSphere(*object, object->workspaceFromObject));
         haptic->objects.push_back(std::move(object));
     }
     for (size_t m = 0; m < scene.materials.size(); ++m) {

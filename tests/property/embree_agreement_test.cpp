@@ -28,7 +28,7 @@ TEST(Embree, AGatheredBallHoldsEveryTriangleThatMeetsIt) {
             if (trial % 2 == 0)
                 centre = glm::dvec3(object.vertices[random() % (object.vertices.size() - 1)]);
             const double radius = std::pow(10.0, size(random));
-            if (!cache.gather(scene->objects, scene->restMotions, 0, centre, radius))
+            if (!cache.gather(scene->objects, scene->restMotions, scene->restSpheres, 0, centre, radius))
                 continue;
             for (const BruteContact& contact :
                  bruteWithin(object, LVec3(centre), static_cast<long double>(radius))) {
