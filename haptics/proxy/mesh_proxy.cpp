@@ -13,6 +13,9 @@ namespace {
 /// Moves without progress after which the proxy counts as resting.
 constexpr int kFruitlessMoves = 2;
 
+/// Moves after which the proxy may be creeping around an edge.
+constexpr uint32_t kCreeping = 5;
+
 /// Balls smaller than this are not worth gathering; larger ones than this reach over any object.
 constexpr double kSmallestMargin = 1e-7;
 constexpr double kLargestMargin = 4.0;
@@ -190,6 +193,11 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
         if (rest_.contactCount == 0)
             findContacts(lastMove_);
         return false;
+    }
+    if (rest_.iterations >= kCreeping && rollAround(goal)) {
+        ++rest_.iterations;
+        withoutProgress_ = 0;
+        return true;
     }
     const glm::dvec3 direction = move / length;
     if (!cover(direction, length))

@@ -55,6 +55,8 @@ class MeshProxy {
     void adoptAnchor(int anchor) noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts(double within = kContactReach) noexcept;
+    bool rollAround(const glm::dvec3& goal) noexcept;
+    bool goStraight(const glm::dvec3& to) noexcept;
     bool cover(const glm::dvec3& direction, double length) noexcept;
     void buildPlanes() noexcept;
 
