@@ -183,7 +183,7 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
     rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
     const glm::dvec3 move = rest_.hold.point;
     const double length = glm::length(move);
-    if (length <= kRestLength || withoutProgress_ > kFruitlessMoves) {
+    if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves) {
         withoutProgress_ = 0;
         return false;
     }

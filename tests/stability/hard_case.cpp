@@ -222,8 +222,8 @@ void HardCase::takeRest(const Touching& touching) {
         static_cast<double>(restResidual(holding, LVec3(now.proxy / unit()), LVec3(now.hip / unit())) *
                             static_cast<long double>(unit()));
     const double depth = glm::distance(now.proxy, now.hip);
-    const double allowed =
-        kRestRounding * (unit() + depth) + (touching.tilt() > 0.0 ? kShadedRounding * unit() : 0.0);
+    const double allowed = kRestRounding * (unit() + depth) + restLength(now.iterations) * unit() +
+                           (touching.tilt() > 0.0 ? kShadedRounding * unit() : 0.0);
     behind_ = has(now.flags, TickFlag::BudgetReached)
                   ? std::max(left, glm::distance(oracleFrom(now), now.proxy))
                   : 0.0;
