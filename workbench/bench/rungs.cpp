@@ -23,7 +23,8 @@ class Turn {
 
     void take(int ticks, RungTimes& times) {
         hands_.resize(static_cast<size_t>(ticks));
-        outputs_.resize(hands_.size());
+        touched_.clear();
+        touched_.reserve(hands_.size());
         for (size_t i = 0; i < hands_.size(); ++i) {
             const double time = kTick * static_cast<double>(number_ + i);
             hands_[i] =
@@ -32,16 +33,17 @@ class Turn {
         Samples step;
         const RealtimeViolations before = realtime::violations();
         for (size_t i = 0; i < hands_.size(); ++i) {
-            const int64_t ns = tick(hands_[i], outputs_[i]);
-            if (outputs_[i].contacts == 0)
+            const int64_t ns = tick(hands_[i]);
+            if (output_.contacts == 0)
                 continue;
+            touched_.push_back({output_.proxy, output_.hip, output_.object});
             step.add(ns);
             times.step.add(ns);
-            times.iterations += outputs_[i].iterations;
-            times.flaggedTicks += has(outputs_[i].flags, TickFlag::BudgetReached) ||
-                                          has(outputs_[i].flags, TickFlag::CandidatesFull)
-                                      ? 1
-                                      : 0;
+            times.iterations += output_.iterations;
+            times.flaggedTicks +=
+                has(output_.flags, TickFlag::BudgetReached) || has(output_.flags, TickFlag::CandidatesFull)
+                    ? 1
+                    : 0;
         }
         const RealtimeViolations after = realtime::violations();
         times.allocations +=
@@ -53,7 +55,7 @@ class Turn {
     }
 
   private:
-    int64_t tick(const glm::dvec3& hand, HapticOutput& output) {
+    int64_t tick(const glm::dvec3& hand) {
         DeviceSample sample;
         sample.position = hand;
         sample.valid = true;
@@ -65,29 +67,36 @@ class Turn {
         NoStopwatch none;
         const realtime::TickScope scope;
         const long long begin = monotonicNs();
-        hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output, 1}, none);
+        hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output_, 1}, none);
         return monotonicNs() - begin;
     }
 
     void castRays(RungTimes& times) {
         float sum = 0.0f;
-        for (const HapticOutput& output : outputs_) {
-            if (output.contacts == 0 || output.object < 0)
+        for (const Touched& t : touched_) {
+            if (t.object < 0)
                 continue;
             const long long begin = monotonicNs();
-            sum += castFloorRay(*rung_.scene->haptic, output.object, output.proxy, output.hip);
+            sum += castFloorRay(*rung_.scene->haptic, t.object, t.proxy, t.hip);
             times.ray.add(monotonicNs() - begin);
         }
         [[maybe_unused]] static volatile float sink;
         sink = sum; // so that no ray is left out
     }
 
+    /// Where a floor ray goes.
+    struct Touched {
+        glm::dvec3 proxy, hip;
+        int object;
+    };
+
     const Rung& rung_;
     double start_;
     WorldState world_;
     DeviceState state_;
     std::vector<glm::dvec3> hands_;
-    std::vector<HapticOutput> outputs_;
+    HapticOutput output_; ///< one for all ticks, as the servo has it
+    std::vector<Touched> touched_;
     uint64_t number_ = 0;
 };
 
