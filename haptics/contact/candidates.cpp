@@ -7,10 +7,7 @@
 namespace touchstone {
 
 void CandidateCache::prepare(Candidate& item) noexcept {
-    const HapticObject& object = *item.source;
-    const uint32_t* index = &object.indices[3 * item.index];
-    item.triangle = Triangle(glm::dvec3(object.vertices[index[0]]), glm::dvec3(object.vertices[index[1]]),
-                             glm::dvec3(object.vertices[index[2]]));
+    item.triangle = triangleOf(*item.source, item.index);
     item.prepared = true;
 }
 

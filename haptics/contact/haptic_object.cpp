@@ -41,16 +41,12 @@ constexpr double kSmoothCosine = 0.999998;
 void markSmoothTriangles(HapticObject& object) {
     object.smooth.assign(object.triangleCount(), 0);
     for (size_t t = 0; t < object.triangleCount(); ++t) {
-        const glm::dvec3 a(object.vertices[object.indices[3 * t]]);
-        const glm::dvec3 b(object.vertices[object.indices[3 * t + 1]]);
-        const glm::dvec3 c(object.vertices[object.indices[3 * t + 2]]);
-        const glm::dvec3 area = glm::cross(b - a, c - a);
-        const double length = glm::length(area);
-        if (!(length > 0.0))
+        const glm::dvec3 face = triangleOf(object, static_cast<uint32_t>(t)).normal;
+        if (face == glm::dvec3(0.0))
             continue;
         for (size_t k = 0; k < 3; ++k) {
             const glm::dvec3 normal(object.normals[object.sourceIndices[3 * t + k]]);
-            if (glm::dot(normal, area) < kSmoothCosine * length)
+            if (glm::dot(normal, face) < kSmoothCosine)
                 object.smooth[t] = 1;
         }
         object.anySmooth |= object.smooth[t] != 0;

@@ -3,6 +3,7 @@
 
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
+#include "haptics/contact/triangle.h"
 #include "haptics/contact/triangle_tree.h"
 
 #include <glm/glm.hpp>
@@ -51,6 +52,13 @@ struct HapticObject {
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] uint64_t memoryBytes() const;
 };
+
+/// Triangle `index` of the object, object frame.
+[[nodiscard]] inline Triangle triangleOf(const HapticObject& object, uint32_t index) noexcept {
+    const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
+    return {glm::dvec3(object.vertices[corner[0]]), glm::dvec3(object.vertices[corner[1]]),
+            glm::dvec3(object.vertices[corner[2]])};
+}
 
 /// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails.
 [[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,

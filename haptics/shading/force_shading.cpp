@@ -88,10 +88,7 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
         trueNormal = back.direction(trueNormal);
     }
     const size_t first = 3 * static_cast<size_t>(contact.triangle);
-    const Triangle triangle(glm::dvec3(object.vertices[object.indices[first]]),
-                            glm::dvec3(object.vertices[object.indices[first + 1]]),
-                            glm::dvec3(object.vertices[object.indices[first + 2]]));
-    const glm::dvec3 weight = barycentric(triangle, point);
+    const glm::dvec3 weight = barycentric(triangleOf(object, contact.triangle), point);
     glm::dvec3 normal = weight.x * glm::dvec3(object.normals[object.sourceIndices[first]]) +
                         weight.y * glm::dvec3(object.normals[object.sourceIndices[first + 1]]) +
                         weight.z * glm::dvec3(object.normals[object.sourceIndices[first + 2]]);

@@ -206,9 +206,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
             motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(workspaceFromObject);
     const Similarity objectFromAnchor = anchorFromObject.inverse();
     const size_t first = 3 * static_cast<size_t>(contact.triangle);
-    const Triangle triangle(glm::dvec3(object.vertices[object.indices[first]]),
-                            glm::dvec3(object.vertices[object.indices[first + 1]]),
-                            glm::dvec3(object.vertices[object.indices[first + 2]]));
+    const Triangle triangle = triangleOf(object, contact.triangle);
     const glm::dvec3 towardsProxy = foreign ? objectFromAnchor.direction(normal) : normal;
     const bool backside = glm::dot(triangle.normal, towardsProxy) < 0.0;
     const Spot spot{
