@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <string_view>
 
 namespace touchstone {
 namespace {
@@ -39,6 +41,15 @@ Choice choiceField(const ImportContext& context, const json& object, const char*
                  "use one of: " + known);
 }
 
+/// A misspelt field must not be mistaken for one that holds.
+void warnOfUnknown(ImportContext& context, const json& object, std::initializer_list<std::string_view> known,
+                   const std::string& place) {
+    for (const auto& [name, value] : object.items())
+        if (name != "extensions" && name != "extras" &&
+            std::find(known.begin(), known.end(), name) == known.end())
+            context.warn(place + "." + name.substr(0, 40), "is not a known field; felt without it");
+}
+
 std::optional<HeightMap> heightField(ImportContext& context, const GltfDocument& document, const json& ours,
                                      const std::string& place) {
     const auto found = ours.find("heightTexture");
@@ -52,6 +63,7 @@ std::optional<HeightMap> heightField(ImportContext& context, const GltfDocument&
         context.fail(at, "property 'scale' is missing", "give the height from black to white in metres");
     map.scale = *scale;
     map.midLevel = numberField(context, *found, "midLevel", at, 0.0, 1.0).value_or(map.midLevel);
+    warnOfUnknown(context, *found, {"index", "texCoord", "scale", "midLevel"}, at);
     return map.texture ? std::optional(map) : std::nullopt;
 }
 
@@ -65,7 +77,17 @@ std::optional<FactorMap> factorField(ImportContext& context, const GltfDocument&
     map.texture = readTexture(context, document, *found, at);
     map.min = numberField(context, *found, "min", at, 0.0, kUnbounded).value_or(map.min);
     map.max = numberField(context, *found, "max", at, 0.0, kUnbounded).value_or(map.max);
+    warnOfUnknown(context, *found, {"index", "texCoord", "min", "max"}, at);
     return map.texture ? std::optional(map) : std::nullopt;
+}
+
+void checkShader(ImportContext& context, const json& shader, const std::string& place) {
+    if (!shader.is_object() || !shader.contains("source") || !shader["source"].is_string())
+        context.fail(place, "should be an object with a source", "correct the value in the file");
+    if (shader.contains("parameters") && !shader["parameters"].is_object())
+        context.fail(place + ".parameters", "should be an object of values by name",
+                     "correct the value in the file");
+    warnOfUnknown(context, shader, {"source", "parameters"}, place);
 }
 
 /// Fields of later work stay as they are in the file, for saving and for `inspect`.
@@ -76,17 +98,15 @@ void keepUnavailable(ImportContext& context, const json& ours, const std::string
         context.warn(place + "." + name, what + " is not yet available; felt without it");
     };
     if (ours.contains("shader")) {
-        if (!ours["shader"].is_object() || !ours["shader"].contains("source") ||
-            !ours["shader"]["source"].is_string())
-            context.fail(place + ".shader", "should be an object with a source",
-                         "correct the value in the file");
+        checkShader(context, ours["shader"], place + ".shader");
         keep("shader", "a haptic shader");
     }
-    if (haptic.representation == "implicit") {
-        (void)numberField(context, ours, "voxelSize", place, 1e-30, kUnbounded);
+    if (haptic.representation == "implicit")
         keep("representation", "the implicit representation");
-        if (ours.contains("voxelSize"))
-            haptic.unavailable["voxelSize"] = ours["voxelSize"];
+    if (numberField(context, ours, "voxelSize", place, 1e-30, kUnbounded)) {
+        haptic.unavailable["voxelSize"] = ours["voxelSize"];
+        if (haptic.representation != "implicit")
+            context.warn(place + ".voxelSize", "says nothing without representation \"implicit\"");
     }
     if (haptic.forceShading == ShadingChoice::Bezier)
         keep("forceShading", "force shading \"bezier\"");
@@ -129,6 +149,11 @@ void readOurs(ImportContext& context, const GltfDocument& document, size_t mater
     haptic.representation =
         choiceField(context, ours, "representation", place, kRepresentations, false) ? "implicit" : "mesh";
     keepUnavailable(context, ours, place, haptic);
+    warnOfUnknown(context, ours,
+                  {"stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction",
+                   "normalTextureInfluence", "heightTexture", "frictionTexture", "stiffnessTexture",
+                   "dampingTexture", "forceShading", "representation", "voxelSize", "shader", "sides"},
+                  place);
 }
 
 /// The root extension's `materials`, in whichever spelling the file uses; null without one.
@@ -201,10 +226,11 @@ void readMpeg(ImportContext& context, const GltfDocument& document, size_t index
         offer(haptic.staticFriction, std::optional(1.0f), source);
         offer(haptic.dynamicFriction, std::optional(kSlidingShare), source);
     }
-    for (const char* channel : {"vibrotactileTexture", "temperature", "vibration", "custom"})
-        if (material.contains(channel)) {
-            haptic.unavailable["MPEG_haptic_material"][channel] = material[channel];
-            context.warn(place + "." + channel, "is not yet available; felt without it");
+    for (const auto& [channel, value] : material.items())
+        if (channel != "name" && channel != "stiffness" && channel != "friction" && channel != "extensions" &&
+            channel != "extras") {
+            haptic.unavailable["MPEG_haptic_material"][channel] = value;
+            context.warn(place + "." + channel.substr(0, 40), "is not yet available; felt without it");
         }
 }
 

@@ -1,4 +1,7 @@
 #include "assets/scenes.h"
+#include "engine/core/error.h"
+#include "engine/scene/scene_loader.h"
+#include "tests/support/gltf_maker.h"
 #include "tests/unit/assets/glb_reader.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +9,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
+#include <set>
 #include <string>
 
 namespace touchstone::assets {
@@ -68,6 +73,36 @@ std::string complaint(const json& value) {
     return complaint(root, root, value, "material");
 }
 
+/// Every rule in the schema: the root, and what stands in properties and definitions below it.
+void eachRule(const json& rule, const std::string& place,
+              const std::function<void(const json&, const std::string&)>& visit) {
+    visit(rule, place);
+    for (const char* group : {"properties", "$defs"})
+        if (rule.contains(group))
+            for (const auto& [name, inner] : rule[group].items())
+                eachRule(inner, place + "/" + name, visit);
+}
+
+TEST(MaterialSchema, SaysNothingThatTheTestsDoNotCheckAndLeavesNoObjectOpen) {
+    const std::set<std::string> checked{"type",    "enum",     "minimum",    "maximum",
+                                        "$ref",    "required", "properties", "exclusiveMinimum",
+                                        "$schema", "$id",      "title",      "additionalProperties",
+                                        "$defs",   "default",  "description"};
+    int rules = 0;
+    eachRule(schema(), "", [&](const json& rule, const std::string& place) {
+        ++rules;
+        for (const auto& [keyword, value] : rule.items())
+            EXPECT_TRUE(checked.contains(keyword)) << place << " " << keyword;
+        if (rule.contains("properties")) {
+            EXPECT_FALSE(rule.value("additionalProperties", true)) << place;
+        }
+        if (rule.contains("default")) {
+            EXPECT_EQ(complaint(schema(), rule, rule["default"], place), "");
+        }
+    });
+    EXPECT_GT(rules, 25);
+}
+
 TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
     int materials = 0;
     for (const SceneFile& scene : allScenes()) {
@@ -83,22 +118,96 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
     EXPECT_EQ(materials, 11) << "ten swatches and a doughnut";
 }
 
+constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,
+    "dynamicFriction": 0.4, "viscousFriction": 1, "normalTextureInfluence": 0.5,
+    "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
+    "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
+    "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
+    "representation": "implicit", "voxelSize": 0.001, "shader": {"source": "wood.glsl", "parameters": {"a": 1}},
+    "sides": "front", "extras": 3})";
+constexpr const char* kWrong[] = {R"({"stiffness": 0})",
+                                  R"({"stiffness": "hard"})",
+                                  R"({"stiffness": null})",
+                                  R"({"damping": -1})",
+                                  R"({"damping": [1]})",
+                                  R"({"staticFriction": -0.1})",
+                                  R"({"dynamicFriction": -0.1})",
+                                  R"({"viscousFriction": -0.1})",
+                                  R"({"normalTextureInfluence": 1.5})",
+                                  R"({"normalTextureInfluence": -0.5})",
+                                  R"({"heightTexture": 0})",
+                                  R"({"heightTexture": {"index": 0}})",
+                                  R"({"heightTexture": {"scale": 0.001}})",
+                                  R"({"heightTexture": {"index": -1, "scale": 0.001}})",
+                                  R"({"heightTexture": {"index": 0, "scale": "1 mm"}})",
+                                  R"({"heightTexture": {"index": 0, "scale": 0.001, "midLevel": 1.1}})",
+                                  R"({"heightTexture": {"index": 0, "scale": 0.001, "strength": 1}})",
+                                  R"({"frictionTexture": {"index": 0.5}})",
+                                  R"({"frictionTexture": {"index": 0, "texCoord": -1}})",
+                                  R"({"frictionTexture": {"min": 0.5}})",
+                                  R"({"stiffnessTexture": {"index": 0, "min": -0.5}})",
+                                  R"({"dampingTexture": {"index": 0, "max": -0.5}})",
+                                  R"({"dampingTexture": {"index": 0, "scale": 2}})",
+                                  R"({"forceShading": "phong"})",
+                                  R"({"forceShading": 1})",
+                                  R"({"representation": "voxels"})",
+                                  R"({"representation": "implicit", "voxelSize": 0})",
+                                  R"({"sides": "back"})",
+                                  R"({"shader": {}})",
+                                  R"({"shader": "wood.glsl"})",
+                                  R"({"shader": {"source": 1}})",
+                                  R"({"shader": {"source": "wood.glsl", "parameters": 3}})",
+                                  R"({"shader": {"source": "wood.glsl", "language": "c"}})",
+                                  R"({"friction": 0.5})",
+                                  R"(7)"};
+
 TEST(MaterialSchema, AcceptsEveryFieldAndRefusesWhatIsWrong) {
-    EXPECT_EQ(complaint(json::parse(R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,
-        "dynamicFriction": 0.4, "viscousFriction": 1, "normalTextureInfluence": 0.5,
-        "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
-        "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
-        "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
-        "representation": "implicit", "voxelSize": 0.001, "shader": {"source": "wood.glsl", "parameters": {"a": 1}},
-        "sides": "front", "extras": 3})")),
-              "");
-    for (const char* wrong : {R"({"stiffness": 0})", R"({"stiffness": "hard"})", R"({"damping": -1})",
-                              R"({"staticFriction": -0.1})", R"({"normalTextureInfluence": 1.5})",
-                              R"({"heightTexture": {"index": 0}})", R"({"heightTexture": {"scale": 0.001}})",
-                              R"({"heightTexture": {"index": -1, "scale": 0.001}})",
-                              R"({"frictionTexture": {"index": 0.5}})", R"({"forceShading": "phong"})",
-                              R"({"sides": "back"})", R"({"shader": {}})", R"({"friction": 0.5})", R"(7)"})
+    const json every = json::parse(kEveryField);
+    EXPECT_EQ(complaint(every), "");
+    for (const auto& [name, rule] : schema()["properties"].items())
+        EXPECT_TRUE(name == "extensions" || every.contains(name)) << name;
+    for (const char* wrong : kWrong)
         EXPECT_NE(complaint(json::parse(wrong)), "") << wrong;
+}
+
+/// What the loader says to a material with this haptic object: its refusal, or its warnings about the object.
+std::string loaderSays(const json& haptic) {
+    touchstone::test::GltfMaker maker = touchstone::test::GltfMaker::square();
+    // One grey pixel.
+    maker.json["images"] = {{{"uri", "data:image/png;base64,"
+                                     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mMwNjYGAAE2A"
+                                     "JpHI3MJAAAAAElFTkSuQmCC"}}};
+    maker.json["textures"] = {{{"source", 0}}, {{"source", 0}}};
+    maker.json["materials"] = {{{"name", "m"}}};
+    maker.json["materials"][0]["extensions"]["TOUCHSTONE_materials_haptic"] = haptic;
+    maker.primitive()["material"] = 0;
+    maker.primitive()["attributes"]["TEXCOORD_1"] = maker.primitive()["attributes"]["TEXCOORD_0"];
+    try {
+        std::string said;
+        const ScenePtr scene = loadSceneFromMemory(maker.glb(), ".", {});
+        for (const Warning& warning : scene->warnings)
+            if (warning.message.find("not yet available") == std::string::npos)
+                said += warning.place + " " + warning.message;
+        return said;
+    } catch (const Error& refusal) {
+        return refusal.what();
+    }
+}
+
+TEST(MaterialSchema, TheLoaderAgreesWithIt) {
+    EXPECT_EQ(loaderSays(json::parse(kEveryField)), "");
+    for (const char* wrong : kWrong) {
+        const std::string said = loaderSays(json::parse(wrong));
+        EXPECT_NE(said.find("TOUCHSTONE_materials_haptic"), std::string::npos) << wrong << ": " << said;
+    }
+}
+
+TEST(MaterialSchema, OurScenesLoadWithoutAWarning) {
+    for (const SceneFile& file : allScenes()) {
+        const ScenePtr scene = loadScene(std::string(TOUCHSTONE_ASSETS) + "/" + file.name);
+        for (const Warning& warning : scene->warnings)
+            ADD_FAILURE() << file.name << ": " << warning.place << " " << warning.message;
+    }
 }
 
 TEST(MaterialSchema, EveryFieldIsExplained) {

@@ -105,6 +105,63 @@ TEST(GltfHaptics, WrongTypesAndRangesNameTheField) {
     EXPECT_REFUSED(withOurs({{"sides", "back"}}), place + ".sides", "not a choice");
     EXPECT_REFUSED(withOurs({{"representation", "voxels"}}), place + ".representation", "not a choice");
     EXPECT_REFUSED(withOurs({{"shader", "a.glsl"}}), place + ".shader", "object");
+    EXPECT_REFUSED(withOurs({{"shader", {{"source", "a.glsl"}, {"parameters", {1}}}}}),
+                   place + ".shader.parameters", "object");
+    EXPECT_REFUSED(withOurs({{"representation", "implicit"}, {"voxelSize", 0}}), place + ".voxelSize",
+                   "out of range");
+    EXPECT_REFUSED(withOurs({{"voxelSize", -1}}), place + ".voxelSize", "out of range");
+}
+
+TEST(GltfHaptics, AFieldThatIsNotOursIsToldAndTheRestHolds) {
+    const ScenePtr scene = load(withOurs({{"stifness", 800},
+                                          {"staticFriction", 0.5},
+                                          {"heightTexture", {{"index", 0}, {"scale", 0.001}, {"height", 2}}},
+                                          {"frictionTexture", {{"index", 0}, {"scale", 2}}},
+                                          {"shader", {{"source", "a.glsl"}, {"language", "c"}}},
+                                          {"extras", {{"note", 1}}}}));
+    const std::string place = "materials[0].extensions.TOUCHSTONE_materials_haptic";
+    for (const char* field :
+         {".stifness", ".heightTexture.height", ".frictionTexture.scale", ".shader.language"})
+        EXPECT_TRUE(warns(*scene, place + field, "not a known field")) << field;
+    EXPECT_FALSE(warns(*scene, place + ".extras", ""));
+    EXPECT_EQ(scene->materials[0].haptic.staticFriction.value, 0.5f);
+}
+
+TEST(GltfHaptics, OurMapsHaveUvSetsTransformsAndWrapModesAsAnyTexture) {
+    json info = {{"index", 0}, {"min", 0.1}, {"texCoord", 1}};
+    info["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0.25, 0.5}}, {"scale", {2, 3}}, {"rotation", 1}};
+    json height = info;
+    height["scale"] = -0.002; // white may lie below black
+    height.erase("min");
+    GltfMaker maker = withOurs({{"heightTexture", height},
+                                {"frictionTexture", info},
+                                {"stiffnessTexture", info},
+                                {"dampingTexture", info}});
+    maker.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
+    maker.json["textures"][0]["sampler"] = 0;
+    const HapticMaterial haptic = hapticOf(maker);
+    EXPECT_EQ(haptic.height.value->scale, -0.002f);
+    EXPECT_EQ(haptic.height.value->midLevel, 0.5f);
+    for (const TextureRef& texture : {haptic.height.value->texture, haptic.friction.value->texture,
+                                      haptic.stiffnessMap.value->texture, haptic.dampingMap.value->texture}) {
+        EXPECT_EQ(texture.texCoord, 1);
+        EXPECT_EQ(texture.wrapS, Wrap::ClampToEdge);
+        EXPECT_EQ(texture.wrapT, Wrap::MirroredRepeat);
+        EXPECT_EQ(texture.offset, glm::vec2(0.25f, 0.5f));
+        EXPECT_EQ(texture.scale, glm::vec2(2.0f, 3.0f));
+        EXPECT_EQ(texture.rotation, 1.0f);
+    }
+    EXPECT_EQ(haptic.friction.value->min, 0.1f);
+    EXPECT_EQ(haptic.friction.value->max, 1.0f);
+}
+
+TEST(GltfHaptics, AMapWhoseImageIsBrokenCostsTheMapAndNotTheModel) {
+    GltfMaker maker = withOurs({{"stiffnessTexture", {{"index", 0}}}, {"stiffness", 700}});
+    maker.json["images"][0]["uri"] = "data:image/png;base64,AAAA";
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->materials[0].haptic.stiffness.value, 700.0f);
+    EXPECT_FALSE(scene->images.at(0).problem.empty());
 }
 
 TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
@@ -152,6 +209,47 @@ TEST(GltfHaptics, MpegMaterialsBindByMeshInBothSpellings) {
         EXPECT_TRUE(material.haptic.unavailable["MPEG_haptic_material"].contains("vibrotactileTexture"));
         EXPECT_FALSE(scene->materials[0].haptic.stiffnessMap.value); // the plain material stays plain
     }
+}
+
+TEST(GltfHaptics, MpegMeshesMayNameTheirMaterialInEitherWay) {
+    for (const char* spelling : {"MPEG_haptic_material", "MPEG_material_haptic"})
+        for (const json& value : {json(0), json({{"hapticMaterialIndex", 0}})}) {
+            GltfMaker maker = withMaterial(json::object());
+            maker.json["extensions"][spelling] = mpegRoot();
+            maker.json["meshes"][0]["extensions"][spelling] = value;
+            EXPECT_TRUE(hapticOf(maker).stiffnessMap.value) << spelling << value;
+            maker.json["extensions"] = json::object();
+            const Error refusal = test::loadError(maker);
+            EXPECT_TRUE(test::contains(refusal.place(), spelling)) << refusal.what();
+            EXPECT_TRUE(test::contains(refusal.problem(), "materials[0]")) << refusal.what();
+        }
+}
+
+TEST(GltfHaptics, MpegChannelsTakeTheFinestMapAndKeepTheRest) {
+    GltfMaker maker = withMaterial(json::object());
+    maker.json["images"].push_back({{"uri", kGreyPixel}});
+    maker.json["textures"].push_back({{"source", 1}});
+    const auto map = [](int texture, const char* type) {
+        return json{{"texture", {{"index", texture}}}, {"type", type}};
+    };
+    json& material = maker.json["extensions"]["MPEG_haptic_material"]["materials"][0];
+    material["name"] = "felt";
+    material["stiffness"] = {map(0, "Low_Resolution"), map(1, "High_Resolution"), map(0, "High_Resolution")};
+    material["friction"] = {map(0, "Reference")}; // an index of signals, no coefficient
+    material["temperature"] = {map(0, "Other")};
+    material["later"] = {map(0, "Other")};
+    maker.json["meshes"][0]["extensions"]["MPEG_haptic_material"]["hapticMaterialIndex"] = 0;
+    const ScenePtr scene = load(maker);
+    const HapticMaterial& haptic =
+        scene->materials.at(static_cast<size_t>(scene->meshes.at(0).material)).haptic;
+    EXPECT_EQ(haptic.stiffnessMap.value->texture.image, 1);
+    EXPECT_FALSE(haptic.friction.value);
+    EXPECT_TRUE(warns(*scene, "friction[0]", "signals"));
+    for (const char* channel : {"temperature", "later"}) {
+        EXPECT_EQ(haptic.unavailable["MPEG_haptic_material"][channel], material[channel]);
+        EXPECT_TRUE(warns(*scene, channel, "not yet available"));
+    }
+    EXPECT_FALSE(warns(*scene, "name", ""));
 }
 
 TEST(GltfHaptics, BrokenMpegMaterialsNameTheField) {
@@ -221,6 +319,18 @@ TEST(GltfHaptics, PrecedenceIsPerField) {
     EXPECT_EQ(haptic.stiffness.source, HapticSource::Touchstone);
     EXPECT_EQ(haptic.stiffnessMap.source, HapticSource::Mpeg);
     EXPECT_FALSE(haptic.friction.value);
+    // The rest of the ladder, field by field: ours, MPEG's, physics, the roughness that the file states.
+    maker.json["materials"][0]["extensions"]["TOUCHSTONE_materials_haptic"] = {
+        {"stiffnessTexture", {{"index", 0}, {"min", 0.7}}}};
+    const HapticMaterial mixed = hapticOf(maker);
+    EXPECT_EQ(mixed.stiffnessMap.source, HapticSource::Touchstone);
+    EXPECT_EQ(mixed.stiffnessMap.value->min, 0.7f);
+    EXPECT_EQ(mixed.friction.source, HapticSource::Mpeg);
+    EXPECT_EQ(mixed.staticFriction.source, HapticSource::Mpeg);
+    maker.json["meshes"][0].erase("extensions");
+    EXPECT_EQ(hapticOf(maker).staticFriction.source, HapticSource::Physics);
+    maker.json["nodes"][0].erase("extensions");
+    EXPECT_EQ(hapticOf(maker).staticFriction.source, HapticSource::DerivedFromPbr);
 }
 
 TEST(GltfHaptics, FrictionIsDerivedOnlyFromStatedRoughness) {
