@@ -107,7 +107,7 @@ class CandidateCache {
         return d;
     }
     /// The proxy is somewhere else now.
-    void moved() noexcept { ++place_; }
+    void moved() noexcept { place_ += place_ + 1 == 0 ? 2 : 1; } // 0 is never a place
 
     /// Calls visit(i) for every triangle that may be within `reach` of p.
     template <class Visit>

@@ -1,0 +1,139 @@
+// The bounds and the sweep of the candidates against brute force in long double.
+
+#include "haptics/contact/candidates.h"
+#include "haptics/contact/sweep.h"
+#include "haptics/haptic_scene.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/soup.h"
+#include "tests/support/touch_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace touchstone::test {
+namespace {
+
+struct World {
+    std::string name;
+    std::shared_ptr<const HapticScene> scene;
+};
+
+/// One object, and two at different scales that overlap: the second is foreign to the anchor's frame.
+std::vector<World> worlds() {
+    std::vector<World> made;
+    for (const auto& [name, shape] :
+         std::vector<std::pair<std::string, assets::Shape>>{{"torus", assets::torus(0.06, 0.025, 72, 45)},
+                                                            {"sphere", assets::sphere(0.05, 30, 30)},
+                                                            {"slab", assets::box({1000.0, 0.1, 10.0}, 6)}})
+        made.push_back({name, compileHapticScene(sceneOf(shape), Similarity{})});
+    Scene two = sceneOf(assets::torus(0.06, 0.025, 72, 45));
+    addShape(two, assets::sphere(0.05, 30, 30),
+             glm::dmat4(0.3, 0, 0, 0, 0, 0, 0.3, 0, 0, -0.3, 0, 0, 0.06, 0.01, 0.02, 1));
+    made.push_back({"two", compileHapticScene(two, Similarity{})});
+    return made;
+}
+
+/// Places near the surface of the first object, in its frame.
+class Places {
+  public:
+    explicit Places(const HapticScene& scene) : object_(*scene.objects[0]) {}
+    glm::dvec3 next(double most) {
+        const glm::dvec3 vertex(object_.vertices[random_() % (object_.vertices.size() - 1)]);
+        return vertex + most * glm::dvec3(in_(random_), in_(random_), in_(random_));
+    }
+    double between(double low, double high) { return low + (high - low) * 0.5 * (in_(random_) + 1.0); }
+
+  private:
+    const HapticObject& object_;
+    std::mt19937 random_{5};
+    std::uniform_real_distribution<double> in_{-1.0, 1.0};
+};
+
+TEST(Sweep, NoBoundExceedsTheDistance) {
+    for (const World& world : worlds()) {
+        SCOPED_TRACE(world.name);
+        Places places(*world.scene);
+        CandidateCache cache;
+        size_t compared = 0, culled = 0;
+        for (int trial = 0; trial < 200; ++trial) {
+            const glm::dvec3 centre = places.next(0.02);
+            const double radius = std::pow(10.0, places.between(-3.0, -1.0));
+            if (!cache.gather(world.scene->objects, world.scene->restMotions, world.scene->restSpheres, 0,
+                              centre, radius))
+                continue;
+            // Some are measured somewhere in the ball, so that boxes and gradients both are put to the test.
+            for (size_t i = 0; i < cache.count(); i += 2)
+                (void)cache.measureAhead(i, centre + places.between(0.0, 0.9) * (places.next(0.0) - centre));
+            const glm::dvec3 p = centre + 0.5 * radius * glm::normalize(places.next(0.1) - centre);
+            const double reach = places.between(0.0, 0.5) * radius;
+            std::vector<bool> visited(cache.count(), false);
+            cache.eachNear(p, reach, [&](size_t i) { visited[i] = true; });
+            for (size_t i = 0; i < cache.count(); ++i) {
+                const Triangle& t = cache.triangle(i);
+                const Corners corners{LVec3(t.a), LVec3(t.b), LVec3(t.c)};
+                ++compared;
+                if (visited[i])
+                    continue;
+                ++culled;
+                EXPECT_GT(distanceFrom(corners, LVec3(p)).distance, static_cast<long double>(reach))
+                    << "triangle " << cache.item(i).index << " trial " << trial;
+            }
+        }
+        EXPECT_GT(culled, compared / 10);
+    }
+}
+
+TEST(Sweep, EndsAtTheFirstTouchAndNotLater) {
+    constexpr double kTouch = 2e-13; // of sweep.cpp, with rounding
+    for (const World& world : worlds()) {
+        SCOPED_TRACE(world.name);
+        const Soup soup(*world.scene, 0);
+        Places places(*world.scene);
+        CandidateCache cache;
+        int struck = 0, passed = 0;
+        for (int trial = 0; trial < 800; ++trial) {
+            const double reach = std::pow(10.0, places.between(-6.3, -2.0));
+            const glm::dvec3 start = places.next(0.05);
+            const glm::dvec3 move = places.next(0.01) - start;
+            if (soup.nearest(LVec3(start)).distance <= static_cast<long double>(reach))
+                continue;
+            if (!cache.gather(world.scene->objects, world.scene->restMotions, world.scene->restSpheres, 0,
+                              start, glm::length(move) + reach + 1e-6))
+                continue;
+            cache.moved();
+            const double share = freeShare(cache, start, move, reach, 1.0);
+            const LVec3 end = LVec3(start) + static_cast<long double>(share) * LVec3(move);
+            const auto enough = static_cast<long double>(reach);
+            EXPECT_GT(soup.clearance(LVec3(start), end, enough), enough - static_cast<long double>(kTouch))
+                << "ran into something, trial " << trial;
+            if (share < 1.0) {
+                ++struck;
+                EXPECT_LT(soup.nearest(end).distance, enough + static_cast<long double>(kTouch))
+                    << "stopped in free space, trial " << trial;
+            } else {
+                ++passed;
+            }
+        }
+        EXPECT_GT(struck, 100);
+        EXPECT_GT(passed, 20);
+    }
+}
+
+TEST(Sweep, AFullBallIsRefused) {
+    // A fan of more triangles than a cache holds around one vertex.
+    const auto scene = compileHapticScene(sceneOf(assets::sphere(0.05, 100, 100)), Similarity{});
+    CandidateCache cache;
+    EXPECT_FALSE(
+        cache.gather(scene->objects, scene->restMotions, scene->restSpheres, 0, glm::dvec3(0.0), 2.0));
+    EXPECT_EQ(cache.count(), 0u);
+    EXPECT_LT(cache.freeAlong(glm::dvec3(0.0), glm::dvec3(0.0), 0.0), 0.0);
+    EXPECT_TRUE(cache.gather(scene->objects, scene->restMotions, scene->restSpheres, 0,
+                             glm::dvec3(scene->objects[0]->vertices[0]), 0.01));
+    EXPECT_GT(cache.count(), 0u);
+}
+
+} // namespace
+} // namespace touchstone::test
