@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace touchstone::assets {
 
@@ -110,7 +111,8 @@ int GlbWriter::addView(const void* data, const View& view) {
     }
     if (view.target == kVertexTarget)
         json["byteStride"] = view.stride;
-    json["target"] = view.target;
+    if (view.target != 0)
+        json["target"] = view.target;
     gltf_["bufferViews"].push_back(std::move(json));
     return static_cast<int>(gltf_["bufferViews"].size()) - 1;
 }
@@ -176,11 +178,32 @@ int GlbWriter::addMesh(const std::string& name, const Shape& shape, int material
     return addMesh(name, {{shape, material}});
 }
 
-int GlbWriter::addNode(const std::string& name, int mesh) {
-    gltf_["nodes"].push_back({{"name", name}, {"mesh", mesh}});
-    const int node = static_cast<int>(gltf_["nodes"].size()) - 1;
-    gltf_["scenes"][0]["nodes"].push_back(node);
-    return node;
+int GlbWriter::addNode(const std::string& name, int mesh, const glm::dvec3& translation) {
+    Json node{{"name", name}, {"mesh", mesh}};
+    if (translation != glm::dvec3(0.0))
+        node["translation"] = numbers(translation);
+    gltf_["nodes"].push_back(std::move(node));
+    const int index = static_cast<int>(gltf_["nodes"].size()) - 1;
+    gltf_["scenes"][0]["nodes"].push_back(index);
+    return index;
+}
+
+void GlbWriter::animate(const Track& track) {
+    if (packing_ != Packing::Plain)
+        throw std::logic_error("an animation is written plain");
+    const size_t components = std::string_view(track.path) == "rotation" ? 4 : 3;
+    const int input =
+        addAccessor(track.times.data(), {track.times.size(), sizeof(float), 0}, kFloat, "SCALAR");
+    gltf_["accessors"].back()["min"] = Json::array({static_cast<double>(track.times.front())});
+    gltf_["accessors"].back()["max"] = Json::array({static_cast<double>(track.times.back())});
+    const View keys{track.values.size() / components, components * sizeof(float), 0};
+    const int output = addAccessor(track.values.data(), keys, kFloat, components == 4 ? "VEC4" : "VEC3");
+    Json& animation = gltf_["animations"][0];
+    animation["name"] = gltf_["scenes"][0]["name"];
+    animation["samplers"].push_back(
+        {{"input", input}, {"interpolation", track.interpolation}, {"output", output}});
+    animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},
+                                     {"target", {{"node", track.node}, {"path", track.path}}}});
 }
 
 int GlbWriter::addTexture(const std::string& name, const std::vector<std::byte>& png) {

@@ -30,8 +30,17 @@ class GlbWriter {
     int addMesh(const std::string& name, const Shape& shape, int material);
     /// One mesh of several primitives, each with its own material.
     int addMesh(const std::string& name, const std::vector<std::pair<Shape, int>>& parts);
-    /// A node without transform at the root of the scene.
-    int addNode(const std::string& name, int mesh);
+    /// A node at the root of the scene, m.
+    int addNode(const std::string& name, int mesh, const glm::dvec3& translation = glm::dvec3(0.0));
+    /// How a node moves: one channel of the scene's only animation. Only with Packing::Plain.
+    struct Track {
+        int node;
+        const char* path;          ///< "translation" (m) or "rotation" (x, y, z, w)
+        const char* interpolation; ///< "LINEAR", or "CUBICSPLINE" with in-tangent, value, out-tangent a key
+        std::vector<float> times;  ///< s, ascending
+        std::vector<float> values;
+    };
+    void animate(const Track& track);
     void useExtension(const std::string& extension);
 
     /// The finished file. Call once.
@@ -40,7 +49,7 @@ class GlbWriter {
   private:
     struct View {
         size_t count, stride;
-        int target; ///< 34962 vertices, 34963 indices
+        int target; ///< 34962 vertices, 34963 indices, 0 neither
     };
     int addView(const void* data, const View& view);
     int addAccessor(const void* data, const View& view, int componentType, const char* type);

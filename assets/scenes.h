@@ -21,6 +21,8 @@ struct SceneFile {
 [[nodiscard]] std::vector<SceneFile> plainShapes();
 /// A board of tiles that look alike in shape and feel different.
 [[nodiscard]] SceneFile swatches();
+/// A box that rises over a plate, turns about the vertical once and sinks again, in a loop of 4 s.
+[[nodiscard]] SceneFile moving();
 
 /// All of them.
 [[nodiscard]] std::vector<SceneFile> allScenes();
