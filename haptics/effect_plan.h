@@ -28,7 +28,9 @@ struct PlannedEffect {
 /// What the scene calls for. What no material needs costs nothing in the tick (DESIGN §7).
 struct EffectPlan {
     std::vector<PlannedEffect> effects;
-    bool anyShading = false; ///< else stage 4 is not there
+    // Smooth surfaces: of any material that does not say off; of those that are two-pass by themselves; of
+    // those that say projected or direction. Where none is, stage 4 is not there.
+    bool anyShading = false, twoPassShading = false, oneFacetShading = false;
 };
 
 [[nodiscard]] const char* effectName(Effect effect);

@@ -12,8 +12,9 @@ namespace {
 constexpr std::array kInfos{
     SettingInfo{"contact", "", "sweep, neighbourhood",
                 "how contacts are found; neighbourhood: Ho's walk over the mesh, a point without a radius"},
-    SettingInfo{"forceShading", "", "off, twoPass, projected, direction",
-                "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's direction"},
+    SettingInfo{"forceShading", "", "off, twoPass, projected, direction, material",
+                "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's direction, or "
+                "what each material says"},
     SettingInfo{"texture", "", "off, law", "normal and height maps by the displacement force law"},
     SettingInfo{"friction", "", "off, zilles", "stiction point with static and dynamic coefficients"},
     SettingInfo{"proxyRadius", "m", "0 .. 0.05", "radius of the proxy sphere; 0 is the god-object"},
@@ -50,7 +51,8 @@ bool setNumber(double& field, std::string_view value, double low, double high, d
 }
 
 constexpr std::array<std::string_view, 2> kContactNames{"sweep", "neighbourhood"};
-constexpr std::array<std::string_view, 4> kShadingNames{"off", "twoPass", "projected", "direction"};
+constexpr std::array<std::string_view, 5> kShadingNames{"off", "twoPass", "projected", "direction",
+                                                        "material"};
 constexpr std::array<std::string_view, 2> kTextureNames{"off", "law"};
 constexpr std::array<std::string_view, 2> kFrictionNames{"off", "zilles"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};

@@ -11,7 +11,9 @@ namespace touchstone {
 
 /// Neighbourhood: Ho's walk over the mesh, a point method (proxy/neighbourhood_watch.h).
 enum class ContactMethod : uint8_t { Sweep, Neighbourhood };
-enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction };
+/// Material: as each material's forceShading says (auto is two-pass). The others hold for every material but
+/// those that say off.
+enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
 enum class TextureMode : uint8_t { Off, Law };
 enum class FrictionMode : uint8_t { Off, Zilles };
 
@@ -19,7 +21,7 @@ enum class FrictionMode : uint8_t { Off, Zilles };
 struct HapticSettings {
     ContactMethod contact = ContactMethod::Sweep;
     /// Where the material and the model's normals allow it.
-    ShadingMode forceShading = ShadingMode::TwoPass;
+    ShadingMode forceShading = ShadingMode::Material;
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
     /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves. See feltRadius.

@@ -24,8 +24,9 @@ struct FeltShape {
     double depth = 0.0;     ///< anchor units
 };
 
+/// `oneFacet`: some surface of the scene turns the force of its facet.
 FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                    const glm::dvec3& hip, const DeviceState& state, const ProxyRest& rest) {
+                    bool oneFacet, const glm::dvec3& hip, const DeviceState& state, const ProxyRest& rest) {
     if (rest.contactCount == 0)
         return {};
     const glm::dvec3 offset = state.proxy - hip;
@@ -34,19 +35,18 @@ FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const Hapti
     const glm::dvec3 direct = depth > 100.0 * kContactGap ? offset / depth : holder.normal;
     // With several planes there is no one facet to turn the force of or to project onto: the true force
     // holds.
-    const bool oneFacet = rest.hold.count == 1 && (settings.forceShading == ShadingMode::Direction ||
-                                                   settings.forceShading == ShadingMode::Projected);
-    if (oneFacet) {
-        const glm::dvec3 m =
-            interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
-        // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the
-        // facet along the interpolated normal [000 §4.1].
-        if (settings.forceShading == ShadingMode::Direction)
-            return {m, depth};
-        constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
-        return {m, glm::dot(offset, holder.normal) / std::max(glm::dot(m, holder.normal), kSteepest)};
-    }
-    return {direct, depth};
+    if (!oneFacet || rest.hold.count != 1)
+        return {direct, depth};
+    const ShadingMode mode = shadingMode(settings, materialOf(scene, holder));
+    if (mode != ShadingMode::Direction && mode != ShadingMode::Projected)
+        return {direct, depth};
+    const glm::dvec3 m = interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
+    // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the
+    // facet along the interpolated normal [000 §4.1].
+    if (mode == ShadingMode::Direction)
+        return {m, depth};
+    constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
+    return {m, glm::dot(offset, holder.normal) / std::max(glm::dot(m, holder.normal), kSteepest)};
 }
 
 /// Velocity of the HIP against the anchor's surface, m/s, in the anchor frame.
@@ -127,7 +127,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Contact);
 
     // 3. Proxy solve: as near to the goal as free space allows.
-    const bool shading = scene.plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
+    const bool shading = anyTwoPass(scene.plan, settings);
     const glm::dvec3 goal =
         shading ? warmGoal(state, hip, glm::length(state.travel) / workspaceFromAnchor.scale) : hip;
     proxy.moveTowards(goal);
@@ -136,7 +136,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     // 4. Force shading: the same solve against the interpolated planes.
     if (shading)
         shadeTwoPass(scene, motions, settings, hip, goal, proxy, state, rest);
-    const FeltShape shape = feltShape(scene, motions, settings, hip, state, rest);
+    const FeltShape shape =
+        feltShape(scene, motions, settings, anyOneFacet(scene.plan, settings), hip, state, rest);
     stopwatch.lap(Stage::Shading);
 
     // 5. Texture: what the maps say there.

@@ -128,7 +128,7 @@ class Panel {
         HapticSettings& chosen = state_.chosen;
         contact();
         toggle("Force shading", "forceShading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
-               ShadingMode::TwoPass);
+               ShadingMode::Material);
         toggle("Texture", "texture", settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
         toggle("Friction", "friction", settings.friction, chosen.friction, FrictionMode::Off,
                FrictionMode::Zilles);

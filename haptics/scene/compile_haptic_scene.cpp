@@ -21,12 +21,17 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
         plan.effects.push_back({effect, index, on, std::move(reason), memory});
         return on;
     };
-    plan.anyShading |=
-        add(Effect::ForceShading, data.shading && smooth,
-            !data.shading ? "the material turns it off"
-            : smooth      ? "vertex normals leave the face normals: the surface is meant to be smooth"
-                          : "vertex normals equal the face normals: facets are meant",
+    const bool shaded =
+        add(Effect::ForceShading, data.shading != ShadingMode::Off && smooth,
+            data.shading == ShadingMode::Off ? "the material turns it off"
+            : smooth ? "vertex normals leave the face normals: the surface is meant to be smooth, " +
+                           std::string(data.shading == ShadingMode::TwoPass     ? "two-pass"
+                                       : data.shading == ShadingMode::Projected ? "projected"
+                                                                                : "direction")
+                     : "vertex normals equal the face normals: facets are meant",
             0);
+    plan.anyShading |= shaded;
+    (data.shading == ShadingMode::TwoPass ? plan.twoPassShading : plan.oneFacetShading) |= shaded;
     add(Effect::NormalMap, !data.normal.empty(),
         !data.normal.empty()     ? "normal map, felt share " + percent(data.normalScale)
         : material.normalTexture ? "the normal map is not felt or could not be read"

@@ -46,13 +46,18 @@ glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const P
 
 /// First pass: the nearest point to the HIP on the interpolated planes, put back onto the nearest true plane
 /// where it is above all of them, since a goal up there would lift the proxy off [000 §4].
-ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const DeviceState& state,
-                      double tiltLimit, const glm::dvec3& hip, const ProxyRest& rest) {
+ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                      const DeviceState& state, const glm::dvec3& hip, const ProxyRest& rest) {
     std::array<ConstraintPlane, ProxyRest::kMaxContacts> planes;
     ShadedGoal result;
     for (uint32_t i = 0; i < rest.contactCount; ++i) {
-        planes[i] = {interpolatedNormal(scene, motions, state.anchor, rest.contacts[i], tiltLimit), 0.0};
-        result.tilted |= planes[i].normal != rest.contacts[i].normal;
+        const Contact& contact = rest.contacts[i];
+        const bool shaded = shadingMode(settings, materialOf(scene, contact)) == ShadingMode::TwoPass;
+        planes[i] = {
+            shaded ? interpolatedNormal(scene, motions, state.anchor, contact, settings.shadingTiltLimit)
+                   : contact.normal,
+            0.0};
+        result.tilted |= planes[i].normal != contact.normal;
     }
     const glm::dvec3 wish = hip - state.proxy;
     const SubGoal pass = nearestFeasible(wish, {planes.data(), rest.contactCount});
@@ -74,8 +79,7 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
                               const Contact& contact, double tiltLimit) noexcept {
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
-    if (object.smooth[contact.triangle] == 0 ||
-        !scene.materials[static_cast<size_t>(object.material)].shading)
+    if (object.smooth[contact.triangle] == 0)
         return contact.normal;
     glm::dvec3 point = contact.point, trueNormal = contact.normal;
     Similarity anchorFromObject;
@@ -132,7 +136,7 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
     glm::dvec3 lastGoal = firstGoal, lastStep(0.0);
     double relax = 1.0;
     for (int round = 0; round < kMaxRounds; ++round) {
-        const ShadedGoal shaded = shadedGoal(scene, motions, state, settings.shadingTiltLimit, hip, rest);
+        const ShadedGoal shaded = shadedGoal(scene, motions, settings, state, hip, rest);
         state.shaded = shaded.held;
         state.shadedNormal = shaded.normal;
         state.shadedTurn = wasShaded && shaded.held ? shaded.normal - lastNormal : glm::dvec3(0.0);

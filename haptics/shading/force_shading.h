@@ -10,9 +10,38 @@
 
 namespace touchstone {
 
+[[nodiscard]] inline const HapticMaterialData& materialOf(const HapticScene& scene,
+                                                          const Contact& contact) noexcept {
+    return scene.materials[static_cast<size_t>(scene.objects[static_cast<size_t>(contact.object)]->material)];
+}
+
+/// How a material is shaded in this session: a material that says off stays off, else the session's choice.
+[[nodiscard]] inline ShadingMode shadingMode(const HapticSettings& settings,
+                                             const HapticMaterialData& material) noexcept {
+    return settings.forceShading == ShadingMode::Material || material.shading == ShadingMode::Off
+               ? material.shading
+               : settings.forceShading;
+}
+
+/// True where some surface of the scene is felt by two-pass shading: else stage 4 moves nothing.
+[[nodiscard]] inline bool anyTwoPass(const EffectPlan& plan, const HapticSettings& settings) noexcept {
+    return settings.forceShading == ShadingMode::Material
+               ? plan.twoPassShading
+               : plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
+}
+
+/// True where some surface may turn the force of one facet (Ho, Morgenbesser).
+[[nodiscard]] inline bool anyOneFacet(const EffectPlan& plan, const HapticSettings& settings) noexcept {
+    return settings.forceShading == ShadingMode::Material
+               ? plan.oneFacetShading
+               : plan.anyShading && (settings.forceShading == ShadingMode::Direction ||
+                                     settings.forceShading == ShadingMode::Projected);
+}
+
 /// The normal that the model's vertex normals give at a contact (anchor frame, unit), on the proxy's side and
-/// tilted from the true normal by at most `tiltLimit` (rad). The true normal where the triangle is flat or
-/// its material forbids shading.
+/// tilted from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1, eq. 1]; on an
+/// edge they are the two vertices' weights by inverse distance and at a vertex its own normal, as the paper
+/// has these cases. The true normal where the triangle is flat.
 [[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
                                             const Contact& contact, double tiltLimit) noexcept;
 

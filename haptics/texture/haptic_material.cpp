@@ -36,6 +36,23 @@ double numberOr(const HapticMaterial::Field<float>& field, double otherwise) {
     return field.value ? static_cast<double>(*field.value) : otherwise;
 }
 
+/// "bezier" is kept for later work and felt as two-pass; the import tells so.
+ShadingMode shadingOf(ShadingChoice choice) {
+    switch (choice) {
+    case ShadingChoice::Off:
+        return ShadingMode::Off;
+    case ShadingChoice::Projected:
+        return ShadingMode::Projected;
+    case ShadingChoice::Direction:
+        return ShadingMode::Direction;
+    case ShadingChoice::Auto:
+    case ShadingChoice::TwoPass:
+    case ShadingChoice::Bezier:
+        break;
+    }
+    return ShadingMode::TwoPass;
+}
+
 } // namespace
 
 HapticMaterialData buildHapticMaterial(const Scene& scene, int index, std::vector<Warning>& warnings) {
@@ -66,14 +83,10 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, std::vecto
     data.friction = factorOf(scene, haptic.friction, place + ".frictionTexture", warnings);
     data.stiffnessMap = factorOf(scene, haptic.stiffnessMap, place + ".stiffnessTexture", warnings);
     data.dampingMap = factorOf(scene, haptic.dampingMap, place + ".dampingTexture", warnings);
-    data.shading = haptic.forceShading != ShadingChoice::Off;
-    // Told, never silently ignored: these fields are read and kept, and the tick does not know them yet.
+    data.shading = shadingOf(haptic.forceShading);
+    // Told, never silently ignored: read and kept, and the tick does not know it yet.
     if (haptic.sides == SideChoice::Front)
         warnings.push_back({place, "sides: front is not yet available; both sides are touchable"});
-    if (haptic.forceShading != ShadingChoice::Auto && haptic.forceShading != ShadingChoice::Off &&
-        haptic.forceShading != ShadingChoice::TwoPass)
-        warnings.push_back(
-            {place, "this forceShading is not yet available per material; the session's is used"});
     return data;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "haptics/haptic_settings.h"
 #include "haptics/texture/haptic_map.h"
 
 #include <cmath>
@@ -25,7 +26,8 @@ struct HapticMaterialData {
     HapticMap height;                                   ///< 0..1
     double heightScale = 0.0;                           ///< model metres, black to white
     HapticFactor friction, stiffnessMap, dampingMap;
-    bool shading = true; ///< the material does not forbid force shading
+    /// The material's forceShading, settled: auto is TwoPass, never Material.
+    ShadingMode shading = ShadingMode::TwoPass;
 
     [[nodiscard]] bool textured() const { return !normal.empty() || (!height.empty() && heightScale != 0.0); }
     [[nodiscard]] uint64_t memoryBytes() const {
