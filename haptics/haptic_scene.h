@@ -25,7 +25,7 @@ class HapticScene {
     HapticScene(const HapticScene&) = delete;
     HapticScene& operator=(const HapticScene&) = delete;
 
-    std::vector<std::unique_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
+    std::vector<std::shared_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
     std::vector<ObjectMotion> restMotions;                    ///< one per object: at rest
     std::vector<glm::dvec4> restSpheres;                      ///< one per object: boundingSphere at rest
     std::vector<HapticMaterialData> materials;                ///< index = Scene material
@@ -46,6 +46,15 @@ class HapticScene {
     mutable std::unique_ptr<const std::vector<MeshAdjacency>> built_;
     mutable std::atomic<const std::vector<MeshAdjacency>*> neighbourhoods_{nullptr};
 };
+
+/// Says anew which stages the scene's materials call for. Before the scene is handed to a servo.
+void settlePlan(HapticScene& scene);
+
+/// A scene of its own on the same geometry, without neighbourhoods and warnings: to be changed and tried out.
+[[nodiscard]] std::shared_ptr<HapticScene> copyOf(const HapticScene& scene);
+
+/// Takes one effect off a material; settlePlan then tells the tick.
+void removeEffect(HapticMaterialData& material, Effect effect);
 
 /// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error.
 [[nodiscard]] std::shared_ptr<const HapticScene>

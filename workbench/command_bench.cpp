@@ -9,10 +9,12 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <deque>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
@@ -112,6 +114,8 @@ constexpr FastCase kFastCases[] = {
 constexpr double kTailBound = 3.0;    // p99 over median
 constexpr double kObjectsBound = 2.0; // a thousand objects over one
 constexpr size_t kObjects = 1000;
+/// Proxy radius (m), and what all effects together may take on top of a bare tick, in rays.
+constexpr std::array<std::pair<double, double>, 2> kEffectBounds{{{0.0, 4.0}, {0.5e-3, 8.0}}};
 
 void printFast(const FastCase& fast, const RungTimes& times, Verdicts& verdicts) {
     const double tail = times.p99() / times.median();
@@ -131,6 +135,18 @@ void printObjects(const Rung& rung, const RungTimes& times, const char* peer) {
                 1e3 * rung.settings.proxyRadius, microseconds(times.median()).c_str(),
                 microseconds(times.p99()).c_str(), times.rayMedian(), times.inRays(),
                 times.p99() / times.median(), peer);
+}
+
+/// All effects at once over the same ticks without any, in rays.
+void printEffects(const Rung& rung, const RungTimes& with, const RungTimes& without, double bound,
+                  Verdicts& verdicts) {
+    const double above = (with.median() - without.median()) / without.rayMedian();
+    std::printf(
+        "all effects on, torus 64,800, r = %.1f mm: %s / %s µs, without %s; on top %.1f rays of %.0f: "
+        "%s\n",
+        1e3 * rung.settings.proxyRadius, microseconds(with.median()).c_str(),
+        microseconds(with.p99()).c_str(), microseconds(without.median()).c_str(), above, bound,
+        verdicts.word(above <= bound));
 }
 
 Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
@@ -160,6 +176,14 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
         for (const BenchScene* scene : {one, many})
             rungs.push_back({scene->name, scene, bare(radius), 0.1});
 
+    const size_t effectRungs = rungs.size();
+    scenes.push_back(torusWithAllEffects(64'800));
+    for (const auto& [radius, bound] : kEffectBounds) {
+        HapticSettings all;
+        all.proxyRadius = radius;
+        rungs.push_back({"no effects", &scenes.back(), bare(radius), 0.1});
+        rungs.push_back({"all effects", &scenes.back(), all, 0.1});
+    }
     const std::vector<RungTimes> times =
         timeRungs(rungs, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("fast"));
     std::printf("| stroke 1 mm deep | step, median / p99, µs | ray, ns | in rays | p99 / median | CHAI3D "
@@ -168,7 +192,7 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
     for (size_t i = 0; i < cases.size(); ++i)
         printFast(*cases[i], times[i], verdicts);
     std::string verdict;
-    for (size_t i = objectRungs; i < rungs.size(); i += 2) {
+    for (size_t i = objectRungs; i < effectRungs; i += 2) {
         printObjects(rungs[i], times[i], "");
         printObjects(rungs[i + 1], times[i + 1], "204");
         const double ratio = medianRatio(times[i + 1], times[i]);
@@ -178,6 +202,10 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
                    number("; their p99 is %.0f times as long\n", times[i + 1].p99() / times[i].p99());
     }
     std::printf("\n%s", verdict.c_str());
+    for (size_t i = 0; i < kEffectBounds.size(); ++i) {
+        const size_t at = effectRungs + 2 * i;
+        printEffects(rungs[at], times[at + 1], times[at], kEffectBounds[i].second, verdicts);
+    }
     Json json = Json::array();
     uint64_t allocations = 0;
     for (size_t i = 0; i < rungs.size(); ++i) {

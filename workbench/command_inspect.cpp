@@ -7,6 +7,7 @@
 #include "haptics/haptic_step.h"
 #include "haptics/servo/realtime_thread.h"
 #include "workbench/commands.h"
+#include "workbench/effect_cost.h"
 #include "workbench/model.h"
 #include "workbench/output_file.h"
 
@@ -79,18 +80,29 @@ Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
     return fields;
 }
 
+Json costJson(const EffectCost& cost) {
+    if (!cost.nanoseconds)
+        return nullptr;
+    return *cost.nanoseconds;
+}
+
 Json materialsJson(const Model& model) {
+    const std::vector<EffectCost> costs = effectCosts(*model.haptic);
     constexpr std::array kShading{"auto", "off", "twoPass", "projected", "direction", "bezier"};
     Json materials = Json::array();
     for (size_t m = 0; m < model.scene->materials.size(); ++m) {
         const Material& material = model.scene->materials[m];
         Json effects = Json::array();
-        for (const PlannedEffect& effect : model.haptic->plan.effects)
+        for (size_t i = 0; i < costs.size(); ++i) {
+            const PlannedEffect& effect = model.haptic->plan.effects[i];
             if (effect.material == static_cast<int>(m))
                 effects.push_back({{"effect", effectName(effect.effect)},
                                    {"on", effect.on},
                                    {"reason", effect.reason},
-                                   {"memory_bytes", effect.memoryBytes}});
+                                   {"memory_bytes", effect.memoryBytes},
+                                   {"ns_per_tick", costJson(costs[i])},
+                                   {"ns_over_ticks", costs[i].ticks}});
+        }
         Json json{{"index", m},
                   {"name", material.name},
                   {"haptic", fieldsJson(*model.scene, material.haptic)},
@@ -239,10 +251,10 @@ void printEffects(const Json& material) {
         std::printf("    %-24s %s %s (%s)\n", name.c_str(), text(field["value"]).c_str(),
                     text(field["unit"]).c_str(), text(field["source"]).c_str());
     for (const Json& effect : material["effects"])
-        std::printf("    %-3s %-18s %s%s\n", effect["on"].get<bool>() ? "on" : "off",
-                    text(effect["effect"]).c_str(), text(effect["reason"]).c_str(),
-                    effect["memory_bytes"] == 0 ? ""
-                                                : (", " + text(effect["memory_bytes"]) + " bytes").c_str());
+        std::printf("    %-3s %-18s %10s bytes %6s ns  %s\n", effect["on"].get<bool>() ? "on" : "off",
+                    text(effect["effect"]).c_str(), text(effect["memory_bytes"]).c_str(),
+                    effect["ns_per_tick"].is_null() ? "?" : text(effect["ns_per_tick"]).c_str(),
+                    text(effect["reason"]).c_str());
     if (material.contains("not_yet_available"))
         print("    not yet available: %s\n", material["not_yet_available"].dump());
 }

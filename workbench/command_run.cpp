@@ -209,6 +209,7 @@ int runCommand(const RunOptions& options) {
             {"deallocations_in_tick", violations.deallocations},
             {"contact", reader.statistics.contactJson()},
             {"force", reader.statistics.forceJson()},
+            {"energy", reader.statistics.energyJson()},
             {"flags", reader.statistics.flagsJson()},
             {"gpu",
              {{"name", gpu->name()},

@@ -201,6 +201,7 @@ int touchCommand(const TouchOptions& options) {
             {"clock_ns", clockCostNs()},
             {"contact", statistics.contactJson()},
             {"force", statistics.forceJson()},
+            {"energy", statistics.energyJson()},
             {"flags", statistics.flagsJson()},
             {"allocations_in_tick", violations.allocations},
             {"deallocations_in_tick", violations.deallocations},

@@ -50,6 +50,8 @@ void TickStatistics::addLive(const TickRecord& record) {
 void TickStatistics::add(const HapticOutput& output, int64_t stepNs) {
     ++ticks_;
     step_.add(stepNs);
+    work_.add(output.force, output.hip);
+    commandWork_.add(output.commandInWorkspace, output.hip);
     for (size_t i = 0; i < kFlagCount; ++i)
         if (has(output.flags, kFlagNames[i].first))
             ++flags_[i];
@@ -106,6 +108,13 @@ nlohmann::ordered_json TickStatistics::contactJson() const {
 nlohmann::ordered_json TickStatistics::forceJson() const {
     return {{"mean_n", contactTicks_ > 0 ? forceSum_ / static_cast<double>(contactTicks_) : 0.0},
             {"max_n", mostForce_}};
+}
+
+nlohmann::ordered_json TickStatistics::energyJson() const {
+    return {{"given_j", work_.given()},
+            {"law_j", work_.law()},
+            {"sampling_j", work_.given() - work_.law()},
+            {"command_given_j", commandWork_.given()}};
 }
 
 nlohmann::ordered_json TickStatistics::flagsJson() const {

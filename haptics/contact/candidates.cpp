@@ -64,7 +64,7 @@ void CandidateCache::turnIntoAnchor(size_t first, const Similarity& anchorFromOb
     }
 }
 
-bool CandidateCache::gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses,
+bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                             std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
                             double radius) noexcept {
     invalidate();

@@ -54,7 +54,7 @@ class CandidateCache {
     /// the cache is empty and invalid.
     /// `spheres`: bounding spheres of the objects at these poses (centre, radius; workspace) where they are
     /// known, or empty.
-    bool gather(std::span<const std::unique_ptr<const HapticObject>> objects, ObjectMotions poses,
+    bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                 std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
                 double radius) noexcept;
 

@@ -19,19 +19,15 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
             reason = "no touchable triangle has this material";
         }
         plan.effects.push_back({effect, index, on, std::move(reason), memory});
-        return on;
     };
-    const bool shaded =
-        add(Effect::ForceShading, data.shading != ShadingMode::Off && smooth,
-            data.shading == ShadingMode::Off ? "the material turns it off"
-            : smooth ? "vertex normals leave the face normals: the surface is meant to be smooth, " +
-                           std::string(data.shading == ShadingMode::TwoPass     ? "two-pass"
-                                       : data.shading == ShadingMode::Projected ? "projected"
-                                                                                : "direction")
-                     : "vertex normals equal the face normals: facets are meant",
-            0);
-    plan.anyShading |= shaded;
-    (data.shading == ShadingMode::TwoPass ? plan.twoPassShading : plan.oneFacetShading) |= shaded;
+    add(Effect::ForceShading, data.shading != ShadingMode::Off && smooth,
+        data.shading == ShadingMode::Off ? "the material turns it off"
+        : smooth ? "vertex normals leave the face normals: the surface is meant to be smooth, " +
+                       std::string(data.shading == ShadingMode::TwoPass     ? "two-pass"
+                                   : data.shading == ShadingMode::Projected ? "projected"
+                                                                            : "direction")
+                 : "vertex normals equal the face normals: facets are meant",
+        0);
     add(Effect::NormalMap, !data.normal.empty(),
         !data.normal.empty()     ? "normal map, felt share " + percent(data.normalScale)
         : material.normalTexture ? "the normal map is not felt or could not be read"
@@ -77,6 +73,57 @@ const char* effectName(Effect effect) {
     return "";
 }
 
+void settlePlan(HapticScene& scene) {
+    EffectPlan& plan = scene.plan;
+    plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
+    for (const auto& object : scene.objects) {
+        const ShadingMode mode = scene.materials[static_cast<size_t>(object->material)].shading;
+        const bool shaded = object->anySmooth && mode != ShadingMode::Off;
+        plan.anyShading |= shaded;
+        plan.twoPassShading |= shaded && mode == ShadingMode::TwoPass;
+        plan.oneFacetShading |= shaded && mode != ShadingMode::TwoPass;
+    }
+}
+
+std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
+    auto copy = std::make_shared<HapticScene>();
+    copy->objects = scene.objects;
+    copy->restMotions = scene.restMotions;
+    copy->materials = scene.materials;
+    copy->plan = scene.plan;
+    copy->workspaceFromScene = scene.workspaceFromScene;
+    copy->limits = scene.limits;
+    return copy;
+}
+
+void removeEffect(HapticMaterialData& material, Effect effect) {
+    switch (effect) {
+    case Effect::ForceShading:
+        material.shading = ShadingMode::Off;
+        return;
+    case Effect::NormalMap:
+        material.normal = {};
+        return;
+    case Effect::HeightMap:
+        material.height = {};
+        return;
+    case Effect::Friction:
+        material.staticFriction = material.dynamicFriction = 0.0;
+        material.friction = {};
+        return;
+    case Effect::ViscousFriction:
+        material.viscousFriction = 0.0;
+        return;
+    case Effect::Damping:
+        material.damping = 0.0;
+        material.dampingMap = {};
+        return;
+    case Effect::StiffnessMap:
+        material.stiffnessMap = {};
+        return;
+    }
+}
+
 void HapticScene::buildNeighbourhoods() const {
     const std::lock_guard lock(building_);
     if (built_ != nullptr)
@@ -114,6 +161,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
                                             : HapticMaterialData{});
         planMaterial(index, scene.materials[m], haptic->materials.back(), smooth[m], used[m], haptic->plan);
     }
+    settlePlan(*haptic);
     return haptic;
 }
 

@@ -18,6 +18,9 @@ Mesh meshOf(assets::Shape shape) {
     mesh.indices = std::move(shape.indices);
     mesh.positions = std::move(shape.positions);
     mesh.normals = std::move(shape.normals);
+    mesh.uv0 = std::move(shape.uv);
+    mesh.tangents = std::move(shape.tangents);
+    mesh.tangentsFromFile = !mesh.tangents.empty();
     mesh.normalsFromFile = !mesh.normals.empty();
     if (mesh.normalsFromFile)
         return mesh;
@@ -43,11 +46,67 @@ void place(Scene& scene, int mesh, const glm::dvec3& at) {
     scene.instances.push_back(instance);
 }
 
-/// The scene itself is let go of: of ten million triangles the hand's half is enough.
-std::shared_ptr<const HapticScene> compile(assets::Shape shape, const std::vector<glm::dvec3>& places) {
+Scene plainScene() {
     Scene scene;
     scene.path = "bench";
     scene.materials.emplace_back();
+    return scene;
+}
+
+/// 256 x 256 pixels of 8 bits, `channels` each; `at` gives 0..1 for a pixel's middle.
+int addImage(Scene& scene, int channels, const std::function<glm::dvec3(double u, double v)>& at) {
+    constexpr int kSide256 = 256;
+    Image image;
+    image.decoded = true;
+    image.pixels.width = image.pixels.height = kSide256;
+    image.pixels.channels = channels;
+    for (int y = 0; y < kSide256; ++y)
+        for (int x = 0; x < kSide256; ++x) {
+            const glm::dvec3 value = at((x + 0.5) / kSide256, (y + 0.5) / kSide256);
+            for (int c = 0; c < channels; ++c)
+                image.pixels.bytes.push_back(static_cast<std::byte>(std::lround(255.0 * value[c])));
+        }
+    scene.images.push_back(std::move(image));
+    return static_cast<int>(scene.images.size()) - 1;
+}
+
+/// One material that asks for everything.
+Scene richScene() {
+    constexpr double kTurn = 6.283185307179586;
+    Scene scene = plainScene();
+    const int wave = addImage(scene, 1, [](double u, double v) {
+        return glm::dvec3(0.5 + 0.25 * (std::sin(kTurn * u) + std::sin(kTurn * v)));
+    });
+    const int lean = addImage(scene, 3, [](double u, double v) {
+        return 0.5 +
+               0.5 * glm::normalize(glm::dvec3(0.1 * std::cos(kTurn * u), 0.1 * std::cos(kTurn * v), 1.0));
+    });
+    Material& material = scene.materials[0];
+    material.normalTexture.image = lean;
+    HapticMaterial& haptic = material.haptic;
+    const auto stated = [](auto value) {
+        return HapticMaterial::Field<decltype(value)>{value, HapticSource::Touchstone};
+    };
+    haptic.stiffness = stated(600.0f);
+    haptic.damping = stated(1.0f);
+    haptic.staticFriction = stated(0.4f);
+    haptic.dynamicFriction = stated(0.3f);
+    haptic.viscousFriction = stated(1.0f);
+    HeightMap height;
+    height.texture.image = wave;
+    height.scale = 2e-4f;
+    haptic.height = stated(height);
+    FactorMap factor;
+    factor.texture.image = wave;
+    factor.min = 0.5f;
+    factor.max = 1.0f;
+    haptic.friction = haptic.stiffnessMap = haptic.dampingMap = stated(factor);
+    return scene;
+}
+
+/// The scene itself is let go of: of ten million triangles the hand's half is enough.
+std::shared_ptr<const HapticScene> compile(assets::Shape shape, const std::vector<glm::dvec3>& places,
+                                           Scene scene = plainScene()) {
     scene.meshes.push_back(meshOf(std::move(shape)));
     for (const glm::dvec3& at : places)
         place(scene, 0, at);
@@ -129,6 +188,14 @@ BenchScene torusScene(size_t triangles) {
     const auto side =
         static_cast<uint32_t>(std::max(3L, std::lround(std::sqrt(0.5 * static_cast<double>(triangles)))));
     return {"torus", compile(assets::torus(kRing, kTube, side, side), {glm::dvec3(0.0)}),
+            alongTorus(kTube - kDepth)};
+}
+
+BenchScene torusWithAllEffects(size_t triangles) {
+    const auto side =
+        static_cast<uint32_t>(std::max(3L, std::lround(std::sqrt(0.5 * static_cast<double>(triangles)))));
+    return {"torus with all effects",
+            compile(assets::torus(kRing, kTube, side, side, {24, 10}), {glm::dvec3(0.0)}, richScene()),
             alongTorus(kTube - kDepth)};
 }
 

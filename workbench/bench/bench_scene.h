@@ -33,6 +33,10 @@ struct BenchScene {
 /// The torus of the issues, 60 mm and 25 mm, of about `triangles` triangles.
 [[nodiscard]] BenchScene torusScene(size_t triangles);
 
+/// The same with every effect that a material can ask for: smooth normals, a normal map, a height map,
+/// friction and viscous friction with a friction map, damping with a map and a stiffness map.
+[[nodiscard]] BenchScene torusWithAllEffects(size_t triangles);
+
 /// `count` spheres of 1800 triangles on a grid, 0.2 mm from each other; the one in the middle is stroked.
 [[nodiscard]] BenchScene sphereGridScene(size_t count);
 
