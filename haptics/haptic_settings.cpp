@@ -15,7 +15,9 @@ constexpr std::array kInfos{
     SettingInfo{"forceShading", "", "off, twoPass, projected, direction, material",
                 "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's direction, or "
                 "what each material says"},
-    SettingInfo{"texture", "", "off, law", "normal and height maps by the displacement force law"},
+    SettingInfo{
+        "texture", "", "off, law, blinn, minsky",
+        "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force"},
     SettingInfo{"friction", "", "off, zilles", "stiction point with static and dynamic coefficients"},
     SettingInfo{"proxyRadius", "m", "0 .. 0.05", "radius of the proxy sphere; 0 is the god-object"},
     SettingInfo{"stiffness", "N/m", "0 .. 100000", "0: the material's, else the device's recommendation"},
@@ -53,7 +55,7 @@ bool setNumber(double& field, std::string_view value, double low, double high, d
 constexpr std::array<std::string_view, 2> kContactNames{"sweep", "neighbourhood"};
 constexpr std::array<std::string_view, 5> kShadingNames{"off", "twoPass", "projected", "direction",
                                                         "material"};
-constexpr std::array<std::string_view, 2> kTextureNames{"off", "law"};
+constexpr std::array<std::string_view, 4> kTextureNames{"off", "law", "blinn", "minsky"};
 constexpr std::array<std::string_view, 2> kFrictionNames{"off", "zilles"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 

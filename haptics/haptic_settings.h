@@ -14,7 +14,8 @@ enum class ContactMethod : uint8_t { Sweep, Neighbourhood };
 /// Material: as each material's forceShading says (auto is two-pass). The others hold for every material but
 /// those that say off.
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
-enum class TextureMode : uint8_t { Off, Law };
+/// How the relief of the maps becomes force (force/spring_damper.h).
+enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
 enum class FrictionMode : uint8_t { Off, Zilles };
 
 /// Defaults are what the program starts with. SI units; lengths in workspace metres.

@@ -122,6 +122,20 @@ class Panel {
         ImGui::PopItemWidth();
     }
 
+    /// How the maps become force, while they do.
+    void textureLaw() {
+        constexpr std::array kLabels{"texture: displacement law", "texture: Blinn's normal",
+                                     "texture: Minsky's lateral force"};
+        if (state_.settings.texture == TextureMode::Off)
+            return;
+        ImGui::PushItemWidth(-1.0f);
+        int law = static_cast<int>(state_.settings.texture) - static_cast<int>(TextureMode::Law);
+        if (ImGui::Combo("##textureLaw", &law, kLabels.data(), static_cast<int>(kLabels.size())))
+            state_.settings.texture = static_cast<TextureMode>(law + static_cast<int>(TextureMode::Law));
+        mark("textureLaw");
+        ImGui::PopItemWidth();
+    }
+
     void feel() {
         section("FEEL");
         HapticSettings& settings = state_.settings;
@@ -130,6 +144,7 @@ class Panel {
         toggle("Force shading", "forceShading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
                ShadingMode::Material);
         toggle("Texture", "texture", settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
+        textureLaw();
         toggle("Friction", "friction", settings.friction, chosen.friction, FrictionMode::Off,
                FrictionMode::Zilles);
         ImGui::PushItemWidth(-1.0f);

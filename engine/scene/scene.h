@@ -25,6 +25,7 @@ struct Mesh {
     std::vector<glm::vec2> uv0, uv1;
     std::vector<glm::vec4> colors;                   ///< linear, 0..1
     std::vector<float> stiffness, damping, friction; ///< _STIFFNESS, _DAMPING, _FRICTION (N/m, N·s/m, 1)
+    std::vector<float> heights;                      ///< _HEIGHT (m, model), of either sign
     std::vector<uint32_t> indices;                   ///< 3 per triangle, counter-clockwise seen from outside
     int material = 0;                                ///< index into Scene::materials, always valid
     bool normalsFromFile = false, tangentsFromFile = false;

@@ -78,6 +78,28 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, H
     object.stiffness = mesh.stiffness;
     object.damping = mesh.damping;
     object.friction = mesh.friction;
+    object.heights = mesh.heights;
+    if (!mesh.heights.empty()) {
+        const auto [least, greatest] = std::minmax_element(mesh.heights.begin(), mesh.heights.end());
+        object.leastHeight = *least;
+        object.greatestHeight = *greatest;
+    }
+}
+
+/// What texture needs to follow a smooth surface rather than its facets; nothing where no height is felt.
+void addGradients(const Material& material, HapticObject& object) {
+    const GradientMesh mesh{object.vertices, object.indices, object.sourceIndices, object.normals};
+    if (material.haptic.height.value) {
+        const auto set = static_cast<size_t>(material.haptic.height.value->texture.texCoord & 1);
+        if (!object.uv[set].empty())
+            object.uvGradients[set] = smoothGradients(mesh, object.uv[set], Charted::Yes);
+    }
+    if (!object.heights.empty()) {
+        std::vector<glm::vec2> values(object.heights.size());
+        for (size_t v = 0; v < values.size(); ++v)
+            values[v].x = object.heights[v];
+        object.heightGradients = smoothGradients(mesh, values, Charted::No);
+    }
 }
 
 /// Welds `local`, fills the index buffers and counts what the weld did.
@@ -97,13 +119,21 @@ void weldGeometry(const std::vector<glm::vec3>& local, HapticObject& object) {
     object.closed = isClosed(object.indices);
 }
 
+template <class T>
+uint64_t bytesOf(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
 } // namespace
 
+uint64_t HapticObject::reliefBytes() const {
+    return bytesOf(heights) + bytesOf(uvGradients[0]) + bytesOf(uvGradients[1]) + bytesOf(heightGradients);
+}
+
 uint64_t HapticObject::memoryBytes() const {
-    const auto bytes = [](const auto& v) { return static_cast<uint64_t>(v.size() * sizeof(v[0])); };
-    return bytes(vertices) + bytes(indices) + bytes(sourceIndices) + bytes(normals) + bytes(tangents) +
-           bytes(uv[0]) + bytes(uv[1]) + bytes(stiffness) + bytes(damping) + bytes(friction) + bytes(smooth) +
-           tree.memoryBytes();
+    return bytesOf(vertices) + bytesOf(indices) + bytesOf(sourceIndices) + bytesOf(normals) +
+           bytesOf(tangents) + bytesOf(uv[0]) + bytesOf(uv[1]) + bytesOf(stiffness) + bytesOf(damping) +
+           bytesOf(friction) + bytesOf(smooth) + reliefBytes() + tree.memoryBytes();
 }
 
 std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instanceIndex,
@@ -150,6 +180,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     weldGeometry(local, *object);
     copyAttributes(mesh, linear, mirrored, *object);
     markSmoothTriangles(*object);
+    addGradients(scene.materials[static_cast<size_t>(mesh.material)], *object);
     object->bvh = buildBvh(*object);
     object->tree = TriangleTree(object->vertices, object->indices);
     return object;

@@ -5,6 +5,7 @@
 #include "engine/scene/scene.h"
 #include "haptics/contact/triangle.h"
 #include "haptics/contact/triangle_tree.h"
+#include "haptics/contact/vertex_gradients.h"
 
 #include <glm/glm.hpp>
 
@@ -37,6 +38,11 @@ struct HapticObject {
     std::vector<glm::vec4> tangents; ///< per source vertex, object frame; may be empty
     std::vector<glm::vec2> uv[2];    ///< per source vertex; may be empty
     std::vector<float> stiffness, damping, friction; ///< per source vertex; may be empty
+    std::vector<float> heights;                      ///< per source vertex, model metres; may be empty
+    float leastHeight = 0.0f, greatestHeight = 0.0f;
+    std::vector<GradientPair>
+        uvGradients[2]; ///< per source vertex, per object unit; only of a height map's set
+    std::vector<GradientPair> heightGradients; ///< of `heights`, model metres per object unit, and nothing
     std::vector<uint8_t> smooth;    ///< per triangle: 1 where the vertex normals differ from the face's
     Similarity workspaceFromObject; ///< rest pose
     glm::dmat4 objectFromMesh{1.0}; ///< what was baked into the vertices
@@ -51,6 +57,7 @@ struct HapticObject {
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] uint64_t memoryBytes() const;
+    [[nodiscard]] uint64_t reliefBytes() const; ///< of heights and gradients, part of memoryBytes
 };
 
 /// Triangle `index` of the object, object frame.

@@ -10,11 +10,19 @@ std::string percent(double share) {
     return std::to_string(static_cast<int>(share * 100.0 + 0.5)) + " %";
 }
 
+/// What the objects with a material have to say about its effects.
+struct UsedBy {
+    int objects = 0;
+    bool smooth = false, vertexHeights = false;
+    uint64_t reliefBytes = 0; ///< heights and gradients at the vertices
+};
+
 /// Decides for one material which effects it calls for, with the reason that `inspect` prints.
-void planMaterial(int index, const Material& material, const HapticMaterialData& data, bool smooth, bool used,
+void planMaterial(int index, const Material& material, const HapticMaterialData& data, const UsedBy& by,
                   EffectPlan& plan) {
+    const bool smooth = by.smooth;
     const auto add = [&](Effect effect, bool on, std::string reason, uint64_t memory) {
-        if (!used) {
+        if (by.objects == 0) {
             on = false;
             reason = "no touchable triangle has this material";
         }
@@ -33,10 +41,11 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
         : material.normalTexture ? "the normal map is not felt or could not be read"
                                  : "no normal map",
         data.normal.memoryBytes());
-    add(Effect::HeightMap, !data.height.empty(),
-        data.height.empty() ? "no height map"
-                            : "height map, " + std::to_string(data.heightScale * 1e3) + " mm black to white",
-        data.height.memoryBytes());
+    add(Effect::HeightMap, !data.height.empty() || by.vertexHeights,
+        !data.height.empty() ? "height map, " + std::to_string(data.heightScale * 1e3) + " mm black to white"
+        : by.vertexHeights   ? "vertex heights (_HEIGHT)"
+                             : "no height map",
+        data.height.memoryBytes() + by.reliefBytes);
     add(Effect::Friction, data.staticFriction > 0.0,
         data.staticFriction > 0.0 ? "static " + std::to_string(data.staticFriction) + ", dynamic " +
                                         std::to_string(data.dynamicFriction)
@@ -141,25 +150,26 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     auto haptic = std::make_shared<HapticScene>();
     haptic->workspaceFromScene = workspaceFromScene;
     haptic->limits = limits;
-    std::vector<bool> used(scene.materials.size()), smooth(scene.materials.size());
+    std::vector<UsedBy> by(scene.materials.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
         if (mesh.triangleCount() == 0)
             continue;
         auto object = buildHapticObject(scene, static_cast<int>(i), workspaceFromScene);
-        const auto material = static_cast<size_t>(object->material);
-        used[material] = true;
-        if (object->anySmooth)
-            smooth[material] = true;
+        UsedBy& material = by[static_cast<size_t>(object->material)];
+        ++material.objects;
+        material.smooth |= object->anySmooth;
+        material.vertexHeights |= !object->heights.empty();
+        material.reliefBytes += object->reliefBytes();
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
         haptic->restSpheres.push_back(boundingSphere(*object, object->workspaceFromObject));
         haptic->objects.push_back(std::move(object));
     }
     for (size_t m = 0; m < scene.materials.size(); ++m) {
         const int index = static_cast<int>(m);
-        haptic->materials.push_back(used[m] ? buildHapticMaterial(scene, index, haptic->warnings)
-                                            : HapticMaterialData{});
-        planMaterial(index, scene.materials[m], haptic->materials.back(), smooth[m], used[m], haptic->plan);
+        haptic->materials.push_back(by[m].objects > 0 ? buildHapticMaterial(scene, index, haptic->warnings)
+                                                      : HapticMaterialData{});
+        planMaterial(index, scene.materials[m], haptic->materials.back(), by[m], haptic->plan);
     }
     settlePlan(*haptic);
     return haptic;

@@ -28,15 +28,36 @@ double bounded(double x) {
     return std::isfinite(x) ? std::clamp(x, -1e9, 1e9) : 0.0;
 }
 
+/// Float maps may hold anything; beyond this sums of texels would overflow.
+constexpr float kLargestTexel = 1e12f;
+
+/// The texels that a coarser one covers, and how much of each.
+struct Cover {
+    int first = 0, count = 0;
+    float share[4] = {};
+};
+
+/// Coarse texel i of `coarse` over `fine` ones, which is two, or three where an odd size is halved.
+Cover coverOf(int i, int fine, int coarse) {
+    const double width = static_cast<double>(fine) / coarse, from = i * width, to = from + width;
+    Cover cover;
+    cover.first = static_cast<int>(from);
+    for (int k = cover.first; k < fine && k < to - 1e-9 && cover.count < 4; ++k)
+        cover.share[cover.count++] =
+            static_cast<float>((std::min<double>(k + 1, to) - std::max<double>(k, from)) / width);
+    return cover;
+}
+
 } // namespace
 
 HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int channels)
     : channels_(channels), texCoord_(reference.texCoord), wrapS_(reference.wrapS), wrapT_(reference.wrapT),
       offset_(reference.offset) {
-    // The transform is affine: its columns are what it does to the unit vectors.
-    const glm::dvec2 origin(reference.transform({0.0f, 0.0f}));
-    jacobian_ = glm::dmat2(glm::dvec2(reference.transform({1.0f, 0.0f})) - origin,
-                           glm::dvec2(reference.transform({0.0f, 1.0f})) - origin);
+    // KHR_texture_transform: scale, then rotate counter-clockwise as seen in the image (v points down).
+    const auto angle = static_cast<double>(reference.rotation);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const glm::dvec2 scale(reference.scale);
+    jacobian_ = glm::dmat2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y);
 
     Level level;
     level.width = pixels.width;
@@ -48,36 +69,43 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
         for (int x = 0; x < level.width; ++x)
             for (int k = 0; k < channels; ++k)
                 level.texels[out++] = pixels.value(x, y, std::min(k, pixels.channels - 1));
+    for (float& texel : level.texels)
+        texel = std::isfinite(texel) ? std::clamp(texel, -kLargestTexel, kLargestTexel) : 0.0f;
     least_ = INFINITY;
     greatest_ = -INFINITY;
     for (size_t i = 0; i < level.texels.size(); i += static_cast<size_t>(channels)) {
-        if (!std::isfinite(level.texels[i]))
-            level.texels[i] = 0.0f;
         least_ = std::min(least_, level.texels[i]);
         greatest_ = std::max(greatest_, level.texels[i]);
     }
     levels_.push_back(std::move(level));
-    // Box-filtered mips. An odd last row or column is folded into its neighbour.
-    while (levels_.back().width > 1 || levels_.back().height > 1) {
-        const Level& fine = levels_.back();
-        Level coarse;
-        coarse.width = std::max(1, fine.width / 2);
-        coarse.height = std::max(1, fine.height / 2);
-        coarse.texels.resize(static_cast<size_t>(coarse.width * coarse.height * channels));
-        for (int y = 0; y < coarse.height; ++y)
-            for (int x = 0; x < coarse.width; ++x)
-                for (int k = 0; k < channels; ++k) {
-                    const auto at = [&](int fx, int fy) {
-                        fx = std::min(fx, fine.width - 1);
-                        fy = std::min(fy, fine.height - 1);
-                        return fine.texels[static_cast<size_t>((fy * fine.width + fx) * channels + k)];
-                    };
-                    coarse.texels[static_cast<size_t>((y * coarse.width + x) * channels + k)] =
-                        0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
-                                 at(2 * x + 1, 2 * y + 1));
+    while (levels_.back().width > 1 || levels_.back().height > 1)
+        levels_.push_back(halved(levels_.back()));
+}
+
+/// Box filter over the very area that a coarse texel covers, so that odd sizes neither shift nor lose an
+/// edge.
+HapticMap::Level HapticMap::halved(const Level& fine) const {
+    Level coarse;
+    coarse.width = std::max(1, fine.width / 2);
+    coarse.height = std::max(1, fine.height / 2);
+    const auto channels = static_cast<size_t>(channels_);
+    coarse.texels.assign(static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height) * channels,
+                         0.0f);
+    float* out = coarse.texels.data();
+    for (int y = 0; y < coarse.height; ++y) {
+        const Cover rows = coverOf(y, fine.height, coarse.height);
+        for (int x = 0; x < coarse.width; ++x, out += channels) {
+            const Cover columns = coverOf(x, fine.width, coarse.width);
+            for (int j = 0; j < rows.count; ++j)
+                for (int i = 0; i < columns.count; ++i) {
+                    const size_t at = static_cast<size_t>(rows.first + j) * static_cast<size_t>(fine.width) +
+                                      static_cast<size_t>(columns.first + i);
+                    for (size_t k = 0; k < channels; ++k)
+                        out[k] += rows.share[j] * columns.share[i] * fine.texels[at * channels + k];
                 }
-        levels_.push_back(std::move(coarse));
+        }
     }
+    return coarse;
 }
 
 uint64_t HapticMap::memoryBytes() const {
@@ -127,12 +155,19 @@ glm::dvec3 HapticMap::vector(const glm::dvec2& uv, double level) const {
     return sample(uv, level);
 }
 
+glm::dvec2 HapticMap::slope(const Level& level, const glm::dvec2& uv) const {
+    const double du = 0.5 / level.width, dv = 0.5 / level.height;
+    const auto at = [&](double u, double v) { return bilinear(level, uv + glm::dvec2(u, v)).x; };
+    return {(at(du, 0.0) - at(-du, 0.0)) / (2.0 * du), (at(0.0, dv) - at(0.0, -dv)) / (2.0 * dv)};
+}
+
 glm::dvec2 HapticMap::gradient(const glm::dvec2& uv, double level) const {
     const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));
-    const Level& at = levels_[static_cast<size_t>(bound)];
-    const double du = 0.5 / at.width, dv = 0.5 / at.height;
-    return {(scalar(uv + glm::dvec2(du, 0), level) - scalar(uv - glm::dvec2(du, 0), level)) / (2.0 * du),
-            (scalar(uv + glm::dvec2(0, dv), level) - scalar(uv - glm::dvec2(0, dv), level)) / (2.0 * dv)};
+    const auto fine = static_cast<size_t>(bound);
+    const double between = bound - static_cast<double>(fine);
+    const glm::dvec2 a = slope(levels_[fine], uv);
+    // Each level by its own texel, so that the gradient does not jump where one level gives way to the next.
+    return between > 0.0 ? (1.0 - between) * a + between * slope(levels_[fine + 1], uv) : a;
 }
 
 } // namespace touchstone

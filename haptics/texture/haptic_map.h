@@ -35,8 +35,8 @@ class HapticMap {
     /// Bilinear in the level, linear between levels. `uv` is transformed already; `level` >= 0.
     [[nodiscard]] double scalar(const glm::dvec2& uv, double level) const;
     [[nodiscard]] glm::dvec3 vector(const glm::dvec2& uv, double level) const;
-    /// Channel 0's gradient over transformed uv by central differences of half a texel of the level, the
-    /// derivative of the bilinear surface averaged over one texel.
+    /// Channel 0's gradient over transformed uv by central differences of half a texel, the derivative of
+    /// the bilinear surface averaged over one texel; linear between levels.
     [[nodiscard]] glm::dvec2 gradient(const glm::dvec2& uv, double level) const;
 
   private:
@@ -45,6 +45,8 @@ class HapticMap {
         std::vector<float> texels; ///< channels interleaved, rows from the top
     };
     [[nodiscard]] glm::dvec3 bilinear(const Level& level, const glm::dvec2& uv) const;
+    [[nodiscard]] Level halved(const Level& fine) const;
+    [[nodiscard]] glm::dvec2 slope(const Level& level, const glm::dvec2& uv) const;
     [[nodiscard]] glm::dvec3 sample(const glm::dvec2& uv, double level) const;
 
     std::vector<Level> levels_;

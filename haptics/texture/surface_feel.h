@@ -19,7 +19,8 @@ struct SurfaceFeel {
     double depth = 0.0;       ///< d: distance of the HIP from the proxy, workspace m
     glm::dvec3 textured{0.0}; ///< m: unit normal with the texture's tilt
     double height = 0.0;      ///< H >= 0, workspace m
-    bool hasHeight = false;   ///< a height map is felt; without one m alone turns the force
+    bool hasHeight = false;   ///< H shortens the way along n (texture=law); else m alone turns the force
+    double lengthening = 1.0; ///< of the force along m; texture=minsky: 1 / (n . m), which leaves k d along n
     bool tiltCompressed = false;
     double stiffness = 0.0; ///< N/m
     double damping = 0.0;   ///< N·s/m

@@ -99,6 +99,7 @@ void makeFlat(ImportContext& context, Mesh& mesh, const std::string& place) {
     spread(mesh.stiffness);
     spread(mesh.damping);
     spread(mesh.friction);
+    spread(mesh.heights);
     for (size_t i = 0; i < corners; ++i)
         mesh.indices[i] = static_cast<uint32_t>(i);
     context.spendGeometry(corners * sizeof(glm::vec3), place);

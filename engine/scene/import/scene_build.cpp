@@ -18,7 +18,7 @@ uint64_t bytesOf(const Mesh& mesh) {
     const auto size = [](const auto& array) { return array.size() * sizeof(array[0]); };
     return sizeof(Mesh) + sizeof(Material) + size(mesh.positions) + size(mesh.normals) + size(mesh.tangents) +
            size(mesh.uv0) + size(mesh.uv1) + size(mesh.colors) + size(mesh.stiffness) + size(mesh.damping) +
-           size(mesh.friction) + size(mesh.indices);
+           size(mesh.friction) + size(mesh.heights) + size(mesh.indices);
 }
 
 /// The scene's meshes of one glTF mesh, by the physics material that its nodes give it.

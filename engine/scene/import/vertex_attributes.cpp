@@ -154,6 +154,8 @@ void readVertexAttributes(ImportContext& context, const GltfDocument& document,
     mesh.stiffness = reader.factors("_STIFFNESS", count);
     mesh.damping = reader.factors("_DAMPING", count);
     mesh.friction = reader.factors("_FRICTION", count);
+    if (auto heights = reader.raw("_HEIGHT", count, {1}))
+        mesh.heights = std::move(heights->values);
 }
 
 } // namespace touchstone

@@ -1,0 +1,199 @@
+#include "haptics/texture/relief.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+/// Gradients of two scalars over the surface at the spot: interpolated between the corners where the surface
+/// is felt smooth, else the facet's own.
+struct SurfaceGradients {
+    glm::dvec3 first{0.0}, second{0.0};
+};
+
+SurfaceGradients blended(const SurfaceSpot& spot, const std::vector<GradientPair>& vertices,
+                         const SurfaceGradients& facet) {
+    if (!spot.smooth || vertices.empty())
+        return facet;
+    SurfaceGradients sum;
+    for (size_t k = 0; k < 3; ++k) {
+        const GradientPair& at = vertices[spot.source(k)];
+        const bool known = std::isfinite(at[0].x);
+        const double weight = spot.weight[static_cast<int>(k)];
+        sum.first += weight * (known ? glm::dvec3(at[0]) : facet.first);
+        sum.second += weight * (known ? glm::dvec3(at[1]) : facet.second);
+    }
+    return sum;
+}
+
+SurfaceGradients uvGradients(const SurfaceSpot& spot, int set) {
+    const glm::dvec2 a = spot.uvAt(set, 0), b = spot.uvAt(set, 1), c = spot.uvAt(set, 2);
+    return blended(spot, spot.object.uvGradients[set & 1],
+                   {gradientOver(spot.triangle, a.x, b.x, c.x), gradientOver(spot.triangle, a.y, b.y, c.y)});
+}
+
+/// The same of the map's coordinates, by the chain rule over KHR_texture_transform.
+SurfaceGradients mapGradients(const SurfaceSpot& spot, const HapticMap& map) {
+    const SurfaceGradients uv = uvGradients(spot, map.texCoord());
+    const glm::dmat2& j = map.transformJacobian();
+    return {j[0][0] * uv.first + j[1][0] * uv.second, j[0][1] * uv.first + j[1][1] * uv.second};
+}
+
+/// Mip level at which one texel is at least two strokes long: at that spacing the servo still samples every
+/// feature twice (Nyquist).
+double levelForStroke(const SurfaceSpot& spot, const HapticMap& map, double speed, double dt) {
+    const SurfaceGradients g = mapGradients(spot, map);
+    const double texelsPerObject =
+        std::max(map.size().x * glm::length(g.first), map.size().y * glm::length(g.second));
+    const double texels = 2.0 * speed * dt / spot.workspacePerObject * texelsPerObject;
+    return texels > 1.0 ? std::log2(texels) : 0.0;
+}
+
+/// Unit normal of the core normal map, object frame; the felt normal where there is no tangent frame.
+glm::dvec3 normalFromMap(const SurfaceSpot& spot, double level) {
+    const HapticMap& map = spot.material.normal;
+    if (!spot.hasUv(map.texCoord()))
+        return spot.normal;
+    glm::dvec3 local = 2.0 * map.vector(map.transform(spot.uv(map.texCoord())), level) - 1.0;
+    local.x *= spot.material.normalScale;
+    local.y *= spot.material.normalScale;
+    local.z = std::max(local.z, 0.0); // a normal that points into the surface would pull the hand in
+    glm::dvec3 tangent(0.0);
+    double sign = 0.0;
+    if (!spot.object.tangents.empty()) {
+        for (size_t k = 0; k < 3; ++k) {
+            const glm::vec4& t = spot.object.tangents[spot.source(k)];
+            tangent += spot.weight[static_cast<int>(k)] * glm::dvec3(t.x, t.y, t.z);
+            sign += spot.weight[static_cast<int>(k)] * static_cast<double>(t.w);
+        }
+    } else {
+        // dP/du lies across grad v, on the side of grad u; the image's top is against growing v.
+        const SurfaceGradients g = uvGradients(spot, map.texCoord());
+        tangent = glm::cross(g.second, spot.normal);
+        if (glm::dot(tangent, g.first) < 0.0)
+            tangent = -tangent;
+        sign = -glm::dot(glm::cross(spot.normal, tangent), g.second);
+    }
+    tangent -= glm::dot(tangent, spot.normal) * spot.normal;
+    const double length = glm::length(tangent);
+    if (!(length > 1e-12) || sign == 0.0)
+        return spot.normal;
+    tangent /= length;
+    const glm::dvec3 bitangent = (sign < 0.0 ? -1.0 : 1.0) * glm::cross(spot.normal, tangent);
+    const glm::dvec3 normal = local.x * tangent + local.y * bitangent + local.z * spot.normal;
+    const double size = glm::length(normal);
+    return size > 1e-9 ? normal / size : spot.normal;
+}
+
+/// Height and its gradient: model metres, and metres of the model per object unit.
+struct Heights {
+    bool known = false;
+    double above = 0.0; ///< over the lowest place, seen from the side that is touched
+    glm::dvec3 gradient{0.0};
+};
+
+/// `high` - `low` bounds the values; a bump is a dent from the back, and the highest is the lowest there.
+double aboveLowest(double value, double low, double high, bool fromBack) {
+    return std::max(fromBack ? high - value : value - low, 0.0);
+}
+
+Heights heightsFromMap(const SurfaceSpot& spot, double speed, double dt) {
+    const HapticMap& map = spot.material.height;
+    const double scale = spot.material.heightScale;
+    if (map.empty() || scale == 0.0 || !spot.hasUv(map.texCoord()))
+        return {};
+    const double level = levelForStroke(spot, map, speed, dt);
+    const glm::dvec2 at = map.transform(spot.uv(map.texCoord()));
+    const double black = scale * static_cast<double>(map.least()),
+                 white = scale * static_cast<double>(map.greatest());
+    const glm::dvec2 overMap = scale * map.gradient(at, level);
+    const SurfaceGradients g = mapGradients(spot, map);
+    return {true,
+            aboveLowest(scale * map.scalar(at, level), std::min(black, white), std::max(black, white),
+                        spot.backside),
+            overMap.x * g.first + overMap.y * g.second};
+}
+
+Heights heightsFromVertices(const SurfaceSpot& spot) {
+    const HapticObject& o = spot.object;
+    if (o.heights.empty())
+        return {};
+    const auto at = [&](size_t corner) { return static_cast<double>(o.heights[spot.source(corner)]); };
+    return {
+        true,
+        aboveLowest(spot.attribute(o.heights, 0.0), static_cast<double>(o.leastHeight),
+                    static_cast<double>(o.greatestHeight), spot.backside),
+        blended(spot, o.heightGradients, {gradientOver(spot.triangle, at(0), at(1), at(2)), glm::dvec3(0.0)})
+            .first};
+}
+
+/// [001 4.11], N + (B_u (N x P_t) - B_v (N x P_s)) / |N|, with the triangle's own sides as s and t: with
+/// N = P_s x P_t the formula gives the same whatever the parameters are, and these exist where texture
+/// coordinates are missing, mirrored or collapsed.
+glm::dvec3 blinnNormal(const SurfaceSpot& spot, const glm::dvec3& slope) {
+    const glm::dvec3 s = spot.triangle.b - spot.triangle.a, t = spot.triangle.c - spot.triangle.a;
+    const double size = glm::length(glm::cross(s, t));
+    const glm::dvec3& n = spot.normal; // N = size n
+    return size * n + glm::dot(slope, s) * glm::cross(n, t) - glm::dot(slope, t) * glm::cross(n, s);
+}
+
+/// `slope`: grad H, a pure number. The [000] form leaves of it what lies in the felt surface.
+glm::dvec3 normalFromSlope(const SurfaceSpot& spot, const glm::dvec3& slope, TextureMode mode) {
+    const glm::dvec3& n = spot.normal;
+    const glm::dvec3 bumped =
+        mode == TextureMode::Blinn ? blinnNormal(spot, slope) : n - slope + glm::dot(slope, n) * n;
+    const double length = glm::length(bumped);
+    return std::isfinite(length) && length > 0.0 ? bumped / length : n;
+}
+
+/// Compresses the angle between m and n smoothly below `limit`: a / (1 + (a/limit)^4)^(1/4) keeps small tilts
+/// to fourth order and never reaches the limit, so no shape is cut flat.
+glm::dvec3 compressTilt(const glm::dvec3& n, const glm::dvec3& m, double limit, bool& compressed) {
+    constexpr double kNoLimit = 1.5707963267948966;
+    if (limit >= kNoLimit)
+        return m;
+    const double cosine = std::clamp(glm::dot(n, m), -1.0, 1.0);
+    const glm::dvec3 sideways = m - cosine * n;
+    const double sine = glm::length(sideways);
+    if (!(sine > 0.0) || !(limit > 0.0))
+        return limit > 0.0 ? m : n;
+    const double angle = std::atan2(sine, cosine);
+    compressed = angle > limit;
+    const double ratio = angle / limit;
+    const double kept = angle / std::sqrt(std::sqrt(1.0 + ratio * ratio * ratio * ratio));
+    return std::cos(kept) * n + std::sin(kept) / sine * sideways;
+}
+
+} // namespace
+
+Relief readRelief(const SurfaceSpot& spot, const HapticSettings& settings, double speed, double dt) noexcept {
+    const double strength = settings.textureStrength;
+    Relief relief;
+    relief.normal = spot.normal;
+    Heights heights = heightsFromMap(spot, speed, dt);
+    if (!heights.known)
+        heights = heightsFromVertices(spot);
+    // Blinn's and Minsky's are about grad H.
+    const bool fromNormalMap =
+        !spot.material.normal.empty() && (settings.texture == TextureMode::Law || !heights.known);
+    if (heights.known) {
+        relief.hasHeight = true;
+        relief.height = strength * heights.above * spot.workspacePerObject / spot.modelPerObject;
+        if (!fromNormalMap)
+            relief.normal =
+                normalFromSlope(spot, strength / spot.modelPerObject * heights.gradient, settings.texture);
+    }
+    if (fromNormalMap) {
+        constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees slopes run away
+        const glm::dvec3 m = normalFromMap(spot, levelForStroke(spot, spot.material.normal, speed, dt));
+        const double cosine = std::max(glm::dot(m, spot.normal), kSteepest);
+        relief.normal = glm::normalize(spot.normal + strength * (m / cosine - spot.normal));
+    }
+    relief.normal =
+        compressTilt(spot.normal, relief.normal, settings.textureTiltLimit, relief.tiltCompressed);
+    return relief;
+}
+
+} // namespace touchstone

@@ -1,0 +1,52 @@
+#pragma once
+// The touched triangle with its contact point: what attributes and maps are read at. For stage 5 only.
+
+#include "haptics/contact/haptic_object.h"
+#include "haptics/contact/triangle.h"
+#include "haptics/texture/haptic_material.h"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace touchstone {
+
+/// Everything in the frame of the touched object, lengths in object units unless said otherwise.
+struct SurfaceSpot {
+    const HapticObject& object;
+    const HapticMaterialData& material;
+    Triangle triangle;
+    size_t first = 0;       ///< index of the triangle's first corner
+    glm::dvec3 weight{0.0}; ///< barycentric
+    glm::dvec3 normal{0.0}; ///< unit, of the felt shape, on the outer side
+    bool backside = false;  ///< touched from the inner side
+    bool smooth = false;    ///< gradients are interpolated between vertices, as normals are
+    double workspacePerObject = 1.0;
+    double modelPerObject = 1.0; ///< metres of the model in one object unit
+
+    [[nodiscard]] uint32_t source(size_t corner) const { return object.sourceIndices[first + corner]; }
+    [[nodiscard]] double attribute(const std::vector<float>& values, double otherwise) const {
+        if (values.empty())
+            return otherwise;
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k)
+            sum += weight[k] * static_cast<double>(values[source(static_cast<size_t>(k))]);
+        return sum;
+    }
+    [[nodiscard]] bool hasUv(int set) const { return !object.uv[set & 1].empty(); }
+    [[nodiscard]] glm::dvec2 uvAt(int set, size_t corner) const {
+        return glm::dvec2(object.uv[set & 1][source(corner)]);
+    }
+    [[nodiscard]] glm::dvec2 uv(int set) const {
+        return weight.x * uvAt(set, 0) + weight.y * uvAt(set, 1) + weight.z * uvAt(set, 2);
+    }
+    [[nodiscard]] double factor(const HapticFactor& f, double level) const {
+        if (f.map.empty() || !hasUv(f.map.texCoord()))
+            return 1.0;
+        return f.min + (f.max - f.min) * f.map.scalar(f.map.transform(uv(f.map.texCoord())), level);
+    }
+};
+
+} // namespace touchstone
