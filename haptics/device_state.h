@@ -52,7 +52,8 @@ struct DeviceState {
 
     // Stage 6, anchor frame.
     FrictionState friction = FrictionState::Free;
-    glm::dvec3 stictionPoint{0.0}; ///< a proxy position
+    glm::dvec3 stictionPoint{0.0}; ///< a proxy position; with friction=ho on the chord between two
+    glm::dvec3 frictionless{0.0};  ///< where the proxy would be without friction; while friction is not Free
 
     // Stage 8
     ForceLimiterState limiter;

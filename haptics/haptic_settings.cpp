@@ -18,7 +18,9 @@ constexpr std::array kInfos{
     SettingInfo{
         "texture", "", "off, law, blinn, minsky",
         "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force"},
-    SettingInfo{"friction", "", "off, zilles", "stiction point with static and dynamic coefficients"},
+    SettingInfo{"friction", "", "off, zilles, ho, elastoplastic",
+                "stiction point with static and dynamic coefficients; zilles: sawtooth; ho: two states; "
+                "elastoplastic: creeps before it slips"},
     SettingInfo{"proxyRadius", "m", "0 .. 0.05", "radius of the proxy sphere; 0 is the god-object"},
     SettingInfo{"stiffness", "N/m", "0 .. 100000", "0: the material's, else the device's recommendation"},
     SettingInfo{"damping", "N s/m", "-1 .. 1000", "below 0: the material's, else none"},
@@ -56,7 +58,7 @@ constexpr std::array<std::string_view, 2> kContactNames{"sweep", "neighbourhood"
 constexpr std::array<std::string_view, 5> kShadingNames{"off", "twoPass", "projected", "direction",
                                                         "material"};
 constexpr std::array<std::string_view, 4> kTextureNames{"off", "law", "blinn", "minsky"};
-constexpr std::array<std::string_view, 2> kFrictionNames{"off", "zilles"};
+constexpr std::array<std::string_view, 4> kFrictionNames{"off", "zilles", "ho", "elastoplastic"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 bool assign(HapticSettings& s, std::string_view name, std::string_view value) {
@@ -135,6 +137,8 @@ std::vector<std::string> settingWarnings(const HapticSettings& settings) {
     std::vector<std::string> warnings;
     if (settings.contact == ContactMethod::Neighbourhood && settings.proxyRadius > 0.0)
         warnings.emplace_back("contact=neighbourhood is a point method: proxyRadius is ignored");
+    if (settings.staticFriction >= 0.0 && settings.dynamicFriction > settings.staticFriction)
+        warnings.emplace_back("dynamicFriction above staticFriction; clamped to it");
     return warnings;
 }
 

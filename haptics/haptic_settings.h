@@ -16,7 +16,7 @@ enum class ContactMethod : uint8_t { Sweep, Neighbourhood };
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
 /// How the relief of the maps becomes force (force/spring_damper.h).
 enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
-enum class FrictionMode : uint8_t { Off, Zilles };
+enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic };
 
 /// Defaults are what the program starts with. SI units; lengths in workspace metres.
 struct HapticSettings {

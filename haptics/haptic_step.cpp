@@ -1,7 +1,7 @@
 #include "haptics/haptic_step.h"
 
 #include "haptics/force/spring_damper.h"
-#include "haptics/friction/stiction.h"
+#include "haptics/friction/friction.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/proxy/carry.h"
 #include "haptics/proxy/mesh_proxy.h"
@@ -57,14 +57,10 @@ glm::dvec3 surfaceVelocity(const ObjectMotion& anchor, const DeviceState& state,
     return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
-void publish(const ObjectMotions motions, const DeviceState& state, const ProxyRest& rest,
-             const SurfaceFeel& feel, HapticOutput& output) {
-    const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
-    output.proxy = workspaceFromAnchor.point(state.proxy);
-    output.penetration = glm::length(output.proxy - output.hip);
+/// What holds the hand, before friction moves the proxy away from there.
+void publishContact(const Similarity& workspaceFromAnchor, const ProxyRest& rest, const SurfaceFeel& feel,
+                    HapticOutput& output) {
     output.contacts = rest.contactCount;
-    output.iterations = rest.iterations;
-    output.friction = state.friction;
     if (!feel.touching)
         return;
     output.object = feel.object;
@@ -75,7 +71,16 @@ void publish(const ObjectMotions motions, const DeviceState& state, const ProxyR
     for (size_t i = 0; i < output.planeCount; ++i)
         output.planes[i] =
             workspaceFromAnchor.direction(rest.contacts[static_cast<size_t>(rest.hold.active[i])].normal);
-    output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
+}
+
+void publishProxy(const Similarity& workspaceFromAnchor, const DeviceState& state, const ProxyRest& rest,
+                  HapticOutput& output) {
+    output.proxy = workspaceFromAnchor.point(state.proxy);
+    output.penetration = glm::length(output.proxy - output.hip);
+    output.iterations = rest.iterations;
+    output.friction = state.friction;
+    if (state.friction != FrictionState::Free)
+        output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
 }
 
 /// What the objects' own motion does to the proxy before the contact model moves it. The watch meets moving
@@ -89,6 +94,14 @@ void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings
         carryProxy(scene, motions, settings.proxyRadius, state, flags);
     }
 }
+
+/// The place without friction is a god-object of its own, which friction does not hold back [001 §4.1.1]: it
+/// goes on from where it was. Not where objects move: what they may have pushed is the proxy.
+void leaveFriction(MeshProxy& proxy, const DeviceState& state, bool atRest) {
+    if (atRest && state.friction != FrictionState::Free)
+        proxy.placeAt(state.frictionless);
+}
+void leaveFriction(NeighbourhoodWatch&, const DeviceState&, bool) {}
 
 /// Places the proxy in the first tick. False while the HIP is inside a body.
 bool meet(const HapticScene& scene, ObjectMotions motions, MeshProxy& proxy, DeviceState& state) {
@@ -124,6 +137,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     const Similarity workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
     const glm::dvec3 hip = workspaceFromAnchor.inversePoint(state.hip);
     const glm::dvec3 held = state.proxy;
+    leaveFriction(proxy, state, input.objects.empty());
     stopwatch.lap(Stage::Contact);
 
     // 3. Proxy solve: as near to the goal as free space allows.
@@ -147,18 +161,19 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
                                          shape.depth * workspaceFromAnchor.scale, speed, input.dt);
     if (feel.tiltCompressed)
         output.flags = output.flags | TickFlag::TiltCompressed;
+    publishContact(workspaceFromAnchor, rest, feel, output);
     stopwatch.lap(Stage::Texture);
 
     // 6. Friction: the proxy held back inside the cone.
-    const glm::dvec3 frictionless = state.proxy;
-    applyStiction(feel, held, workspaceFromAnchor.scale, proxy, state);
+    const glm::dvec3 stretch =
+        workspaceFromAnchor.scale *
+        applyFriction(settings.friction, feel, held, workspaceFromAnchor.scale, proxy, state, rest);
     stopwatch.lap(Stage::Friction);
 
     // 7. Force.
-    const glm::dvec3 stretch = workspaceFromAnchor.scale * (state.proxy - frictionless);
     output.force = workspaceFromAnchor.direction(springDamperForce(feel, stretch, velocity));
     output.flags |= rest.flags;
-    publish(motions, state, rest, feel, output);
+    publishProxy(workspaceFromAnchor, state, rest, output);
     // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
     // tick can hold feels nothing until the hand is in the open again.
     if (feel.touching && !input.objects.empty())

@@ -221,6 +221,7 @@ void changeAnchor(DeviceState& state, ObjectMotions motions, int anchor) noexcep
     state.anchor = anchor;
     state.proxy = newFromOld.point(state.proxy);
     state.stictionPoint = newFromOld.point(state.stictionPoint);
+    state.frictionless = newFromOld.point(state.frictionless);
     state.shadedNormal = newFromOld.direction(state.shadedNormal);
     state.shadedTurn = newFromOld.direction(state.shadedTurn);
     state.candidates.invalidate();

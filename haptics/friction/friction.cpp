@@ -1,0 +1,106 @@
+#include "haptics/friction/friction.h"
+
+#include "haptics/friction/friction_law.h"
+#include "haptics/proxy/neighbourhood_watch.h"
+
+namespace touchstone {
+
+namespace {
+
+FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
+    switch (mode) {
+    case FrictionMode::Ho:
+        return hoLaw(input);
+    case FrictionMode::Elastoplastic:
+        return elastoplasticLaw(input);
+    case FrictionMode::Zilles:
+    case FrictionMode::Off:
+        break;
+    }
+    return zillesLaw(input);
+}
+
+/// The nearest way to a place that the proxy held last: from there, where the model can be put anywhere.
+void startAt(const glm::dvec3& held, MeshProxy& proxy) {
+    proxy.placeAt(held);
+}
+void startAt(const glm::dvec3&, NeighbourhoodWatch&) {}
+
+/// Onto the surface at `goal`, a place on the chord between two places of the surface: below it where the
+/// surface bulges, above it, in the air, where it is hollow.
+template <class Model>
+bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Model& proxy,
+            const DeviceState& state, const ProxyRest& rest) {
+    proxy.moveTowards(goal);
+    if (rest.contactCount == 0)
+        proxy.dropTowards(goal + down);
+    return rest.contactCount > 0 && glm::length(state.proxy - goal) <= tolerance;
+}
+
+template <class Model>
+void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec3& down, Model& proxy,
+              DeviceState& state, const ProxyRest& rest) {
+    // Where a wall stands between the last place and this one, or the surface bends sharply, it is met from
+    // the frictionless side.
+    constexpr double kNear = 0.1;
+    const glm::dvec3 frictionless = state.frictionless;
+    const double tolerance = kNear * glm::length(stretch);
+    startAt(held, proxy);
+    if (settle(frictionless + stretch, down, tolerance, proxy, state, rest))
+        return;
+    startAt(frictionless, proxy);
+    if (settle(frictionless + stretch, down, tolerance, proxy, state, rest) || rest.contactCount > 0)
+        return;
+    proxy.moveTowards(frictionless + down);
+}
+
+} // namespace
+
+template <class Model>
+glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::dvec3& held,
+                         double workspacePerAnchor, Model& proxy, DeviceState& state,
+                         ProxyRest& rest) noexcept {
+    if (!feel.touching || !(feel.staticFriction > 0.0)) {
+        state.friction = FrictionState::Free;
+        return glm::dvec3(0.0);
+    }
+    const glm::dvec3 before = state.frictionless;
+    const glm::dvec3 frictionless = state.frictionless = state.proxy;
+    if (state.friction == FrictionState::Free) {
+        // First touch: the stiction point is where the surface was met.
+        state.friction = FrictionState::Sticking;
+        state.stictionPoint = frictionless;
+        return glm::dvec3(0.0);
+    }
+    // Ho's spring is softer than the surface: its stiction point is farther away than the proxy. The others'
+    // is the proxy itself, wherever the world may have pushed it.
+    const glm::dvec3 point = mode == FrictionMode::Ho ? state.stictionPoint : held;
+    const double depth = feel.depth / workspacePerAnchor;
+    const FrictionAnswer answer = askLaw(mode, {.state = state.friction,
+                                                .stretch = point - frictionless,
+                                                .lastLength = glm::length(held - before),
+                                                .depth = depth,
+                                                .staticFriction = feel.staticFriction,
+                                                .dynamicFriction = feel.dynamicFriction});
+    state.friction = answer.state;
+    const bool ownPlace = mode != FrictionMode::Ho;
+    if (answer.stays && ownPlace) {
+        proxy.placeAt(held);
+        state.stictionPoint = held;
+        return held - frictionless;
+    }
+    const glm::dvec3 wish = answer.share * answer.stretch;
+    holdBack(held, wish, -depth * feel.normal, proxy, state, rest);
+    state.stictionPoint = ownPlace ? state.proxy : answer.stays ? point : frictionless + answer.stretch;
+    // On a curved surface the chord is not quite what was asked for: the force is, never more.
+    const glm::dvec3 kept = state.proxy - frictionless;
+    const double asked = glm::dot(wish, wish), got = glm::dot(kept, kept);
+    return got > asked ? std::sqrt(asked / got) * kept : kept;
+}
+
+template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double, MeshProxy&,
+                                  DeviceState&, ProxyRest&) noexcept;
+template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
+                                  NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
+
+} // namespace touchstone
