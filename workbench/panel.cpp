@@ -136,6 +136,21 @@ class Panel {
         ImGui::PopItemWidth();
     }
 
+    /// Which law holds the proxy back, while one does.
+    void frictionLaw() {
+        constexpr std::array kLabels{"friction: sawtooth (Zilles)", "friction: two states (Ho)",
+                                     "friction: elasto-plastic"};
+        FrictionMode& mode = state_.settings.friction;
+        if (mode == FrictionMode::Off)
+            return;
+        ImGui::PushItemWidth(-1.0f);
+        int law = static_cast<int>(mode) - static_cast<int>(FrictionMode::Zilles);
+        if (ImGui::Combo("##frictionLaw", &law, kLabels.data(), static_cast<int>(kLabels.size())))
+            mode = static_cast<FrictionMode>(law + static_cast<int>(FrictionMode::Zilles));
+        mark("frictionLaw");
+        ImGui::PopItemWidth();
+    }
+
     void feel() {
         section("FEEL");
         HapticSettings& settings = state_.settings;
@@ -147,6 +162,7 @@ class Panel {
         textureLaw();
         toggle("Friction", "friction", settings.friction, chosen.friction, FrictionMode::Off,
                FrictionMode::Zilles);
+        frictionLaw();
         ImGui::PushItemWidth(-1.0f);
         auto stiffness = static_cast<float>(settings.stiffness);
         const char* shown = stiffness <= 0.0f ? "stiffness: the material's" : "stiffness %.0f N/m";

@@ -273,11 +273,13 @@ void HardCase::takeForce(const Touching& touching, double behind) {
     const double demanded = jumpOf(depth, turn) + jumpOf(depth, felt) + kStiffness * behind +
                             (tilt > 0.0 ? kStiffness * 2.0 * kShadedRounding * unit() : 0.0);
     // A stretch that is mu d long grows with the depth and slips from mu_s d to mu_d d. Where several planes
-    // hold, the others may stand in the way of what is kept, and all of it goes.
+    // hold, or the proxy stood on another plane than now, that may stand in the way of what is kept, and all
+    // of it goes.
     const HapticSettings& set = bench.settings;
     double slip = 0.0;
     if (set.friction != FrictionMode::Off) {
-        const double kept = std::max(now.planeCount, last_.planeCount) > 1 ? 0.0 : set.dynamicFriction;
+        const bool cornered = other || std::max(now.planeCount, last_.planeCount) > 1;
+        const double kept = cornered ? 0.0 : set.dynamicFriction;
         slip = kStiffness *
                ((set.staticFriction - kept) * std::max(friction_, depth) + set.staticFriction * travel);
     }
