@@ -195,6 +195,24 @@ TEST(Friction, NoneIsNoneAndTenHoldsAndStaysInTheCone) {
     }
 }
 
+/// Three square walls, the free space between them.
+assets::Shape threeWalls() {
+    assets::Shape shape;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto first = static_cast<uint32_t>(shape.positions.size());
+        for (const glm::vec2 at :
+             {glm::vec2(0, 0), glm::vec2(0.05, 0), glm::vec2(0.05, 0.05), glm::vec2(0, 0.05)}) {
+            glm::vec3 p(0.0f);
+            p[(axis + 1) % 3] = at.x;
+            p[(axis + 2) % 3] = at.y;
+            shape.positions.push_back(p);
+        }
+        for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u})
+            shape.indices.push_back(first + k);
+    }
+    return shape;
+}
+
 /// The proxy keeps its radius from every triangle, and the friction force stays within mu_s N.
 void expectOnSurfaceAndInCone(const TouchBench& bench, double muS, double& clearance, double& share) {
     const HapticOutput& out = bench.output;
@@ -223,33 +241,44 @@ TEST(Friction, OnACurvedSurfaceAndInACornerTheProxyStaysOnItAndInTheCone) {
                 HapticSettings s = rubbing(model, muS, muD);
                 s.proxyRadius = radius;
                 double clearance = 1.0, share = 0.0;
-                TouchBench torus(sceneOf(assets::torus(0.06, 0.025, 60, 30)), s);
+                TouchBench torus(sceneOf(assets::torus(0.06, 0.025, 40, 20)), s);
                 SCOPED_TRACE(nameOf(torus) + " r " + std::to_string(radius) + " at " + std::to_string(speed));
                 torus.step({0.1, 0.0, 0.0});
                 int contact = 0;
-                const int ticks = 2000;
+                const int ticks = 1000;
                 for (int i = 0; i < ticks; ++i) {
                     // Over the outside, round the tube, through the hole where it is hollow.
-                    const double a = speed * 1e-3 / 0.085 * i, v = 2.7 * a;
+                    const double a = speed * 1e-3 / 0.085 * i + 0.5, v = 2.7 * a;
                     const double r = 0.0242 - 0.0008 * std::sin(5.0 * a);
                     const double ring = 0.06 + r * std::cos(v);
                     torus.step({ring * std::cos(a), ring * std::sin(a), r * std::sin(v)});
                     contact += torus.output.contacts > 0;
-                    expectOnSurfaceAndInCone(torus, muS, clearance, share);
+                    if (i % 5 == 0) // brute force is slow
+                        expectOnSurfaceAndInCone(torus, muS, clearance, share);
                 }
                 EXPECT_GT(contact, ticks / 2);
 
-                // Down into a box's inner corner: along one wall, two, three.
-                TouchBench corner(sceneOf(assets::box({0.1, 0.1, 0.1}, 2)), s);
-                corner.step({0.0, 0.08, 0.0}); // outside first: edges and corners of the box
-                corner.moveTo({0.0, 0.049, 0.0}, speed);
+                // Over edges and corners that stand out, and into a corner of three walls.
+                TouchBench box(sceneOf(assets::box({0.1, 0.1, 0.1}, 2)), s);
+                box.step({0.0, 0.08, 0.0});
+                box.moveTo({0.0, 0.049, 0.0}, speed);
                 for (const glm::dvec3 to : {glm::dvec3(0.049, 0.049, 0.01), glm::dvec3(0.0495, 0.02, 0.0495),
                                             glm::dvec3(0.0497, 0.0496, 0.0495), glm::dvec3(0.0, 0.049, 0.0)})
-                    corner.moveTo(to, speed, [&](const HapticOutput&) {
-                        expectOnSurfaceAndInCone(corner, muS, clearance, share);
+                    box.moveTo(to, speed, [&](const HapticOutput&) {
+                        expectOnSurfaceAndInCone(box, muS, clearance, share);
                     });
-                Scene groove = sceneOf(assets::box({0.1, 0.02, 0.1}, 2));
-                TouchBench walls(groove, s);
+                TouchBench walls(sceneOf(threeWalls()), s);
+                uint32_t most = 0;
+                walls.step({0.01, 0.01, 0.01});
+                for (const glm::dvec3 to :
+                     {glm::dvec3(0.01, -0.001, 0.01), glm::dvec3(-0.002, -0.001, 0.01),
+                      glm::dvec3(-0.001, -0.002, -0.001), glm::dvec3(0.004, -0.002, -0.003),
+                      glm::dvec3(-0.003, -0.001, 0.002), glm::dvec3(0.002, 0.012, -0.001)})
+                    walls.moveTo(to, speed, [&](const HapticOutput& out) {
+                        most = std::max(most, out.planeCount);
+                        expectOnSurfaceAndInCone(walls, muS, clearance, share);
+                    });
+                EXPECT_EQ(most, 3u);
                 EXPECT_GE(clearance, 0.0);
                 EXPECT_LE(share, 1.0 + 1e-9);
             }
