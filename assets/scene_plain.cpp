@@ -92,6 +92,7 @@ std::vector<SceneFile> allScenes() {
                       std::make_move_iterator(family.end()));
     scenes.push_back(swatches());
     scenes.push_back(moving());
+    scenes.push_back(virtualBump());
     return scenes;
 }
 

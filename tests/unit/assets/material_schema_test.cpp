@@ -115,7 +115,7 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 11) << "ten swatches and a doughnut";
+    EXPECT_EQ(materials, 12) << "ten swatches, a doughnut and a virtual bump";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,

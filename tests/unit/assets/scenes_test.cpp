@@ -65,6 +65,7 @@ TEST(Scenes, HaveTheSurfacesThatTheirNamesPromise) {
         {"prism_smooth.glb", {40, 22, true, 2}},
         {"box.glb", {12, 8, true, 2}},
         {"plane.glb", {2, 4, false, 1}},
+        {"virtual_bump.glb", {2, 4, false, 1}},
         {"moving.glb", {12 + 48, 8 + 26, true, 4}},
         {"swatches.glb", {2 * (2 * 11 * 5 + 2 * 11 + 2 * 5), 2 * 12 * 6, true, 2}},
     };
