@@ -63,11 +63,14 @@ assets::Shape threePlanes() {
 TEST(Grooves, AThreePlaneCornerWithFrictionHoldsStill) {
     for (const Variant& v : allVariants())
         for (const double speed : allSpeeds())
-            for (const bool rubs : {false, true}) {
-                SCOPED_TRACE(v.name() + " at " + std::to_string(speed) + " m/s" + (rubs ? ", friction" : ""));
+            for (const FrictionMode law :
+                 {FrictionMode::Off, FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic}) {
+                const bool rubs = law != FrictionMode::Off;
                 HapticSettings s = v.settings();
+                s.friction = law;
+                SCOPED_TRACE(v.name() + " at " + std::to_string(speed) + " m/s, friction " +
+                             settingValue(s, "friction"));
                 if (rubs) {
-                    s.friction = FrictionMode::Zilles;
                     s.staticFriction = 0.5;
                     s.dynamicFriction = 0.4;
                 }

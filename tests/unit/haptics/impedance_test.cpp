@@ -89,6 +89,49 @@ TEST(Impedance, ScalarVertexAndMapGiveTheClosedForm) {
         [&](double x) { return 2.0 * 2.0 * white(x); });
 }
 
+TEST(Impedance, FrictionByMapAndVertexIsReadUnderTheHandAndTheViscousTermAloneUsesVelocity) {
+    const double half = static_cast<double>(0.1f);
+    Scene map = sceneOf(assets::plane(0.2, 0.2, 2, 2));
+    map.materials[0].haptic.staticFriction = {0.5f, HapticSource::Touchstone};
+    map.materials[0].haptic.dynamicFriction = {0.25f, HapticSource::Touchstone};
+    Scene vertex = map;
+    map.materials[0].haptic.friction = {twoTexels(map, 0.5f, 2.0f), HapticSource::Touchstone};
+    for (const glm::vec3& p : vertex.meshes[0].positions)
+        vertex.meshes[0].friction.push_back(0.5f + 0.25f * (p.x / 0.1f));
+    HapticSettings s = plain();
+    s.stiffness = 1000.0;
+    for (const FrictionMode model : {FrictionMode::Ho, FrictionMode::Elastoplastic})
+        for (const bool byMap : {true, false}) {
+            s.friction = model;
+            TouchBench bench(byMap ? map : vertex, s);
+            bench.step({0.04, 0.001, 0.0});
+            bench.moveTo({0.04, -0.001, 0.0}, 0.05);
+            int sliding = 0;
+            // Towards the smaller coefficient: whoever slides goes on sliding.
+            bench.moveTo({-0.04, -0.001, 0.0}, 0.02, [&](const HapticOutput& out) {
+                if (out.friction != FrictionState::Sliding)
+                    return;
+                ++sliding;
+                const double x = out.hip.x / half;
+                const double mu = byMap ? 0.25 * (0.5 + 1.5 * (0.5 + x)) : 0.5 * (0.5 + 0.25 * x);
+                EXPECT_NEAR(out.force.x, mu * out.force.y, 1e-9) << "x " << out.hip.x;
+            });
+            EXPECT_GT(sliding, 3000);
+        }
+
+    Scene viscous = sceneOf(assets::plane(0.2, 0.2, 2, 2));
+    viscous.materials[0].haptic.viscousFriction = {4.0f, HapticSource::Touchstone};
+    s.friction = FrictionMode::Zilles;
+    TouchBench bench(viscous, s);
+    bench.step({0.04, 0.001, 0.0});
+    bench.moveTo({0.04, -0.001, 0.0}, 0.05);
+    bench.moveTo({0.0, -0.001, 0.01}, 0.1, [&](const HapticOutput& out) {
+        EXPECT_NEAR(out.force.x, -4.0 * out.hipVelocity.x, 1e-9);
+        EXPECT_NEAR(out.force.z, -4.0 * out.hipVelocity.z, 1e-9);
+    });
+    EXPECT_GT(bench.output.force.x, 0.3);
+}
+
 /// A plane with a cliff of `width` m at x = 0, by vertices: stiffness, damping and friction step up there.
 Scene cliff(double width) {
     assets::Shape shape;
