@@ -300,6 +300,47 @@ Json benchGrowth(const BenchOptions& options) {
     return json;
 }
 
+/// The worst tick: what the longest of a round takes in half of the rounds, so that a tick from which the
+/// machine was taken away does not count.
+double worst(const RungTimes& times) {
+    return static_cast<double>(times.longest.percentile(0.5));
+}
+
+Json benchMoving(const BenchOptions& options) {
+    std::deque<BenchScene> scenes;
+    scenes.push_back(sphereGridScene(kObjects));
+    scenes.push_back(movingGridScene(kObjects));
+    constexpr size_t kJawTriangles = 64'800;
+    if (kJawTriangles <= options.largestTriangles)
+        for (const Jaws jaws : {Jaws::Boxes, Jaws::Balls})
+            scenes.push_back(jawsScene(jaws, kJawTriangles));
+    std::vector<Rung> rungs;
+    for (const double radius : {0.0, 0.5e-3})
+        for (const BenchScene& scene : scenes)
+            rungs.push_back(
+                {scene.name, &scene, bare(radius), scene.haptic->objects.size() == 2 ? 0.01 : 0.1});
+    const std::vector<RungTimes> times =
+        timeRungs(rungs, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("moving"));
+    std::printf("| objects that move | step, median / p99 / worst, µs | their poses, median, µs | ray, ns | "
+                "in rays | pinched ticks |\n|---|---|---|---|---|---|\n");
+    Json json = Json::array();
+    for (size_t i = 0; i < rungs.size(); ++i) {
+        const bool moves = !times[i].poses.empty();
+        std::printf("| %s, r = %.1f mm | %s / %s / %s | %s | %.0f | %.1f | %s |\n", rungs[i].name.c_str(),
+                    1e3 * rungs[i].settings.proxyRadius, microseconds(times[i].median()).c_str(),
+                    microseconds(times[i].p99()).c_str(), microseconds(worst(times[i])).c_str(),
+                    moves ? microseconds(static_cast<double>(times[i].poses.percentile(0.5))).c_str() : "",
+                    times[i].rayMedian(), times[i].inRays(), grouped(times[i].pinchedTicks).c_str());
+        json.push_back(rungJson(rungs[i], times[i]));
+        json.back()["step_worst_ns"] = worst(times[i]);
+        json.back()["pinched_ticks"] = times[i].pinchedTicks;
+        if (moves)
+            json.back()["poses_p50_ns"] = times[i].poses.percentile(0.5);
+    }
+    std::printf("\n");
+    return json;
+}
+
 std::string processor() {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);)
@@ -317,10 +358,13 @@ int benchCommand(const BenchOptions& options) {
               {"processor", processor()},
               {"compiler", __VERSION__},
               {"clock_ns", clockCostNs()}};
-    if (options.what != "growth")
+    const auto wanted = [&](const char* what) { return options.what.empty() || options.what == what; };
+    if (wanted("fast"))
         json["fast"] = benchFast(options, verdicts);
-    if (options.what != "fast")
+    if (wanted("growth"))
         json["growth"] = benchGrowth(options);
+    if (wanted("moving"))
+        json["moving"] = benchMoving(options);
     std::printf("Ticks in contact; reading the clock, %s ns, is part of every time. %s\n",
                 json["clock_ns"].dump().c_str(), processor().c_str());
     json["missed_bounds"] = verdicts.missed;

@@ -1,6 +1,7 @@
 #pragma once
 // What the benchmarks touch: shapes in closed form, made in the program, and a hand that strokes each.
 
+#include "engine/scene/scene.h"
 #include "haptics/haptic_scene.h"
 
 #include <glm/glm.hpp>
@@ -20,6 +21,7 @@ struct BenchScene {
     std::string name;
     std::shared_ptr<const HapticScene> haptic;
     BenchStroke stroke;
+    ScenePtr animated; ///< with the animation that its objects move by; null: at rest
 
     [[nodiscard]] size_t triangles() const;
     [[nodiscard]] size_t vertices() const; ///< after welding
@@ -39,5 +41,14 @@ struct BenchScene {
 
 /// `count` spheres of 1800 triangles on a grid, 0.2 mm from each other; the one in the middle is stroked.
 [[nodiscard]] BenchScene sphereGridScene(size_t count);
+
+/// The same, and every sphere turns about an axis of its own, once in 2 s, while its centre goes round a
+/// circle of 50 µm: all of them move in every tick.
+[[nodiscard]] BenchScene movingGridScene(size_t count);
+
+/// Two objects of about `triangles` triangles each, 6 mm apart, close on the hand between them at 20 mm/s
+/// until they overlap by 4 mm, and part again, in a loop of 1 s. Boxes leave no way out, balls a wedge.
+enum class Jaws { Boxes, Balls };
+[[nodiscard]] BenchScene jawsScene(Jaws jaws, size_t triangles);
 
 } // namespace touchstone

@@ -4,6 +4,7 @@
 #include "engine/core/realtime_guard.h"
 #include "haptics/contact/ray_floor.h"
 #include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
 
 #include <algorithm>
@@ -19,7 +20,10 @@ constexpr double kDescent = 0.1;   // m/s
 /// One rung with what it remembers from turn to turn.
 class Turn {
   public:
-    Turn(const Rung& rung, double start) : rung_(rung), start_(start) {}
+    Turn(const Rung& rung, double start) : rung_(rung), start_(start) {
+        if (rung.scene->animated)
+            moving_ = MovingObjects(rung.scene->animated, *rung.scene->haptic);
+    }
 
     void take(int ticks, RungTimes& times) {
         hands_.resize(static_cast<size_t>(ticks));
@@ -31,12 +35,15 @@ class Turn {
                 rung_.scene->stroke(start_ + rung_.speed * time, std::max(0.0, kApproach - kDescent * time));
         }
         Samples step;
+        int64_t longest = 0;
         const RealtimeViolations before = realtime::violations();
         for (size_t i = 0; i < hands_.size(); ++i) {
-            const int64_t ns = tick(hands_[i]);
+            const int64_t ns = tick(hands_[i], times);
+            times.pinchedTicks += has(output_.flags, TickFlag::Pinched) ? 1 : 0;
+            longest = std::max(longest, ns);
             if (output_.contacts == 0)
                 continue;
-            touched_.push_back({output_.proxy, output_.hip, output_.object});
+            touched_.push_back({output_.proxy, output_.hip, output_.object, touchedPose()});
             step.add(ns);
             times.step.add(ns);
             times.iterations += output_.iterations;
@@ -51,11 +58,12 @@ class Turn {
         times.ticks += hands_.size();
         times.contactTicks += step.count();
         times.medians.push_back(static_cast<double>(step.percentile(0.5)));
+        times.longest.add(longest);
         castRays(times);
     }
 
   private:
-    int64_t tick(const glm::dvec3& hand) {
+    int64_t tick(const glm::dvec3& hand, RungTimes& times) {
         DeviceSample sample;
         sample.position = hand;
         sample.valid = true;
@@ -66,6 +74,11 @@ class Turn {
         input.devices = {&sample, 1};
         NoStopwatch none;
         const realtime::TickScope scope;
+        if (moving_.moving()) {
+            const long long begin = monotonicNs();
+            input.objects = motions_ = moving_.at(input.time);
+            times.poses.add(monotonicNs() - begin);
+        }
         const long long begin = monotonicNs();
         hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output_, 1}, none);
         return monotonicNs() - begin;
@@ -77,23 +90,33 @@ class Turn {
             if (t.object < 0)
                 continue;
             const long long begin = monotonicNs();
-            sum += castFloorRay(*rung_.scene->haptic, t.object, t.proxy, t.hip);
+            sum += castFloorRay(*rung_.scene->haptic, t.object, t.pose, t.proxy, t.hip);
             times.ray.add(monotonicNs() - begin);
         }
         [[maybe_unused]] static volatile float sink;
         sink = sum; // so that no ray is left out
     }
 
-    /// Where a floor ray goes.
+    /// Where a floor ray goes, and where the object was.
     struct Touched {
         glm::dvec3 proxy, hip;
         int object;
+        Similarity pose;
     };
+    [[nodiscard]] Similarity touchedPose() const {
+        if (output_.object < 0)
+            return {};
+        const ObjectMotions motions =
+            motions_.empty() ? ObjectMotions(rung_.scene->haptic->restMotions) : motions_;
+        return motions[static_cast<size_t>(output_.object)].workspaceFromObject;
+    }
 
     const Rung& rung_;
     double start_;
     WorldState world_;
     DeviceState state_;
+    MovingObjects moving_;
+    ObjectMotions motions_;
     std::vector<glm::dvec3> hands_;
     HapticOutput output_; ///< one for all ticks, as the servo has it
     std::vector<Touched> touched_;

@@ -24,7 +24,10 @@ struct Rung {
 /// What its ticks in contact took, ns; reading the clock twice (`clockCostNs`) is part of each.
 struct RungTimes {
     Samples step;
-    Samples ray; ///< the floor: one Embree ray from proxy to HIP for each of those ticks
+    Samples ray;     ///< the floor: one Embree ray from proxy to HIP for each of those ticks
+    Samples poses;   ///< where objects move: sampling the animation, of all ticks and beside the step
+    Samples longest; ///< the longest step of each round, contact or not
+    uint64_t pinchedTicks = 0; ///< TickFlag::Pinched, contact or not
     uint64_t ticks = 0;
     uint64_t contactTicks = 0;
     uint64_t iterations = 0;     ///< of all ticks in contact
