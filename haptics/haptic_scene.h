@@ -28,7 +28,8 @@ class HapticScene {
     std::vector<std::shared_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
     std::vector<ObjectMotion> restMotions;                    ///< one per object: at rest
     std::vector<glm::dvec4> restSpheres;                      ///< one per object: boundingSphere at rest
-    std::vector<HapticMaterialData> materials;                ///< index = Scene material
+    std::vector<double> boundingRadii;         ///< one per object: HapticObject::boundingRadius, side by side
+    std::vector<HapticMaterialData> materials; ///< index = Scene material
     EffectPlan plan;
     Similarity workspaceFromScene;
     DeviceLimits limits;

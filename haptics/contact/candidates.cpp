@@ -67,6 +67,26 @@ void CandidateCache::turnIntoAnchor(size_t first, const Similarity& anchorFromOb
 bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                             std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
                             double radius) noexcept {
+    return gatherAll(
+        objects, poses, [&](size_t k) { return spheres[k]; }, anchor, centre, radius);
+}
+
+bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
+                            std::span<const double> radii, int anchor, const glm::dvec3& centre,
+                            double radius) noexcept {
+    const auto sphereOf = [&](size_t k) {
+        const Similarity& pose = poses[k].workspaceFromObject;
+        return glm::dvec4(pose.translation, pose.scale * radii[k]);
+    };
+    return gatherAll(objects, poses, sphereOf, anchor, centre, radius);
+}
+
+/// `sphereOf(k)` touches nothing of the object itself: of a thousand, most lie far from the hand and far from
+/// each other in memory.
+template <class SphereOf>
+bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects,
+                               ObjectMotions poses, const SphereOf& sphereOf, int anchor,
+                               const glm::dvec3& centre, double radius) noexcept {
     invalidate();
     centre_ = centre;
     radius_ = radius;
@@ -75,8 +95,7 @@ bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>>
     // A share more than double rounds at the far end of a scene.
     const double room = workspaceFromAnchor.scale * radius + 1e-14 * glm::length(place);
     for (size_t k = 0; k < objects.size(); ++k) {
-        const glm::dvec4 sphere =
-            spheres.empty() ? boundingSphere(*objects[k], poses[k].workspaceFromObject) : spheres[k];
+        const glm::dvec4 sphere = sphereOf(k);
         const glm::dvec3 apart = place - glm::dvec3(sphere);
         const double touching = sphere.w + room;
         if (glm::dot(apart, apart) > touching * touching)

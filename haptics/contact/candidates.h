@@ -52,11 +52,13 @@ class CandidateCache {
 
     /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
     /// the cache is empty and invalid.
-    /// `spheres`: bounding spheres of the objects at these poses (centre, radius; workspace) where they are
-    /// known, or empty.
+    /// `spheres`: bounding spheres of the objects at these poses (centre, radius; workspace).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                 std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
                 double radius) noexcept;
+    /// The same where only their radii are known (object units).
+    bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
+                std::span<const double> radii, int anchor, const glm::dvec3& centre, double radius) noexcept;
 
     /// What a gather leaves out from now on: at most kMostIgnored objects.
     static constexpr size_t kMostIgnored = 8;
@@ -136,6 +138,9 @@ class CandidateCache {
                                     double reach) noexcept;
 
   private:
+    template <class SphereOf>
+    bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
+                   const SphereOf& sphereOf, int anchor, const glm::dvec3& centre, double radius) noexcept;
     static void prepare(Candidate& item) noexcept;
     void turnIntoAnchor(size_t first, const Similarity& anchorFromObject) noexcept;
     bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,

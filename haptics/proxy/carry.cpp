@@ -130,10 +130,15 @@ bool Carry::isNear(size_t k, double within) const {
     const Similarity& from = motion.jumped ? motion.workspaceFromObject : motion.before;
     const glm::dvec3 half = 0.5 * (motion.workspaceFromObject.translation - from.translation);
     const glm::dvec3 away = start_ - (from.translation + half);
+    const double distance2 = glm::dot(away, away);
     const double reach =
-        glm::length(half) + within +
-        scene_.objects[k]->boundingRadius * std::max(from.scale, motion.workspaceFromObject.scale);
-    return glm::dot(away, away) <= reach * reach;
+        within + scene_.boundingRadii[k] * std::max(from.scale, motion.workspaceFromObject.scale);
+    // Of a thousand objects nearly all are so far away that no root is needed to tell.
+    const double most = std::abs(half.x) + std::abs(half.y) + std::abs(half.z) + reach;
+    if (distance2 > most * most)
+        return false;
+    const double exact = glm::length(half) + reach;
+    return distance2 <= exact * exact;
 }
 
 /// Whether a proxy cannot be at `place` (workspace) for object k as it stands now.
@@ -144,7 +149,8 @@ bool Carry::blockedAt(size_t k, const glm::dvec3& place) noexcept {
         return true;
     CandidateCache& cache = state_.carryCandidates;
     const double reach = radius_ / pose.scale + kCarryGap;
-    if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), {}, 0, p, reach))
+    if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
+                      std::span(scene_.boundingRadii).subspan(k, 1), 0, p, reach))
         return true;
     for (size_t i = 0; i < cache.count(); ++i)
         if (distanceTo(cache.triangle(i), p).distance < reach)
@@ -231,7 +237,8 @@ bool Carry::sweep(size_t copy, CarriedObject& object, const glm::dvec3& to) noex
     for (int i = 0; i < kPieces; ++i) {
         const glm::dvec3 start = from + done * move;
         const double ball = 0.5 * piece * length + object.reach + kCarryGap;
-        if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1), {}, 0, start + 0.5 * piece * move,
+        if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
+                          std::span(scene_.boundingRadii).subspan(k, 1), 0, start + 0.5 * piece * move,
                           ball)) {
             piece *= 0.5;
             continue;
@@ -442,7 +449,7 @@ void Carry::run() noexcept {
     bool pushed = false, byAnchorOnly = true;
     double way = 0.0, largest = 0.0;
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
-        if (!moves(k) || !isNear(k, 2.0 * radius_) || state_.pinched.holds(static_cast<int>(k)))
+        if (!isNear(k, 2.0 * radius_) || !moves(k) || state_.pinched.holds(static_cast<int>(k)))
             continue;
         pushed = true;
         byAnchorOnly &= static_cast<int>(k) == state_.anchor;

@@ -70,15 +70,17 @@ bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     else if (state_.candidates.freeAlong(state_.proxy, direction, reach) >= wanted)
         return true;
     const bool atRest = motions_.data() == scene_.restMotions.data();
-    const std::span<const glm::dvec4> spheres =
-        atRest ? std::span<const glm::dvec4>(scene_.restSpheres) : std::span<const glm::dvec4>();
     constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const double margin = state_.gatherMargin;
         // The ball lies ahead of the hand, where it lasts longer.
         const glm::dvec3 centre = state_.proxy + kAhead * margin * heading_;
-        const bool fits = state_.candidates.gather(scene_.objects, motions_, spheres, state_.anchor, centre,
-                                                   reach + margin);
+        const auto gather = [&](auto bounds) {
+            return state_.candidates.gather(scene_.objects, motions_, bounds, state_.anchor, centre,
+                                            reach + margin);
+        };
+        const bool fits = atRest ? gather(std::span<const glm::dvec4>(scene_.restSpheres))
+                                 : gather(std::span<const double>(scene_.boundingRadii));
         const size_t count = state_.candidates.count();
         double next = margin;
         if (!fits)

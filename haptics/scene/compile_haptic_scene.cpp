@@ -163,6 +163,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
         material.reliefBytes += object->reliefBytes();
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
         haptic->restSpheres.push_back(boundingSphere(*object, object->workspaceFromObject));
+        haptic->boundingRadii.push_back(object->boundingRadius);
         haptic->objects.push_back(std::move(object));
     }
     for (size_t m = 0; m < scene.materials.size(); ++m) {

@@ -53,6 +53,7 @@ TEST(CommandLine, EveryCommandHasItsOwnHelp) {
         EXPECT_FALSE(result.out.empty()) << command;
     }
     EXPECT_TRUE(contains(runProgram({kProgram, "touch", "--help"}).out, "proxyRadius"));
+    EXPECT_FALSE(contains(runProgram({kProgram, "bench", "--help"}).out, "--set")) << "it takes none";
 }
 
 TEST(CommandLine, SaysItsVersion) {
@@ -358,9 +359,10 @@ TEST(Bench, PrintsEveryFigureBesideItsBound) {
     const ProgramResult result =
         runProgram({kProgram, "bench", "--largest", "64800", "--rounds", "1", "--json", json});
     ASSERT_EQ(result.status, 0) << result.err;
-    for (const char* words : {"torus 64,800, r = 0.0 mm", "of 6, ", "of 12, ", "1,000 objects take",
-                              "allocations and frees in ticks: 0, met", "Number of polygons",
-                              "| 12 | 456 | 1,800 | 64,800 |", "neighbourhood watch"})
+    for (const char* words :
+         {"torus 64,800, r = 0.0 mm", "of 6, ", "of 12, ", "1,000 objects take",
+          "allocations and frees in ticks: 0, met", "Number of polygons", "| 12 | 456 | 1,800 | 64,800 |",
+          "neighbourhood watch", "1000 moving objects, r = 0.5 mm", "two boxes, r = 0.0 mm"})
         EXPECT_TRUE(contains(result.out, words)) << words;
     EXPECT_FALSE(contains(result.out, "1,000,000")) << "larger than was asked for";
     const auto figures = nlohmann::json::parse(readFile(json));
@@ -372,7 +374,14 @@ TEST(Bench, PrintsEveryFigureBesideItsBound) {
             EXPECT_LE(rung["step_p50_ns"], rung["step_p99_ns"]);
             EXPECT_GT(rung["ray_p50_ns"], 0);
         }
-    expectRefused(runProgram({kProgram, "bench", "slow"}), 2, {"fast", "growth"});
+    for (const auto& rung : figures["moving"]) {
+        EXPECT_EQ(rung["allocations_in_tick"], 0) << rung["name"];
+        EXPECT_GT(rung["ticks_in_contact"], 300) << rung["name"];
+        EXPECT_LE(rung["step_p99_ns"], rung["step_worst_ns"]);
+        EXPECT_EQ(rung["pinched_ticks"] > 0, rung["name"] == "two boxes") << rung["name"];
+        EXPECT_EQ(rung.contains("poses_p50_ns"), rung["name"] != "1000 objects") << rung["name"];
+    }
+    expectRefused(runProgram({kProgram, "bench", "slow"}), 2, {"fast", "growth", "moving"});
 }
 
 TEST(Inspect, APlainModelNeedsNoEffect) {
