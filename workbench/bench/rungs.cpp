@@ -73,15 +73,21 @@ class Turn {
         input.dt = kTick;
         input.devices = {&sample, 1};
         NoStopwatch none;
-        const realtime::TickScope scope;
-        if (moving_.moving()) {
-            const long long begin = monotonicNs();
-            input.objects = motions_ = moving_.at(input.time);
-            times.poses.add(monotonicNs() - begin);
+        long long posed = 0, begin = 0, end = 0;
+        {
+            const realtime::TickScope scope;
+            const long long start = monotonicNs();
+            if (moving_.moving())
+                input.objects = motions_ = moving_.at(input.time);
+            begin = monotonicNs();
+            posed = begin - start;
+            hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output_, 1},
+                       none);
+            end = monotonicNs();
         }
-        const long long begin = monotonicNs();
-        hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output_, 1}, none);
-        return monotonicNs() - begin;
+        if (moving_.moving())
+            times.poses.add(posed);
+        return end - begin;
     }
 
     void castRays(RungTimes& times) {
