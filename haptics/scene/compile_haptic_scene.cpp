@@ -98,6 +98,8 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     auto copy = std::make_shared<HapticScene>();
     copy->objects = scene.objects;
     copy->restMotions = scene.restMotions;
+    copy->restSpheres = scene.restSpheres;
+    copy->boundingRadii = scene.boundingRadii;
     copy->materials = scene.materials;
     copy->plan = scene.plan;
     copy->workspaceFromScene = scene.workspaceFromScene;
