@@ -172,7 +172,10 @@ TEST(GltfMeshes, HapticAttributesOfVerticesAreRead) {
         maker.addAccessor<float>({0.1f, 0.2f, 0.3f, 0.4f}, "SCALAR");
     maker.primitive()["attributes"]["_DAMPING"] =
         maker.addAccessor<uint8_t>({0, 255, 0, 255}, "SCALAR", true);
+    maker.primitive()["attributes"]["_HEIGHT"] =
+        maker.addAccessor<float>({-0.001f, 0.0f, 0.002f, 0.0f}, "SCALAR");
     const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->meshes[0].heights, (std::vector<float>{-0.001f, 0.0f, 0.002f, 0.0f}));
     EXPECT_EQ(scene->meshes[0].stiffness[3], 400.0f);
     EXPECT_EQ(scene->meshes[0].friction[1], 0.2f);
     EXPECT_EQ(scene->meshes[0].damping[1], 1.0f);
