@@ -10,6 +10,7 @@
 #include "haptics/safety/force_limiter.h"
 #include "haptics/sample/hip_sample.h"
 #include "haptics/shading/force_shading.h"
+#include "haptics/texture/plain_feel.h"
 #include "haptics/texture/surface_feel.h"
 
 #include <type_traits>
@@ -24,29 +25,35 @@ struct FeltShape {
     double depth = 0.0;     ///< anchor units
 };
 
-/// `oneFacet`: some surface of the scene turns the force of its facet.
-FeltShape feltShape(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                    bool oneFacet, const glm::dvec3& hip, const DeviceState& state, const ProxyRest& rest) {
-    if (rest.contactCount == 0)
-        return {};
+/// The force of one facet turned: Morgenbesser keeps the magnitude and turns it; Ho takes the distance of the
+/// HIP from the facet along the interpolated normal [000 §4.1]. Out of line: what a scene does not call for
+/// must not take registers from what it does.
+[[gnu::noinline]] FeltShape facetShape(const HapticScene& scene, ObjectMotions motions,
+                                       const HapticSettings& settings, int anchor, const Contact& facet,
+                                       const glm::dvec3& offset, const FeltShape& untouched) {
+    const ShadingMode mode = shadingMode(settings, materialOf(scene, facet));
+    if (mode != ShadingMode::Direction && mode != ShadingMode::Projected)
+        return untouched;
+    const glm::dvec3 m = interpolatedNormal(scene, motions, anchor, facet, settings.shadingTiltLimit);
+    if (mode == ShadingMode::Direction)
+        return {m, untouched.depth};
+    constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
+    return {m, glm::dot(offset, facet.normal) / std::max(glm::dot(m, facet.normal), kSteepest)};
+}
+
+/// `oneFacet`: some surface of the scene turns the force of its facet. With several planes there is no one
+/// facet to turn the force of or to project onto: the true force holds.
+[[gnu::always_inline]] inline FeltShape feltShape(const HapticScene& scene, ObjectMotions motions,
+                                                  const HapticSettings& settings, bool oneFacet,
+                                                  const glm::dvec3& hip, const DeviceState& state,
+                                                  const ProxyRest& rest) {
     const glm::dvec3 offset = state.proxy - hip;
     const double depth = glm::length(offset);
     const Contact& holder = rest.contacts[rest.hold.count > 0 ? static_cast<size_t>(rest.hold.active[0]) : 0];
-    const glm::dvec3 direct = depth > 100.0 * kContactGap ? offset / depth : holder.normal;
-    // With several planes there is no one facet to turn the force of or to project onto: the true force
-    // holds.
-    if (!oneFacet || rest.hold.count != 1)
-        return {direct, depth};
-    const ShadingMode mode = shadingMode(settings, materialOf(scene, holder));
-    if (mode != ShadingMode::Direction && mode != ShadingMode::Projected)
-        return {direct, depth};
-    const glm::dvec3 m = interpolatedNormal(scene, motions, state.anchor, holder, settings.shadingTiltLimit);
-    // Morgenbesser keeps the magnitude and turns the force; Ho takes the distance of the HIP from the
-    // facet along the interpolated normal [000 §4.1].
-    if (mode == ShadingMode::Direction)
-        return {m, depth};
-    constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
-    return {m, glm::dot(offset, holder.normal) / std::max(glm::dot(m, holder.normal), kSteepest)};
+    const FeltShape shape{depth > 100.0 * kContactGap ? offset / depth : holder.normal, depth};
+    if (oneFacet && rest.hold.count == 1)
+        return facetShape(scene, motions, settings, state.anchor, holder, offset, shape);
+    return shape;
 }
 
 /// Velocity of the HIP against the anchor's surface, m/s, in the anchor frame.
@@ -55,6 +62,15 @@ glm::dvec3 surfaceVelocity(const ObjectMotion& anchor, const DeviceState& state,
     const glm::dvec3 carried =
         anchor.jumped ? glm::dvec3(0.0) : (now.point(state.proxy) - anchor.before.point(state.proxy)) / dt;
     return glm::conjugate(now.rotation) * (state.velocity - carried);
+}
+
+/// Stage 5 where the touched material calls for it. `velocity` of the HIP against the surface.
+[[gnu::noinline]] void feelTexture(const HapticScene& scene, ObjectMotions motions,
+                                   const HapticSettings& settings, const DeviceState& state,
+                                   const glm::dvec3& normal, double depth, const glm::dvec3& velocity,
+                                   double dt, SurfaceFeel& feel) {
+    const double speed = glm::length(velocity - glm::dot(velocity, normal) * normal);
+    feel = readSurface(scene, motions, settings, state.anchor, state.rest, normal, depth, speed, dt);
 }
 
 /// What holds the hand, before friction moves the proxy away from there.
@@ -116,7 +132,8 @@ bool meet(const HapticScene&, ObjectMotions, NeighbourhoodWatch& watch, DeviceSt
 
 /// Stages 2 to 7 for a hand whose place is known. `Model` is the contact model, all of stages 2 and 3; what
 /// it must offer is what MeshProxy and NeighbourhoodWatch have in common.
-template <class Model, class Stopwatch>
+/// Plain: no material of the scene calls for stages 4 to 6, and they are not there.
+template <class Model, bool Plain, class Stopwatch>
 void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
            DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
@@ -141,7 +158,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Contact);
 
     // 3. Proxy solve: as near to the goal as free space allows.
-    const bool shading = anyTwoPass(scene.plan, settings);
+    const bool shading = !Plain && anyTwoPass(scene.plan, settings);
     const glm::dvec3 goal =
         shading ? warmGoal(state, hip, glm::length(state.travel) / workspaceFromAnchor.scale) : hip;
     proxy.moveTowards(goal);
@@ -150,28 +167,42 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     // 4. Force shading: the same solve against the interpolated planes.
     if (shading)
         shadeTwoPass(scene, motions, settings, hip, goal, proxy, state, rest);
-    const FeltShape shape =
-        feltShape(scene, motions, settings, anyOneFacet(scene.plan, settings), hip, state, rest);
+    FeltShape shape;
+    if (rest.contactCount > 0)
+        shape = feltShape(scene, motions, settings, !Plain && anyOneFacet(scene.plan, settings), hip, state,
+                          rest);
     stopwatch.lap(Stage::Shading);
 
     // 5. Texture: what the maps say there.
     const glm::dvec3 velocity = surfaceVelocity(motions[static_cast<size_t>(state.anchor)], state, input.dt);
-    const double speed = glm::length(velocity - glm::dot(velocity, shape.normal) * shape.normal);
-    const SurfaceFeel feel = readSurface(scene, motions, settings, state.anchor, rest, shape.normal,
-                                         shape.depth * workspaceFromAnchor.scale, speed, input.dt);
+    SurfaceFeel feel;
+    bool plain = true;
+    if (rest.contactCount > 0) {
+        const Contact& contact = loadedContact(rest);
+        const double depth = shape.depth * workspaceFromAnchor.scale;
+        plain = Plain || feelsPlain(materialOf(scene, contact), settings);
+        if (plain)
+            plainFeel(scene, settings, contact, shape.normal, depth, feel);
+        else
+            feelTexture(scene, motions, settings, state, shape.normal, depth, velocity, input.dt, feel);
+    }
     if (feel.tiltCompressed)
         output.flags = output.flags | TickFlag::TiltCompressed;
     publishContact(workspaceFromAnchor, rest, feel, output);
     stopwatch.lap(Stage::Texture);
 
     // 6. Friction: the proxy held back inside the cone.
-    const glm::dvec3 stretch =
-        workspaceFromAnchor.scale *
-        applyFriction(settings.friction, feel, held, workspaceFromAnchor.scale, proxy, state, rest);
+    glm::dvec3 stretch(0.0);
+    if (Plain)
+        state.friction = FrictionState::Free;
+    else if (!plain || state.friction != FrictionState::Free)
+        stretch = workspaceFromAnchor.scale *
+                  applyFriction(settings.friction, feel, held, workspaceFromAnchor.scale, proxy, state, rest);
     stopwatch.lap(Stage::Friction);
 
     // 7. Force.
-    output.force = workspaceFromAnchor.direction(springDamperForce(feel, stretch, velocity));
+    output.force = workspaceFromAnchor.direction(plain ? plainForce(feel, velocity)
+                                                       : springDamperForce(feel, stretch, velocity));
     output.flags |= rest.flags;
     publishProxy(workspaceFromAnchor, state, rest, output);
     // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
@@ -183,15 +214,28 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Force);
 }
 
+/// The stages that the scene and the settings call for.
+template <class Model, class Stopwatch>
+void touchAsPlanned(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                    DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
+    const bool plain =
+        kPlainTick || (scene.plan.plainFeel && !(settings.staticFriction > 0.0) &&
+                       !anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings));
+    if (plain)
+        return touch<Model, true>(scene, settings, input, state, output, stopwatch);
+    if constexpr (!kPlainTick)
+        touch<Model, false>(scene, settings, input, state, output, stopwatch);
+}
+
 /// The contact model that the settings name.
 template <class Stopwatch>
 void touchWithModel(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                     DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     if (settings.contact == ContactMethod::Sweep)
-        return touch<MeshProxy>(scene, settings, input, state, output, stopwatch);
+        return touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
     if (scene.neighbourhoods() != nullptr)
-        return touch<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
-    touch<MeshProxy>(scene, settings, input, state, output, stopwatch);
+        return touchAsPlanned<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
+    touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
     output.flags = output.flags | TickFlag::NeighbourhoodMissing;
 }
 

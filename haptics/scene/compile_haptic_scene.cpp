@@ -84,8 +84,17 @@ const char* effectName(Effect effect) {
 
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
+    plan.plainFeel = true;
     plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
+    for (HapticMaterialData& m : scene.materials)
+        m.plain = !m.textured() && m.normal.empty() && m.height.empty() && m.friction.map.empty() &&
+                  m.stiffnessMap.map.empty() && m.dampingMap.map.empty() && !(m.staticFriction > 0.0) &&
+                  !(m.viscousFriction > 0.0);
     for (const auto& object : scene.objects) {
+        if (!object->stiffness.empty() || !object->damping.empty() || !object->friction.empty() ||
+            !object->heights.empty())
+            scene.materials[static_cast<size_t>(object->material)].plain = false;
+        plan.plainFeel &= scene.materials[static_cast<size_t>(object->material)].plain;
         const ShadingMode mode = scene.materials[static_cast<size_t>(object->material)].shading;
         const bool shaded = object->anySmooth && mode != ShadingMode::Off;
         plan.anyShading |= shaded;

@@ -28,6 +28,9 @@ struct HapticMaterialData {
     HapticFactor friction, stiffnessMap, dampingMap;
     /// The material's forceShading, settled: auto is TwoPass, never Material.
     ShadingMode shading = ShadingMode::TwoPass;
+    /// Neither the material nor any of its objects has a map, a vertex attribute, friction or a viscous term:
+    /// stage 5 reads nothing. Settled with the plan.
+    bool plain = false;
 
     [[nodiscard]] bool textured() const { return !normal.empty() || (!height.empty() && heightScale != 0.0); }
     [[nodiscard]] uint64_t memoryBytes() const {

@@ -1,0 +1,58 @@
+#pragma once
+// Stage 5 where nothing is to be read: a material of two numbers.
+
+#include "haptics/plain_tick.h"
+#include "haptics/texture/surface_feel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+/// The contact that carries most of the load.
+[[nodiscard]] inline const Contact& loadedContact(const ProxyRest& rest) noexcept {
+    size_t loaded = 0;
+    double most = -1.0;
+    for (size_t i = 0; i < static_cast<size_t>(rest.hold.count); ++i)
+        if (rest.hold.multiplier[i] > most) {
+            most = rest.hold.multiplier[i];
+            loaded = static_cast<size_t>(rest.hold.active[i]);
+        }
+    return rest.contacts[loaded];
+}
+
+/// True where readSurface would find no map, no vertex attribute and no friction.
+[[nodiscard]] inline bool feelsPlain(const HapticMaterialData& material,
+                                     const HapticSettings& settings) noexcept {
+    return material.plain && !(settings.staticFriction > 0.0);
+}
+
+/// What readSurface would then give, into a `feel` as constructed. Arguments as there.
+inline void plainFeel(const HapticScene& scene, const HapticSettings& settings, const Contact& contact,
+                      const glm::dvec3& normal, double depth, SurfaceFeel& feel) noexcept {
+    const int index = scene.objects[static_cast<size_t>(contact.object)]->material;
+    const HapticMaterialData& material = scene.materials[static_cast<size_t>(index)];
+    feel.touching = true;
+    feel.object = contact.object;
+    feel.triangle = contact.triangle;
+    feel.material = index;
+    feel.normal = feel.textured = normal;
+    feel.depth = depth;
+    // What a person asks for in so many words is not cut to the device's limit.
+    feel.stiffness = settings.stiffness > 0.0
+                         ? settings.stiffness
+                         : std::min(std::isnan(material.stiffness) ? scene.limits.recommendedStiffness
+                                                                   : material.stiffness,
+                                    scene.limits.maxStiffness);
+    feel.damping = settings.damping >= 0.0        ? settings.damping
+                   : std::isnan(material.damping) ? 0.0
+                                                  : material.damping;
+}
+
+/// Stage 7 for it: a spring and a damper that never pulls. Zero where nothing is touched.
+[[nodiscard]] inline glm::dvec3 plainForce(const SurfaceFeel& feel, const glm::dvec3& velocity) noexcept {
+    const double push = feel.stiffness * feel.depth;
+    return (push + std::max(-feel.damping * glm::dot(velocity, feel.normal), -push)) * feel.normal;
+}
+
+} // namespace touchstone
