@@ -99,6 +99,23 @@ void publishProxy(const Similarity& workspaceFromAnchor, const DeviceState& stat
         output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
 }
 
+/// The watch has no part in what was pinched, and begins anew where what it touches jumps.
+void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) {
+    if (state.pinched.count > 0) {
+        state.pinched.count = 0;
+        state.candidates.ignore({});
+    }
+    for (size_t k = 0; k < motions.size(); ++k) {
+        if (!motions[k].jumped)
+            continue;
+        flags = flags | TickFlag::ObjectJumped;
+        if (static_cast<int>(k) == state.anchor) {
+            state.watch.touching = state.placed = false;
+            state.friction = FrictionState::Free;
+        }
+    }
+}
+
 /// What the objects' own motion does to the proxy before the contact model moves it. The watch meets moving
 /// objects along the HIP's path, which is relative to them.
 template <class Model>
@@ -108,6 +125,8 @@ void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings
         if (state.watch.touching)
             leaveWatch(scene, motions, state);
         carryProxy(scene, motions, settings.proxyRadius, state, flags);
+    } else {
+        leaveCarry(motions, state, flags);
     }
 }
 
@@ -161,6 +180,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     const bool shading = !Plain && anyTwoPass(scene.plan, settings);
     const glm::dvec3 goal =
         shading ? warmGoal(state, hip, glm::length(state.travel) / workspaceFromAnchor.scale) : hip;
+    if (!shading)
+        state.shaded = false; // what was felt before it was switched off is no place to start from again
     proxy.moveTowards(goal);
     stopwatch.lap(Stage::Proxy);
 

@@ -116,7 +116,16 @@ class Workbench {
                             shown_.model.haptic->neighbourhoods() == nullptr;
         const bool busy =
             building_.valid() && building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-        if (wanted && !busy)
+        if (building_.valid() && !busy) {
+            try {
+                building_.get();
+            } catch (const std::exception& error) {
+                problem_ = std::string("contact=neighbourhood could not be prepared: ") + error.what();
+                state_.settings.contact = ContactMethod::Sweep;
+                return;
+            }
+        }
+        if (wanted && !busy && shown_.model.haptic->neighbourhoods() == nullptr)
             building_ = std::async(std::launch::async,
                                    [haptic = shown_.model.haptic] { haptic->buildNeighbourhoods(); });
     }

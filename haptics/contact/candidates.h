@@ -1,6 +1,6 @@
 #pragma once
-// The triangles near the proxy: gathered once with Embree, reused by every move until the proxy leaves the
-// ball.
+// The triangles near the proxy: gathered once from its object's tree, reused by every move until the proxy
+// leaves the ball.
 
 #include "engine/math/similarity.h"
 #include "haptics/contact/haptic_object.h"
@@ -50,9 +50,9 @@ class CandidateCache {
     CandidateCache()
         : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity) {}
 
-    /// Collects what meets the ball, in the frame of `anchor`. False when there are more than kCapacity: then
-    /// the cache is empty and invalid.
-    /// `spheres`: bounding spheres of the objects at these poses (centre, radius; workspace).
+    /// Collects what meets the ball, in the frame of `anchor`. False when there may be more than kCapacity:
+    /// then the cache is empty and invalid. `spheres`: bounding spheres of the objects at these poses
+    /// (centre, radius; workspace).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                 std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
                 double radius) noexcept;
@@ -99,13 +99,15 @@ class CandidateCache {
     }
     /// The distance of triangle i from the proxy's place p, evaluated; sharpens its bound.
     TriangleDistance measure(size_t i, const glm::dvec3& p) noexcept {
+        const TriangleDistance d = measureAhead(i, p);
         items_[i].measured = place_;
-        return measureAhead(i, p);
+        return d;
     }
     /// The same for a place ahead of the proxy.
     TriangleDistance measureAhead(size_t i, const glm::dvec3& p) noexcept {
         const TriangleDistance d = distanceTo(triangle(i), p);
         setBound(i, p, d.distance, d.gradient);
+        items_[i].measured = 0; // not at the proxy's place
         return d;
     }
     /// The proxy is somewhere else now.

@@ -18,7 +18,8 @@ constexpr double kTouch = 1e-13;
 /// the triangle is nearest to p. The triangle cannot be touched earlier, and is touched just then while the
 /// nearest feature stays the same: a slab, then the half cylinder around the half-plane's edge. (A tangent
 /// plane alone, Newton's method, halves the distance in each step where the proxy grazes an edge, which is
-/// what it does wherever it crosses from facet to facet: fifteen evaluations, here two.)
+/// what it does wherever it crosses from facet to facet: fifteen to twenty evaluations in a tick, here
+/// seven.)
 double timeToHalfPlane(const Triangle& triangle, const TriangleDistance& here, const glm::dvec3& p,
                        const glm::dvec3& move, double reach, double rate) {
     const double gap = here.distance - reach;

@@ -54,7 +54,7 @@ struct CornersByVertex {
             corner[next[indices[c]]++] = static_cast<uint32_t>(c);
     }
     [[nodiscard]] std::span<const uint32_t> at(size_t v) const {
-        return {&corner[first[v]], first[v + 1] - first[v]};
+        return {corner.data() + first[v], first[v + 1] - first[v]};
     }
 };
 

@@ -8,7 +8,7 @@ namespace touchstone {
 /// Adds up one stream of forces over the places where each was felt. A device holds a force until the next
 /// tick, so what it does is the last force times the way since (`given`). The law's own part of that is the
 /// trapezium rule over the same way (`law`); the rest is what sampling gives: k |dx|² / 2 in each tick for a
-/// spring of stiffness k that the hand moves along, 5 µJ a metre at 1000 N/m, 1 kHz and 0.01 m/s. One thread.
+/// spring of stiffness k that the hand moves along, 5 mJ a metre at 1000 N/m, 1 kHz and 0.01 m/s. One thread.
 class WorkMeter {
   public:
     /// The force (N) that this tick sends, and where the hand was in it (m).

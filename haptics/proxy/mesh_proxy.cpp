@@ -40,6 +40,7 @@ MeshProxy::MeshProxy(const HapticScene& scene, ObjectMotions motions, double rad
     rest_.iterations = 0;
     rest_.flags = 0;
     rest_.hold = SubGoal{};
+    state_.candidates.moved(); // another contact model may have had the proxy since
     adoptAnchor(state_.anchor);
 }
 
@@ -96,7 +97,8 @@ bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
         // still holds, or the proxy would creep.
         const double growth = 16 * count <= CandidateCache::kCapacity ? 4.0 : 1.0;
         const double lasting = fits ? std::min(kLasting * travel_, growth * margin) : 0.0;
-        state_.gatherMargin = std::clamp(next, std::max(kSmallestMargin, lasting), kLargestMargin);
+        const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
+        state_.gatherMargin = std::clamp(next, least, kLargestMargin);
         if (fits)
             return true;
     }

@@ -101,7 +101,9 @@ bool NeighbourhoodWatch::acquire(const glm::dvec3& start) noexcept {
     int struck = -1;
     SurfacePlace place;
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
-        const ObjectMotion& motion = motions_[k];
+        ObjectMotion motion = motions_[k];
+        if (motion.jumped)
+            motion.before = motion.workspaceFromObject; // it swept over nothing
         const double near = glm::length(state_.hip - motion.workspaceFromObject.translation) -
                             glm::length(begin - state_.hip) -
                             glm::length(motion.workspaceFromObject.translation - motion.before.translation);
@@ -214,6 +216,11 @@ void NeighbourhoodWatch::placeAt(const glm::dvec3& p) noexcept {
 
 void leaveWatch(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
     state.watch.touching = false;
+    // What sticks or slides stands on the facet itself, where the sweep has no side: it may not go back
+    // there.
+    state.friction = FrictionState::Free;
+    if (!state.placed)
+        return;
     const auto anchor = static_cast<size_t>(state.anchor);
     const HapticObject& object = *scene.objects[anchor];
     const auto* neighbourhoods = scene.neighbourhoods();

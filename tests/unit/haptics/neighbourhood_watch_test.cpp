@@ -444,6 +444,44 @@ TEST(NeighbourhoodWatch, TheMethodCanBeChangedWhileTouching) {
     }
 }
 
+/// Friction keeps a place on the facet itself; the sweep, which stands on one side, must not start from it.
+TEST(NeighbourhoodWatch, TheMethodCanBeChangedWhileFrictionHolds) {
+    for (const double side : {1.0, -1.0}) // a sheet from above and from below
+        for (const double coefficient : {0.1, 2.0}) {
+            TouchBench bench = watchBench(sceneOf(assets::plane(0.1, 0.1, 3, 3)));
+            bench.settings.friction = FrictionMode::Zilles;
+            bench.settings.staticFriction = bench.settings.dynamicFriction = coefficient;
+            bench.step({0.004, side * 0.01, 0.003});
+            bench.moveTo({0.004, -side * 0.001, 0.003}, 0.1);
+            for (int i = 0; i < 8; ++i) {
+                bench.settings.contact = i % 2 == 0 ? ContactMethod::Sweep : ContactMethod::Neighbourhood;
+                for (int tick = 0; tick < 4; ++tick)
+                    bench.step({0.004 + 1e-4 * (4 * i + tick), -side * 0.001, 0.003});
+                EXPECT_GT(bench.output.contacts, 0u) << side << " mu " << coefficient << " switch " << i;
+                EXPECT_NEAR(bench.output.proxy.y, 0.0, 1e-6)
+                    << side << " mu " << coefficient << " switch " << i;
+                EXPECT_GT(side * bench.output.force.y, 0.1)
+                    << side << " mu " << coefficient << " switch " << i;
+            }
+        }
+}
+
+/// A loop that does not close puts a sheet elsewhere at once: the watch is not caught by the way between.
+TEST(NeighbourhoodWatch, AJumpSweepsOverNothing) {
+    TouchBench bench = watchBench(sceneOf(assets::plane(0.1, 0.1, 3, 3)));
+    bench.motions = bench.scene->restMotions;
+    bench.step({0.004, 0.01, 0.003});
+    bench.step({0.004, 0.01, 0.003});
+    Similarity above = bench.motions[0].workspaceFromObject;
+    above.translation.y += 0.03; // now over the hand
+    bench.motions[0] = {
+        .workspaceFromObject = above, .before = bench.motions[0].workspaceFromObject, .jumped = true};
+    bench.step({0.004, 0.01, 0.003});
+    EXPECT_TRUE(has(bench.output.flags, TickFlag::ObjectJumped));
+    EXPECT_EQ(bench.output.contacts, 0u);
+    EXPECT_EQ(bench.output.force, glm::dvec3(0.0));
+}
+
 TEST(NeighbourhoodWatch, WithoutItsNeighbourhoodsItSweepsAndSaysSo) {
     TouchBench bench(sceneOf(assets::plane(0.1, 0.1)), bare(ContactMethod::Neighbourhood));
     bench.step({0.001, 0.01, 0.001});
