@@ -2,12 +2,14 @@
 
 #include "engine/core/error.h"
 #include "haptics/contact/embree_device.h"
+#include "haptics/contact/ray.h"
 #include "haptics/contact/weld.h"
 
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace touchstone {
 
@@ -190,33 +192,21 @@ bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept 
     if (!object.closed || glm::length(point) > object.boundingRadius)
         return false;
     // Directions without a simple relation to the axes, so that no ray runs along a facet of a box.
-    constexpr float kDirections[3][3] = {
+    constexpr glm::vec3 kDirections[3] = {
         {0.4823f, 0.7617f, 0.4327f}, {-0.8019f, 0.2673f, 0.5345f}, {0.1690f, -0.5071f, -0.8452f}};
     constexpr int kMaxCrossings = 256;
     constexpr float kFar = 8.0f;
+    const glm::vec3 from(point);
     int votes = 0;
-    for (const auto& direction : kDirections) {
+    for (const glm::vec3& direction : kDirections) {
         bool inside = false;
         float start = 0.0f;
         for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
-            RTCRayHit hit{};
-            hit.ray.org_x = static_cast<float>(point.x);
-            hit.ray.org_y = static_cast<float>(point.y);
-            hit.ray.org_z = static_cast<float>(point.z);
-            hit.ray.dir_x = direction[0];
-            hit.ray.dir_y = direction[1];
-            hit.ray.dir_z = direction[2];
-            hit.ray.tnear = start;
-            hit.ray.tfar = kFar;
-            hit.ray.mask = ~0u;
-            hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(object.bvh.get(), &context, &hit);
-            if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+            const std::optional<RayHit> hit = castRay(object, from, direction, start, kFar);
+            if (!hit)
                 break;
             inside = !inside;
-            start = hit.ray.tfar + 1e-6f;
+            start = hit->distance + 1e-6f;
         }
         votes += inside ? 1 : 0;
     }

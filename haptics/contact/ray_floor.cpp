@@ -1,10 +1,10 @@
 #include "haptics/contact/ray_floor.h"
 
+#include "haptics/contact/ray.h"
 #include "haptics/haptic_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <limits>
+#include <optional>
 
 namespace touchstone {
 
@@ -20,25 +20,8 @@ float castFloorRay(const HapticScene& scene, int object, const Similarity& works
     const Similarity objectFromWorkspace = workspaceFromObject.inverse();
     const glm::vec3 from(objectFromWorkspace.point(proxy));
     const glm::vec3 along = glm::vec3(objectFromWorkspace.point(hip)) - from;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit hit;
-    hit.ray.org_x = from.x;
-    hit.ray.org_y = from.y;
-    hit.ray.org_z = from.z;
-    hit.ray.dir_x = along.x;
-    hit.ray.dir_y = along.y;
-    hit.ray.dir_z = along.z;
-    hit.ray.tnear = 0.0f;
-    hit.ray.tfar = 1.0f;
-    hit.ray.time = 0.0f;
-    hit.ray.mask = ~0u;
-    hit.ray.id = 0;
-    hit.ray.flags = 0;
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene.objects[k]->bvh.get(), &context, &hit);
-    return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : hit.ray.tfar;
+    const std::optional<RayHit> hit = castRay(*scene.objects[k], from, along, 0.0f, 1.0f);
+    return hit ? hit->distance : std::numeric_limits<float>::infinity();
 }
 
 } // namespace touchstone

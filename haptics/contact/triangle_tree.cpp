@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <tuple>
 
 namespace touchstone {
 
@@ -59,6 +60,8 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
 
 /// Puts Embree's tree into two flat arrays, parents before children.
 struct TriangleTree::Builder {
+    static_assert(std::tuple_size_v<decltype(TemporaryNode::child)> == kWidth);
+    static_assert(std::tuple_size_v<decltype(TemporaryLeaf::triangle)> == kLeafSize);
     TriangleTree& tree;
     std::span<const glm::vec3> vertices;
     std::span<const uint32_t> indices;

@@ -1,13 +1,13 @@
 #include "haptics/proxy/neighbourhood_watch.h"
 
+#include "haptics/contact/ray.h"
 #include "haptics/proxy/mesh_proxy.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/tick_flags.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace touchstone {
 
@@ -17,34 +17,6 @@ namespace {
 /// ends, and what it strikes is judged in double.
 double floatMargin(const glm::dvec3& p) {
     return 4e-7 * (1.0 + glm::length(p));
-}
-
-struct Strike {
-    uint32_t triangle;
-    double distance;
-};
-
-/// The first triangle along a ray between two distances.
-bool castRay(const HapticObject& object, const glm::dvec3& from, const glm::dvec3& direction, double near,
-             double far, Strike& strike) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit hit{};
-    hit.ray.org_x = static_cast<float>(from.x);
-    hit.ray.org_y = static_cast<float>(from.y);
-    hit.ray.org_z = static_cast<float>(from.z);
-    hit.ray.dir_x = static_cast<float>(direction.x);
-    hit.ray.dir_y = static_cast<float>(direction.y);
-    hit.ray.dir_z = static_cast<float>(direction.z);
-    hit.ray.tnear = static_cast<float>(near);
-    hit.ray.tfar = static_cast<float>(far);
-    hit.ray.mask = ~0u;
-    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(object.bvh.get(), &context, &hit);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return false;
-    strike = {hit.hit.primID, static_cast<double>(hit.ray.tfar)};
-    return true;
 }
 
 } // namespace
@@ -142,21 +114,22 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
     glm::dvec3 passedAt(0.0);
     const double far = length - std::min(skip, 0.0) + margin;
     for (int attempt = 0; attempt < kAttempts && near < far; ++attempt) {
-        Strike strike;
-        if (!castRay(view.object, origin, direction, near, far, strike))
+        const std::optional<RayHit> hit = castRay(view.object, glm::vec3(origin), glm::vec3(direction),
+                                                  static_cast<float>(near), static_cast<float>(far));
+        if (!hit)
             return false;
-        const double share = std::clamp((strike.distance + std::min(skip, 0.0)) / length, 0.0, 1.0);
+        const auto distance = static_cast<double>(hit->distance);
+        const double share = std::clamp((distance + std::min(skip, 0.0)) / length, 0.0, 1.0);
         if (share > first)
             return false;
         // Float has found the triangle; whether the path crosses it, and whether its end is then behind the
         // surface, is told by doubles. Where it is not, the path has gone through an edge of the body and out
         // again: the same place seen from within is no contact either.
-        const glm::dvec3 normal = view.normal(2 * strike.triangle);
+        const glm::dvec3 normal = view.normal(2 * hit->triangle);
         const bool front = glm::dot(direction, normal) < 0.0;
-        const double height = glm::dot(from - view.triangle(2 * strike.triangle).a, normal);
+        const double height = glm::dot(from - view.triangle(2 * hit->triangle).a, normal);
         if (normal != glm::dvec3(0.0) && (front ? height >= 0.0 : height <= 0.0)) {
-            const SurfacePlace there =
-                walkTowards(view, 2 * strike.triangle + (front ? 0u : 1u), to, budget_);
+            const SurfacePlace there = walkTowards(view, 2 * hit->triangle + (front ? 0u : 1u), to, budget_);
             const bool seen = passed && glm::length(there.point - passedAt) < margin;
             if (!seen && (budget_.spent || !isOnFreeSide(view, there, to, budget_))) {
                 first = share;
@@ -166,7 +139,7 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
             passed = true;
             passedAt = there.point;
         }
-        near = strike.distance + 2.0 * margin;
+        near = distance + 2.0 * margin;
     }
     return false;
 }

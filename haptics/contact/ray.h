@@ -1,0 +1,47 @@
+#pragma once
+
+#include "haptics/contact/haptic_object.h"
+
+#include <embree3/rtcore.h>
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace touchstone {
+
+struct RayHit {
+    uint32_t triangle;
+    float distance; ///< in lengths of the direction
+};
+
+/// The first triangle of an object that the ray from + t * direction meets at near <= t <= far (near >= 0);
+/// object frame. One rtcIntersect1 of Embree's, ROBUST and in float; inline, since the ray floor is
+/// nothing else. Safe on the servo thread.
+[[nodiscard]] inline std::optional<RayHit> castRay(const HapticObject& object, const glm::vec3& from,
+                                                   const glm::vec3& direction, float near,
+                                                   float far) noexcept {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit hit;
+    hit.ray.org_x = from.x;
+    hit.ray.org_y = from.y;
+    hit.ray.org_z = from.z;
+    hit.ray.dir_x = direction.x;
+    hit.ray.dir_y = direction.y;
+    hit.ray.dir_z = direction.z;
+    hit.ray.tnear = near;
+    hit.ray.tfar = far;
+    hit.ray.time = 0.0f;
+    hit.ray.mask = ~0u;
+    hit.ray.id = 0;
+    hit.ray.flags = 0;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(object.bvh.get(), &context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return std::nullopt;
+    return RayHit{hit.hit.primID, hit.ray.tfar};
+}
+
+} // namespace touchstone
