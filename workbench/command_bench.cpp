@@ -3,6 +3,7 @@
 
 #include "engine/core/realtime_guard.h"
 #include "workbench/bench/rungs.h"
+#include "workbench/clock_cost.h"
 #include "workbench/commands.h"
 #include "workbench/output_file.h"
 #include "workbench/settings_json.h"

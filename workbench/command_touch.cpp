@@ -8,6 +8,7 @@
 #include "haptics/haptic_step.h"
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
+#include "workbench/clock_cost.h"
 #include "workbench/commands.h"
 #include "workbench/model.h"
 #include "workbench/output_file.h"
@@ -132,16 +133,6 @@ nlohmann::ordered_json floorJson(const Samples& rays) {
         json["p99_ns"] = rays.percentile(0.99);
     }
     return json;
-}
-
-/// What reading the clock twice costs: part of every time above.
-int64_t clockCostNs() {
-    Samples costs;
-    for (int i = 0; i < 1000; ++i) {
-        const long long begin = monotonicNs();
-        costs.add(monotonicNs() - begin);
-    }
-    return costs.percentile(0.5);
 }
 
 } // namespace

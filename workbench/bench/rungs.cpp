@@ -162,13 +162,4 @@ double medianRatio(const RungTimes& above, const RungTimes& below) {
     return *middle;
 }
 
-int64_t clockCostNs() {
-    Samples costs;
-    for (int i = 0; i < 1000; ++i) {
-        const long long begin = monotonicNs();
-        costs.add(monotonicNs() - begin);
-    }
-    return costs.percentile(0.5);
-}
-
 } // namespace touchstone

@@ -57,7 +57,4 @@ struct BenchPlan {
 /// The median over the rounds of `above`'s median by `below`'s.
 [[nodiscard]] double medianRatio(const RungTimes& above, const RungTimes& below);
 
-/// What reading the clock twice costs.
-[[nodiscard]] int64_t clockCostNs();
-
 } // namespace touchstone
