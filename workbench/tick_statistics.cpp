@@ -39,6 +39,13 @@ nlohmann::ordered_json nanoseconds(const Samples& samples) {
 } // namespace
 
 void TickStatistics::addLive(const TickRecord& record) {
+    // Records were dropped, or the loop stood still: what the hand did meanwhile is not known.
+    if (record.step != nextStep_ || record.tick == 0) {
+        work_.gap();
+        commandWork_.gap();
+        lastWakeNs_ = -1;
+    }
+    nextStep_ = record.step + 1;
     wake_.add(record.wakeLatencyNs);
     const int64_t wokeNs = static_cast<int64_t>(std::llround(record.time * 1e9)) + record.wakeLatencyNs;
     if (lastWakeNs_ >= 0)
@@ -114,7 +121,8 @@ nlohmann::ordered_json TickStatistics::energyJson() const {
     return {{"given_j", work_.given()},
             {"law_j", work_.law()},
             {"sampling_j", work_.given() - work_.law()},
-            {"command_given_j", commandWork_.given()}};
+            {"command_given_j", commandWork_.given()},
+            {"gaps", work_.gaps()}};
 }
 
 nlohmann::ordered_json TickStatistics::flagsJson() const {

@@ -40,7 +40,8 @@ class TickStatistics {
     [[nodiscard]] nlohmann::ordered_json contactJson() const;
     /// {mean_n, max_n} over the ticks in contact, stage 7.
     [[nodiscard]] nlohmann::ordered_json forceJson() const;
-    /// {given_j, law_j, sampling_j, command_given_j}: work on the hand over all ticks, see work_meter.h.
+    /// {given_j, law_j, sampling_j, command_given_j, gaps}: work on the hand over all ticks, see
+    /// work_meter.h; gaps: how often records were dropped, whose work is not in it.
     [[nodiscard]] nlohmann::ordered_json energyJson() const;
     /// Ticks by TickFlag.
     [[nodiscard]] nlohmann::ordered_json flagsJson() const;
@@ -50,6 +51,7 @@ class TickStatistics {
 
     Samples wake_, period_, step_, stepInContact_;
     int64_t lastWakeNs_ = -1;
+    uint64_t nextStep_ = 0;
     uint64_t ticks_ = 0, contactTicks_ = 0;
     WorkMeter work_, commandWork_;
     uint64_t gaps_ = 0, gapsWithinMicrometre_ = 0;

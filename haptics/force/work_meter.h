@@ -3,6 +3,8 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
+
 namespace touchstone {
 
 /// Adds up one stream of forces over the places where each was felt. A device holds a force until the next
@@ -24,13 +26,21 @@ class WorkMeter {
         hand_ = hand;
     }
 
+    /// What happened since the last tick is not known: the way to the next one counts for nothing.
+    void gap() noexcept {
+        gaps_ += begun_ ? 1 : 0;
+        begun_ = false;
+    }
+
     [[nodiscard]] double given() const noexcept { return given_; } ///< J
     [[nodiscard]] double law() const noexcept { return law_; }     ///< J, the integral of F dx
     /// Sum of |dx|² / 2, m²: times a stiffness, the most that sampling gives on a spring.
     [[nodiscard]] double samplingBound() const noexcept { return wall_; }
+    [[nodiscard]] uint64_t gaps() const noexcept { return gaps_; } ///< ways that count for nothing
 
   private:
     bool begun_ = false;
+    uint64_t gaps_ = 0;
     glm::dvec3 force_{0.0}, hand_{0.0};
     double given_ = 0.0, law_ = 0.0, wall_ = 0.0;
 };

@@ -131,7 +131,7 @@ void ServoLoop::run() noexcept {
             const long long done = monotonicNs();
             record.wakeLatencyNs = saturated(awake - deadline);
             record.missed = touch.late = done > deadline + period;
-            ticks_.fetch_add(1, std::memory_order_relaxed);
+            record.step = ticks_.fetch_add(1, std::memory_order_relaxed);
             if (record.missed)
                 missed_.fetch_add(1, std::memory_order_relaxed);
             records_.push(record);

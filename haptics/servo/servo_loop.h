@@ -19,6 +19,7 @@ namespace touchstone {
 /// One tick as the servo lived it; streamed to the other side.
 struct TickRecord {
     uint64_t tick = 0;         ///< number of the deadline: skips those that were slept through
+    uint64_t step = 0;         ///< steps made before this one: where it jumps, records were dropped
     double time = 0.0;         ///< s since the loop started, of the deadline
     int32_t wakeLatencyNs = 0; ///< wake-up against the deadline; what does not fit is saturated
     int32_t stepNs = 0;        ///< time of the whole step

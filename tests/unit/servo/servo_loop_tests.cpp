@@ -203,6 +203,30 @@ TEST(ServoLoop, StopsAndStartsAgain) {
     EXPECT_GE(loop.counters().ticks, 100u);
 }
 
+TEST(ServoLoop, StepsAreNumberedSoThatDroppedRecordsShow) {
+    BouncingHand hand;
+    ServoLoop loop(hand.port(), {.rateHz = kQuick.rateHz, .ringCapacity = 8, .wantRealtime = false});
+    loop.start();
+    TickRecord record;
+    uint64_t next = 0, missing = 0;
+    const auto drain = [&] {
+        while (loop.popRecord(record)) {
+            EXPECT_GE(record.step, next);
+            missing += record.step - next;
+            next = record.step + 1;
+        }
+    };
+    for (uint64_t round = 1; round <= 3; ++round) {
+        hand.waitFor(round * 40);
+        drain();
+    }
+    loop.stop();
+    drain();
+    missing += loop.counters().ticks - next; // at the end
+    EXPECT_GT(missing, 0u);
+    EXPECT_EQ(missing, loop.counters().droppedRecords);
+}
+
 TEST(ServoLoop, SaysWhatItWasGranted) {
     BouncingHand hand;
     ServoLoop loop(hand.port(), {.rateHz = 1000.0});

@@ -1,0 +1,70 @@
+// What a stream of records amounts to when some of it was lost.
+
+#include "workbench/tick_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+/// A hand that runs to and fro through a field of force.
+TickRecord recordOf(uint64_t step) {
+    TickRecord record;
+    record.tick = record.step = step;
+    record.time = 1e-3 * static_cast<double>(step);
+    const double x = 0.01 * std::sin(0.05 * static_cast<double>(step));
+    record.output.hip = {x, 0.0, 0.0};
+    record.output.force = record.output.commandInWorkspace = {1.0 + 100.0 * x, 0.0, 0.0};
+    return record;
+}
+
+double joules(const TickStatistics& statistics, const char* name) {
+    return statistics.energyJson()[name].get<double>();
+}
+
+TEST(TickStatistics, WorkAndPeriodsStopWhereRecordsWereDropped) {
+    TickStatistics gapped, before, after;
+    for (uint64_t step = 0; step < 200; ++step) {
+        if (step >= 70 && step < 130)
+            continue;
+        gapped.addLive(recordOf(step));
+        (step < 100 ? before : after).addLive(recordOf(step));
+    }
+    EXPECT_EQ(gapped.energyJson()["gaps"], 1u);
+    EXPECT_EQ(before.energyJson()["gaps"], 0u);
+    EXPECT_EQ(after.energyJson()["gaps"], 0u) << "a reader may begin anywhere";
+    for (const char* name : {"given_j", "law_j", "sampling_j", "command_given_j"}) {
+        EXPECT_NEAR(joules(gapped, name), joules(before, name) + joules(after, name), 1e-15) << name;
+        EXPECT_NE(joules(gapped, name), 0.0);
+    }
+    EXPECT_NEAR(gapped.wakeJson()["period_p50_us"].get<double>(), 1000.0, 1e-6);
+}
+
+TEST(TickStatistics, DeadlinesThatWereSleptThroughAreNoGap) {
+    // The force was held all the while: what it did is known.
+    TickStatistics late;
+    TickRecord record = recordOf(0);
+    late.addLive(record);
+    record = recordOf(40);
+    record.step = 1;
+    late.addLive(record);
+    const double way = recordOf(40).output.hip.x;
+    EXPECT_EQ(late.energyJson()["gaps"], 0u);
+    EXPECT_NEAR(joules(late, "given_j"), way, 1e-15);
+}
+
+TEST(TickStatistics, ALoopThatStartsAgainHasDoneNothingMeanwhile) {
+    TickStatistics statistics;
+    statistics.addLive(recordOf(0));
+    TickRecord again = recordOf(40);
+    again.tick = 0;
+    again.step = 1;
+    statistics.addLive(again);
+    EXPECT_EQ(joules(statistics, "given_j"), 0.0);
+    EXPECT_EQ(statistics.energyJson()["gaps"], 1u);
+}
+
+} // namespace
+} // namespace touchstone
