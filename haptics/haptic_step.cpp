@@ -306,5 +306,8 @@ template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&,
 template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
                                          WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
                                          StageStopwatch&) noexcept;
+template void hapticStep<StageTracer>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                      WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                      StageTracer&) noexcept;
 
 } // namespace touchstone

@@ -6,6 +6,7 @@
 #include "haptics/device_state.h"
 #include "haptics/haptic_settings.h"
 #include "haptics/object_motion.h"
+#include "haptics/stage_trace.h"
 #include "haptics/stopwatch.h"
 #include "haptics/tick_flags.h"
 
@@ -58,7 +59,8 @@ struct HapticOutput {
 
 /// One tick: sample, contact, proxy, shading, texture, friction, force, safety (DESIGN §2). Deterministic; no
 /// clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per device of `input`.
-/// Stopwatch: NoStopwatch on the servo, StageStopwatch where cost is studied.
+/// Stopwatch: StageTracer on the servo and wherever its bits are to be met again, StageStopwatch and
+/// NoStopwatch where cost is studied.
 template <class Stopwatch>
 void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                 WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,
@@ -70,5 +72,8 @@ extern template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSet
 extern template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
                                                 WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
                                                 StageStopwatch&) noexcept;
+extern template void hapticStep<StageTracer>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                             WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                             StageTracer&) noexcept;
 
 } // namespace touchstone

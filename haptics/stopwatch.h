@@ -14,7 +14,7 @@ inline constexpr size_t kStageCount = 8;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
     "sample", "contact", "proxy", "shading", "texture", "friction", "force", "safety"};
 
-/// Compiles to nothing: what the servo passes.
+/// Compiles to nothing.
 struct NoStopwatch {
     void start() noexcept {}
     void lap(Stage) noexcept {}

@@ -39,6 +39,7 @@ struct PlannedTick {
 struct OfflineTick {
     double time = 0.0;
     HapticOutput output;
+    StageTrace trace;
     int64_t stepNs = 0;
     Similarity touched; // workspaceFromObject of the touched object
     double gap = 0.0;   // m, of the proxy; in contact and where a report was asked for
@@ -86,10 +87,10 @@ class OfflineTouch {
         input.dt = planned.dt;
         input.devices = {&sample, 1};
         input.objects = moving_.at(planned.time);
-        NoStopwatch none;
+        StageTracer tracer(device_, tick.trace);
         const realtime::TickScope scope;
         const long long begin = monotonicNs();
-        hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, none);
+        hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, tracer);
         tick.stepNs = monotonicNs() - begin;
         objects_ = input.objects;
         if (tick.output.object >= 0)

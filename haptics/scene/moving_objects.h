@@ -39,6 +39,9 @@ class MovingObjects {
     /// than it ended the object has `jumped`.
     [[nodiscard]] ObjectMotions at(double time) noexcept;
 
+    /// The next call is as the first: nothing has come from anywhere.
+    void forget() noexcept { sampled_ = false; }
+
   private:
     struct Mover {
         size_t object;                  // HapticScene::objects

@@ -25,6 +25,9 @@ struct ServoLoop::Touch {
     WorldState world;
     DeviceState device;
     bool late = false; // the previous tick ended after its next deadline
+    uint64_t nextCheckpoint = 0;
+    double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the tick before in this scene
+    TouchCheckpoint checkpoint;
 };
 
 ServoLoop::ServoLoop(DevicePort port, const ServoConfig& config)
@@ -55,13 +58,34 @@ void ServoLoop::stop() {
     thread_.join();
 }
 
-void ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
+uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
     if (scene == nullptr) {
         scene_.offer(nullptr);
-        return;
+        return 0;
     }
     MovingObjects moving = source != nullptr ? MovingObjects(std::move(source), *scene) : MovingObjects();
-    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(moving)));
+    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(moving), ++offeredScenes_));
+    return offeredScenes_;
+}
+
+void ServoLoop::setSettings(const HapticSettings& settings) {
+    offeredSettings_.push_back({offeredSettings_.back().number + 1, settings});
+    settings_.write(offeredSettings_.back());
+}
+
+const HapticSettings& ServoLoop::settingsOf(uint32_t number) const {
+    const auto found = std::lower_bound(
+        offeredSettings_.begin(), offeredSettings_.end(), number,
+        [](const NumberedSettings& offered, uint32_t wanted) { return offered.number < wanted; });
+    return (found != offeredSettings_.end() ? *found : offeredSettings_.back()).settings;
+}
+
+bool ServoLoop::popRecord(TickRecord& record) {
+    if (!records_.pop(record))
+        return false;
+    while (offeredSettings_.front().number < record.settings)
+        offeredSettings_.pop_front();
+    return true;
 }
 
 ServoLoop::Counters ServoLoop::counters() const {
@@ -73,34 +97,60 @@ ServoScheduling ServoLoop::scheduling() const {
     return scheduled_.load(std::memory_order_acquire) ? scheduling_ : ServoScheduling{};
 }
 
-/// One tick's work: read, step, write. Times are of the step alone, which is what `step_ns` means everywhere.
-TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
-    TickRecord record;
-    record.tick = number;
-    record.time = static_cast<double>(number) / config_.rateHz;
+/// What a tick begins with: the newest scene and settings, and a checkpoint where one is due.
+void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     settings_.update();
+    record.settings = settings_.value().number;
     const Offer* offer = scene_.adopt();
+    bool due = record.tick >= touch.nextCheckpoint;
     if (offer != touch.offer) {
         // A new world: forget the proxy, fade the force in, but remember what the device still holds.
         touch.offer = offer;
         touch.world = WorldState{};
         touch.device.forgetTouch();
         ForceLimiter::restartRamp(touch.device.limiter);
+        touch.previousTime = std::numeric_limits<double>::quiet_NaN();
+        if (offer != nullptr)
+            offer->moving.forget();
+        due = true;
     }
-    const DeviceSample sample = port_.sample(port_.context, record.time);
-    if (offer != nullptr) {
+    record.scene = offer != nullptr ? offer->number : 0;
+    record.checkpoint = due || checkpointWanted_.load(std::memory_order_relaxed);
+    if (!record.checkpoint)
+        return;
+    checkpointWanted_.store(false, std::memory_order_relaxed);
+    touch.nextCheckpoint =
+        record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
+    touch.checkpoint.tick = record.tick;
+    touch.checkpoint.scene = record.scene;
+    touch.checkpoint.previousTime = touch.previousTime;
+    takeCheckpoint(touch.device, touch.checkpoint);
+    checkpoints_.push(touch.checkpoint);
+}
+
+/// One tick's work: read, step, write. Times are of the step alone, which is what `step_ns` means everywhere.
+TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
+    TickRecord record;
+    record.tick = number;
+    record.time = static_cast<double>(number) / config_.rateHz;
+    record.dt = dt;
+    record.late = touch.late;
+    prepare(touch, record);
+    record.sample = port_.sample(port_.context, record.time);
+    if (touch.offer != nullptr) {
         TickInput input;
         input.tick = number;
         input.time = record.time;
         input.dt = dt;
         input.late = touch.late;
-        input.devices = {&sample, 1};
-        input.objects = offer->moving.at(record.time);
-        NoStopwatch none;
+        input.devices = {&record.sample, 1};
+        input.objects = touch.offer->moving.at(record.time);
+        StageTracer tracer(touch.device, record.trace);
         const long long begin = monotonicNs();
-        hapticStep(*offer->scene, settings_.value(), input, touch.world, {&touch.device, 1},
-                   {&record.output, 1}, none);
+        hapticStep(*touch.offer->scene, settings_.value().settings, input, touch.world, {&touch.device, 1},
+                   {&record.output, 1}, tracer);
         record.stepNs = saturated(monotonicNs() - begin);
+        touch.previousTime = record.time;
     }
     port_.apply(port_.context, record.output.command);
     return record;

@@ -6,11 +6,13 @@
 #include "engine/exchange/triple_buffer.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_step.h"
+#include "haptics/recording/touch_checkpoint.h"
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <thread>
 
@@ -21,16 +23,24 @@ struct TickRecord {
     uint64_t tick = 0;         ///< number of the deadline: skips those that were slept through
     uint64_t step = 0;         ///< steps made before this one: where it jumps, records were dropped
     double time = 0.0;         ///< s since the loop started, of the deadline
+    double dt = 0.0;           ///< s, that the step was told
     int32_t wakeLatencyNs = 0; ///< wake-up against the deadline; what does not fit is saturated
     int32_t stepNs = 0;        ///< time of the whole step
     bool missed = false;       ///< the step ended after the next deadline
-    HapticOutput output;       ///< device 0
+    bool late = false;         ///< what the step was told of the one before
+    bool checkpoint = false;   ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
+    uint32_t settings = 0;     ///< which: ServoLoop::settingsOf
+    uint32_t scene = 0;        ///< which: what ServoLoop::offerScene returned; 0: none, and no step
+    DeviceSample sample;       ///< device 0, as it was read
+    StageTrace trace;
+    HapticOutput output; ///< device 0
 };
 
 struct ServoConfig {
     double rateHz = 1000.0; ///< kLeastServoRate..kMostServoRate
     size_t ringCapacity = 1 << 14;
-    bool wantRealtime = true; ///< false: ask the system for nothing (tests, sanitizers)
+    bool wantRealtime = true;       ///< false: ask the system for nothing (tests, sanitizers)
+    double checkpointSeconds = 1.0; ///< from one TouchCheckpoint to the next
 };
 
 inline constexpr double kLeastServoRate = 100.0; ///< Hz; below it a stiff wall can no longer be stable
@@ -58,8 +68,13 @@ class ServoLoop {
 
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
     /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
-    void offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr);
-    void setSettings(const HapticSettings& settings) { settings_.write(settings); }
+    /// Returns the number by which TickRecord::scene names it.
+    uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr);
+    void setSettings(const HapticSettings& settings);
+    /// Owner thread: what TickRecord::settings of the record popped last, or of a later one, stands for.
+    [[nodiscard]] const HapticSettings& settingsOf(uint32_t number) const;
+    /// Owner thread: the next tick takes one, wherever the last one was.
+    void requestCheckpoint() { checkpointWanted_.store(true, std::memory_order_relaxed); }
 
     /// Owner thread: newest tick. Also frees the scene that the servo let go.
     bool updateSnapshot() {
@@ -68,7 +83,10 @@ class ServoLoop {
     }
     [[nodiscard]] const TickRecord& snapshot() const { return snapshot_.value(); }
     /// Owner thread: every tick in order.
-    bool popRecord(TickRecord& record) { return records_.pop(record); }
+    bool popRecord(TickRecord& record);
+    /// Owner thread: every checkpoint in order. For a record that has one it is there when the record is,
+    /// unless nobody popped the ones before (TouchCheckpoint::tick tells which it is).
+    bool popCheckpoint(TouchCheckpoint& checkpoint) { return checkpoints_.pop(checkpoint); }
 
     struct Counters {
         uint64_t ticks = 0;          ///< steps made
@@ -85,18 +103,29 @@ class ServoLoop {
     struct Offer {
         std::shared_ptr<const HapticScene> scene;
         mutable MovingObjects moving; // servo thread once adopted
+        uint32_t number = 0;
+    };
+    struct NumberedSettings {
+        uint32_t number = 0;
+        HapticSettings settings;
     };
     struct Touch; // what the loop carries from tick to tick
 
     void run() noexcept;
+    void prepare(Touch& touch, TickRecord& record) noexcept;
     TickRecord tick(Touch& touch, uint64_t number, double dt) noexcept;
 
     DevicePort port_;
     ServoConfig config_;
-    TripleBuffer<HapticSettings> settings_;
+    TripleBuffer<NumberedSettings> settings_;
     TripleBuffer<TickRecord> snapshot_;
     RecordRing<TickRecord> records_;
+    RecordRing<TouchCheckpoint> checkpoints_{64};
+    std::atomic<bool> checkpointWanted_{false};
     Handover<Offer> scene_;
+    // Owner thread:
+    std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may name
+    uint32_t offeredScenes_ = 0;
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;
