@@ -7,55 +7,12 @@ namespace touchstone {
 
 namespace {
 
-/// Gradients of two scalars over the surface at the spot: interpolated between the corners where the surface
-/// is felt smooth, else the facet's own.
-struct SurfaceGradients {
-    glm::dvec3 first{0.0}, second{0.0};
-};
-
-SurfaceGradients blended(const SurfaceSpot& spot, const std::vector<GradientPair>& vertices,
-                         const SurfaceGradients& facet) {
-    if (!spot.smooth || vertices.empty())
-        return facet;
-    SurfaceGradients sum;
-    for (size_t k = 0; k < 3; ++k) {
-        const GradientPair& at = vertices[spot.source(k)];
-        const bool known = std::isfinite(at[0].x);
-        const double weight = spot.weight[static_cast<int>(k)];
-        sum.first += weight * (known ? glm::dvec3(at[0]) : facet.first);
-        sum.second += weight * (known ? glm::dvec3(at[1]) : facet.second);
-    }
-    return sum;
-}
-
-SurfaceGradients uvGradients(const SurfaceSpot& spot, int set) {
-    const glm::dvec2 a = spot.uvAt(set, 0), b = spot.uvAt(set, 1), c = spot.uvAt(set, 2);
-    return blended(spot, spot.object.uvGradients[set & 1],
-                   {gradientOver(spot.triangle, a.x, b.x, c.x), gradientOver(spot.triangle, a.y, b.y, c.y)});
-}
-
-/// The same of the map's coordinates, by the chain rule over KHR_texture_transform.
-SurfaceGradients mapGradients(const SurfaceSpot& spot, const HapticMap& map) {
-    const SurfaceGradients uv = uvGradients(spot, map.texCoord());
-    const glm::dmat2& j = map.transformJacobian();
-    return {j[0][0] * uv.first + j[1][0] * uv.second, j[0][1] * uv.first + j[1][1] * uv.second};
-}
-
-/// Mip level at which one texel is at least two strokes long: at that spacing the servo still samples every
-/// feature twice (Nyquist).
-double levelForStroke(const SurfaceSpot& spot, const HapticMap& map, double speed, double dt) {
-    const SurfaceGradients g = mapGradients(spot, map);
-    const double texelsPerObject =
-        std::max(map.size().x * glm::length(g.first), map.size().y * glm::length(g.second));
-    const double texels = 2.0 * speed * dt / spot.workspacePerObject * texelsPerObject;
-    return texels > 1.0 ? std::log2(texels) : 0.0;
-}
-
 /// Unit normal of the core normal map, object frame; the felt normal where there is no tangent frame.
-glm::dvec3 normalFromMap(const SurfaceSpot& spot, double level) {
+glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotGradients& gradients, double stroke) {
     const HapticMap& map = spot.material.normal;
     if (!spot.hasUv(map.texCoord()))
         return spot.normal;
+    const double level = gradients.strokeLevel(map, stroke);
     glm::dvec3 local = 2.0 * map.vector(map.transform(spot.uv(map.texCoord())), level) - 1.0;
     local.x *= spot.material.normalScale;
     local.y *= spot.material.normalScale;
@@ -70,7 +27,7 @@ glm::dvec3 normalFromMap(const SurfaceSpot& spot, double level) {
         }
     } else {
         // dP/du lies across grad v, on the side of grad u; the image's top is against growing v.
-        const SurfaceGradients g = uvGradients(spot, map.texCoord());
+        const SurfaceGradients& g = gradients.uv(map.texCoord());
         tangent = glm::cross(g.second, spot.normal);
         if (glm::dot(tangent, g.first) < 0.0)
             tangent = -tangent;
@@ -99,17 +56,17 @@ double aboveLowest(double value, double low, double high, bool fromBack) {
     return std::max(fromBack ? high - value : value - low, 0.0);
 }
 
-Heights heightsFromMap(const SurfaceSpot& spot, double speed, double dt) {
+Heights heightsFromMap(const SurfaceSpot& spot, SpotGradients& gradients, double stroke) {
     const HapticMap& map = spot.material.height;
     const double scale = spot.material.heightScale;
     if (map.empty() || scale == 0.0 || !spot.hasUv(map.texCoord()))
         return {};
-    const double level = levelForStroke(spot, map, speed, dt);
+    const double level = gradients.strokeLevel(map, stroke);
     const glm::dvec2 at = map.transform(spot.uv(map.texCoord()));
     const double black = scale * static_cast<double>(map.least()),
                  white = scale * static_cast<double>(map.greatest());
     const glm::dvec2 overMap = scale * map.gradient(at, level);
-    const SurfaceGradients g = mapGradients(spot, map);
+    const SurfaceGradients g = gradients.map(map);
     return {true,
             aboveLowest(scale * map.scalar(at, level), std::min(black, white), std::max(black, white),
                         spot.backside),
@@ -125,7 +82,7 @@ Heights heightsFromVertices(const SurfaceSpot& spot) {
         true,
         aboveLowest(spot.attribute(o.heights, 0.0), static_cast<double>(o.leastHeight),
                     static_cast<double>(o.greatestHeight), spot.backside),
-        blended(spot, o.heightGradients, {gradientOver(spot.triangle, at(0), at(1), at(2)), glm::dvec3(0.0)})
+        smoothed(spot, o.heightGradients, {gradientOver(spot.triangle, at(0), at(1), at(2)), glm::dvec3(0.0)})
             .first};
 }
 
@@ -168,11 +125,12 @@ glm::dvec3 compressTilt(const glm::dvec3& n, const glm::dvec3& m, double limit, 
 
 } // namespace
 
-Relief readRelief(const SurfaceSpot& spot, const HapticSettings& settings, double speed, double dt) noexcept {
+Relief readRelief(const SurfaceSpot& spot, SpotGradients& gradients, const HapticSettings& settings,
+                  double stroke) noexcept {
     const double strength = settings.textureStrength;
     Relief relief;
     relief.normal = spot.normal;
-    Heights heights = heightsFromMap(spot, speed, dt);
+    Heights heights = heightsFromMap(spot, gradients, stroke);
     if (!heights.known)
         heights = heightsFromVertices(spot);
     // Blinn's and Minsky's are about grad H.
@@ -187,7 +145,7 @@ Relief readRelief(const SurfaceSpot& spot, const HapticSettings& settings, doubl
     }
     if (fromNormalMap) {
         constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees slopes run away
-        const glm::dvec3 m = normalFromMap(spot, levelForStroke(spot, spot.material.normal, speed, dt));
+        const glm::dvec3 m = normalFromMap(spot, gradients, stroke);
         const double cosine = std::max(glm::dot(m, spot.normal), kSteepest);
         relief.normal = glm::normalize(spot.normal + strength * (m / cosine - spot.normal));
     }

@@ -62,32 +62,37 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
         .workspacePerObject = workspaceFromObject.scale,
         .modelPerObject = workspaceFromObject.scale / scene.workspaceFromScene.scale};
 
+    SpotGradients gradients(spot);
+    const double stroke = speed * dt;
+    const auto factor = [&](const HapticFactor& f) {
+        return f.map.empty() ? 1.0 : spot.factor(f, gradients.strokeLevel(f.map, stroke));
+    };
     const double given = settings.stiffness > 0.0         ? settings.stiffness
                          : std::isnan(material.stiffness) ? scene.limits.recommendedStiffness
                                                           : material.stiffness;
     feel.stiffness = (settings.stiffness > 0.0 ? given : spot.attribute(object.stiffness, given)) *
-                     spot.factor(material.stiffnessMap, 0.0);
+                     factor(material.stiffnessMap);
     if (!(settings.stiffness > 0.0)) // what a person asks for in so many words is not cut
         feel.stiffness = std::min(feel.stiffness, scene.limits.maxStiffness);
     const double damping = settings.damping >= 0.0        ? settings.damping
                            : std::isnan(material.damping) ? 0.0
                                                           : material.damping;
     feel.damping = (settings.damping >= 0.0 ? damping : spot.attribute(object.damping, damping)) *
-                   spot.factor(material.dampingMap, 0.0);
+                   factor(material.dampingMap);
     if (settings.friction != FrictionMode::Off) {
         // A vertex attribute is the static coefficient; the dynamic one keeps its ratio to it.
-        const double factor = spot.factor(material.friction, 0.0);
+        const double share = factor(material.friction);
         const double stated = spot.attribute(object.friction, material.staticFriction);
         const double ratio =
             material.staticFriction > 0.0 ? material.dynamicFriction / material.staticFriction : 1.0;
-        feel.staticFriction = factor * (settings.staticFriction >= 0.0 ? settings.staticFriction : stated);
+        feel.staticFriction = share * (settings.staticFriction >= 0.0 ? settings.staticFriction : stated);
         feel.dynamicFriction =
-            factor * (settings.dynamicFriction >= 0.0 ? settings.dynamicFriction : stated * ratio);
+            share * (settings.dynamicFriction >= 0.0 ? settings.dynamicFriction : stated * ratio);
         feel.dynamicFriction = std::min(feel.dynamicFriction, feel.staticFriction);
         feel.viscousFriction = material.viscousFriction;
     }
     if (settings.texture != TextureMode::Off && (material.textured() || !object.heights.empty())) {
-        const Relief relief = readRelief(spot, settings, speed, dt);
+        const Relief relief = readRelief(spot, gradients, settings, stroke);
         feel.height = relief.height;
         feel.hasHeight = relief.hasHeight && settings.texture == TextureMode::Law;
         feel.tiltCompressed = relief.tiltCompressed;
