@@ -7,8 +7,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace touchstone {
@@ -29,6 +33,20 @@ std::string settingsHelp() {
         text += line + std::string(info.meaning) + "  [" + std::string(info.values) + "]\n";
     }
     return text;
+}
+
+/// Every `--plant`, for the end of the help.
+std::string plantHelp() {
+    std::ostringstream text;
+    text << "Simulated device and hand for --plant NAME=VALUE (a Phantom Premium 1.5 in a light grip):\n";
+    const PlantParameters defaults;
+    for (const PlantInfo& info : plantInfos()) {
+        std::ostringstream line;
+        line << "  " << info.name << '=' << plantParameter(defaults, info.name) << ' ' << info.unit;
+        text << std::left << std::setw(30) << line.str() << "  " << info.meaning << "  [" << info.least
+             << " .. " << info.most << "]\n";
+    }
+    return text.str();
 }
 
 constexpr const char* kExitHelp = "Exit status: 0 done, 1 bad input or a missing facility, 2 wrong usage.\n";
@@ -62,25 +80,41 @@ void addSize(CLI::App& app, glm::ivec2& size, const std::string& meaning) {
         ->type_name("WxH");
 }
 
-void addSettings(CLI::App& app, HapticSettings& settings) {
-    app.add_option_function<std::vector<std::string>>(
-           "--set",
-           [&settings](const std::vector<std::string>& assignments) {
-               for (const std::string& assignment : assignments) {
-                   const size_t equals = assignment.find('=');
-                   if (equals == std::string::npos)
-                       throw CLI::ValidationError("--set",
-                                                  "'" + assignment + "' is not of the form NAME=VALUE");
-                   const std::string problem =
-                       setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-                   if (!problem.empty())
-                       throw CLI::ValidationError("--set", problem);
-               }
-           },
-           "Change a setting of the hand (listed at the end of --help); may be given again")
+/// An option NAME=VALUE that may be given again; `assign` returns what is wrong.
+CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std::string& meaning,
+                            std::function<std::string(std::string_view, std::string_view)> assign) {
+    const auto take = [option, assign = std::move(assign)](const std::vector<std::string>& assignments) {
+        for (const std::string& assignment : assignments) {
+            const size_t equals = assignment.find('=');
+            if (equals == std::string::npos)
+                throw CLI::ValidationError(option, "'" + assignment + "' is not of the form NAME=VALUE");
+            const std::string problem = assign(std::string_view(assignment).substr(0, equals),
+                                               std::string_view(assignment).substr(equals + 1));
+            if (!problem.empty())
+                throw CLI::ValidationError(option, problem);
+        }
+    };
+    return app.add_option_function<std::vector<std::string>>(option, take, meaning)
         ->type_name("NAME=VALUE")
         ->expected(1)
         ->take_all();
+}
+
+void addSettings(CLI::App& app, HapticSettings& settings) {
+    addAssignments(app, "--set",
+                   "Change a setting of the hand (listed at the end of --help); may be given again",
+                   [&settings](std::string_view name, std::string_view value) {
+                       return setSetting(settings, name, value);
+                   });
+}
+
+CLI::Option* addPlant(CLI::App& app, PlantParameters& plant) {
+    return addAssignments(app, "--plant",
+                          "Change the simulated device or the hand that holds it (listed at the end of "
+                          "--help); may be given again",
+                          [&plant](std::string_view name, std::string_view value) {
+                              return setPlantParameter(plant, name, value);
+                          });
 }
 
 void addRate(CLI::App& app, double& rate, const std::string& meaning) {
@@ -122,6 +156,9 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
         ->type_name("FILE");
     app.add_option("--record-ticks", options.recordTicks, "Write every tick here, as CSV")->type_name("FILE");
+    CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
+                                     "The hand follows its path whatever the force, as no hand can");
+    addPlant(app, options.plant)->excludes(open);
     addSize(app, options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Servo rate [1000]");
@@ -143,6 +180,10 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
            },
            "Scene metres as workspace metres, or fitted to the device's workspace [none]")
         ->check(CLI::IsMember({"none", "workspace"}));
+    CLI::Option* closed =
+        app.add_flag("--closed-loop", options.closedLoop,
+                     "The path is what the hand intends: it holds a simulated device, and both yield");
+    addPlant(app, options.plant)->needs(closed);
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Resample the path at this rate; without it one tick a row");
 }
@@ -220,7 +261,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         for (CLI::App* command : {runApp, touchApp, renderApp, inspectApp, benchApp, devicesApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
-                command->footer(command == runApp || command == touchApp ? settingsHelp() : kExitHelp);
+                command->footer(command == runApp || command == touchApp ? settingsHelp() + "\n" + plantHelp()
+                                                                         : kExitHelp);
                 std::cout << command->help();
                 return std::nullopt;
             }

@@ -1,5 +1,6 @@
 // The same loops as in the window, without one: the simulated hand strokes the model in real time.
 
+#include "devices/plant/yielding_hand.h"
 #include "devices/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/realtime_guard.h"
@@ -152,7 +153,9 @@ int runCommand(const RunOptions& options) {
     const Model model = loadModel(options.scene, Fit::Workspace, DeviceLimits{});
     printWarnings(model);
     prepareFor(model, options.settings);
-    SimulatedHand hand(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
+    SimulatedHand path(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
+    YieldingHand yielding(path, options.plant);
+    Device& hand = options.openLoop ? static_cast<Device&>(path) : yielding;
     std::optional<OutputFile> report;
     if (!options.json.empty())
         report.emplace(options.json);
@@ -193,6 +196,7 @@ int runCommand(const RunOptions& options) {
             {"scene", options.scene.string()},
             {"seconds", frames.seconds},
             {"triangles", model.scene->triangleCount()},
+            {"loop", options.openLoop ? nlohmann::ordered_json("open") : plantJson(yielding.plant())},
             {"settings", settingsJson(options.settings)},
             {"setting_warnings", settingWarnings(options.settings)},
             {"servo", servoJson(servo, reader.statistics, frames.seconds)},

@@ -1,5 +1,6 @@
 // Offline and deterministic: a path of the hand in, every tick out, as fast as it goes.
 
+#include "devices/plant/yielding_hand.h"
 #include "devices/replay_device.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
@@ -71,16 +72,29 @@ std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
     return ticks;
 }
 
+/// Is where the path is in the tick that comes next.
+class PlannedHand final : public Device {
+  public:
+    [[nodiscard]] std::string name() const override { return "path"; }
+    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
+    void apply(const DeviceCommand&) noexcept override {}
+
+    DeviceSample next;
+};
+
 /// The state that one offline run carries from tick to tick.
 class OfflineTouch {
   public:
-    OfflineTouch(const Model& model, const HapticSettings& settings)
-        : model_(model), settings_(settings), moving_(model.scene, *model.haptic) {}
+    OfflineTouch(const Model& model, const TouchOptions& options)
+        : model_(model), settings_(options.settings), moving_(model.scene, *model.haptic),
+          yielding_(path_, options.plant),
+          hand_(options.closedLoop ? static_cast<Device&>(yielding_) : path_) {}
 
     void step(const PlannedTick& planned, OfflineTick& tick) {
-        DeviceSample sample;
-        sample.position = planned.hip;
-        sample.valid = true;
+        path_.next.position = planned.hip;
+        path_.next.valid = true;
+        const DeviceSample sample = hand_.sample(planned.time);
         TickInput input;
         input.tick = number_++;
         input.time = tick.time = planned.time;
@@ -92,6 +106,7 @@ class OfflineTouch {
         const long long begin = monotonicNs();
         hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, tracer);
         tick.stepNs = monotonicNs() - begin;
+        hand_.apply(tick.output.command);
         objects_ = input.objects;
         if (tick.output.object >= 0)
             tick.touched = (objects_.empty() ? ObjectMotions(model_.haptic->restMotions)
@@ -101,6 +116,7 @@ class OfflineTouch {
     [[nodiscard]] bool moving() const { return moving_.moving(); }
     /// Of the last step.
     [[nodiscard]] ObjectMotions objects() const { return objects_; }
+    [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
 
   private:
     const Model& model_;
@@ -109,6 +125,9 @@ class OfflineTouch {
     ObjectMotions objects_;
     WorldState world_;
     DeviceState device_;
+    PlannedHand path_;
+    YieldingHand yielding_; // in the closed loop
+    Device& hand_;
     uint64_t number_ = 0;
 };
 
@@ -151,7 +170,7 @@ int touchCommand(const TouchOptions& options) {
 
     enterFloatMode();
     const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
-    OfflineTouch touch(model, options.settings);
+    OfflineTouch touch(model, options);
     const bool moving = touch.moving();
     TickStatistics statistics;
     Samples rays;
@@ -185,6 +204,7 @@ int touchCommand(const TouchOptions& options) {
             {"scene", options.scene.string()},
             {"path", options.path.string()},
             {"fit", options.fit == Fit::None ? "none" : "workspace"},
+            {"loop", options.closedLoop ? plantJson(touch.plant()) : nlohmann::ordered_json("open")},
             {"settings", settingsJson(options.settings)},
             {"setting_warnings", settingWarnings(options.settings)},
             {"ticks", planned.size()},

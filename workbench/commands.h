@@ -2,6 +2,7 @@
 // What the command line can ask for, one struct and one function a command. The functions return the exit
 // status and throw Error for bad input (status 1).
 
+#include "devices/plant/plant_parameters.h"
 #include "engine/scene/scene.h"
 #include "haptics/haptic_settings.h"
 
@@ -32,6 +33,8 @@ struct RunOptions {
     double seconds = 10.0;
     glm::ivec2 size{800, 450};
     std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
+    bool openLoop = false;                               ///< the hand follows its path whatever the force
+    PlantParameters plant;                               ///< in the closed loop
     std::string gpu;
 };
 int runCommand(const RunOptions& options);
@@ -42,7 +45,9 @@ struct TouchOptions {
     std::filesystem::path json; ///< empty: not asked for
     Fit fit = Fit::None;
     HapticSettings settings;
-    double rateHz = 0.0; ///< 0: one tick a row of the path
+    double rateHz = 0.0;     ///< 0: one tick a row of the path
+    bool closedLoop = false; ///< the path is what the hand intends; it holds a device that yields
+    PlantParameters plant;   ///< in the closed loop
 };
 int touchCommand(const TouchOptions& options);
 

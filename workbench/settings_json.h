@@ -1,5 +1,6 @@
 #pragma once
 
+#include "devices/plant/plant.h"
 #include "haptics/haptic_settings.h"
 
 #include <nlohmann/json.hpp>
@@ -8,5 +9,7 @@ namespace touchstone {
 
 /// Every setting as `--set` would take it.
 [[nodiscard]] nlohmann::ordered_json settingsJson(const HapticSettings& settings);
+/// The parameters of a simulated device in a hand, and its energies in J.
+[[nodiscard]] nlohmann::ordered_json plantJson(const Plant& plant);
 
 } // namespace touchstone

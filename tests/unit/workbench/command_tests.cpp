@@ -36,12 +36,13 @@ TEST(CommandLine, HelpNamesEveryCommandOptionAndSetting) {
     EXPECT_EQ(result.status, 0);
     EXPECT_TRUE(result.err.empty());
     for (const char* word :
-         {"run",         "touch",        "render",         "inspect",         "devices",
-          "--headless",  "bench",        "--largest",      "--check",         "--seconds",
-          "--json",      "--screenshot", "--record-ticks", "--path",          "--out",
-          "--fit",       "--set",        "--size",         "--view",          "--hand",
-          "--rate",      "--version",    "forceShading",   "friction",        "texture",
-          "proxyRadius", "stiffness",    "damping",        "iterationBudget", "forceEnabled"})
+         {"run",           "touch",        "render",         "inspect",         "devices",
+          "--headless",    "bench",        "--largest",      "--check",         "--seconds",
+          "--json",        "--screenshot", "--record-ticks", "--path",          "--out",
+          "--fit",         "--set",        "--size",         "--view",          "--hand",
+          "--rate",        "--version",    "forceShading",   "friction",        "texture",
+          "proxyRadius",   "stiffness",    "damping",        "iterationBudget", "forceEnabled",
+          "--closed-loop", "--open-loop",  "--plant"})
         EXPECT_TRUE(contains(result.out, word)) << word;
     EXPECT_FALSE(contains(result.out, "\n  study")) << "study does not exist";
 }
@@ -73,6 +74,11 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "stiffness"},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "stiffness=soft"},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "nothing=1"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--plant", "mass=0.1"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--closed-loop", "--plant", "mass=0"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--closed-loop", "--plant", "delay=0.5"},
+        {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--closed-loop", "--plant", "weight=1"},
+        {"run", kPlane, "--headless", "--open-loop", "--plant", "mass=0.1"},
         {"render", kPlane},
         {"render", kPlane, "--out", "a.png", "--size", "640"},
         {"render", kPlane, "--out", "a.png", "--size", "0x480"},
@@ -198,6 +204,39 @@ TEST_F(Touch, OnAPlaneTheForceIsStiffnessTimesDepthAlongTheNormal) {
     EXPECT_GT(contacts, 50u);
     EXPECT_NEAR(ticks["command_y"][399], ticks["force_y"][399], 1e-12)
         << "faded in long ago, within the limits";
+}
+
+TEST_F(Touch, InTheClosedLoopTheHandYieldsAsTwoSpringsSay) {
+    // The path stops 2 mm under the plane. What the hand's spring and the wall's share is known; the sensor
+    // sees it in its own steps, and friction is off so that the device comes to rest there.
+    std::string csv = kDown;
+    for (int tick = 400; tick < 1400; ++tick)
+        csv += std::to_string(1e-3 * tick) + ",0.01,-0.002,0.02\n";
+    const std::vector<std::string> options{"--closed-loop",
+                                           "--plant",
+                                           "coulombFriction=0",
+                                           "--plant",
+                                           "handStiffness=400",
+                                           "--plant",
+                                           "handDamping=12",
+                                           "--plant",
+                                           "resolution=0",
+                                           "--set",
+                                           "stiffness=800",
+                                           "--json",
+                                           (scratch / "f.json").string()};
+    ASSERT_EQ(touch(kPlane, csv, options).status, 0);
+    const Table ticks = readTable(out());
+    const double depth = 0.002 * 400.0 / (400.0 + 800.0);
+    EXPECT_NEAR(ticks["hip_y"][1399], -depth, 1.1e-7) << "but for the contact gap";
+    EXPECT_NEAR(ticks["command_y"][1399], 800.0 * depth, 400.0 * 1.1e-7);
+    const auto json = nlohmann::json::parse(readFile(scratch / "f.json"));
+    EXPECT_EQ(json["loop"]["handStiffness"], 400.0);
+    EXPECT_NEAR(json["loop"]["motor_work_j"].get<double>(), json["energy"]["command_given_j"].get<double>(),
+                1e-12);
+    const std::string first = readFile(out());
+    ASSERT_EQ(touch(kPlane, csv, options).status, 0);
+    EXPECT_EQ(withoutColumn(first, "step_ns"), withoutColumn(readFile(out()), "step_ns"));
 }
 
 TEST_F(Touch, TwoRunsAreByteIdenticalButForTheTime) {
