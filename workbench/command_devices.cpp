@@ -1,4 +1,4 @@
-#include "devices/hid_list.h"
+#include "devices/hid/hid_list.h"
 #include "workbench/commands.h"
 
 #include <cstdio>
@@ -28,12 +28,12 @@ int devicesCommand() {
     std::printf("  mouse            position from the window, no force\n");
     std::printf(
         "  simulated hand   strokes the model on a path of its own (run --headless, --hand simulated)\n");
-    const std::vector<HidDevice> devices = listHidDevices();
+    const std::vector<HidNode> devices = listHidNodes();
     std::printf("plugged in%s\n", devices.empty() ? ": no HID device" : "");
-    for (const HidDevice& device : devices) {
+    for (const HidNode& device : devices) {
         std::printf("  %s  %04x:%04x  %s  %s%s\n", device.path.c_str(), device.vendor, device.product,
                     device.name().c_str(), accessName(device.access),
-                    device.known != nullptr ? "  (known; reading it is not built in yet)" : "");
+                    device.known != nullptr ? "  (known)" : "");
         const std::string remedy = hidRemedy(device);
         if (!remedy.empty())
             std::printf("    remedy: %s\n", remedy.c_str());

@@ -1,4 +1,4 @@
-#include "devices/hid_list.h"
+#include "devices/hid/hid_list.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ TEST(HidList, NamesEveryDeviceOnce) {
 }
 
 TEST(HidList, CallsADeviceByTheBestNameThereIs) {
-    HidDevice device;
+    HidNode device;
     device.vendor = 0x1234;
     device.product = 0x00ab;
     EXPECT_EQ(device.name(), "HID device 1234:00ab");
@@ -56,7 +56,7 @@ TEST(HidList, TellsWhatTheUserMayDo) {
 }
 
 TEST(HidList, GivesTheUdevRuleWhenPermissionIsMissing) {
-    HidDevice device;
+    HidNode device;
     device.vendor = 0x256f;
     device.path = "/dev/hidraw3";
     device.access = HidAccess::None;
@@ -66,10 +66,10 @@ TEST(HidList, GivesTheUdevRuleWhenPermissionIsMissing) {
 }
 
 TEST(HidList, ListsEachNodeOnceAndOursFirst) {
-    const std::vector<HidDevice> devices = listHidDevices();
+    const std::vector<HidNode> devices = listHidNodes();
     std::set<std::string> paths;
     bool unknownSeen = false;
-    for (const HidDevice& device : devices) {
+    for (const HidNode& device : devices) {
         EXPECT_TRUE(paths.insert(device.path).second) << device.path;
         EXPECT_FALSE(unknownSeen && device.known != nullptr) << device.path;
         unknownSeen = unknownSeen || device.known == nullptr;

@@ -1,4 +1,7 @@
-#include "devices/hid_list.h"
+#include "devices/hid/hid_list.h"
+
+#include "devices/hid/hid_text.h"
+#include "devices/hid/hidapi_lock.h"
 
 #include <hidapi/hidapi.h>
 #include <unistd.h>
@@ -41,6 +44,14 @@ constexpr std::array<KnownHid, 23> kKnown{{
     {kTeensy, 0x0486, HidKind::WoodenHaptics, "Polhem or WoodenHaptics (Teensy raw HID)"},
 }};
 
+std::string ids(uint16_t vendor, uint16_t product) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%04x:%04x", vendor, product);
+    return text.data();
+}
+
+} // namespace
+
 std::string utf8(const wchar_t* text) {
     std::string result;
     for (; text != nullptr && *text != L'\0'; ++text) {
@@ -65,14 +76,6 @@ std::string utf8(const wchar_t* text) {
     return result;
 }
 
-std::string ids(uint16_t vendor, uint16_t product) {
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%04x:%04x", vendor, product);
-    return text.data();
-}
-
-} // namespace
-
 std::span<const KnownHid> knownHids() {
     return kKnown;
 }
@@ -84,7 +87,7 @@ const KnownHid* knownHid(uint16_t vendor, uint16_t product) {
     return nullptr;
 }
 
-std::string HidDevice::name() const {
+std::string HidNode::name() const {
     if (known != nullptr)
         return known->model;
     if (!productName.empty())
@@ -100,7 +103,7 @@ HidAccess hidAccess(const std::string& path) {
     return access(path.c_str(), R_OK) == 0 ? HidAccess::ReadOnly : HidAccess::None;
 }
 
-std::string hidRemedy(const HidDevice& device) {
+std::string hidRemedy(const HidNode& device) {
     switch (device.access) {
     case HidAccess::ReadWrite:
         return {};
@@ -115,8 +118,9 @@ std::string hidRemedy(const HidDevice& device) {
            "\", TAG+=\"uaccess\"' | sudo tee /etc/udev/rules.d/70-touchstone.rules, then plug it in again";
 }
 
-std::vector<HidDevice> listHidDevices() {
-    std::vector<HidDevice> devices;
+std::vector<HidNode> listHidNodes() {
+    std::vector<HidNode> devices;
+    const std::lock_guard lock(hidapiMutex());
     if (hid_init() != 0)
         return devices;
     const std::unique_ptr<hid_device_info, void (*)(hid_device_info*)> all(hid_enumerate(0, 0),
@@ -125,15 +129,15 @@ std::vector<HidDevice> listHidDevices() {
         if (info->path == nullptr)
             continue;
         // hidapi lists a node once for each of its top-level usages.
-        const auto same = [&](const HidDevice& device) { return device.path == info->path; };
+        const auto same = [&](const HidNode& device) { return device.path == info->path; };
         if (std::any_of(devices.begin(), devices.end(), same))
             continue;
         devices.push_back({info->path, info->vendor_id, info->product_id, info->interface_number,
-                           utf8(info->manufacturer_string), utf8(info->product_string),
-                           utf8(info->serial_number), knownHid(info->vendor_id, info->product_id),
-                           hidAccess(info->path)});
+                           info->usage_page, info->usage, utf8(info->manufacturer_string),
+                           utf8(info->product_string), utf8(info->serial_number),
+                           knownHid(info->vendor_id, info->product_id), hidAccess(info->path)});
     }
-    std::sort(devices.begin(), devices.end(), [](const HidDevice& a, const HidDevice& b) {
+    std::sort(devices.begin(), devices.end(), [](const HidNode& a, const HidNode& b) {
         const bool aKnown = a.known != nullptr, bKnown = b.known != nullptr;
         return aKnown != bKnown ? aKnown : a.path < b.path;
     });

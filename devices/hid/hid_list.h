@@ -1,5 +1,6 @@
 #pragma once
-// What is plugged in: the answer of `touchstone devices`. Reading the devices is not done here.
+// What is plugged in: the answer of `touchstone devices`. Reading the devices is not done here
+// (hid_device.h).
 
 #include <cstdint>
 #include <span>
@@ -34,10 +35,11 @@ enum class HidAccess : uint8_t {
     Missing ///< no node: unplugged meanwhile, or /dev is not mounted here
 };
 
-struct HidDevice {
+struct HidNode {
     std::string path; ///< "/dev/hidraw0"
     uint16_t vendor = 0, product = 0;
     int interfaceNumber = -1;                      ///< of a USB device with several, else -1
+    uint16_t usagePage = 0, usage = 0;             ///< of its first collection; 0: not told
     std::string manufacturer, productName, serial; ///< UTF-8, as the device gives them; may be empty
     const KnownHid* known = nullptr;
     HidAccess access = HidAccess::Missing;
@@ -48,12 +50,12 @@ struct HidDevice {
 
 /// All raw HID nodes, ours first, then by path, each once. Owner thread; opens nothing, so it disturbs
 /// nobody. An empty list is an answer: nothing is plugged in, or the machine has no hidraw (a container).
-[[nodiscard]] std::vector<HidDevice> listHidDevices();
+[[nodiscard]] std::vector<HidNode> listHidNodes();
 
 /// The permissions of a node for this process.
 [[nodiscard]] HidAccess hidAccess(const std::string& path);
 
 /// What to do about `access`, or empty if nothing needs to be done.
-[[nodiscard]] std::string hidRemedy(const HidDevice& device);
+[[nodiscard]] std::string hidRemedy(const HidNode& device);
 
 } // namespace touchstone

@@ -1,0 +1,80 @@
+#pragma once
+// A HID device: hidapi on a thread of its own, a mailbox to the servo.
+
+#include "devices/hid/hid_list.h"
+#include "devices/hid/hid_port.h"
+#include "devices/hid/hid_protocol.h"
+#include "devices/hid/rate_hand.h"
+#include "devices/link/linked_device.h"
+
+#include <condition_variable>
+#include <memory>
+#include <optional>
+#include <span>
+#include <thread>
+
+namespace touchstone {
+
+/// Everything that is known of a device before it is plugged in.
+struct HidRecipe {
+    std::string name;
+    UsbMatch usb;
+    std::string path; ///< preferred where several match; empty: any
+    DeviceLimits limits;
+    std::unique_ptr<HidProtocol> protocol;
+    std::optional<RateSettings> rate; ///< of devices that are pushed instead of moved
+};
+
+/// A 3Dconnexion device at this node.
+[[nodiscard]] HidRecipe spaceMouseRecipe(const HidNode& node);
+/// A device that a file describes. `path`: the node, where it was named.
+[[nodiscard]] HidRecipe recipeOf(const DeviceFile& file, const std::string& path = {});
+
+/// The node that a recipe means: by ids, interface and serial, the preferred path first, none that is in use.
+/// Null if there is none. Of a SpaceMouse with several nodes the one that has axes.
+[[nodiscard]] const HidNode* findNode(const HidRecipe& recipe, std::span<const HidNode> nodes,
+                                      const std::set<std::string>& inUse);
+
+/// May be unplugged and plugged in again at any time: meanwhile samples are invalid. The device gets zero
+/// force when the servo stops, when it falls silent (kServoSilence) and at the end.
+class HidDevice final : public LinkedDevice {
+  public:
+    /// Starts the I/O thread; whether the device is there is in report().
+    explicit HidDevice(HidRecipe recipe);
+    ~HidDevice() override;
+
+    [[nodiscard]] std::string name() const override { return recipe_.name; }
+    [[nodiscard]] DeviceLimits limits() const override { return recipe_.limits; }
+    [[nodiscard]] DeviceSample sample(double time) noexcept override;
+
+  private:
+    // I/O thread
+    void run();
+    void connect();
+    void exchange();
+    void takeReports(std::span<uint8_t> buffer, int length, int64_t arrivedNs);
+    void send(int64_t nowNs);
+    void disconnect(const std::string& problem);
+    bool waitStopping(double seconds);
+
+    HidRecipe recipe_;
+    HidPort port_;
+    DeviceReading reading_;
+    int64_t emptyNs_ = 0; ///< when the queue of reports was last seen empty
+    int64_t sentNs_ = 0;
+    int failedSends_ = 0; ///< in a row
+
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stopping_ = false;
+    std::atomic<bool> stop_{false};
+
+    // Servo thread
+    std::optional<RateHand> rateHand_;
+    double lastTime_ = 0.0;
+    bool moving_ = false;
+
+    std::thread thread_;
+};
+
+} // namespace touchstone
