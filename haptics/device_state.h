@@ -49,6 +49,8 @@ struct DeviceState {
     bool shaded = false;
     glm::dvec3 shadedNormal{0.0}; ///< anchor frame
     glm::dvec3 shadedTurn{0.0};   ///< what that normal turned by in the last tick
+    int shadedObject = -1;        ///< whose facet alone held the HIP off; -1: none, or several did
+    uint32_t shadedTriangle = 0;
 
     // Stage 6, anchor frame.
     FrictionState friction = FrictionState::Free;

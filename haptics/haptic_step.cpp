@@ -9,6 +9,7 @@
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/safety/force_limiter.h"
 #include "haptics/sample/hip_sample.h"
+#include "haptics/shading/first_goal.h"
 #include "haptics/shading/force_shading.h"
 #include "haptics/texture/plain_feel.h"
 #include "haptics/texture/surface_feel.h"
@@ -57,10 +58,11 @@ struct FeltShape {
 }
 
 /// Velocity of the HIP against the anchor's surface, m/s, in the anchor frame.
-glm::dvec3 surfaceVelocity(const ObjectMotion& anchor, const DeviceState& state, double dt) {
+glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& anchor, const DeviceState& state) {
     const Similarity& now = anchor.workspaceFromObject;
-    const glm::dvec3 carried =
-        anchor.jumped ? glm::dvec3(0.0) : (now.point(state.proxy) - anchor.before.point(state.proxy)) / dt;
+    glm::dvec3 carried(0.0);
+    if (!input.objects.empty() && !anchor.jumped)
+        carried = (now.point(state.proxy) - anchor.before.point(state.proxy)) / input.dt;
     return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
@@ -178,8 +180,9 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
 
     // 3. Proxy solve: as near to the goal as free space allows.
     const bool shading = !Plain && anyTwoPass(scene.plan, settings);
-    const glm::dvec3 goal =
-        shading ? warmGoal(state, hip, glm::length(state.travel) / workspaceFromAnchor.scale) : hip;
+    const glm::dvec3 goal = shading ? firstGoal(scene, settings, state, hip,
+                                                glm::length(state.travel) / workspaceFromAnchor.scale)
+                                    : hip;
     if (!shading)
         state.shaded = false; // what was felt before it was switched off is no place to start from again
     proxy.moveTowards(goal);
@@ -195,7 +198,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Shading);
 
     // 5. Texture: what the maps say there.
-    const glm::dvec3 velocity = surfaceVelocity(motions[static_cast<size_t>(state.anchor)], state, input.dt);
+    const glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
     SurfaceFeel feel;
     bool plain = true;
     if (rest.contactCount > 0) {

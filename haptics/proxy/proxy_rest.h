@@ -22,7 +22,8 @@ struct Contact {
 struct ProxyRest {
     static constexpr size_t kMaxContacts = 64;
     std::array<Contact, kMaxContacts> contacts;
-    std::array<ConstraintPlane, kMaxContacts> planes; ///< of the contacts, relative to the proxy
+    std::array<ConstraintPlane, kMaxContacts> planes;       ///< of the contacts, relative to the proxy
+    std::array<ConstraintPlane, kMaxContacts> shadedPlanes; ///< the same with interpolated normals
     uint32_t contactCount = 0;
     SubGoal hold; ///< which planes hold the proxy from its goal; indices into contacts
     uint32_t iterations = 0;

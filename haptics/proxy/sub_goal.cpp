@@ -115,8 +115,12 @@ SubGoal nearestFeasible(const glm::dvec3& goal, std::span<const ConstraintPlane>
         if (worst < 0)
             return current;
         SubGoal next;
-        if (!exchange(goal, planes, current, worst, tolerance, next))
+        if (current.count == 0)
+            meet(goal, planes, {worst, -1, -1}, 1, next); // one plane: nothing to exchange
+        else if (!exchange(goal, planes, current, worst, tolerance, next))
             break;
+        if (planes.size() == 1)
+            return next;
         current = next;
     }
     SubGoal stay;

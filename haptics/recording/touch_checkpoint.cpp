@@ -29,6 +29,8 @@ void eachField(State& s, const Visit& visit) {
     visit(s.shaded);
     visit(s.shadedNormal);
     visit(s.shadedTurn);
+    visit(s.shadedObject);
+    visit(s.shadedTriangle);
     visit(s.friction);
     visit(s.stictionPoint);
     visit(s.frictionless);
@@ -54,6 +56,8 @@ struct CarriedFields {
     WatchState watch;
     bool shaded = false;
     glm::dvec3 shadedNormal, shadedTurn;
+    int shadedObject = -1;
+    uint32_t shadedTriangle = 0;
     FrictionState friction = FrictionState::Free;
     glm::dvec3 stictionPoint, frictionless;
     ForceLimiterState limiter;
@@ -67,10 +71,13 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
     for (size_t i = 0; i < fields.pinched.count; ++i)
         if (fields.pinched.objects[i] < 0 || fields.pinched.objects[i] >= objects)
             return false;
-    if (!fields.watch.touching)
-        return true;
-    return fields.anchor >= 0 && triangleOf(fields.watch.side) <
-                                     scene->objects[static_cast<size_t>(fields.anchor)]->triangleCount();
+    const auto inObject = [&](int object, uint32_t triangle) {
+        return object >= 0 && object < objects &&
+               triangle < scene->objects[static_cast<size_t>(object)]->triangleCount();
+    };
+    if (fields.shadedObject != -1 && !inObject(fields.shadedObject, fields.shadedTriangle))
+        return false;
+    return !fields.watch.touching || inObject(fields.anchor, triangleOf(fields.watch.side));
 }
 
 /// The bytes back into fields. A bool is read as a number: another byte than 0 and 1 would be no bool.

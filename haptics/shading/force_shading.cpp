@@ -2,10 +2,10 @@
 
 #include "haptics/contact/triangle.h"
 #include "haptics/proxy/neighbourhood_watch.h"
+#include "haptics/shading/tilt_limit.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace touchstone {
@@ -26,6 +26,7 @@ struct ShadedGoal {
     glm::dvec3 normal{0.0}; ///< unit, from the HIP to the goal; meaningful while held
     bool tilted = false;    ///< some interpolated normal differs from the true one
     bool held = false;      ///< a tilted plane holds the HIP off
+    int facet = -1;         ///< the one contact whose plane holds it; -1: several do
 };
 
 /// A goal above all true planes would lift the proxy off: such a goal put back onto the nearest of them [000
@@ -47,8 +48,8 @@ glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const P
 /// First pass: the nearest point to the HIP on the interpolated planes, put back onto the nearest true plane
 /// where it is above all of them, since a goal up there would lift the proxy off [000 §4].
 ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                      const DeviceState& state, const glm::dvec3& hip, const ProxyRest& rest) {
-    std::array<ConstraintPlane, ProxyRest::kMaxContacts> planes;
+                      const DeviceState& state, const glm::dvec3& hip, ProxyRest& rest) {
+    auto& planes = rest.shadedPlanes;
     ShadedGoal result;
     for (uint32_t i = 0; i < rest.contactCount; ++i) {
         const Contact& contact = rest.contacts[i];
@@ -67,8 +68,10 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Hap
     const glm::dvec3 towards = pass.point - wish;
     const double length = glm::length(towards);
     result.held = result.tilted && length > 0.0;
-    if (result.held)
+    if (result.held) {
         result.normal = towards / length;
+        result.facet = pass.count == 1 ? pass.active[0] : -1;
+    }
     result.goal = onTruePlanes(result.goal, state.proxy, rest);
     return result;
 }
@@ -106,25 +109,13 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
         normal = -normal;
         cosine = -cosine;
     }
-    const double limit = std::cos(tiltLimit);
-    if (cosine < limit) {
+    if (leansBeyond(cosine, tiltLimit)) {
+        const double limit = std::cos(tiltLimit);
         const glm::dvec3 sideways = normal - cosine * trueNormal;
         const double sine = glm::length(sideways);
         normal = sine > 0.0 ? limit * trueNormal + std::sin(tiltLimit) / sine * sideways : trueNormal;
     }
     return foreign ? anchorFromObject.direction(normal) : normal;
-}
-
-glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip, double travel) noexcept {
-    if (!state.shaded)
-        return hip;
-    // The normal goes on turning as it did. The goal stays a little under the shaded plane, by what that
-    // plane can rise over the true one in this tick, so that the proxy is not lifted off before it is shaded.
-    constexpr double kRise = 0.2;
-    const glm::dvec3 turn = travel > 0.0 ? state.shadedTurn : glm::dvec3(0.0);
-    const glm::dvec3 normal = glm::normalize(state.shadedNormal + turn);
-    const double depth = glm::dot(state.proxy - hip, normal) - kRise * travel;
-    return depth > 0.0 ? hip + depth * normal : hip;
 }
 
 template <class Model>
@@ -139,6 +130,12 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
         const ShadedGoal shaded = shadedGoal(scene, motions, settings, state, hip, rest);
         state.shaded = shaded.held;
         state.shadedNormal = shaded.normal;
+        state.shadedObject = -1;
+        if (shaded.facet >= 0) {
+            const Contact& facet = rest.contacts[static_cast<size_t>(shaded.facet)];
+            state.shadedObject = facet.object;
+            state.shadedTriangle = facet.triangle;
+        }
         state.shadedTurn = wasShaded && shaded.held ? shaded.normal - lastNormal : glm::dvec3(0.0);
         if (glm::dot(state.shadedTurn, state.shadedTurn) > kLargestTurn * kLargestTurn)
             state.shadedTurn = glm::dvec3(0.0);

@@ -45,10 +45,6 @@ namespace touchstone {
 [[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
                                             const Contact& contact, double tiltLimit) noexcept;
 
-/// Where the last tick's shaded surface would hold the proxy for this HIP: the goal to start stage 3 from.
-/// Anchor frame; `travel` is how far the HIP moved in this tick. The HIP itself when nothing was shaded.
-[[nodiscard]] glm::dvec3 warmGoal(const DeviceState& state, const glm::dvec3& hip, double travel) noexcept;
-
 /// Ruspini's two-pass shading run to its fixed point: goal = nearest point to the HIP on the interpolated
 /// planes through the proxy; then the proxy moves to the point of the true surface nearest to that goal;
 /// repeated with the normals of the new place until the goal stands still. There the force is along the

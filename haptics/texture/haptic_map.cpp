@@ -1,13 +1,17 @@
 #include "haptics/texture/haptic_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace touchstone {
 
 namespace {
 
 int wrapIndex(int i, int size, Wrap wrap) {
+    if (i >= 0 && i < size)
+        return i; // in most ticks, and a division is a quarter of a texel's cost
     switch (wrap) {
     case Wrap::ClampToEdge:
         return std::clamp(i, 0, size - 1);
@@ -119,7 +123,17 @@ glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
     return offset_ + jacobian_ * uv;
 }
 
-glm::dvec3 HapticMap::bilinear(const Level& level, const glm::dvec2& uv) const {
+template <class Value>
+Value HapticMap::texel(const Level& level, int x, int y) const {
+    const float* t = &level.texels[static_cast<size_t>((y * level.width + x) * channels_)];
+    if constexpr (std::is_same_v<Value, double>)
+        return static_cast<double>(*t);
+    else
+        return channels_ >= 3 ? glm::dvec3(t[0], t[1], t[2]) : glm::dvec3(t[0], 0.0, 0.0);
+}
+
+template <class Value>
+Value HapticMap::bilinear(const Level& level, const glm::dvec2& uv) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
     const double x = bounded(uv.x * level.width - 0.5), y = bounded(uv.y * level.height - 0.5);
     const double fx = std::floor(x), fy = std::floor(y);
@@ -128,46 +142,65 @@ glm::dvec3 HapticMap::bilinear(const Level& level, const glm::dvec2& uv) const {
     const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, wrapS_);
     const int y0 = wrapIndex(static_cast<int>(fy), level.height, wrapT_);
     const int y1 = wrapIndex(static_cast<int>(fy) + 1, level.height, wrapT_);
-    const auto texel = [&](int tx, int ty) {
-        const float* t = &level.texels[static_cast<size_t>((ty * level.width + tx) * channels_)];
-        return channels_ >= 3 ? glm::dvec3(t[0], t[1], t[2]) : glm::dvec3(t[0], 0.0, 0.0);
-    };
-    return (1.0 - wy) * ((1.0 - wx) * texel(x0, y0) + wx * texel(x1, y0)) +
-           wy * ((1.0 - wx) * texel(x0, y1) + wx * texel(x1, y1));
+    return (1.0 - wy) * ((1.0 - wx) * texel<Value>(level, x0, y0) + wx * texel<Value>(level, x1, y0)) +
+           wy * ((1.0 - wx) * texel<Value>(level, x0, y1) + wx * texel<Value>(level, x1, y1));
 }
 
-glm::dvec3 HapticMap::sample(const glm::dvec2& uv, double level) const {
-    const double last = static_cast<double>(levels_.size() - 1);
-    const double bound = std::clamp(level, 0.0, last);
+/// Linear between the levels on both sides of `level`: `read(level)` gives what one says.
+template <class Read>
+auto HapticMap::between(double level, const Read& read) const {
+    const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));
     const auto fine = static_cast<size_t>(bound);
-    const double between = bound - static_cast<double>(fine);
-    const glm::dvec3 a = bilinear(levels_[fine], uv);
-    if (between <= 0.0)
-        return a;
-    return (1.0 - between) * a + between * bilinear(levels_[fine + 1], uv);
+    const double share = bound - static_cast<double>(fine);
+    auto value = read(levels_[fine]);
+    if (share > 0.0)
+        value = (1.0 - share) * value + share * read(levels_[fine + 1]);
+    return value;
 }
 
 double HapticMap::scalar(const glm::dvec2& uv, double level) const {
-    return sample(uv, level).x;
+    return between(level, [&](const Level& at) { return bilinear<double>(at, uv); });
 }
 
 glm::dvec3 HapticMap::vector(const glm::dvec2& uv, double level) const {
-    return sample(uv, level);
+    return between(level, [&](const Level& at) { return bilinear<glm::dvec3>(at, uv); });
 }
 
-glm::dvec2 HapticMap::slope(const Level& level, const glm::dvec2& uv) const {
-    const double du = 0.5 / level.width, dv = 0.5 / level.height;
-    const auto at = [&](double u, double v) { return bilinear(level, uv + glm::dvec2(u, v)).x; };
-    return {(at(du, 0.0) - at(-du, 0.0)) / (2.0 * du), (at(0.0, dv) - at(0.0, -dv)) / (2.0 * dv)};
+/// (value, d/du, d/dv). Half a texel to the left of the place and half a texel to the right lie in two cells
+/// side by side, and the place itself in one of them: three columns say it all, and three rows. With w the
+/// share of the way from the first column to the second at the left end, the weights of the columns are
+///   (1/2 - w)+, 1 - |w - 1/2|, (w - 1/2)+
+/// for the value; the slope is 1 - w of the first step and w of the second, exactly zero where texels are
+/// equal.
+glm::dvec3 HapticMap::valueAndSlope(const Level& level, const glm::dvec2& uv) const {
+    const double x = bounded(uv.x * level.width - 1.0), y = bounded(uv.y * level.height - 1.0);
+    const double fx = std::floor(x), fy = std::floor(y);
+    const double wx = x - fx, wy = y - fy;
+    const auto weights = [](double w) {
+        return glm::dvec3(std::max(0.5 - w, 0.0), 1.0 - std::abs(w - 0.5), std::max(w - 0.5, 0.0));
+    };
+    const auto step = [](double w, const glm::dvec3& at) {
+        return (1.0 - w) * (at.y - at.x) + w * (at.z - at.y);
+    };
+    std::array<int, 3> column;
+    for (int i = 0; i < 3; ++i)
+        column[static_cast<size_t>(i)] = wrapIndex(static_cast<int>(fx) + i, level.width, wrapS_);
+    const glm::dvec3 columns = weights(wx), rows = weights(wy);
+    glm::dvec3 values, slopes; // of the rows
+    for (int j = 0; j < 3; ++j) {
+        const int row = wrapIndex(static_cast<int>(fy) + j, level.height, wrapT_);
+        const glm::dvec3 texels(texel<double>(level, column[0], row), texel<double>(level, column[1], row),
+                                texel<double>(level, column[2], row));
+        values[j] = glm::dot(columns, texels);
+        slopes[j] = step(wx, texels);
+    }
+    return {glm::dot(rows, values), level.width * glm::dot(rows, slopes), level.height * step(wy, values)};
 }
 
-glm::dvec2 HapticMap::gradient(const glm::dvec2& uv, double level) const {
-    const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));
-    const auto fine = static_cast<size_t>(bound);
-    const double between = bound - static_cast<double>(fine);
-    const glm::dvec2 a = slope(levels_[fine], uv);
+HapticMap::Slope HapticMap::slope(const glm::dvec2& uv, double level) const {
     // Each level by its own texel, so that the gradient does not jump where one level gives way to the next.
-    return between > 0.0 ? (1.0 - between) * a + between * slope(levels_[fine + 1], uv) : a;
+    const glm::dvec3 s = between(level, [&](const Level& at) { return valueAndSlope(at, uv); });
+    return {s.x, {s.y, s.z}};
 }
 
 } // namespace touchstone

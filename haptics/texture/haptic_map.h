@@ -35,19 +35,27 @@ class HapticMap {
     /// Bilinear in the level, linear between levels. `uv` is transformed already; `level` >= 0.
     [[nodiscard]] double scalar(const glm::dvec2& uv, double level) const;
     [[nodiscard]] glm::dvec3 vector(const glm::dvec2& uv, double level) const;
-    /// Channel 0's gradient over transformed uv by central differences of half a texel, the derivative of
-    /// the bilinear surface averaged over one texel; linear between levels.
-    [[nodiscard]] glm::dvec2 gradient(const glm::dvec2& uv, double level) const;
+    struct Slope {
+        double value = 0.0;
+        glm::dvec2 gradient{0.0}; ///< over transformed uv
+    };
+    /// Channel 0 as `scalar` reads it and its gradient by central differences of half a texel, the derivative
+    /// of the bilinear surface averaged over one texel; linear between levels.
+    [[nodiscard]] Slope slope(const glm::dvec2& uv, double level) const;
 
   private:
     struct Level {
         int width = 0, height = 0;
         std::vector<float> texels; ///< channels interleaved, rows from the top
     };
-    [[nodiscard]] glm::dvec3 bilinear(const Level& level, const glm::dvec2& uv) const;
     [[nodiscard]] Level halved(const Level& fine) const;
-    [[nodiscard]] glm::dvec2 slope(const Level& level, const glm::dvec2& uv) const;
-    [[nodiscard]] glm::dvec3 sample(const glm::dvec2& uv, double level) const;
+    template <class Value>
+    [[nodiscard]] Value texel(const Level& level, int x, int y) const;
+    template <class Value>
+    [[nodiscard]] Value bilinear(const Level& level, const glm::dvec2& uv) const;
+    [[nodiscard]] glm::dvec3 valueAndSlope(const Level& level, const glm::dvec2& uv) const;
+    template <class Read>
+    [[nodiscard]] auto between(double level, const Read& read) const;
 
     std::vector<Level> levels_;
     int channels_ = 1, texCoord_ = 0;

@@ -7,13 +7,14 @@ namespace touchstone {
 
 namespace {
 
-/// Unit normal of the core normal map, object frame; the felt normal where there is no tangent frame.
+/// What the core normal map says, object frame, not of unit length; the felt normal where there is no tangent
+/// frame.
 glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotGradients& gradients, double stroke) {
     const HapticMap& map = spot.material.normal;
     if (!spot.hasUv(map.texCoord()))
         return spot.normal;
     const double level = gradients.strokeLevel(map, stroke);
-    glm::dvec3 local = 2.0 * map.vector(map.transform(spot.uv(map.texCoord())), level) - 1.0;
+    glm::dvec3 local = 2.0 * map.vector(spot.at(map), level) - 1.0;
     local.x *= spot.material.normalScale;
     local.y *= spot.material.normalScale;
     local.z = std::max(local.z, 0.0); // a normal that points into the surface would pull the hand in
@@ -40,8 +41,7 @@ glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotGradients& gradients, doub
     tangent /= length;
     const glm::dvec3 bitangent = (sign < 0.0 ? -1.0 : 1.0) * glm::cross(spot.normal, tangent);
     const glm::dvec3 normal = local.x * tangent + local.y * bitangent + local.z * spot.normal;
-    const double size = glm::length(normal);
-    return size > 1e-9 ? normal / size : spot.normal;
+    return glm::dot(normal, normal) > 1e-18 ? normal : spot.normal;
 }
 
 /// Height and its gradient: model metres, and metres of the model per object unit.
@@ -61,15 +61,13 @@ Heights heightsFromMap(const SurfaceSpot& spot, SpotGradients& gradients, double
     const double scale = spot.material.heightScale;
     if (map.empty() || scale == 0.0 || !spot.hasUv(map.texCoord()))
         return {};
-    const double level = gradients.strokeLevel(map, stroke);
-    const glm::dvec2 at = map.transform(spot.uv(map.texCoord()));
+    const HapticMap::Slope read = map.slope(spot.at(map), gradients.strokeLevel(map, stroke));
     const double black = scale * static_cast<double>(map.least()),
                  white = scale * static_cast<double>(map.greatest());
-    const glm::dvec2 overMap = scale * map.gradient(at, level);
+    const glm::dvec2 overMap = scale * read.gradient;
     const SurfaceGradients g = gradients.map(map);
     return {true,
-            aboveLowest(scale * map.scalar(at, level), std::min(black, white), std::max(black, white),
-                        spot.backside),
+            aboveLowest(scale * read.value, std::min(black, white), std::max(black, white), spot.backside),
             overMap.x * g.first + overMap.y * g.second};
 }
 
@@ -78,12 +76,13 @@ Heights heightsFromVertices(const SurfaceSpot& spot) {
     if (o.heights.empty())
         return {};
     const auto at = [&](size_t corner) { return static_cast<double>(o.heights[spot.source(corner)]); };
-    return {
-        true,
-        aboveLowest(spot.attribute(o.heights, 0.0), static_cast<double>(o.leastHeight),
-                    static_cast<double>(o.greatestHeight), spot.backside),
-        smoothed(spot, o.heightGradients, {gradientOver(spot.triangle, at(0), at(1), at(2)), glm::dvec3(0.0)})
-            .first};
+    const auto facet = [&]() -> SurfaceGradients {
+        return {gradientOver(spot.triangle, at(0), at(1), at(2)), glm::dvec3(0.0)};
+    };
+    return {true,
+            aboveLowest(spot.attribute(o.heights, 0.0), static_cast<double>(o.leastHeight),
+                        static_cast<double>(o.greatestHeight), spot.backside),
+            smoothed(spot, o.heightGradients, facet).first};
 }
 
 /// [001 4.11], N + (B_u (N x P_t) - B_v (N x P_s)) / |N|, with the triangle's own sides as s and t: with
@@ -96,31 +95,34 @@ glm::dvec3 blinnNormal(const SurfaceSpot& spot, const glm::dvec3& slope) {
     return size * n + glm::dot(slope, s) * glm::cross(n, t) - glm::dot(slope, t) * glm::cross(n, s);
 }
 
-/// `slope`: grad H, a pure number. The [000] form leaves of it what lies in the felt surface.
+/// `slope`: grad H, a pure number. The [000] form leaves of it what lies in the felt surface. Not of unit
+/// length.
 glm::dvec3 normalFromSlope(const SurfaceSpot& spot, const glm::dvec3& slope, TextureMode mode) {
     const glm::dvec3& n = spot.normal;
     const glm::dvec3 bumped =
         mode == TextureMode::Blinn ? blinnNormal(spot, slope) : n - slope + glm::dot(slope, n) * n;
-    const double length = glm::length(bumped);
-    return std::isfinite(length) && length > 0.0 ? bumped / length : n;
+    const double squared = glm::dot(bumped, bumped);
+    return std::isfinite(squared) && squared > 0.0 ? bumped : n;
 }
 
-/// Compresses the angle between m and n smoothly below `limit`: a / (1 + (a/limit)^4)^(1/4) keeps small tilts
-/// to fourth order and never reaches the limit, so no shape is cut flat.
+/// Unit vector along m, with the tangent t of its angle to the unit vector n compressed smoothly below that
+/// of the limit, T: t / (1 + (t/T)^4)^(1/4) keeps small tilts to fourth order and never reaches the limit, so
+/// no shape is cut flat.
 glm::dvec3 compressTilt(const glm::dvec3& n, const glm::dvec3& m, double limit, bool& compressed) {
     constexpr double kNoLimit = 1.5707963267948966;
     if (limit >= kNoLimit)
-        return m;
-    const double cosine = std::clamp(glm::dot(n, m), -1.0, 1.0);
-    const glm::dvec3 sideways = m - cosine * n;
-    const double sine = glm::length(sideways);
-    if (!(sine > 0.0) || !(limit > 0.0))
-        return limit > 0.0 ? m : n;
-    const double angle = std::atan2(sine, cosine);
-    compressed = angle > limit;
-    const double ratio = angle / limit;
-    const double kept = angle / std::sqrt(std::sqrt(1.0 + ratio * ratio * ratio * ratio));
-    return std::cos(kept) * n + std::sin(kept) / sine * sideways;
+        return glm::normalize(m);
+    const double along = glm::dot(n, m);
+    const glm::dvec3 sideways = m - along * n;
+    const double squared = glm::dot(sideways, sideways);
+    if (!(limit > 0.0) || !(squared > 0.0))
+        return n;
+    // Tangent = |sideways| / root; without a limit root is `along`.
+    const double slope = std::tan(limit);
+    const double c = std::max(along, 0.0) * std::max(along, 0.0), s = squared / (slope * slope);
+    compressed = s > c;
+    const double root = std::sqrt(std::sqrt(c * c + s * s));
+    return (root * n + sideways) / std::sqrt(root * root + squared);
 }
 
 } // namespace
@@ -146,8 +148,8 @@ Relief readRelief(const SurfaceSpot& spot, SpotGradients& gradients, const Hapti
     if (fromNormalMap) {
         constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees slopes run away
         const glm::dvec3 m = normalFromMap(spot, gradients, stroke);
-        const double cosine = std::max(glm::dot(m, spot.normal), kSteepest);
-        relief.normal = glm::normalize(spot.normal + strength * (m / cosine - spot.normal));
+        const double along = std::max(glm::dot(m, spot.normal), kSteepest * glm::length(m));
+        relief.normal = spot.normal + strength * (m / along - spot.normal);
     }
     relief.normal =
         compressTilt(spot.normal, relief.normal, settings.textureTiltLimit, relief.tiltCompressed);

@@ -46,11 +46,11 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
     if (foreign)
         anchorFromObject =
             motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(workspaceFromObject);
-    const Similarity objectFromAnchor = anchorFromObject.inverse();
+    const Similarity objectFromAnchor = foreign ? anchorFromObject.inverse() : Similarity{};
     const Triangle triangle = triangleOf(object, contact.triangle);
     const glm::dvec3 towardsProxy = foreign ? objectFromAnchor.direction(normal) : normal;
     const bool backside = glm::dot(triangle.normal, towardsProxy) < 0.0;
-    const SurfaceSpot spot{
+    SurfaceSpot spot{
         .object = object,
         .material = material,
         .triangle = triangle,
@@ -61,6 +61,11 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
         .smooth = shadingMode(settings, material) != ShadingMode::Off,
         .workspacePerObject = workspaceFromObject.scale,
         .modelPerObject = workspaceFromObject.scale / scene.workspaceFromScene.scale};
+    for (int set = 0; set < 2; ++set)
+        if (spot.hasUv(set))
+            for (int corner = 0; corner < 3; ++corner)
+                spot.uv[static_cast<size_t>(set)] +=
+                    spot.weight[corner] * spot.uvAt(set, static_cast<size_t>(corner));
 
     SpotGradients gradients(spot);
     const double stroke = speed * dt;

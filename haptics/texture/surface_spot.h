@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -18,11 +19,12 @@ struct SurfaceSpot {
     const HapticObject& object;
     const HapticMaterialData& material;
     Triangle triangle;
-    size_t first = 0;       ///< index of the triangle's first corner
-    glm::dvec3 weight{0.0}; ///< barycentric
-    glm::dvec3 normal{0.0}; ///< unit, of the felt shape, on the outer side
-    bool backside = false;  ///< touched from the inner side
-    bool smooth = false;    ///< gradients are interpolated between vertices, as normals are
+    size_t first = 0;               ///< index of the triangle's first corner
+    glm::dvec3 weight{0.0};         ///< barycentric
+    glm::dvec3 normal{0.0};         ///< unit, of the felt shape, on the outer side
+    bool backside = false;          ///< touched from the inner side
+    bool smooth = false;            ///< gradients are interpolated between vertices, as normals are
+    std::array<glm::dvec2, 2> uv{}; ///< texture coordinates of both sets, where there are such
     double workspacePerObject = 1.0;
     double modelPerObject = 1.0; ///< metres of the model in one object unit
 
@@ -39,13 +41,14 @@ struct SurfaceSpot {
     [[nodiscard]] glm::dvec2 uvAt(int set, size_t corner) const {
         return glm::dvec2(object.uv[set & 1][source(corner)]);
     }
-    [[nodiscard]] glm::dvec2 uv(int set) const {
-        return weight.x * uvAt(set, 0) + weight.y * uvAt(set, 1) + weight.z * uvAt(set, 2);
+    /// The map's coordinates there.
+    [[nodiscard]] glm::dvec2 at(const HapticMap& map) const {
+        return map.transform(uv[map.texCoord() & 1 ? 1 : 0]);
     }
     [[nodiscard]] double factor(const HapticFactor& f, double level) const {
         if (f.map.empty() || !hasUv(f.map.texCoord()))
             return 1.0;
-        return f.min + (f.max - f.min) * f.map.scalar(f.map.transform(uv(f.map.texCoord())), level);
+        return f.min + (f.max - f.min) * f.map.scalar(at(f.map), level);
     }
 };
 

@@ -83,6 +83,30 @@ TEST(HapticMap, EveryTypeAndWrapModeIsBilinearBetweenTexelCentres) {
             }
 }
 
+TEST(HapticMap, TheSlopeIsTheCentralDifferenceOfHalfATexel) {
+    constexpr int kWidth = 7, kHeight = 5;
+    constexpr double du = 0.5 / kWidth, dv = 0.5 / kHeight;
+    for (const Wrap s : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge})
+        for (const Wrap t : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) {
+            TextureRef reference;
+            reference.wrapS = s;
+            reference.wrapT = t;
+            const HapticMap map(pixelsOf(ComponentType::F32, kWidth, kHeight, 1), reference, 1);
+            const auto at = [&](double u, double v) { return expected(kWidth, kHeight, s, t, {u, v}); };
+            for (int i = 0; i < 400; ++i) {
+                const glm::dvec2 uv(-2.3 + 0.01171 * i, 1.9 - 0.0137 * i);
+                const HapticMap::Slope read = map.slope(uv, 0.0);
+                ASSERT_NEAR(read.value, static_cast<double>(at(uv.x, uv.y)), 1e-6);
+                ASSERT_NEAR(read.gradient.x,
+                            static_cast<double>((at(uv.x + du, uv.y) - at(uv.x - du, uv.y)) / (2 * du)),
+                            1e-5);
+                ASSERT_NEAR(read.gradient.y,
+                            static_cast<double>((at(uv.x, uv.y + dv) - at(uv.x, uv.y - dv)) / (2 * dv)),
+                            1e-5);
+            }
+        }
+}
+
 TEST(HapticMap, TheTransformIsThatOfItsExtension) {
     // KHR_texture_transform: uv' = translation * rotation * scale * uv, with the matrices as it prints them
     // (column by column: rotation (c, -s), (s, c)).
@@ -119,11 +143,12 @@ TEST(HapticMap, CoarserLevelsKeepTheMeanAndTheSlopeAtAnySize) {
         for (double level = 0.0; level < 2.0; level += 0.25)
             if (size.y > 16) {
                 EXPECT_NEAR(map.scalar({0.4, 0.6}, level), 0.2 + 0.2 + 0.18, 1e-5) << level;
-                EXPECT_LT(glm::length(map.gradient({0.4, 0.6}, level) - glm::dvec2(0.5, 0.3)), 1e-3) << level;
+                EXPECT_LT(glm::length(map.slope({0.4, 0.6}, level).gradient - glm::dvec2(0.5, 0.3)), 1e-3)
+                    << level;
             }
         for (const double level : {1.0, 2.0}) {
-            const glm::dvec2 below = map.gradient({0.4, 0.6}, level - 1e-9),
-                             at = map.gradient({0.4, 0.6}, level);
+            const glm::dvec2 below = map.slope({0.4, 0.6}, level - 1e-9).gradient,
+                             at = map.slope({0.4, 0.6}, level).gradient;
             EXPECT_LT(glm::length(below - at), 1e-6) << "no step where a level gives way to the next";
         }
     }

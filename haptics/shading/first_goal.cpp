@@ -1,0 +1,110 @@
+#include "haptics/shading/first_goal.h"
+
+#include "haptics/shading/tilt_limit.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace touchstone {
+
+namespace {
+
+/// A facet with the field of normals that interpolation spreads over its plane, as a linear function of the
+/// place: N(x) = atA + (x - a) . overB * towardsB + (x - a) . overC * towardsC, not of unit length.
+struct SmoothFacet {
+    glm::dvec3 a, normal;
+    glm::dvec3 atA, towardsB, towardsC; ///< normal of corner a, and how those of b and c differ from it
+    glm::dvec3 overB, overC;            ///< gradients of the corners' barycentric weights
+
+    SmoothFacet(const HapticObject& object, uint32_t triangle) {
+        const size_t first = 3 * static_cast<size_t>(triangle);
+        const auto corner = [&](size_t k) { return glm::dvec3(object.vertices[object.indices[first + k]]); };
+        const auto normalAt = [&](size_t k) {
+            return glm::dvec3(object.normals[object.sourceIndices[first + k]]);
+        };
+        a = corner(0);
+        const glm::dvec3 b = corner(1) - a, c = corner(2) - a, area = glm::cross(b, c);
+        const double squared = glm::dot(area, area);
+        normal = area / std::sqrt(squared);
+        atA = normalAt(0);
+        towardsB = normalAt(1) - atA;
+        towardsC = normalAt(2) - atA;
+        overB = glm::cross(c, area) / squared;
+        overC = glm::cross(area, b) / squared;
+    }
+
+    /// `fromA`: a place from corner a.
+    [[nodiscard]] glm::dvec3 normalAt(const glm::dvec3& fromA) const {
+        return atA + glm::dot(overB, fromA) * towardsB + glm::dot(overC, fromA) * towardsC;
+    }
+    [[nodiscard]] bool contains(const glm::dvec3& fromA) const {
+        const double b = glm::dot(overB, fromA), c = glm::dot(overC, fromA);
+        return b > 0.0 && c > 0.0 && b + c < 1.0;
+    }
+};
+
+/// The fixed point of goal -> proxy -> interpolated plane -> goal for a proxy that slides on the plane of one
+/// facet, without asking the mesh: what takes a move each in the rounds takes a square root here. Nothing
+/// where the facet does not hold the proxy, the normals lean beyond the limit, or it does not converge (a
+/// hollow that is pressed deeper than it is wide).
+std::optional<glm::dvec3> goalOnFacet(const HapticObject& object, const HapticSettings& settings,
+                                      const DeviceState& state, const glm::dvec3& hip,
+                                      const glm::dvec3& guess) {
+    constexpr int kMostSteps = 6;
+    constexpr double kStill = 3e-8; // object units; what is left is a few hundredths of it
+    const SmoothFacet facet(object, state.shadedTriangle);
+    glm::dvec3 place = state.proxy - facet.a, up = facet.normal;
+    if (!facet.contains(place))
+        return {};
+    double height = glm::dot(place, up);
+    if (height < 0.0) { // from the back
+        height = -height;
+        up = -up;
+    }
+    const double outwards = glm::dot(facet.normalAt(place), up) < 0.0 ? -1.0 : 1.0;
+    const glm::dvec3 hand = hip - facet.a;
+    place = hand + glm::dot(guess, place - hand) * guess;
+    place -= (glm::dot(place, up) - height) * up;
+    for (int step = 0; step < kMostSteps; ++step) {
+        const glm::dvec3 field = outwards * facet.normalAt(place);
+        const double squared = glm::dot(field, field), cosine = glm::dot(field, up);
+        const double depth = glm::dot(field, place - hand);
+        if (!(depth > 0.0) || leansBeyond(cosine / std::sqrt(squared), settings.shadingTiltLimit))
+            return {};
+        const glm::dvec3 goal = hand + depth / squared * field;
+        const double above = glm::dot(goal, up) - height;
+        const glm::dvec3 onPlane = goal - above * up;
+        const glm::dvec3 change = onPlane - place;
+        place = onPlane;
+        if (glm::dot(change, change) < kStill * kStill) {
+            // Over the facet's edge another plane holds, and starting from this one's goal costs a move more.
+            if (!facet.contains(place))
+                return {};
+            return facet.a + (above > 0.0 ? onPlane : goal);
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+glm::dvec3 firstGoal(const HapticScene& scene, const HapticSettings& settings, const DeviceState& state,
+                     const glm::dvec3& hip, double travel) noexcept {
+    if (!state.shaded)
+        return hip;
+    const glm::dvec3 normal = travel > 0.0 ? state.shadedNormal + state.shadedTurn : state.shadedNormal;
+    if (state.shadedObject == state.anchor) {
+        const HapticObject& object = *scene.objects[static_cast<size_t>(state.anchor)];
+        if (const auto goal = goalOnFacet(object, settings, state, hip, normal))
+            return *goal;
+    }
+    // The goal stays a little under the shaded plane, by what that plane can rise over the true one in this
+    // tick, so that the proxy is not lifted off before it is shaded.
+    constexpr double kRise = 0.2;
+    const glm::dvec3 unit = glm::normalize(normal);
+    const double depth = glm::dot(state.proxy - hip, unit) - kRise * travel;
+    return depth > 0.0 ? hip + depth * unit : hip;
+}
+
+} // namespace touchstone

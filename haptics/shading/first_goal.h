@@ -1,0 +1,19 @@
+#pragma once
+// Where stage 3 starts, so that the rounds of stage 4 have nothing left to do in most ticks.
+
+#include "haptics/device_state.h"
+#include "haptics/haptic_scene.h"
+#include "haptics/haptic_settings.h"
+
+#include <glm/glm.hpp>
+
+namespace touchstone {
+
+/// The goal that the rounds of two-pass shading would come to for this HIP if the proxy stayed on the facet
+/// that held it in the last tick; where several planes or an edge held it, the goal that the last shaded
+/// normal gives, turning on as it did. The HIP itself when nothing was shaded. Anchor frame; `travel` is how
+/// far the HIP moved in this tick, object units.
+[[nodiscard]] glm::dvec3 firstGoal(const HapticScene& scene, const HapticSettings& settings,
+                                   const DeviceState& state, const glm::dvec3& hip, double travel) noexcept;
+
+} // namespace touchstone
