@@ -9,6 +9,8 @@ target_compile_options(touchstone_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-
 target_compile_definitions(touchstone_flags INTERFACE
     GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL
     TOUCHSTONE_VERSION="${PROJECT_VERSION}")
+# Recordings name the build that made them.
+target_link_options(touchstone_flags INTERFACE -Wl,--build-id=sha1)
 target_include_directories(touchstone_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 if(TOUCHSTONE_SANITIZE)
     target_compile_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE} -fno-omit-frame-pointer)

@@ -184,8 +184,23 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
         app.add_flag("--closed-loop", options.closedLoop,
                      "The path is what the hand intends: it holds a simulated device, and both yield");
     addPlant(app, options.plant)->needs(closed);
+    app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Resample the path at this rate; without it one tick a row");
+}
+
+void defineReplay(CLI::App& app, ReplayOptions& options) {
+    app.add_option("FILE", options.recording,
+                   "A recording: of --record, of the window's button, or of the flight recorder")
+        ->type_name("")
+        ->required();
+    app.add_option("--out", options.out, "Every tick as it came out now: CSV")->type_name("TICKS.csv");
+    app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
+    app.add_option("--scene", options.scenes,
+                   "Touch this model in place of the recorded one; may be given again for the next one")
+        ->type_name("SCENE")
+        ->expected(1)
+        ->take_all();
 }
 
 void defineRender(CLI::App& app, RenderOptions& options) {
@@ -235,6 +250,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     WindowOptions window;
     RunOptions run;
     TouchOptions touch;
+    ReplayOptions replay;
     RenderOptions render;
     InspectOptions inspect;
     BenchOptions bench;
@@ -245,6 +261,9 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     defineRun(*runApp, run, headless);
     CLI::App* touchApp = app.add_subcommand("touch", "Touch along a path, offline and deterministic");
     defineTouch(*touchApp, touch);
+    CLI::App* replayApp =
+        app.add_subcommand("replay", "Touch again what was recorded, and say whether the same comes out");
+    defineReplay(*replayApp, replay);
     CLI::App* renderApp = app.add_subcommand("render", "Draw a picture of a model");
     defineRender(*renderApp, render);
     CLI::App* inspectApp =
@@ -258,7 +277,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        for (CLI::App* command : {runApp, touchApp, renderApp, inspectApp, benchApp, devicesApp})
+        for (CLI::App* command : {runApp, touchApp, replayApp, renderApp, inspectApp, benchApp, devicesApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
                 command->footer(command == runApp || command == touchApp ? settingsHelp() + "\n" + plantHelp()
@@ -280,6 +299,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         return run;
     if (touchApp->parsed())
         return touch;
+    if (replayApp->parsed())
+        return replay;
     if (renderApp->parsed())
         return render;
     if (inspectApp->parsed())

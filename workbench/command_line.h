@@ -9,8 +9,8 @@ namespace touchstone {
 
 struct DevicesOptions {};
 
-using Command = std::variant<WindowOptions, RunOptions, TouchOptions, RenderOptions, InspectOptions,
-                             BenchOptions, DevicesOptions>;
+using Command = std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, RenderOptions,
+                             InspectOptions, BenchOptions, DevicesOptions>;
 
 /// Reads the command line. Empty when the program is done: help or version was printed (then `status` is 0),
 /// or the usage was wrong and said so on stderr (`status` is 2).

@@ -7,6 +7,7 @@
 #include "engine/core/realtime_guard.h"
 #include "haptics/contact/ray_floor.h"
 #include "haptics/haptic_step.h"
+#include "haptics/recording/recording_writer.h"
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
 #include "workbench/clock_cost.h"
@@ -38,9 +39,11 @@ struct PlannedTick {
 };
 
 struct OfflineTick {
-    double time = 0.0;
-    HapticOutput output;
+    uint64_t number = 0;
+    double time = 0.0, dt = 0.0;
+    DeviceSample sample;
     StageTrace trace;
+    HapticOutput output;
     int64_t stepNs = 0;
     Similarity touched; // workspaceFromObject of the touched object
     double gap = 0.0;   // m, of the proxy; in contact and where a report was asked for
@@ -83,6 +86,40 @@ class PlannedHand final : public Device {
     DeviceSample next;
 };
 
+/// What `--record` asks for: the state before the first tick, then every tick.
+class OfflineRecorder {
+  public:
+    static constexpr uint32_t kScene = 1;
+
+    OfflineRecorder(const TouchOptions& options, const Model& model)
+        : writer_(options.record, recordingOrigin("touch", options.rateHz)), settings_(options.settings),
+          identity_(identify(*model.haptic, *model.scene, options.fit)) {}
+
+    void add(const OfflineTick& tick, const TouchCheckpoint& first) {
+        TickRecord record;
+        record.tick = tick.number;
+        record.time = tick.time;
+        record.dt = tick.dt;
+        record.stepNs = static_cast<int32_t>(std::min<int64_t>(tick.stepNs, INT32_MAX));
+        record.checkpoint = tick.number == 0;
+        record.scene = kScene;
+        record.sample = tick.sample;
+        record.trace = tick.trace;
+        record.output = tick.output;
+        writer_.add({.tick = recordedTick(record),
+                     .settings = settings_,
+                     .scene = &identity_,
+                     .checkpoint = record.checkpoint ? &first : nullptr});
+    }
+    void flush() { writer_.flush(); }
+    void finish() { writer_.finish(); }
+
+  private:
+    RecordingWriter writer_;
+    const HapticSettings& settings_;
+    SceneIdentity identity_;
+};
+
 /// The state that one offline run carries from tick to tick.
 class OfflineTouch {
   public:
@@ -94,12 +131,12 @@ class OfflineTouch {
     void step(const PlannedTick& planned, OfflineTick& tick) {
         path_.next.position = planned.hip;
         path_.next.valid = true;
-        const DeviceSample sample = hand_.sample(planned.time);
+        tick.sample = hand_.sample(planned.time);
         TickInput input;
-        input.tick = number_++;
+        input.tick = tick.number = number_++;
         input.time = tick.time = planned.time;
-        input.dt = planned.dt;
-        input.devices = {&sample, 1};
+        input.dt = tick.dt = planned.dt;
+        input.devices = {&tick.sample, 1};
         input.objects = moving_.at(planned.time);
         StageTracer tracer(device_, tick.trace);
         const realtime::TickScope scope;
@@ -114,6 +151,13 @@ class OfflineTouch {
                                .workspaceFromObject;
     }
     [[nodiscard]] bool moving() const { return moving_.moving(); }
+    /// Before the first step.
+    [[nodiscard]] TouchCheckpoint checkpoint() {
+        TouchCheckpoint checkpoint;
+        checkpoint.scene = OfflineRecorder::kScene;
+        takeCheckpoint(device_, checkpoint);
+        return checkpoint;
+    }
     /// Of the last step.
     [[nodiscard]] ObjectMotions objects() const { return objects_; }
     [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
@@ -167,11 +211,15 @@ int touchCommand(const TouchOptions& options) {
     if (!options.json.empty())
         report.emplace(options.json);
     out.write(kTickCsvHeader);
+    std::optional<OfflineRecorder> recorder;
+    if (!options.record.empty())
+        recorder.emplace(options, model);
 
     enterFloatMode();
     const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
     OfflineTouch touch(model, options);
     const bool moving = touch.moving();
+    const TouchCheckpoint first = touch.checkpoint();
     TickStatistics statistics;
     Samples rays;
     std::string rows;
@@ -190,12 +238,18 @@ int touchCommand(const TouchOptions& options) {
         for (const OfflineTick& tick : block) {
             appendTickRow(rows, tick.time, tick.output, tick.stepNs);
             statistics.add(tick.output, tick.stepNs);
+            if (recorder)
+                recorder->add(tick, first);
             if (report && tick.output.contacts > 0)
                 statistics.addProxyGap(moving ? tick.gap
                                               : proxyGap(*model.haptic, {}, tick.output, options.settings));
         }
         out.write(rows);
+        if (recorder)
+            recorder->flush();
     }
+    if (recorder)
+        recorder->finish();
 
     if (report) {
         const RealtimeViolations violations = realtime::violations();

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -42,7 +43,8 @@ int runCommand(const RunOptions& options);
 /// touchstone touch SCENE --path HIP.csv --out TICKS.csv
 struct TouchOptions {
     std::filesystem::path scene, path, out;
-    std::filesystem::path json; ///< empty: not asked for
+    std::filesystem::path json;   ///< empty: not asked for
+    std::filesystem::path record; ///< empty: not asked for
     Fit fit = Fit::None;
     HapticSettings settings;
     double rateHz = 0.0;     ///< 0: one tick a row of the path
@@ -50,6 +52,15 @@ struct TouchOptions {
     PlantParameters plant;   ///< in the closed loop
 };
 int touchCommand(const TouchOptions& options);
+
+/// touchstone replay FILE
+struct ReplayOptions {
+    std::filesystem::path recording;
+    std::filesystem::path out, json;           ///< empty: not asked for
+    std::vector<std::filesystem::path> scenes; ///< in place of the recorded ones, in their order
+};
+/// Status 1 where a tick differs or the file is damaged.
+int replayCommand(const ReplayOptions& options);
 
 /// touchstone render SCENE --out F.png --size WxH
 struct RenderOptions {

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
         return std::visit(Overloaded{[](const WindowOptions& options) { return windowCommand(options); },
                                      [](const RunOptions& options) { return runCommand(options); },
                                      [](const TouchOptions& options) { return touchCommand(options); },
+                                     [](const ReplayOptions& options) { return replayCommand(options); },
                                      [](const RenderOptions& options) { return renderCommand(options); },
                                      [](const InspectOptions& options) { return inspectCommand(options); },
                                      [](const BenchOptions& options) { return benchCommand(options); },

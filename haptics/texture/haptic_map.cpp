@@ -119,6 +119,20 @@ uint64_t HapticMap::memoryBytes() const {
     return bytes;
 }
 
+void HapticMap::addTo(Hash64& hash) const {
+    hash.add(channels_);
+    hash.add(texCoord_);
+    hash.add(wrapS_);
+    hash.add(wrapT_);
+    for (const double number :
+         {offset_.x, offset_.y, jacobian_[0][0], jacobian_[0][1], jacobian_[1][0], jacobian_[1][1]})
+        hash.add(number);
+    if (empty())
+        return;
+    hash.add(levels_[0].width);
+    hash.addBytes(levels_[0].texels); // the coarser ones follow from them
+}
+
 glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
     return offset_ + jacobian_ * uv;
 }

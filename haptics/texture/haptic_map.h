@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/core/checksum.h"
 #include "engine/scene/image.h"
 #include "engine/scene/material.h"
 
@@ -26,6 +27,8 @@ class HapticMap {
     [[nodiscard]] float least() const { return least_; } ///< of channel 0 over the finest level
     [[nodiscard]] float greatest() const { return greatest_; }
     [[nodiscard]] uint64_t memoryBytes() const;
+    /// All that sampling depends on.
+    void addTo(Hash64& hash) const;
 
     /// The texture coordinate after KHR_texture_transform.
     [[nodiscard]] glm::dvec2 transform(const glm::dvec2& uv) const;

@@ -1,0 +1,17 @@
+#pragma once
+// What program this is and on what processor: two machines or two builds may round differently.
+
+#include <string>
+
+namespace touchstone {
+
+/// The linker's build identification of this executable, hexadecimal; "unknown" where it has none.
+[[nodiscard]] std::string buildIdentity();
+
+/// "g++ 12.2.0"
+[[nodiscard]] std::string compilerName();
+
+/// As the processor names itself.
+[[nodiscard]] std::string processorName();
+
+} // namespace touchstone

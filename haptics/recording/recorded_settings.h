@@ -1,0 +1,21 @@
+#pragma once
+// Settings and limits as named numbers: exact to the last bit, and readable by a version that has fewer or
+// more of them.
+
+#include "engine/device_io/device_io.h"
+#include "haptics/haptic_settings.h"
+#include "haptics/recording/byte_stream.h"
+
+namespace touchstone {
+
+/// Count (u16), then for each: name (u32 length, text) and value (f64; choices by their place in
+/// settingInfos' `values`, switches 0 or 1).
+void putSettings(ByteWriter& bytes, const HapticSettings& settings);
+void putLimits(ByteWriter& bytes, const DeviceLimits& limits);
+
+/// What is not there keeps its default. Throws Error for a name that this version does not know and for a
+/// value that `--set` would refuse.
+[[nodiscard]] HapticSettings getSettings(ByteReader& bytes);
+[[nodiscard]] DeviceLimits getLimits(ByteReader& bytes);
+
+} // namespace touchstone

@@ -1,0 +1,215 @@
+#include "haptics/recording/recording_format.h"
+
+#include "engine/core/machine.h"
+#include "haptics/recording/byte_stream.h"
+#include "haptics/recording/recorded_settings.h"
+
+#include <cmath>
+#include <ctime>
+
+namespace touchstone {
+
+namespace {
+
+// Bits of a tick.
+constexpr uint32_t kSampleValid = 1, kLate = 2, kMissed = 4, kCheckpoint = 8;
+
+void put(ByteWriter& bytes, const RecordingOrigin& origin) {
+    for (const std::string* text :
+         {&origin.version, &origin.build, &origin.compiler, &origin.processor, &origin.command, &origin.date})
+        bytes.put(*text);
+    bytes.put(origin.rateHz);
+}
+
+void get(ByteReader& bytes, RecordingOrigin& origin) {
+    for (std::string* text :
+         {&origin.version, &origin.build, &origin.compiler, &origin.processor, &origin.command, &origin.date})
+        bytes.get(*text);
+    bytes.get(origin.rateHz);
+}
+
+void put(ByteWriter& bytes, const RecordedScene& scene) {
+    const SceneIdentity& identity = scene.identity;
+    bytes.put(scene.number);
+    bytes.put(identity.path);
+    bytes.put(identity.absolutePath);
+    bytes.put(static_cast<uint8_t>(identity.generated));
+    bytes.put(static_cast<uint8_t>(identity.fit));
+    bytes.put(identity.fileSize);
+    bytes.put(identity.fileHash);
+    bytes.put(identity.feltHash);
+    putLimits(bytes, identity.limits);
+}
+
+void get(ByteReader& bytes, RecordedScene& scene) {
+    SceneIdentity& identity = scene.identity;
+    uint8_t generated = 0, fit = 0;
+    bytes.get(scene.number);
+    bytes.get(identity.path);
+    bytes.get(identity.absolutePath);
+    bytes.get(generated);
+    bytes.get(fit);
+    bytes.get(identity.fileSize);
+    bytes.get(identity.fileHash);
+    bytes.get(identity.feltHash);
+    identity.limits = getLimits(bytes);
+    identity.generated = generated != 0;
+    if (fit > static_cast<uint8_t>(Fit::Workspace))
+        throw Error("", "fit", "is none that this version has", "");
+    identity.fit = static_cast<Fit>(fit);
+}
+
+void put(ByteWriter& bytes, const RecordedSettings& settings) {
+    bytes.put(settings.number);
+    putSettings(bytes, settings.settings);
+}
+
+void get(ByteReader& bytes, RecordedSettings& settings) {
+    bytes.get(settings.number);
+    settings.settings = getSettings(bytes);
+}
+
+void put(ByteWriter& bytes, const TouchCheckpoint& checkpoint) {
+    bytes.put(checkpoint.tick);
+    bytes.put(checkpoint.scene);
+    bytes.put(checkpoint.previousTime);
+    bytes.put(checkpoint.size);
+    bytes.put(checkpoint.state());
+}
+
+void get(ByteReader& bytes, TouchCheckpoint& checkpoint) {
+    bytes.get(checkpoint.tick);
+    bytes.get(checkpoint.scene);
+    bytes.get(checkpoint.previousTime);
+    bytes.get(checkpoint.size);
+    if (checkpoint.size > TouchCheckpoint::kCapacity)
+        throw Error("", "", "is larger than any state", "");
+    const std::span<const std::byte> state = bytes.take(checkpoint.size);
+    std::copy(state.begin(), state.end(), checkpoint.bytes.begin());
+}
+
+void put(ByteWriter& bytes, const RecordedTick& tick) {
+    bytes.put(tick.tick);
+    bytes.put(tick.time);
+    bytes.put(tick.dt);
+    bytes.put(tick.sample.position);
+    bytes.put(tick.sample.orientation);
+    bytes.put(tick.sample.age);
+    bytes.put(tick.sample.buttons);
+    bytes.put(tick.settings);
+    bytes.put(tick.scene);
+    bytes.put((tick.sample.valid ? kSampleValid : 0) | (tick.late ? kLate : 0) | (tick.missed ? kMissed : 0) |
+              (tick.checkpoint ? kCheckpoint : 0));
+    bytes.put(tick.wakeLatencyNs);
+    bytes.put(tick.stepNs);
+    for (const uint32_t hash : tick.hashes)
+        bytes.put(hash);
+    bytes.put(tick.proxy);
+    bytes.put(tick.force);
+    bytes.put(tick.command);
+    bytes.put(tick.contacts);
+    bytes.put(tick.flags);
+}
+
+void get(ByteReader& bytes, RecordedTick& tick) {
+    uint32_t bits = 0;
+    bytes.get(tick.tick);
+    bytes.get(tick.time);
+    bytes.get(tick.dt);
+    bytes.get(tick.sample.position);
+    bytes.get(tick.sample.orientation);
+    bytes.get(tick.sample.age);
+    bytes.get(tick.sample.buttons);
+    bytes.get(tick.settings);
+    bytes.get(tick.scene);
+    bytes.get(bits);
+    bytes.get(tick.wakeLatencyNs);
+    bytes.get(tick.stepNs);
+    for (uint32_t& hash : tick.hashes)
+        bytes.get(hash);
+    bytes.get(tick.proxy);
+    bytes.get(tick.force);
+    bytes.get(tick.command);
+    bytes.get(tick.contacts);
+    bytes.get(tick.flags);
+    tick.sample.valid = (bits & kSampleValid) != 0;
+    tick.late = (bits & kLate) != 0;
+    tick.missed = (bits & kMissed) != 0;
+    tick.checkpoint = (bits & kCheckpoint) != 0;
+    // Samples may be anything, they come from devices. These two come from us.
+    if (!std::isfinite(tick.time) || !std::isfinite(tick.dt))
+        throw Error("", "tick " + std::to_string(tick.tick), "has no time", "");
+}
+
+void put(ByteWriter& bytes, const RecordedTicks& ticks) {
+    bytes.put(static_cast<uint32_t>(ticks.ticks.size()));
+    for (const RecordedTick& tick : ticks.ticks)
+        put(bytes, tick);
+}
+
+void get(ByteReader& bytes, RecordedTicks& ticks) {
+    uint32_t count = 0;
+    bytes.get(count);
+    if (bytes.left() != count * kTickSize)
+        throw Error("", "", "holds another number of ticks than it says", "");
+    ticks.ticks.resize(count);
+    for (RecordedTick& tick : ticks.ticks)
+        get(bytes, tick);
+}
+
+void put(ByteWriter& bytes, const RecordedLoss& loss) {
+    bytes.put(loss.ticks);
+}
+void get(ByteReader& bytes, RecordedLoss& loss) {
+    bytes.get(loss.ticks);
+}
+void put(ByteWriter& bytes, const RecordedNote& note) {
+    bytes.put(note.tick);
+    bytes.put(note.text);
+}
+void get(ByteReader& bytes, RecordedNote& note) {
+    bytes.get(note.tick);
+    bytes.get(note.text);
+}
+void put(ByteWriter& bytes, const RecordedEnd& end) {
+    bytes.put(end.ticks);
+}
+void get(ByteReader& bytes, RecordedEnd& end) {
+    bytes.get(end.ticks);
+}
+
+template <size_t... I>
+RecordedItem decodeAs(size_t name, ByteReader& bytes, std::index_sequence<I...>) {
+    RecordedItem item;
+    ((I == name ? get(bytes, item.emplace<I>()) : void()), ...);
+    return item;
+}
+
+} // namespace
+
+RecordingOrigin recordingOrigin(std::string command, double rateHz) {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    std::array<char, 32> date{};
+    std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return {TOUCHSTONE_VERSION, buildIdentity(), compilerName(), processorName(),
+            std::move(command), date.data(),     rateHz};
+}
+
+std::vector<std::byte> encode(const RecordedItem& item) {
+    std::vector<std::byte> payload;
+    ByteWriter bytes(payload);
+    std::visit([&](const auto& value) { put(bytes, value); }, item);
+    return payload;
+}
+
+RecordedItem decode(size_t name, std::span<const std::byte> payload) {
+    ByteReader bytes(payload);
+    RecordedItem item = decodeAs(name, bytes, std::make_index_sequence<std::variant_size_v<RecordedItem>>());
+    if (bytes.left() != 0)
+        throw Error("", "", "holds more than it should", "");
+    return item;
+}
+
+} // namespace touchstone

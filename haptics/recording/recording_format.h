@@ -1,0 +1,89 @@
+#pragma once
+// What stands in a recording; docs/recording.md has the layout byte by byte. Change both and
+// kRecordingVersion together.
+
+#include "engine/device_io/device_io.h"
+#include "haptics/haptic_settings.h"
+#include "haptics/recording/scene_identity.h"
+#include "haptics/recording/stage_hashes.h"
+#include "haptics/recording/touch_checkpoint.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace touchstone {
+
+inline constexpr uint32_t kRecordingVersion = 1;
+/// As PNG's: a byte that is no text, both line ends and an end of file, each of which a careless copy
+/// changes.
+inline constexpr std::string_view kRecordingMagic{"\x89TSR\r\n\x1a\n", 8};
+inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224;
+inline constexpr uint32_t kChunkSync = 0x6b6e6843;  ///< "Chnk": where to go on behind damage
+inline constexpr uint32_t kLargestChunk = 1u << 20; ///< bytes of payload: the reader's memory is bounded
+inline constexpr std::string_view kRecordingEnding = ".tsrec";
+
+/// Who made it. Other bits may come out on another build or processor.
+struct RecordingOrigin {
+    std::string version, build, compiler, processor;
+    std::string command; ///< "touch", "run", "window", "flight recorder"
+    std::string date;    ///< ISO 8601, UTC
+    double rateHz = 0.0; ///< 0: ticks at times of their own
+};
+/// This program, now.
+[[nodiscard]] RecordingOrigin recordingOrigin(std::string command, double rateHz);
+
+struct RecordedScene {
+    uint32_t number = 0; ///< by which ticks name it; 0 is no scene
+    SceneIdentity identity;
+};
+struct RecordedSettings {
+    uint32_t number = 0;
+    HapticSettings settings;
+};
+struct RecordedTick {
+    uint64_t tick = 0;
+    double time = 0.0, dt = 0.0; ///< s
+    DeviceSample sample;
+    uint32_t settings = 0, scene = 0;
+    bool late = false, missed = false, checkpoint = false;
+    int32_t wakeLatencyNs = 0, stepNs = 0;
+    StageHashes hashes{};
+    // For people; the hashes decide.
+    glm::dvec3 proxy{0.0}, force{0.0}; ///< m, N, stages 6 and 7, workspace
+    glm::dvec3 command{0.0};           ///< N, device frame
+    uint32_t contacts = 0, flags = 0;
+};
+struct RecordedTicks {
+    std::vector<RecordedTick> ticks;
+};
+/// Ticks that were made and not recorded.
+struct RecordedLoss {
+    uint64_t ticks = 0;
+};
+struct RecordedNote {
+    uint64_t tick = 0;
+    std::string text;
+};
+/// The recording ended as it should.
+struct RecordedEnd {
+    uint64_t ticks = 0;
+};
+using RecordedItem = std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint,
+                                  RecordedTicks, RecordedLoss, RecordedNote, RecordedEnd>;
+
+/// Four letters each, in the order of RecordedItem's alternatives.
+inline constexpr std::array<std::string_view, 8> kChunkNames{"MADE", "SCEN", "SETT", "STAT",
+                                                             "TICK", "LOST", "NOTE", "DONE"};
+
+/// The payload of an item's chunk.
+[[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);
+
+/// The item of chunk `name` (index into kChunkNames). Throws Error (with `problem` alone) where the payload
+/// is none of its kind: too short, or with values that no writer writes.
+[[nodiscard]] RecordedItem decode(size_t name, std::span<const std::byte> payload);
+
+} // namespace touchstone

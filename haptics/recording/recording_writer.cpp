@@ -1,0 +1,74 @@
+#include "haptics/recording/recording_writer.h"
+
+#include <utility>
+
+namespace touchstone {
+
+RecordedTick recordedTick(const TickRecord& record) {
+    const HapticOutput& output = record.output;
+    return {.tick = record.tick,
+            .time = record.time,
+            .dt = record.dt,
+            .sample = record.sample,
+            .settings = record.settings,
+            .scene = record.scene,
+            .late = record.late,
+            .missed = record.missed,
+            .checkpoint = record.checkpoint,
+            .wakeLatencyNs = record.wakeLatencyNs,
+            .stepNs = record.stepNs,
+            .hashes = stageHashes(record.trace, output),
+            .proxy = output.proxy,
+            .force = output.force,
+            .command = output.command.force(),
+            .contacts = output.contacts,
+            .flags = output.flags};
+}
+
+RecordingWriter::RecordingWriter(std::filesystem::path path, RecordingOrigin origin, uint32_t sequence)
+    : file_(std::move(path), sequence), origin_(std::move(origin)) {
+    file_.append(origin_);
+}
+
+void RecordingWriter::add(const TickToRecord& tick) {
+    if (!begun_ && tick.checkpoint == nullptr)
+        return;
+    const bool lost = begun_ && tick.lostBefore > 0;
+    const bool newScene = tick.scene != nullptr && !scenes_.contains(tick.tick.scene);
+    const bool newSettings = !begun_ || tick.tick.settings != settings_;
+    if (lost || newScene || newSettings || tick.checkpoint != nullptr || block_.ticks.size() == kBlock)
+        flush();
+    if (lost)
+        file_.append(RecordedLoss{tick.lostBefore});
+    if (newScene)
+        file_.append(RecordedScene{tick.tick.scene, *tick.scene});
+    if (newSettings)
+        file_.append(RecordedSettings{tick.tick.settings, tick.settings});
+    if (tick.checkpoint != nullptr)
+        file_.append(*tick.checkpoint);
+    if (newScene)
+        scenes_[tick.tick.scene] = true;
+    settings_ = tick.tick.settings;
+    begun_ = true;
+    block_.ticks.push_back(tick.tick);
+}
+
+void RecordingWriter::note(uint64_t tick, std::string text) {
+    flush();
+    file_.append(RecordedNote{tick, std::move(text)});
+}
+
+void RecordingWriter::flush() {
+    if (block_.ticks.empty())
+        return;
+    file_.append(block_);
+    ticks_ += block_.ticks.size();
+    block_.ticks.clear();
+}
+
+void RecordingWriter::finish() {
+    flush();
+    file_.append(RecordedEnd{ticks_});
+}
+
+} // namespace touchstone

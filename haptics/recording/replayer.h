@@ -1,0 +1,101 @@
+#pragma once
+// Touches again what a recording says was touched, and looks whether the same comes out.
+
+#include "haptics/haptic_scene.h"
+#include "haptics/haptic_step.h"
+#include "haptics/recording/recording_reader.h"
+#include "haptics/scene/moving_objects.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// A scene as the replay touches it.
+struct ReplayScene {
+    std::shared_ptr<const HapticScene> haptic;
+    ScenePtr source; ///< whose animation moves the objects
+};
+
+/// Where a replay and its recording part.
+struct Difference {
+    uint64_t tick = 0;
+    double time = 0.0;
+    /// One of kStageNames; "state" where a checkpoint differs from what the ticks before it came to.
+    std::string stage;
+    glm::dvec3 recordedProxy{0.0}, replayedProxy{0.0}; ///< m, workspace
+    glm::dvec3 recordedForce{0.0}, replayedForce{0.0}; ///< N, stage 7
+};
+
+struct ReplayReport {
+    RecordingOrigin origin;
+    uint64_t ticks = 0;     ///< in the recording
+    uint64_t replayed = 0;  ///< those whose state was known
+    uint64_t differing = 0; ///< of those: one stage at least came to something else
+    uint64_t lost = 0;      ///< made and not recorded, as far as the recording knows
+    uint64_t gaps = 0;      ///< places where ticks are missing
+    std::optional<Difference> first;
+    std::vector<RecordedNote> notes;
+    std::vector<std::string> damage;
+    bool cutOff = false;
+    double seconds = 0.0; ///< from the first tick to the last that was replayed, on the recording's clock
+};
+
+/// One thread; not the servo. Deterministic as far as the scene, the program and the processor are the same.
+class Replayer {
+  public:
+    /// `load` is asked once for each scene of the recording, before its first tick; what it throws ends the
+    /// replay.
+    using Load = std::function<ReplayScene(const RecordedScene&)>;
+    /// Every tick that was replayed, with what came out.
+    using Each = std::function<void(const RecordedTick&, const HapticOutput&, int64_t stepNs, bool equal)>;
+
+    explicit Replayer(Load load) : load_(std::move(load)) {}
+
+    /// To the end of the file. After a gap it goes on at the next checkpoint, and where a replay has parted
+    /// from the recording it takes the recorded state there: one rounding does not make the rest differ.
+    /// Throws Error where the recording contradicts itself or no checkpoint fits this version.
+    [[nodiscard]] ReplayReport replay(RecordingReader& reader, const Each& each = {});
+
+  private:
+    struct Touched {
+        ReplayScene scene;
+        MovingObjects moving;
+    };
+    void take(const RecordingOrigin& origin);
+    void take(const RecordedScene& scene);
+    void take(const RecordedSettings& settings);
+    void take(const TouchCheckpoint& checkpoint);
+    void take(const RecordedTicks& ticks);
+    void take(const RecordedLoss& loss);
+    void take(const RecordedNote& note);
+    void take(const RecordedEnd&) {}
+
+    void lose();
+    void resume(const RecordedTick& tick);
+    void step(const RecordedTick& tick);
+    void compare(const RecordedTick& tick, const StageTrace& trace, const HapticOutput& output,
+                 int64_t stepNs);
+    [[nodiscard]] Touched* touched(uint32_t number);
+
+    Load load_;
+    const Each* each_ = nullptr;
+    ReplayReport report_;
+    std::map<uint32_t, RecordedScene> scenes_;
+    std::map<uint32_t, std::unique_ptr<Touched>> loaded_;
+    std::map<uint32_t, HapticSettings> settings_;
+    std::optional<TouchCheckpoint> checkpoint_; // of the tick that comes next
+    // What is touched now.
+    bool known_ = false; // the state is that of the recording's last tick
+    uint32_t scene_ = 0;
+    WorldState world_;
+    DeviceState device_;
+    double previousTime_ = 0.0;
+};
+
+} // namespace touchstone

@@ -1,0 +1,146 @@
+#include "haptics/recording/scene_identity.h"
+
+#include "engine/core/checksum.h"
+#include "haptics/scene/moving_objects.h"
+
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+void add(Hash64& hash, const glm::dvec3& v) {
+    hash.add(v.x);
+    hash.add(v.y);
+    hash.add(v.z);
+}
+
+void add(Hash64& hash, const glm::dmat4& m) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            hash.add(m[column][row]);
+}
+
+void add(Hash64& hash, const glm::dquat& q) {
+    for (const double part : {q.x, q.y, q.z, q.w})
+        hash.add(part);
+}
+
+void add(Hash64& hash, const Similarity& s) {
+    hash.add(s.scale);
+    add(hash, s.rotation);
+    add(hash, s.translation);
+}
+
+void add(Hash64& hash, const HapticObject& object) {
+    hash.addBytes(object.vertices);
+    hash.addBytes(object.indices);
+    hash.addBytes(object.sourceIndices);
+    hash.addBytes(object.normals);
+    hash.addBytes(object.tangents);
+    for (const std::vector<glm::vec2>& uv : object.uv)
+        hash.addBytes(uv);
+    for (const std::vector<float>* values :
+         {&object.stiffness, &object.damping, &object.friction, &object.heights})
+        hash.addBytes(*values);
+    hash.addBytes(object.smooth);
+    hash.add(object.instance);
+    hash.add(object.material);
+    hash.add(object.closed);
+    add(hash, object.workspaceFromObject);
+    add(hash, object.objectFromMesh);
+}
+
+void add(Hash64& hash, const HapticFactor& factor) {
+    factor.map.addTo(hash);
+    hash.add(factor.min);
+    hash.add(factor.max);
+}
+
+void add(Hash64& hash, const HapticMaterialData& material) {
+    for (const double number :
+         {material.stiffness, material.damping, material.staticFriction, material.dynamicFriction,
+          material.viscousFriction, material.normalScale, material.heightScale})
+        hash.add(number);
+    material.normal.addTo(hash);
+    material.height.addTo(hash);
+    for (const HapticFactor* factor : {&material.friction, &material.stiffnessMap, &material.dampingMap})
+        add(hash, *factor);
+    hash.add(material.shading);
+    hash.add(material.plain);
+}
+
+void add(Hash64& hash, const Animation& animation) {
+    hash.add(animation.duration);
+    for (const AnimationChannel& channel : animation.channels) {
+        hash.add(channel.node);
+        hash.add(channel.path);
+        hash.add(channel.interpolation);
+        hash.addBytes(channel.times);
+        hash.addBytes(channel.values);
+    }
+}
+
+void add(Hash64& hash, const Node& node) {
+    hash.add(node.parent);
+    add(hash, node.translation);
+    add(hash, node.rotation);
+    add(hash, node.scale);
+    hash.add(node.hasMatrix);
+    add(hash, node.matrix);
+}
+
+/// Size and hash of a file's bytes; zeros where it cannot be read.
+void readBytes(const std::filesystem::path& path, SceneIdentity& identity) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<std::byte> block(1 << 20);
+    Hash64 hash;
+    uint64_t size = 0;
+    while (file) {
+        file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
+        const auto got = static_cast<size_t>(file.gcount());
+        if (got == 0)
+            break;
+        hash.addBytes(std::span(block).first(got));
+        size += got;
+    }
+    if (size == 0)
+        return;
+    identity.fileSize = size;
+    identity.fileHash = hash.value();
+}
+
+} // namespace
+
+uint64_t feltHash(const HapticScene& scene, const Scene& source) {
+    Hash64 hash;
+    for (const auto& object : scene.objects)
+        add(hash, *object);
+    for (const HapticMaterialData& material : scene.materials)
+        add(hash, material);
+    add(hash, scene.workspaceFromScene);
+    if (const Animation* animation = playedAnimation(source)) {
+        add(hash, *animation);
+        for (const Node& node : source.nodes)
+            add(hash, node);
+    }
+    return hash.value();
+}
+
+SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit) {
+    SceneIdentity identity;
+    identity.path = source.path;
+    std::error_code error;
+    const std::filesystem::path absolute = std::filesystem::weakly_canonical(source.path, error);
+    if (!error && std::filesystem::exists(absolute, error))
+        identity.absolutePath = absolute.string();
+    readBytes(source.path, identity);
+    identity.feltHash = feltHash(scene, source);
+    identity.fit = fit;
+    identity.limits = scene.limits;
+    return identity;
+}
+
+} // namespace touchstone
