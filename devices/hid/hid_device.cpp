@@ -99,11 +99,10 @@ void HidDevice::run() {
     enterFloatMode();
     monitor_.realtime.store(enterIoPriority(), std::memory_order_relaxed);
     while (!stop_.load(std::memory_order_relaxed)) {
-        if (port_.isOpen()) {
+        if (!port_.isOpen())
+            connect();
+        if (port_.isOpen())
             exchange();
-            continue;
-        }
-        connect();
         if (!port_.isOpen() && waitStopping(kSearchInterval))
             break;
     }
@@ -168,33 +167,41 @@ void HidDevice::exchange() {
         send(steadyNs());
 }
 
+/// `length` of the first, which is in the buffer; then those that wait behind it.
 void HidDevice::takeReports(std::span<uint8_t> buffer, int length, int64_t arrivedNs) {
-    for (int n = 0; n < kMostQueued && length > 0; ++n) {
-        uint64_t lost = 0;
-        const auto report = buffer.first(static_cast<size_t>(length));
-        switch (recipe_.protocol->take(report, reading_, lost)) {
-        case ReportVerdict::Reading:
-            LinkMonitor::count(monitor_.reports);
-            LinkMonitor::count(monitor_.lost, lost);
-            reading_.takenNs = arrivedNs;
-            mailbox_.publish(reading_);
-            break;
-        case ReportVerdict::Ignored:
-            LinkMonitor::count(monitor_.ignored);
-            break;
-        case ReportVerdict::Repeated:
-            LinkMonitor::count(monitor_.repeated);
-            break;
-        case ReportVerdict::Malformed:
-            LinkMonitor::count(monitor_.malformed);
-            break;
-        }
+    for (int n = 1;; ++n) {
+        takeReport(buffer.first(static_cast<size_t>(length)), arrivedNs);
+        if (n == kMostQueued)
+            return;
         length = port_.read(buffer, 0);
+        if (length < 0)
+            return disconnect(recipe_.name + " was unplugged");
+        if (length == 0) {
+            emptyNs_ = steadyNs();
+            return;
+        }
     }
-    if (length < 0)
-        return disconnect(recipe_.name + " was unplugged");
-    if (length == 0)
-        emptyNs_ = steadyNs();
+}
+
+void HidDevice::takeReport(std::span<const uint8_t> report, int64_t arrivedNs) {
+    uint64_t lost = 0;
+    switch (recipe_.protocol->take(report, reading_, lost)) {
+    case ReportVerdict::Reading:
+        LinkMonitor::count(monitor_.reports);
+        LinkMonitor::count(monitor_.lost, lost);
+        reading_.takenNs = arrivedNs;
+        mailbox_.publish(reading_);
+        break;
+    case ReportVerdict::Ignored:
+        LinkMonitor::count(monitor_.ignored);
+        break;
+    case ReportVerdict::Repeated:
+        LinkMonitor::count(monitor_.repeated);
+        break;
+    case ReportVerdict::Malformed:
+        LinkMonitor::count(monitor_.malformed);
+        break;
+    }
 }
 
 void HidDevice::send(int64_t nowNs) {

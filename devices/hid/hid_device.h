@@ -53,6 +53,7 @@ class HidDevice final : public LinkedDevice {
     void connect();
     void exchange();
     void takeReports(std::span<uint8_t> buffer, int length, int64_t arrivedNs);
+    void takeReport(std::span<const uint8_t> report, int64_t arrivedNs);
     void send(int64_t nowNs);
     void disconnect(const std::string& problem);
     bool waitStopping(double seconds);
