@@ -1,0 +1,62 @@
+#pragma once
+// A device that is another program: it sends places and hears forces over UDP, on this machine only.
+
+#include "devices/external/external_packet.h"
+#include "devices/link/linked_device.h"
+
+#include <atomic>
+#include <thread>
+
+namespace touchstone {
+
+inline constexpr uint16_t kExternalPort = 47470;
+
+/// Speaks with one client at a time: the first whose packet is well formed, until it has been silent for
+/// kClientSilence. What others send meanwhile is counted as ignored.
+class ExternalDevice final : public LinkedDevice {
+  public:
+    /// s; then the sample is invalid and another client may come.
+    static constexpr double kClientSilence = 1.0;
+
+    /// Binds to 127.0.0.1, which no other machine can reach, and starts the I/O thread. Port 0: any free one.
+    /// Throws Error when the port is taken.
+    explicit ExternalDevice(uint16_t port = kExternalPort);
+    ~ExternalDevice() override;
+    ExternalDevice(const ExternalDevice&) = delete;
+    ExternalDevice& operator=(const ExternalDevice&) = delete;
+
+    [[nodiscard]] uint16_t port() const { return port_; }
+    [[nodiscard]] std::string name() const override { return "external device"; }
+    /// A program on a desktop stutters more than a microcontroller.
+    [[nodiscard]] DeviceLimits limits() const override {
+        DeviceLimits limits;
+        limits.staleAge = 0.05;
+        return limits;
+    }
+
+  private:
+    struct Client {
+        uint32_t address = 0; ///< network byte order; 0: none
+        uint16_t port = 0;
+        bool operator==(const Client&) const = default;
+    };
+
+    // I/O thread
+    void run();
+    void receive();
+    void take(std::span<const uint8_t> packet, const Client& from, int64_t arrivedNs);
+    void welcome(const Client& client);
+    void leave();
+    void send(const ForceOrder& order);
+
+    uint16_t port_ = 0;
+    int socket_ = -1;
+    Client client_;
+    uint32_t heard_ = 0, said_ = 0;
+    int64_t heardNs_ = 0; ///< the client's last well-formed packet
+    int64_t emptyNs_ = 0; ///< when the socket was last seen empty
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+} // namespace touchstone

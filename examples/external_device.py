@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""A device for Touchstone in sixty lines: a finger on a spring that presses down and up again.
+
+Start Touchstone with `touchstone SCENE --device udp` (or `touchstone run SCENE --headless --device udp`), then this.
+It sends where the finger is a thousand times a second and moves the finger by the force that comes back.
+docs/devices.md describes the packets.
+"""
+
+import argparse
+import math
+import select
+import socket
+import struct
+import time
+
+PLACE = struct.Struct("<4sHHII3d4d")  # magic, version, size, sequence, buttons, position, orientation w x y z
+FORCE = struct.Struct("<4sHHII3d3d")  # magic, version, size, sequence, answers, force, torque
+
+MASS = 0.08  # kg, of a finger and a light device
+SPRING = 300.0  # N/m, from the finger to where it wants to be
+DAMPING = 4.0  # N s/m
+PERIOD = 0.001  # s
+
+
+def wish(t, depth):
+    """Where the finger wants to be: from above, down to `depth` and up again every two seconds."""
+    share = 0.5 - 0.5 * math.cos(math.pi * t)
+    return (0.0, 0.05 + (depth - 0.05) * share, 0.0)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--port", type=int, default=47470)
+    parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--depth", type=float, default=-0.02, help="how far down, m")
+    options = parser.parse_args()
+
+    link = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    link.connect(("127.0.0.1", options.port))
+    link.setblocking(False)
+    place, speed, force = list(wish(0.0, options.depth)), [0.0] * 3, (0.0, 0.0, 0.0)
+    sequence = answers = malformed = 0
+    greatest = 0.0
+    start = time.monotonic()
+    while (now := time.monotonic() - start) < options.seconds:
+        goal = wish(now, options.depth)
+        for i in range(3):
+            push = SPRING * (goal[i] - place[i]) - DAMPING * speed[i] + force[i]
+            speed[i] += push / MASS * PERIOD
+            place[i] += speed[i] * PERIOD
+        sequence += 1
+        packet = PLACE.pack(b"TSXP", 1, PLACE.size, sequence, 0, *place, 1.0, 0.0, 0.0, 0.0)
+        try:
+            link.send(packet)
+            # What comes until the next place is due; the newest force counts.
+            while (left := start + sequence * PERIOD - time.monotonic()) > 0.0:
+                if not select.select([link], [], [], left)[0]:
+                    break
+                answer = link.recv(256)
+                if len(answer) != FORCE.size or answer[:4] != b"TSXF":
+                    malformed += 1
+                    continue
+                force = FORCE.unpack(answer)[5:8]
+                answers += 1
+                greatest = max(greatest, math.sqrt(sum(f * f for f in force)))
+        except ConnectionRefusedError:
+            force = (0.0, 0.0, 0.0)  # Touchstone is not (or no longer) there
+            time.sleep(0.1)
+    print(f"sent {sequence} places, heard {answers} forces ({malformed} malformed), at most {greatest:.2f} N")
+
+
+if __name__ == "__main__":
+    main()
