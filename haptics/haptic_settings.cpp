@@ -30,6 +30,8 @@ constexpr std::array kInfos{
     SettingInfo{"textureTiltLimit", "deg", "0 .. 90", "felt normals are compressed below it; 90: no limit"},
     SettingInfo{"textureStrength", "", "0 .. 1", "scales heights and the normal map's tilt"},
     SettingInfo{"iterationBudget", "", "1 .. 1000", "proxy moves a tick; fewer feels sticky"},
+    SettingInfo{"passivity", "", "off, observe, control",
+                "energy given to the hand: counted, or also damped away where it is more than was taken"},
     SettingInfo{"forceEnabled", "", "off, on", "off: contact goes on, the device gets no force"},
 };
 
@@ -59,6 +61,7 @@ constexpr std::array<std::string_view, 5> kShadingNames{"off", "twoPass", "proje
                                                         "material"};
 constexpr std::array<std::string_view, 4> kTextureNames{"off", "law", "blinn", "minsky"};
 constexpr std::array<std::string_view, 4> kFrictionNames{"off", "zilles", "ho", "elastoplastic"};
+constexpr std::array<std::string_view, 3> kPassivityNames{"off", "observe", "control"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 bool assign(HapticSettings& s, std::string_view name, std::string_view value) {
@@ -70,6 +73,8 @@ bool assign(HapticSettings& s, std::string_view name, std::string_view value) {
         return setChoice(s.texture, value, kTextureNames);
     if (name == "friction")
         return setChoice(s.friction, value, kFrictionNames);
+    if (name == "passivity")
+        return setChoice(s.passivity, value, kPassivityNames);
     if (name == "proxyRadius")
         return setNumber(s.proxyRadius, value, 0.0, 0.05);
     if (name == "stiffness")
@@ -154,6 +159,8 @@ std::string settingValue(const HapticSettings& s, std::string_view name) {
         return choice(kTextureNames, s.texture);
     if (name == "friction")
         return choice(kFrictionNames, s.friction);
+    if (name == "passivity")
+        return choice(kPassivityNames, s.passivity);
     if (name == "proxyRadius")
         return text(s.proxyRadius);
     if (name == "stiffness")

@@ -17,6 +17,8 @@ enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material 
 /// How the relief of the maps becomes force (force/spring_damper.h).
 enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
 enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic };
+/// What safety does about the energy that the device gives the hand (safety/passivity.h).
+enum class PassivityMode : uint8_t { Off, Observe, Control };
 
 /// Defaults are what the program starts with. SI units; lengths in workspace metres.
 struct HapticSettings {
@@ -41,6 +43,7 @@ struct HapticSettings {
     double textureStrength = 1.0;
     /// Proxy moves a tick; fewer is safe and merely feels sticky [000 §7].
     int iterationBudget = 64;
+    PassivityMode passivity = PassivityMode::Observe;
     /// false: the force-off key; contact goes on, commands are zero.
     bool forceEnabled = true;
 

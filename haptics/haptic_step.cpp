@@ -295,9 +295,13 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
                                   .inputValid = sampled,
                                   .sampleAge = sample.age,
                                   .forceEnabled = settings.forceEnabled,
-                                  .late = input.late};
+                                  .late = input.late,
+                                  .passivity = settings.passivity,
+                                  .position = sample.position,
+                                  .springLength = output.penetration / workspaceFromDevice.scale};
         output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
                                              state.limiter, output.flags);
+        output.energyBalance = state.limiter.passivity.balance;
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
         stopwatch.lap(Stage::Safety);
     }

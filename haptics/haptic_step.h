@@ -55,6 +55,8 @@ struct HapticOutput {
     uint32_t planeCount = 0;
     glm::dvec3 stictionPoint{0.0}; ///< valid while friction is not Free
     double height = 0.0;           ///< felt height H, m
+    /// J, passivity observer: above zero the device gave the hand more than it took. Zero with passivity=off.
+    double energyBalance = 0.0;
 };
 
 /// One tick: sample, contact, proxy, shading, texture, friction, force, safety (DESIGN §2). Deterministic; no

@@ -21,6 +21,8 @@ enum class TickFlag : uint32_t {
     NeighbourhoodMissing = 1u << 11, ///< contact=neighbourhood, but its adjacency is not built yet: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
     Pinched = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
+    EnergyGiven = 1u << 14,  ///< the device gave more energy than it took, by more than kNoticedEnergy
+    EnergyDamped = 1u << 15, ///< passivity=control: a damper took some of it back
     ObjectJumped = 1u << 13, ///< an object was put elsewhere (an animation began again) and swept nothing
 };
 [[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) {

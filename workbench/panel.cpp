@@ -189,6 +189,16 @@ class Panel {
         ImGui::SameLine();
         ImGui::TextDisabled("at a depth of %.2f mm", 1e3 * tick.penetration);
         drawForcePlot(*in_.forces, 80.0f * in_.scale);
+        PassivityMode& passivity = state_.settings.passivity;
+        bool controlled = passivity == PassivityMode::Control;
+        if (ImGui::Checkbox("Passivity control", &controlled))
+            passivity = controlled ? PassivityMode::Control : PassivityMode::Observe;
+        mark("passivity");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Damps what the device gives the hand beyond what it took");
+        ImGui::SameLine();
+        if (passivity != PassivityMode::Off)
+            ImGui::TextDisabled("%+.2f mJ", 1e3 * tick.energyBalance);
     }
 
     void row(const char* label, const char* format, double a, double b = 0.0) {

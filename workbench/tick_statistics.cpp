@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::array<std::pair<TickFlag, std::string_view>, 14> kFlagNames{{
+constexpr std::array<std::pair<TickFlag, std::string_view>, 16> kFlagNames{{
     {TickFlag::InputInvalid, "input_invalid"},
     {TickFlag::StartedInside, "started_inside"},
     {TickFlag::BudgetReached, "budget_reached"},
@@ -26,6 +26,8 @@ constexpr std::array<std::pair<TickFlag, std::string_view>, 14> kFlagNames{{
     {TickFlag::ForceRamping, "force_ramping"},
     {TickFlag::SafetyLatched, "safety_latched"},
     {TickFlag::NeighbourhoodMissing, "neighbourhood_missing"},
+    {TickFlag::EnergyGiven, "energy_given"},
+    {TickFlag::EnergyDamped, "energy_damped"},
 }};
 
 nlohmann::ordered_json nanoseconds(const Samples& samples) {
@@ -58,6 +60,8 @@ void TickStatistics::add(const HapticOutput& output, int64_t stepNs) {
     ++ticks_;
     step_.add(stepNs);
     work_.add(output.force, output.hip);
+    balance_ = output.energyBalance;
+    mostBalance_ = std::max(mostBalance_, balance_);
     commandWork_.add(output.commandInWorkspace, output.hip);
     for (size_t i = 0; i < kFlagCount; ++i)
         if (has(output.flags, kFlagNames[i].first))
@@ -122,6 +126,8 @@ nlohmann::ordered_json TickStatistics::energyJson() const {
             {"law_j", work_.law()},
             {"sampling_j", work_.given() - work_.law()},
             {"command_given_j", commandWork_.given()},
+            {"balance_j", balance_},
+            {"most_balance_j", mostBalance_},
             {"gaps", work_.gaps()}};
 }
 

@@ -41,19 +41,21 @@ class TickStatistics {
     /// {mean_n, max_n} over the ticks in contact, stage 7.
     [[nodiscard]] nlohmann::ordered_json forceJson() const;
     /// {given_j, law_j, sampling_j, command_given_j, gaps}: work on the hand over all ticks, see
-    /// work_meter.h; gaps: how often records were dropped, whose work is not in it.
+    /// work_meter.h; gaps: how often records were dropped, whose work is not in it. balance_j and
+    /// most_balance_j: of the passivity observer, see haptics/safety/passivity.h.
     [[nodiscard]] nlohmann::ordered_json energyJson() const;
     /// Ticks by TickFlag.
     [[nodiscard]] nlohmann::ordered_json flagsJson() const;
 
   private:
-    static constexpr size_t kFlagCount = 14;
+    static constexpr size_t kFlagCount = 16;
 
     Samples wake_, period_, step_, stepInContact_;
     int64_t lastWakeNs_ = -1;
     uint64_t nextStep_ = 0;
     uint64_t ticks_ = 0, contactTicks_ = 0;
     WorkMeter work_, commandWork_;
+    double balance_ = 0.0, mostBalance_ = 0.0;
     uint64_t gaps_ = 0, gapsWithinMicrometre_ = 0;
     double mostGap_ = 0.0;
     double forceSum_ = 0.0, mostForce_ = 0.0, mostPenetration_ = 0.0;

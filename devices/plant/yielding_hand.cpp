@@ -9,6 +9,8 @@ DeviceLimits YieldingHand::limits() const {
     DeviceLimits limits = intention_.limits();
     limits.maxForce = plant_.parameters().maxForce;
     limits.positionResolution = plant_.parameters().resolution;
+    limits.apparentMass = plant_.parameters().mass;
+    limits.coulombFriction = plant_.parameters().coulombFriction;
     return limits;
 }
 

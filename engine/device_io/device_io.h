@@ -45,6 +45,8 @@ struct DeviceLimits {
     /// true.
     double staleAge = 0.02;
     double positionResolution = 3e-5; ///< m
+    double apparentMass = 0.075;      ///< kg at the tip, the least in any direction. Phantom Premium 1.5.
+    double coulombFriction = 0.04;    ///< N at the tip, the least in any direction; 0: none is known of
 };
 
 } // namespace touchstone

@@ -7,8 +7,9 @@ namespace touchstone {
 namespace {
 
 /// Bits of TickFlag that stage 8 sets.
-constexpr uint32_t kSafetyFlags =
-    0u | TickFlag::ForceLimited | TickFlag::ForceFault | TickFlag::ForceRamping | TickFlag::SafetyLatched;
+constexpr uint32_t kSafetyFlags = 0u | TickFlag::ForceLimited | TickFlag::ForceFault |
+                                  TickFlag::ForceRamping | TickFlag::SafetyLatched | TickFlag::EnergyGiven |
+                                  TickFlag::EnergyDamped;
 
 template <class... Values>
 uint32_t hashOf(const Values&... values) noexcept {
@@ -37,7 +38,8 @@ StageHashes stageHashes(const StageTrace& trace, const HapticOutput& output) noe
                    output.planeCount, output.planes[0], output.planes[1], output.planes[2]),
             hashOf(output.proxy, output.friction, output.stictionPoint),
             hashOf(output.force, output.penetration, output.iterations, output.flags & ~kSafetyFlags),
-            hashOf(output.command.force(), output.command.torque(), output.commandInWorkspace, output.flags)};
+            hashOf(output.command.force(), output.command.torque(), output.commandInWorkspace,
+                   output.energyBalance, output.flags)};
 }
 
 } // namespace touchstone

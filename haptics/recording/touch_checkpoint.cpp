@@ -8,9 +8,9 @@ namespace touchstone {
 namespace {
 
 /// Everything that one tick leaves to the next, in the order of the bytes: scalars, vectors and arrays of
-/// them. Not: what a tick writes before it reads (rest, carried, carryCandidates) and what can be found again
-/// (candidates). A field that is added to DeviceState and outlives the tick must be added here and to
-/// docs/recording.md; tests/unit/recording watches the sizes.
+/// them. Not: what a tick writes before it reads (rest, carried, carryCandidates, limiter.passivity.way) and
+/// what can be found again (candidates). A field that is added to DeviceState and outlives the tick must be
+/// added here and to docs/recording.md; tests/unit/recording watches the sizes.
 template <class State, class Visit>
 void eachField(State& s, const Visit& visit) {
     visit(s.sampled);
@@ -42,6 +42,9 @@ void eachField(State& s, const Visit& visit) {
     visit(s.limiter.lateInARow);
     visit(s.limiter.faults);
     visit(s.limiter.latched);
+    visit(s.limiter.passivity.placed);
+    visit(s.limiter.passivity.position);
+    visit(s.limiter.passivity.balance);
 }
 
 /// Only the fields that eachField visits; a DeviceState's own copy would be a megabyte.

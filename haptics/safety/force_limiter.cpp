@@ -42,7 +42,34 @@ bool usable(const SafetyInputs& inputs) {
     const DeviceLimits& limits = inputs.limits;
     const auto limit = [](double value) { return std::isfinite(value) && value >= 0.0; };
     return limit(inputs.dt) && limit(limits.maxForce) && limit(limits.maxForceRate) &&
-           limit(limits.maxTorque) && limit(limits.maxTorqueRate);
+           limit(limits.maxTorque) && limit(limits.maxTorqueRate) && limit(limits.apparentMass) &&
+           limit(limits.coulombFriction) && limit(limits.positionResolution);
+}
+
+/// What the last command did on the way here. The contact's springs hold as much of their energy as the ramp
+/// lets pass.
+void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterState& state, uint32_t& flags) {
+    if (inputs.passivity == PassivityMode::Off || !inputs.inputValid || !finite(inputs.position)) {
+        losePosition(state.passivity);
+        return;
+    }
+    const double stored = 0.5 * state.ramp * glm::length(force) * inputs.springLength;
+    observeEnergy(state.lastForce, inputs.position, stored, inputs.limits, state.passivity);
+    if (state.passivity.balance > kNoticedEnergy)
+        flags = flags | TickFlag::EnergyGiven;
+}
+
+/// `target` with the controller's damper, where it is asked for and force is given at all.
+glm::dvec3 damped(const glm::dvec3& target, const SafetyInputs& inputs, const ForceLimiterState& state,
+                  uint32_t& flags, bool& cut) {
+    if (inputs.passivity != PassivityMode::Control || !inputs.inputValid || !inputs.forceEnabled ||
+        state.latched)
+        return target;
+    const glm::dvec3 damping = passivityDamping(target, inputs.dt, inputs.limits, state.passivity);
+    if (damping == glm::dvec3(0.0) || !finite(damping))
+        return target;
+    flags = flags | TickFlag::EnergyDamped;
+    return shortened(target + damping, inputs.limits.maxForce, cut);
 }
 
 } // namespace
@@ -62,6 +89,7 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
         return DeviceCommand{};
     }
 
+    observe(inputs, forceInDevice, state, flags);
     state.lateInARow = inputs.late ? state.lateInARow + 1 : 0;
     if (state.lateInARow >= kLateTicksToLatch)
         state.latched = true;
@@ -88,8 +116,9 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
     if (state.ramp < 1.0)
         flags = flags | TickFlag::ForceRamping;
 
-    state.lastForce = stepTowards(state.lastForce, state.ramp * state.heldForce, limits.maxForce,
-                                  limits.maxForceRate * inputs.dt, cut);
+    const glm::dvec3 target = damped(state.ramp * state.heldForce, inputs, state, flags, cut);
+    state.lastForce =
+        stepTowards(state.lastForce, target, limits.maxForce, limits.maxForceRate * inputs.dt, cut);
     state.lastTorque = stepTowards(state.lastTorque, state.ramp * state.heldTorque, limits.maxTorque,
                                    limits.maxTorqueRate * inputs.dt, cut);
     if (cut)

@@ -3,6 +3,8 @@
 
 #include "engine/device_io/device_io.h"
 #include "engine/math/similarity.h"
+#include "haptics/haptic_settings.h"
+#include "haptics/safety/passivity.h"
 
 #include <glm/glm.hpp>
 
@@ -32,6 +34,7 @@ struct ForceLimiterState {
     uint32_t lateInARow = 0;    ///< late ticks
     uint32_t faults = 0;        ///< ticks with a force that was not finite, since the start
     bool latched = false;       ///< no force until it is switched off and on again
+    PassivityState passivity;
 };
 
 /// What the limiter must know about this tick besides the force.
@@ -42,19 +45,23 @@ struct SafetyInputs {
     double sampleAge = 0.0;   ///< s
     bool forceEnabled = true; ///< false: the force-off key
     bool late = false;        ///< the previous tick ended after its next deadline
+    PassivityMode passivity = PassivityMode::Off;
+    glm::dvec3 position{0.0};  ///< m, device frame, while inputValid
+    double springLength = 0.0; ///< m: half of it times the force is what the contact's spring has stored
 };
 
 /// Makes every DeviceCommand there is. What always holds, for any input whatever:
 /// - the command is finite and |force| <= limits.maxForce (torque likewise with maxTorque);
 /// - |force - previous force| <= limits.maxForceRate * dt, with one exception: a force, a dt or a limit that
 /// is
-///   not a finite number is a fault, and a fault drops the command to zero at once.
+///   not a finite number is a fault, and a fault drops the command to zero at once;
+/// - the passivity controller's force is under the same limits, and off wherever the force is off.
 class ForceLimiter {
   public:
     /// Servo thread. `force` in N and `torque` in N·m in the workspace; the command is in the device frame,
     /// to which `workspaceFromDevice` turns it (its scale and translation do not act on forces: zooming a
     /// model changes how far one moves, not how hard it pushes). Sets ForceLimited, ForceFault, ForceRamping,
-    /// SafetyLatched and InputInvalid in `flags`.
+    /// SafetyLatched, InputInvalid, EnergyGiven and EnergyDamped in `flags`.
     [[nodiscard]] static DeviceCommand limit(const glm::dvec3& force, const glm::dvec3& torque,
                                              const SafetyInputs& inputs,
                                              const Similarity& workspaceFromDevice, ForceLimiterState& state,
