@@ -131,6 +131,36 @@ CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
     return app.add_option("SCENE", scene, "glTF model: a .gltf or .glb file")->type_name("");
 }
 
+constexpr const char* kDeviceHelp =
+    "What is held: %, auto (what is plugged in), udp[:PORT] (another program), /dev/hidrawN, a device "
+    "file (.json) or a part of a name that `touchstone devices` lists";
+
+void addDevice(CLI::App& app, const std::string& builtIn,
+               const std::function<void(const std::string&)>& take) {
+    std::string help = kDeviceHelp;
+    help.replace(help.find('%'), 1, builtIn);
+    app.add_option_function<std::string>("--device", take, help)->type_name("DEVICE");
+}
+
+void defineDevices(CLI::App& app, DevicesOptions& options) {
+    CLI::Option* test =
+        app.add_option("--test", options.test,
+                       "Try one: how often it reports, how old samples are, where it is. As in --device")
+            ->type_name("DEVICE");
+    app.add_option("--seconds", options.seconds, "How long [3]")
+        ->type_name("S")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->needs(test);
+    constexpr double kMostForce = 2.0; // N; a hand that holds the device loosely keeps it
+    app.add_option(
+           "--force", options.force,
+           "Push this hard along each axis in turn; without it no force is ever sent. Hold the device!")
+        ->type_name("N")
+        ->check(CLI::Range(0.0, kMostForce))
+        ->needs(test);
+    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE")->needs(test);
+}
+
 void defineWindow(CLI::App& app, WindowOptions& options) {
     addScene(app, options.scene)->description("glTF model to open in a window; without it the doughnut");
     addSettings(app, options.settings);
@@ -139,6 +169,10 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
            "--hand", [&options](const std::string& hand) { options.simulatedHand = hand == "simulated"; },
            "Who moves the hand at first [mouse]")
         ->check(CLI::IsMember({"mouse", "simulated"}));
+    addDevice(app, "mouse (the default), hand (the simulated one)", [&options](const std::string& device) {
+        options.simulatedHand = device == "hand";
+        options.device = device == "mouse" || device == "hand" ? "" : device;
+    });
     addSize(app, options.size, "Size of the window [1280x800]");
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
@@ -159,6 +193,8 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
                                      "The hand follows its path whatever the force, as no hand can");
     addPlant(app, options.plant)->excludes(open);
+    addDevice(app, "hand (the simulated one, the default)",
+              [&options](const std::string& device) { options.device = device; });
     addSize(app, options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Servo rate [1000]");
@@ -254,6 +290,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     RenderOptions render;
     InspectOptions inspect;
     BenchOptions bench;
+    DevicesOptions devices;
     bool headless = false;
     defineWindow(app, window);
     CLI::App* runApp =
@@ -271,7 +308,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     defineInspect(*inspectApp, inspect);
     CLI::App* benchApp = app.add_subcommand("bench", "What a tick costs against Embree's floor");
     defineBench(*benchApp, bench);
-    CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in");
+    CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in, and a trial of one device");
+    defineDevices(*devicesApp, devices);
 
     status = 0;
     try {
@@ -308,7 +346,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     if (benchApp->parsed())
         return bench;
     if (devicesApp->parsed())
-        return DevicesOptions{};
+        return devices;
     return window;
 }
 

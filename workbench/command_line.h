@@ -7,8 +7,6 @@
 
 namespace touchstone {
 
-struct DevicesOptions {};
-
 using Command = std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, RenderOptions,
                              InspectOptions, BenchOptions, DevicesOptions>;
 

@@ -10,7 +10,9 @@
 #include "renderer/scene_renderer.h"
 #include "workbench/animate.h"
 #include "workbench/commands.h"
+#include "workbench/device_menu.h"
 #include "workbench/device_port.h"
+#include "workbench/device_test.h"
 #include "workbench/gpu_options.h"
 #include "workbench/interrupt.h"
 #include "workbench/model.h"
@@ -150,12 +152,15 @@ nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& s
 
 int runCommand(const RunOptions& options) {
     catchInterrupts();
-    const Model model = loadModel(options.scene, Fit::Workspace, DeviceLimits{});
+    const std::unique_ptr<LinkedDevice> device = openDeviceOrHand(options.device);
+    const Model model =
+        loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : DeviceLimits{});
     printWarnings(model);
     prepareFor(model, options.settings);
     SimulatedHand path(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
     YieldingHand yielding(path, options.plant);
-    Device& hand = options.openLoop ? static_cast<Device&>(path) : yielding;
+    Device& simulated = options.openLoop ? static_cast<Device&>(path) : yielding;
+    Device& hand = device != nullptr ? *device : simulated;
     std::optional<OutputFile> report;
     if (!options.json.empty())
         report.emplace(options.json);
@@ -196,7 +201,10 @@ int runCommand(const RunOptions& options) {
             {"scene", options.scene.string()},
             {"seconds", frames.seconds},
             {"triangles", model.scene->triangleCount()},
-            {"loop", options.openLoop ? nlohmann::ordered_json("open") : plantJson(yielding.plant())},
+            {"device", hand.name()},
+            {"link", device != nullptr ? linkJson(device->report()) : nlohmann::ordered_json()},
+            {"loop", options.openLoop || device != nullptr ? nlohmann::ordered_json("open")
+                                                           : plantJson(yielding.plant())},
             {"settings", settingsJson(options.settings)},
             {"setting_warnings", settingWarnings(options.settings)},
             {"servo", servoJson(servo, reader.statistics, frames.seconds)},

@@ -20,6 +20,7 @@ struct WindowOptions {
     HapticSettings settings;
     double rateHz = 1000.0;
     bool simulatedHand = false;       ///< start with the simulated hand instead of the mouse
+    std::string device;               ///< start with this device (devices/device_choice.h); empty: none
     glm::ivec2 size{1280, 800};       ///< screen coordinates
     std::filesystem::path statusJson; ///< written twice a second when given
     std::string gpu;                  ///< part of a Vulkan device's name
@@ -33,6 +34,7 @@ struct RunOptions {
     double rateHz = 1000.0;
     double seconds = 10.0;
     glm::ivec2 size{800, 450};
+    std::string device = "hand"; ///< what is held: the simulated hand, or what devices/device_choice.h names
     std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
     bool openLoop = false;                               ///< the hand follows its path whatever the force
     PlantParameters plant;                               ///< in the closed loop
@@ -89,6 +91,12 @@ struct BenchOptions {
 int benchCommand(const BenchOptions& options);
 
 /// touchstone devices
-int devicesCommand();
+struct DevicesOptions {
+    std::string test; ///< the device to try, as --device names it; empty: list what there is
+    double seconds = 3.0;
+    double force = 0.0;         ///< N to push with while trying; 0: none is sent
+    std::filesystem::path json; ///< empty: not asked for
+};
+int devicesCommand(const DevicesOptions& options);
 
 } // namespace touchstone

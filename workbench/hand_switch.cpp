@@ -4,6 +4,24 @@
 
 namespace touchstone {
 
+std::string HandSwitch::name() const {
+    return device_ != nullptr ? device_->name() : simulated() ? "simulated hand" : "mouse";
+}
+
+DeviceLimits HandSwitch::limits() const {
+    return device_ != nullptr ? device_->limits() : mouse_.limits();
+}
+
+void HandSwitch::hold(std::shared_ptr<LinkedDevice> device) {
+    device_ = device;
+    held_.offer(std::make_shared<const Held>(Held{std::move(device)}));
+}
+
+void HandSwitch::apply(const DeviceCommand& command) noexcept {
+    if (driven_ != nullptr)
+        driven_->apply(command);
+}
+
 DeviceSample HandSwitch::sample(double time) noexcept {
     DeviceSample sample = mouse_.sample(time);
     const StrokePath* path = path_.adopt();
@@ -14,8 +32,13 @@ DeviceSample HandSwitch::sample(double time) noexcept {
         sample.age = 0.0;
         sample.valid = true;
     }
-    if (path != followed_) {
-        followed_ = path;
+    const Held* held = held_.adopt();
+    driven_ = held != nullptr ? held->device.get() : nullptr;
+    if (driven_ != nullptr)
+        sample = driven_->sample(time);
+    const void* follows = driven_ != nullptr ? static_cast<const void*>(driven_) : path;
+    if (follows != followed_) {
+        followed_ = follows;
         gliding_ = started_;
         glideFrom_ = last_;
         glideStart_ = time;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "devices/link/linked_device.h"
 #include "devices/mouse_device.h"
 #include "devices/stroke_path.h"
 #include "engine/exchange/handover.h"
@@ -9,8 +10,9 @@
 
 namespace touchstone {
 
-/// The window's hand: the mouse, or a simulated hand on a path that comes with the model. Changing over
-/// glides from where the hand is to where the other one is, so that nothing is struck at the speed of a jump.
+/// The window's hand: the mouse, a simulated hand on a path that comes with the model, or a device. Changing
+/// over glides from where the hand is to where the other one is, so that nothing is struck at the speed of a
+/// jump.
 class HandSwitch final : public Device {
   public:
     /// s that changing over takes.
@@ -20,19 +22,30 @@ class HandSwitch final : public Device {
     void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }
     [[nodiscard]] bool simulated() const noexcept { return simulated_.load(std::memory_order_relaxed); }
     void offerPath(std::shared_ptr<const StrokePath> path) { path_.offer(std::move(path)); }
+    /// Null: back to the mouse or the simulated hand. A device that is let go gets zero force.
+    void hold(std::shared_ptr<LinkedDevice> device);
+    /// Frees what the servo has let go.
+    void collect() { held_.collect(); }
     [[nodiscard]] MouseDevice& mouse() { return mouse_; }
 
-    [[nodiscard]] std::string name() const override { return simulated() ? "simulated hand" : "mouse"; }
-    [[nodiscard]] DeviceLimits limits() const override { return mouse_.limits(); }
+    [[nodiscard]] std::string name() const override;
+    [[nodiscard]] DeviceLimits limits() const override;
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
-    void apply(const DeviceCommand&) noexcept override {}
+    void apply(const DeviceCommand& command) noexcept override;
 
   private:
+    struct Held {
+        std::shared_ptr<LinkedDevice> device; // null: none
+    };
+
     MouseDevice mouse_;
+    std::shared_ptr<LinkedDevice> device_; // owner thread
+    Handover<Held> held_;
     std::atomic<bool> simulated_{false};
     Handover<StrokePath> path_;
     // Servo thread:
-    const StrokePath* followed_ = nullptr; // null: the mouse
+    const void* followed_ = nullptr; // the path or the device; null: the mouse
+    LinkedDevice* driven_ = nullptr; // in this tick
     glm::dvec3 last_{0.0}, glideFrom_{0.0};
     double glideStart_ = 0.0;
     bool started_ = false, gliding_ = false;

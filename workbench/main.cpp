@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
                                      [](const RenderOptions& options) { return renderCommand(options); },
                                      [](const InspectOptions& options) { return inspectCommand(options); },
                                      [](const BenchOptions& options) { return benchCommand(options); },
-                                     [](const DevicesOptions&) { return devicesCommand(); }},
+                                     [](const DevicesOptions& options) { return devicesCommand(options); }},
                           *command);
     } catch (const Error& error) {
         std::fprintf(stderr, "touchstone: %s\n", error.what());

@@ -88,17 +88,45 @@ class Panel {
 
     void hand() {
         section("HAND");
-        if (ImGui::RadioButton("Mouse", !state_.simulatedHand))
-            state_.simulatedHand = false;
+        const bool held = !state_.device.empty();
+        if (ImGui::RadioButton("Mouse", !held && !state_.simulatedHand))
+            letGo(false);
         mark("mouse");
         ImGui::SameLine(0.0f, 24.0f * in_.scale);
         if (!in_.canSimulate)
             ImGui::BeginDisabled();
-        if (ImGui::RadioButton("Simulated hand", state_.simulatedHand))
-            state_.simulatedHand = true;
+        if (ImGui::RadioButton("Simulated hand", !held && state_.simulatedHand))
+            letGo(true);
         mark("simulatedHand");
         if (!in_.canSimulate)
             ImGui::EndDisabled();
+        if (held || !in_.devices.empty())
+            devices();
+        if (!in_.deviceStatus.empty())
+            ImGui::TextWrapped("%s", in_.deviceStatus.c_str());
+    }
+
+    void letGo(bool simulate) {
+        state_.simulatedHand = simulate;
+        state_.device.clear();
+    }
+
+    /// What is plugged in.
+    void devices() {
+        const char* shown = state_.device.empty() ? "hold a device" : state_.device.c_str();
+        for (const DeviceOffer& offer : in_.devices)
+            if (offer.choice == state_.device)
+                shown = offer.name.c_str();
+        ImGui::PushItemWidth(-1.0f);
+        if (ImGui::BeginCombo("##device", shown)) {
+            for (const DeviceOffer& offer : in_.devices)
+                if (ImGui::Selectable((offer.name + "  " + offer.choice).c_str(),
+                                      offer.choice == state_.device))
+                    state_.device = offer.choice;
+            ImGui::EndCombo();
+        }
+        mark("device");
+        ImGui::PopItemWidth();
     }
 
     /// A check box for an effect that may have several ways of being on: it comes back in the way it was.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "devices/device_choice.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/false_color.h"
 #include "renderer/view.h"
@@ -26,6 +27,8 @@ struct PanelInput {
     double loadFraction = 0.0;
     std::string loadActivity;
     bool canSimulate = false; ///< there is a path for the simulated hand
+    std::vector<DeviceOffer> devices;
+    std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
     const ServoView* servo = nullptr;
     const ForceHistory* forces = nullptr;
     FalseColorScale legend; ///< of the view that is shown
@@ -40,6 +43,7 @@ struct PanelState {
     HapticSettings settings;
     HapticSettings chosen; ///< what the toggles return to when switched on again
     bool simulatedHand = false;
+    std::string device; ///< what chooses it; empty: the mouse or the simulated hand
     ViewMode view = ViewMode::Shaded;
 };
 

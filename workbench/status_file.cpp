@@ -23,6 +23,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"loading", input.loading},
         {"problem", input.problem},
         {"hand", state.simulatedHand ? "simulated" : "mouse"},
+        {"device", state.device},
+        {"device_status", input.deviceStatus},
         {"settings", settingsJson(state.settings)},
         {"tick",
          {{"time", servo.last.time},

@@ -9,6 +9,7 @@
 #include "workbench/animate.h"
 #include "workbench/commands.h"
 #include "workbench/default_scene.h"
+#include "workbench/device_menu.h"
 #include "workbench/device_port.h"
 #include "workbench/gpu_options.h"
 #include "workbench/hand_switch.h"
@@ -56,6 +57,8 @@ class Workbench {
           forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
         state_.settings = state_.chosen = options.settings;
         state_.simulatedHand = options.simulatedHand;
+        state_.device = options.device;
+        holdDevice();
         servo_.setSettings(state_.settings);
         servo_.start();
     }
@@ -78,6 +81,8 @@ class Workbench {
             draw();
         hand_.mouse().moveTo(view_.handGoal()); // in every frame: a frozen window is a hand that is gone
         hand_.simulate(state_.simulatedHand);
+        devices_.renew(start);
+        holdDevice();
         pace(start);
     }
 
@@ -130,6 +135,22 @@ class Workbench {
                                    [haptic = shown_.model.haptic] { haptic->buildNeighbourhoods(); });
     }
 
+    /// Holds what was chosen; a model that is already there is touched anew, within the device's limits.
+    void holdDevice() {
+        hand_.collect();
+        if (state_.device == devices_.chosen())
+            return;
+        hand_.hold(devices_.choose(state_.device));
+        state_.device = devices_.chosen();
+        if (!hasModel())
+            return;
+        const std::shared_ptr<HapticScene> limited = copyOf(*shown_.model.haptic);
+        limited->limits = hand_.limits();
+        limited->warnings = shown_.model.haptic->warnings;
+        shown_.model.haptic = limited;
+        servo_.offerScene(shown_.model.haptic, shown_.model.scene);
+    }
+
     void draw() {
         const glm::ivec2 area = pictureArea();
         const PanelInput input = panelInput(resolution_.sceneSize(area));
@@ -175,6 +196,8 @@ class Workbench {
         input.loadFraction = loader_.fraction();
         input.loadActivity = loader_.activity();
         input.canSimulate = shown_.path != nullptr;
+        input.devices = devices_.offers();
+        input.deviceStatus = devices_.status();
         input.servo = &servoView_;
         input.forces = &forces_;
         input.framesPerSecond = framesPerSecond_;
@@ -213,6 +236,7 @@ class Workbench {
     WindowTarget target_;
     SceneRenderer renderer_;
     AdaptiveResolution resolution_;
+    DeviceMenu devices_;
     HandSwitch hand_;
     ServoLoop servo_;
     ModelLoader loader_;

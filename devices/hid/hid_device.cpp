@@ -16,12 +16,6 @@ constexpr int kMostQueued = 64;             // hidraw keeps as many
 constexpr int kFailedSendsToGiveUp = 20;
 constexpr double kSpaceMouseStaleAge = 0.1; // s; some report every 16 ms
 
-/// Nodes of a SpaceMouse that are not its axes (keyboards of the large models) say so in their usage.
-bool hasAxes(const HidNode& node) {
-    constexpr uint16_t kGenericDesktop = 1, kMultiAxis = 8;
-    return node.usagePage == 0 || (node.usagePage == kGenericDesktop && node.usage == kMultiAxis);
-}
-
 } // namespace
 
 HidRecipe spaceMouseRecipe(const HidNode& node) {

@@ -95,6 +95,11 @@ std::string HidNode::name() const {
     return "HID device " + ids(vendor, product);
 }
 
+bool hasAxes(const HidNode& node) {
+    constexpr uint16_t kGenericDesktop = 1, kMultiAxis = 8;
+    return node.usagePage == 0 || (node.usagePage == kGenericDesktop && node.usage == kMultiAxis);
+}
+
 HidAccess hidAccess(const std::string& path) {
     if (access(path.c_str(), R_OK | W_OK) == 0)
         return HidAccess::ReadWrite;

@@ -55,6 +55,10 @@ struct HidNode {
 /// The permissions of a node for this process.
 [[nodiscard]] HidAccess hidAccess(const std::string& path);
 
+/// Whether it may be the axes of a SpaceMouse: the large models are keyboards, too, and say so in their
+/// usage.
+[[nodiscard]] bool hasAxes(const HidNode& node);
+
 /// What to do about `access`, or empty if nothing needs to be done.
 [[nodiscard]] std::string hidRemedy(const HidNode& device);
 
