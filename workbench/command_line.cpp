@@ -127,6 +127,21 @@ void addGpu(CLI::App& app, std::string& gpu) {
     app.add_option("--gpu", gpu, "Vulkan device to use, by a part of its name")->type_name("NAME");
 }
 
+void addRecording(CLI::App& app, RecordingOptions& options) {
+    app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
+    app.add_option_function<std::string>(
+           "--flight-recorder",
+           [&options](const std::string& folder) {
+               options.flight = folder != "off";
+               options.flightFolder = folder;
+           },
+           "Where the last seconds before a fault are kept, or off [~/.local/state/touchstone/flight]")
+        ->type_name("DIR|off");
+    app.add_option("--flight-seconds", options.flightSeconds, "How many seconds those are at least [10]")
+        ->type_name("S")
+        ->check(CLI::Range(1.0, 600.0));
+}
+
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
     return app.add_option("SCENE", scene, "glTF model: a .gltf or .glb file")->type_name("");
 }
@@ -177,6 +192,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
         ->type_name("FILE");
+    addRecording(app, options.recording);
     addGpu(app, options.gpu);
 }
 
@@ -190,6 +206,7 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
         ->type_name("FILE");
     app.add_option("--record-ticks", options.recordTicks, "Write every tick here, as CSV")->type_name("FILE");
+    addRecording(app, options.recording);
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
                                      "The hand follows its path whatever the force, as no hand can");
     addPlant(app, options.plant)->excludes(open);

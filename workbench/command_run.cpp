@@ -18,6 +18,7 @@
 #include "workbench/model.h"
 #include "workbench/output_file.h"
 #include "workbench/overlays.h"
+#include "workbench/recording_desk.h"
 #include "workbench/settings_json.h"
 #include "workbench/tick_csv.h"
 #include "workbench/tick_statistics.h"
@@ -56,11 +57,12 @@ class TickReader {
         }
     }
 
-    void drain(ServoLoop& servo) {
+    void drain(ServoLoop& servo, RecordingDesk& desk) {
         TickRecord record;
         rows_.clear();
         while (servo.popRecord(record)) {
             statistics.addLive(record);
+            desk.recorder().take(record);
             if (record.output.contacts > 0) {
                 statistics.addProxyGap(
                     proxyGap(*model_.haptic, moving_.at(record.time), record.output, options_.settings));
@@ -72,6 +74,7 @@ class TickReader {
         }
         if (csv_)
             csv_->write(rows_);
+        desk.update();
     }
     void commit() {
         if (csv_)
@@ -99,7 +102,7 @@ struct Frames {
 
 /// Draws at the frame rate until the time is over; the servo ticks beside it.
 Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
-                  TickReader& reader) {
+                  TickReader& reader, RecordingDesk& desk) {
     const View view = frontView(model, options.size);
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
@@ -113,7 +116,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
         servo.updateSnapshot();
-        reader.drain(servo);
+        reader.drain(servo, desk);
         overlay.clear();
         drawTick(servo.snapshot(), options.settings, overlay);
         poseAt(servo.snapshot().time, *model.scene, renderer);
@@ -175,13 +178,16 @@ int runCommand(const RunOptions& options) {
 
     ServoLoop servo(portOf(hand), {.rateHz = options.rateHz});
     servo.setSettings(options.settings);
-    servo.offerScene(model.haptic, model.scene);
+    RecordingDesk desk(servo, options.recording, "run");
+    desk.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
+                                 identify(*model.haptic, *model.scene, Fit::Workspace));
     realtime::resetViolations();
     servo.start();
-    const Frames frames = drawFrames(options, model, servo, renderer, reader);
+    const Frames frames = drawFrames(options, model, servo, renderer, reader, desk);
     servo.stop();
     const RealtimeViolations violations = realtime::violations();
-    reader.drain(servo);
+    reader.drain(servo, desk);
+    desk.finish();
 
     if (!options.screenshot.empty()) {
         Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
@@ -223,6 +229,7 @@ int runCommand(const RunOptions& options) {
             {"force", reader.statistics.forceJson()},
             {"energy", reader.statistics.energyJson()},
             {"flags", reader.statistics.flagsJson()},
+            {"recording", desk.json()},
             {"gpu",
              {{"name", gpu->name()},
               {"description", gpu->description()},
@@ -238,7 +245,7 @@ int runCommand(const RunOptions& options) {
                 static_cast<unsigned long long>(counters.missed), frames.seconds,
                 static_cast<unsigned long long>(reader.statistics.contactTicks()),
                 static_cast<unsigned long long>(frames.count));
-    return 0;
+    return desk.failed() ? 1 : 0;
 }
 
 } // namespace touchstone

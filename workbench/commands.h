@@ -14,6 +14,14 @@
 
 namespace touchstone {
 
+/// What `run` and the window record.
+struct RecordingOptions {
+    std::filesystem::path record;       ///< from the start; empty: not asked for
+    bool flight = true;                 ///< with a flight recorder
+    std::filesystem::path flightFolder; ///< empty: in the state folder
+    double flightSeconds = 10.0;
+};
+
 /// touchstone [SCENE]
 struct WindowOptions {
     std::filesystem::path scene; ///< empty: the default scene
@@ -23,7 +31,8 @@ struct WindowOptions {
     std::string device;               ///< start with this device (devices/device_choice.h); empty: none
     glm::ivec2 size{1280, 800};       ///< screen coordinates
     std::filesystem::path statusJson; ///< written twice a second when given
-    std::string gpu;                  ///< part of a Vulkan device's name
+    RecordingOptions recording;
+    std::string gpu; ///< part of a Vulkan device's name
 };
 int windowCommand(const WindowOptions& options);
 
@@ -36,8 +45,9 @@ struct RunOptions {
     glm::ivec2 size{800, 450};
     std::string device = "hand"; ///< what is held: the simulated hand, or what devices/device_choice.h names
     std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
-    bool openLoop = false;                               ///< the hand follows its path whatever the force
-    PlantParameters plant;                               ///< in the closed loop
+    RecordingOptions recording;
+    bool openLoop = false; ///< the hand follows its path whatever the force
+    PlantParameters plant; ///< in the closed loop
     std::string gpu;
 };
 int runCommand(const RunOptions& options);

@@ -1,6 +1,7 @@
 #include "engine/core/error.h"
 #include "workbench/command_line.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -15,6 +16,7 @@ struct Overloaded : Functions... {
 
 int main(int argc, char** argv) {
     using namespace touchstone;
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write, not the end of us
     try {
         int status = 0;
         const std::optional<Command> command = parseCommandLine(argc, argv, status);

@@ -1,0 +1,84 @@
+#include "haptics/recording/servo_recorder.h"
+
+#include <exception>
+
+namespace touchstone {
+
+/// A recording that fails, for want of room on the disk or in memory, is over; the other one goes on.
+template <class Action>
+void ServoRecorder::guarded(const Action& action, bool flight) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        problem_ += (problem_.empty() ? "" : "\n") + std::string(error.what());
+        if (flight)
+            flight_.reset();
+        else {
+            writer_.reset();
+            failed_ = true;
+        }
+    }
+}
+
+void ServoRecorder::start(const std::filesystem::path& file, const std::string& command) {
+    writer_.reset();
+    writer_.emplace(file, recordingOrigin(command, servo_.rateHz()));
+    file_ = file;
+    ticks_ = 0;
+    servo_.requestCheckpoint();
+}
+
+void ServoRecorder::stop() {
+    if (!writer_)
+        return;
+    guarded([&] { writer_->finish(); }, false);
+    writer_.reset();
+}
+
+void ServoRecorder::take(const TickRecord& record) {
+    const uint64_t lost = record.step - nextStep_;
+    nextStep_ = record.step + 1;
+    TouchCheckpoint checkpoint;
+    bool found = false;
+    // Checkpoints of records that were dropped come first.
+    while (record.checkpoint && !found && servo_.popCheckpoint(checkpoint))
+        found = checkpoint.tick == record.tick && checkpoint.scene == record.scene;
+    if (!writer_ && !flight_)
+        return;
+    const RecordedTick recorded = recordedTick(record);
+    const auto scene = scenes_.find(record.scene);
+    const TickToRecord tick{.tick = recorded,
+                            .settings = servo_.settingsOf(record.settings),
+                            .scene = scene != scenes_.end() ? &scene->second : nullptr,
+                            .checkpoint = found ? &checkpoint : nullptr,
+                            .lostBefore = lost};
+    if (writer_)
+        guarded([&] { writer_->add(tick); }, false);
+    if (flight_)
+        guarded([&] { flight_->add(tick); }, true);
+}
+
+void ServoRecorder::flush() {
+    if (writer_)
+        guarded(
+            [&] {
+                writer_->flush();
+                ticks_ = writer_->ticks();
+            },
+            false);
+    if (flight_)
+        guarded([&] { flight_->flush(); }, true);
+}
+
+void ServoRecorder::finish() {
+    flush();
+    stop();
+    if (flight_)
+        guarded([&] { flight_->finish(); }, true);
+}
+
+std::vector<KeptFlight> ServoRecorder::takeKept() {
+    return flight_ ? flight_->takeKept() : std::vector<KeptFlight>();
+}
+
+} // namespace touchstone
