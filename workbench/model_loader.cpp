@@ -31,10 +31,11 @@ void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& l
             activity_.store(what, std::memory_order_relaxed);
         };
         try {
-            LoadedModel loaded{loadModel(path, Fit::Workspace, limits, options), nullptr};
+            LoadedModel loaded{loadModel(path, Fit::Workspace, limits, options), nullptr, {}};
             if (loaded.model.scene->touchable())
                 loaded.path = std::make_shared<StrokePath>(
                     strokeOver(*loaded.model.scene, loaded.model.workspaceFromScene));
+            loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
             result_ = std::move(loaded);
         } catch (...) {
             failure_ = std::current_exception();

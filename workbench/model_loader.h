@@ -1,6 +1,7 @@
 #pragma once
 
 #include "devices/stroke_path.h"
+#include "haptics/recording/scene_identity.h"
 #include "workbench/model.h"
 
 #include <atomic>
@@ -16,6 +17,7 @@ namespace touchstone {
 struct LoadedModel {
     Model model;
     std::shared_ptr<const StrokePath> path;
+    SceneIdentity identity; ///< for recordings
 };
 
 /// Loads models on a worker thread, one at a time; a new request cancels the one before. Main thread only.

@@ -19,6 +19,7 @@ class Panel {
         header();
         model();
         hand();
+        record();
         feel();
         force();
         servo();
@@ -127,6 +128,24 @@ class Panel {
         }
         mark("device");
         ImGui::PopItemWidth();
+    }
+
+    void record() {
+        if (in_.recording)
+            ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(150, 45, 40, 255));
+        // One widget, whatever it says.
+        state_.recordPressed = ImGui::SmallButton(in_.recording ? "Stop###record" : "Record###record");
+        if (in_.recording)
+            ImGui::PopStyleColor();
+        mark("record");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", in_.recordingFile.empty() ? "keeps every tick, for `touchstone replay`"
+                                                              : in_.recordingFile.c_str());
+        if (in_.recordingFile.empty())
+            return;
+        ImGui::SameLine();
+        ImGui::TextDisabled("%.1f s in %s", in_.recordedSeconds,
+                            in_.recordingFile.substr(in_.recordingFile.rfind('/') + 1).c_str());
     }
 
     /// A check box for an effect that may have several ways of being on: it comes back in the way it was.
@@ -292,10 +311,12 @@ class Panel {
     }
 
     void warnings() {
-        if (in_.warnings.empty())
+        if (in_.warnings.empty() && in_.notice.empty())
             return;
         section("WARNINGS");
         ImGui::PushTextWrapPos(0.0f);
+        if (!in_.notice.empty())
+            ImGui::TextUnformatted(in_.notice.c_str());
         for (const std::string& warning : in_.warnings)
             ImGui::TextUnformatted(warning.c_str());
         ImGui::PopTextWrapPos();

@@ -23,6 +23,10 @@ struct PanelInput {
     std::string modelName, modelFacts; ///< "doughnut.glb", "64,800 triangles"
     std::vector<std::string> warnings;
     std::string problem; ///< of the last load, with its remedy; empty: none
+    std::string notice;  ///< of the recorder: what went wrong, or what was kept
+    bool recording = false;
+    std::string recordingFile; ///< the last one; empty: none yet
+    double recordedSeconds = 0.0;
     bool loading = false;
     double loadFraction = 0.0;
     std::string loadActivity;
@@ -45,6 +49,7 @@ struct PanelState {
     bool simulatedHand = false;
     std::string device; ///< what chooses it; empty: the mouse or the simulated hand
     ViewMode view = ViewMode::Shaded;
+    bool recordPressed = false; ///< the record button, in this frame
 };
 
 /// Units of layout that the panel takes on the right of the window.

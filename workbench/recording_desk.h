@@ -21,6 +21,7 @@ class RecordingDesk {
                   std::function<void(const std::string&)> tell = {});
 
     [[nodiscard]] ServoRecorder& recorder() { return recorder_; }
+    [[nodiscard]] const ServoRecorder& recorder() const { return recorder_; }
     /// After each batch of records.
     void update();
     /// After the last record.

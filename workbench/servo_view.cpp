@@ -2,10 +2,11 @@
 
 namespace touchstone {
 
-void ServoView::drain(ServoLoop& servo, ForceHistory& forces, double now) {
+void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, double now) {
     TickRecord record;
     while (servo.popRecord(record)) {
         statistics_.addLive(record);
+        recorder.take(record);
         forces.add(record.output);
         last = record;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/recording/servo_recorder.h"
 #include "haptics/servo/servo_loop.h"
 #include "workbench/force_history.h"
 #include "workbench/tick_statistics.h"
@@ -13,7 +14,7 @@ namespace touchstone {
 class ServoView {
   public:
     /// Takes the ticks made since the last call. `now`: s, any steady clock.
-    void drain(ServoLoop& servo, ForceHistory& forces, double now);
+    void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, double now);
 
     ServoLoop::Counters counters;
     TickRecord last;

@@ -17,6 +17,7 @@
 #include "workbench/model_loader.h"
 #include "workbench/overlays.h"
 #include "workbench/panel.h"
+#include "workbench/recording_desk.h"
 #include "workbench/status_file.h"
 #include "workbench/style.h"
 #include "workbench/view_control.h"
@@ -30,6 +31,7 @@
 #include <chrono>
 #include <future>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 
@@ -54,6 +56,7 @@ class Workbench {
           resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
                        .smallestScale = kSmallestScale}),
           servo_(portOf(hand_), {.rateHz = options.rateHz}),
+          desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
           forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
         state_.settings = state_.chosen = options.settings;
         state_.simulatedHand = options.simulatedHand;
@@ -68,6 +71,15 @@ class Workbench {
         loader_.start(path, hand_.limits());
     }
 
+    /// Ends what is recorded as it should.
+    ~Workbench() {
+        servo_.stop();
+        servoView_.drain(servo_, forces_, desk_.recorder(), secondsNow());
+        desk_.finish();
+    }
+    Workbench(const Workbench&) = delete;
+    Workbench& operator=(const Workbench&) = delete;
+
     /// One turn of the main loop.
     void frame() {
         const double start = secondsNow();
@@ -76,7 +88,8 @@ class Workbench {
         if (const auto dropped = window_.takeDropped())
             open(*dropped);
         servo_.updateSnapshot();
-        servoView_.drain(servo_, forces_, start);
+        servoView_.drain(servo_, forces_, desk_.recorder(), start);
+        desk_.update();
         if (target_.beginFrame())
             draw();
         hand_.mouse().moveTo(view_.handGoal()); // in every frame: a frozen window is a hand that is gone
@@ -107,7 +120,9 @@ class Workbench {
     void show(LoadedModel loaded) {
         shown_ = std::move(loaded);
         renderer_.setScene(shown_.model.scene);
-        servo_.offerScene(shown_.model.haptic, shown_.model.scene);
+        shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
+        desk_.recorder().sceneOffered(servo_.offerScene(shown_.model.haptic, shown_.model.scene),
+                                      shown_.identity);
         hand_.offerPath(shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
         forces_.clear();
@@ -158,6 +173,8 @@ class Workbench {
         const auto widgets = drawPanel(input, state_);
         const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
         view_.update(glm::dvec2(area) / points);
+        if (std::exchange(state_.recordPressed, false))
+            desk_.toggle();
         if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_SPACE, false))
             state_.settings.forceEnabled = !state_.settings.forceEnabled;
         if (!(state_.settings == before))
@@ -195,6 +212,10 @@ class Workbench {
         input.loading = loader_.loading();
         input.loadFraction = loader_.fraction();
         input.loadActivity = loader_.activity();
+        input.notice = notice_;
+        input.recording = desk_.recorder().recording();
+        input.recordingFile = desk_.recorder().file().string();
+        input.recordedSeconds = static_cast<double>(desk_.recorder().ticks()) / servo_.rateHz();
         input.canSimulate = shown_.path != nullptr;
         input.devices = devices_.offers();
         input.deviceStatus = devices_.status();
@@ -239,6 +260,8 @@ class Workbench {
     DeviceMenu devices_;
     HandSwitch hand_;
     ServoLoop servo_;
+    std::string notice_; // of the recorder
+    RecordingDesk desk_;
     ModelLoader loader_;
     LoadedModel shown_;
     ViewControl view_;

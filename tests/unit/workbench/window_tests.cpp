@@ -24,6 +24,7 @@ class WindowTest : public testing::Test {
         arguments.insert(arguments.end(), more.begin(), more.end());
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
+        environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
         program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
         try {
             corner_ = display_.waitForWindow("Touchstone");
@@ -107,6 +108,31 @@ TEST_F(WindowTest, TheContactMethodCanBeChosenWhileTouching) {
     const Json walked = until("the hand to touch again", touching);
     EXPECT_GT(walked["recent"]["mean_force_n"], 0.05);
     expectCleanEnd();
+}
+
+TEST_F(WindowTest, TheRecordButtonRecordsWhatReplaysToTheLastBit) {
+    open(kDoughnut, {"--hand", "simulated"});
+    until("the hand to touch", touching);
+    display_.click(middleOf("record"));
+    until("the recording to begin",
+          [](const Json& s) { return s["recording"]["on"] == true && s["recording"]["seconds"] > 0.5; });
+    // What is recorded depends on what is done meanwhile.
+    display_.click(middleOf("friction"));
+    until("friction to be off", [](const Json& s) { return s["settings"]["friction"] == "off"; });
+    later();
+    display_.click(middleOf("record"));
+    const Json done =
+        until("the recording to end", [](const Json& s) { return s["recording"]["on"] == false; });
+    const std::string file = done["recording"]["file"], json = (scratch_ / "replay.json").string();
+    EXPECT_TRUE(file.starts_with((scratch_ / "state").string())) << file;
+    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file, "--json", json});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    const Json figures = Json::parse(readFile(json));
+    EXPECT_EQ(figures["cut_off"], false);
+    EXPECT_GT(figures["contact"]["ticks"], 100);
+    EXPECT_EQ(figures["replayed"], figures["ticks"]) << "it begins at a checkpoint";
+    expectCleanEnd();
+    EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "state/touchstone/flight")) << "no fault, nothing kept";
 }
 
 TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
