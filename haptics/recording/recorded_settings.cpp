@@ -24,7 +24,6 @@ void eachSetting(Settings& s, const Visit& visit) {
     visit("textureStrength", s.textureStrength, 0);
     visit("iterationBudget", s.iterationBudget, 0);
     visit("passivity", s.passivity, 3);
-    visit("passivity", s.passivity, 3);
     visit("forceEnabled", s.forceEnabled, 2);
 }
 
@@ -38,8 +37,6 @@ void eachLimit(Limits& l, const Visit& visit) {
     visit("maxStiffness", l.maxStiffness, 0);
     visit("staleAge", l.staleAge, 0);
     visit("positionResolution", l.positionResolution, 0);
-    visit("apparentMass", l.apparentMass, 0);
-    visit("coulombFriction", l.coulombFriction, 0);
     visit("apparentMass", l.apparentMass, 0);
     visit("coulombFriction", l.coulombFriction, 0);
 }

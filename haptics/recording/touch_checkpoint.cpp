@@ -44,10 +44,6 @@ void eachField(State& s, const Visit& visit) {
     visit(s.limiter.latched);
     visit(s.limiter.passivity.placed);
     visit(s.limiter.passivity.position);
-    visit(s.limiter.passivity.way);
-    visit(s.limiter.passivity.balance);
-    visit(s.limiter.passivity.placed);
-    visit(s.limiter.passivity.position);
     visit(s.limiter.passivity.balance);
 }
 
