@@ -56,7 +56,7 @@ void Plant::place(const glm::dvec3& position, const glm::dvec3& velocity) noexce
 
 /// With the force as a third, constant state, and velocities in m per sub-step so that the scales agree.
 void Plant::prepareFlow(double length) noexcept {
-    if (flow_.length == length)
+    if (std::abs(flow_.length - length) <= 1e-9 * length) // differences of the same clock, rounded
         return;
     const double h = length;
     const double damping = parameters_.viscousFriction + parameters_.handDamping;

@@ -1,0 +1,67 @@
+#pragma once
+// A device in a hand against the whole haptic step, offline.
+
+#include "devices/plant/yielding_hand.h"
+#include "tests/support/touch_bench.h"
+
+#include <functional>
+
+namespace touchstone::test {
+
+/// Limits that no test force comes near: what is studied is the loop and not its safety.
+[[nodiscard]] DeviceLimits noLimits();
+/// No hand, no friction, an exact sensor, motors that do not saturate.
+[[nodiscard]] PlantParameters bareDevice(double mass, double viscous);
+/// No shading, texture and friction: k x and nothing else.
+[[nodiscard]] HapticSettings plainWall(double stiffness, double damping = 0.0);
+
+class LoopBench {
+  public:
+    LoopBench(const Scene& scene, const HapticSettings& settings, const PlantParameters& plant, double rateHz,
+              const DeviceLimits& limits = noLimits());
+
+    /// Leads the device from `outside` to `position` and holds it fast while the safety stage fades its force
+    /// in.
+    void hold(const glm::dvec3& outside, const glm::dvec3& position);
+    /// Lets it go from where it is.
+    void release(const glm::dvec3& position, const glm::dvec3& velocity);
+    /// Sample, haptic step, force.
+    const HapticOutput& tick();
+
+    std::function<glm::dvec3(double)> intention = [](double) { return glm::dvec3(0.0); }; ///< of time in s
+    glm::dvec3 weight{0.0}; ///< N, constant, on the device
+    [[nodiscard]] const Plant& plant() const { return hand_.plant(); }
+    [[nodiscard]] double time() const { return static_cast<double>(ticks_) / rate_; }
+    TouchBench bench;
+
+  private:
+    class Wish final : public Device {
+      public:
+        explicit Wish(LoopBench& bench) : bench_(bench) {}
+        [[nodiscard]] std::string name() const override { return "wish"; }
+        [[nodiscard]] DeviceLimits limits() const override { return {}; }
+        [[nodiscard]] DeviceSample sample(double time) noexcept override {
+            return {.position = bench_.intention(time), .valid = true};
+        }
+        void apply(const DeviceCommand&) noexcept override {}
+
+      private:
+        LoopBench& bench_;
+    };
+
+    double rate_;
+    Wish wish_;
+    YieldingHand hand_;
+    uint64_t ticks_ = 0;
+};
+
+/// True if a device that a constant weight presses 1 mm into a plane comes back to its rest there: disturbed
+/// by a tenth of that, its swings after half of `ticks` are larger than at the end.
+[[nodiscard]] bool pressedWallSettles(const PlantParameters& plant, const HapticSettings& wall, double rateHz,
+                                      int ticks);
+
+/// The largest K in low..high for which `stable` is true, to 1e-4 of itself; `stable` holds at low and not at
+/// high.
+[[nodiscard]] double largestStable(double low, double high, const std::function<bool(double)>& stable);
+
+} // namespace touchstone::test
