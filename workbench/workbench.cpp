@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -114,6 +115,10 @@ class Workbench {
             if (!hasModel())
                 throw;
             problem_ = error.what();
+        } catch (const std::bad_alloc&) {
+            if (!hasModel())
+                throw;
+            problem_ = loader_.path().filename().string() + ": there is not enough memory for it";
         }
     }
 
@@ -121,8 +126,7 @@ class Workbench {
         shown_ = std::move(loaded);
         renderer_.setScene(shown_.model.scene);
         shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
-        desk_.recorder().sceneOffered(servo_.offerScene(shown_.model.haptic, shown_.model.scene),
-                                      shown_.identity);
+        offerScene();
         hand_.offerPath(shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
         forces_.clear();
@@ -163,7 +167,14 @@ class Workbench {
         limited->limits = hand_.limits();
         limited->warnings = shown_.model.haptic->warnings;
         shown_.model.haptic = limited;
-        servo_.offerScene(shown_.model.haptic, shown_.model.scene);
+        offerScene();
+    }
+
+    /// To the servo, and to what records it.
+    void offerScene() {
+        shown_.identity.limits = shown_.model.haptic->limits;
+        desk_.recorder().sceneOffered(servo_.offerScene(shown_.model.haptic, shown_.model.scene),
+                                      shown_.identity);
     }
 
     void draw() {
