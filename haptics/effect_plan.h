@@ -13,7 +13,7 @@ enum class Effect : uint8_t {
     Friction,
     ViscousFriction,
     Damping,
-    StiffnessMap
+    VaryingStiffness ///< by map or vertex
 };
 
 /// Why an effect is on or off for one material, as `inspect` prints it.
@@ -21,8 +21,10 @@ struct PlannedEffect {
     Effect effect;
     int material; ///< Scene material
     bool on;
-    std::string reason;   ///< "normal map of the PBR material, influence 1"
-    uint64_t memoryBytes; ///< what it holds besides the geometry
+    std::string reason; ///< "normal map of the PBR material, influence 1"
+    /// What it holds besides the geometry: maps, and what it reads at the vertices. Texture coordinates that
+    /// several maps read count with the first of them.
+    uint64_t memoryBytes;
 };
 
 /// What the scene calls for. What no material needs costs nothing in the tick (DESIGN §7).

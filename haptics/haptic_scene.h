@@ -54,8 +54,8 @@ void settlePlan(HapticScene& scene);
 /// A scene of its own on the same geometry, without neighbourhoods and warnings: to be changed and tried out.
 [[nodiscard]] std::shared_ptr<HapticScene> copyOf(const HapticScene& scene);
 
-/// Takes one effect off a material; settlePlan then tells the tick.
-void removeEffect(HapticMaterialData& material, Effect effect);
+/// Takes one effect off a material and its objects, and settles the plan. Only on a copy.
+void removeEffect(HapticScene& scene, int material, Effect effect);
 
 /// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error.
 [[nodiscard]] std::shared_ptr<const HapticScene>

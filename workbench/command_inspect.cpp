@@ -11,6 +11,7 @@
 #include "workbench/model.h"
 #include "workbench/output_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -120,9 +121,9 @@ Json imagesJson(const Scene& scene) {
     Json images = Json::array();
     for (const Image& image : scene.images)
         images.push_back({{"name", image.name},
-                          {"width", image.pixels.width},
-                          {"height", image.pixels.height},
-                          {"channels", image.pixels.channels},
+                          {"width", image.width},
+                          {"height", image.height},
+                          {"channels", image.channels},
                           {"decoded", image.decoded},
                           {"encoded_bytes", image.encodedBytes},
                           {"problem", image.problem}});
@@ -272,6 +273,11 @@ void printInspection(const Json& json) {
         print("  extensions %s\n", json["extensions_used"].dump());
     for (const Json& animation : json["animations"])
         print("  animation '%s', %s s\n", text(animation["name"]), text(animation["duration_s"]));
+    const auto decoded = std::count_if(json["images"].begin(), json["images"].end(),
+                                       [](const Json& image) { return image["decoded"].get<bool>(); });
+    if (!json["images"].empty())
+        std::printf("  %td of %zu images decoded: those that the effects below read\n", decoded,
+                    json["images"].size());
     for (const Json& object : json["objects"])
         std::printf("  object '%s': %s triangles, %s, %s vertices welded, %s triangles dropped\n",
                     text(object["name"]).c_str(), text(object["triangles"]).c_str(),
@@ -301,7 +307,7 @@ void printInspection(const Json& json) {
 } // namespace
 
 int inspectCommand(const InspectOptions& options) {
-    const Model model = loadModel(options.scene, Fit::Workspace, DeviceLimits{});
+    const Model model = loadModelToTouch(options.scene, Fit::Workspace, DeviceLimits{});
     const Json json = inspectionJson(options, model);
     printInspection(json);
     // A name that is not UTF-8 must not cost the answer: it is replaced.

@@ -28,7 +28,8 @@ ViewMode viewModeOf(const std::string& name) {
 } // namespace
 
 int renderCommand(const RenderOptions& options) {
-    const Model model = loadModelToSee(options.scene, Fit::Workspace);
+    const Model model =
+        loadModelToSee(options.scene, Fit::Workspace, viewModeOf(options.view) != ViewMode::Shaded);
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
     SceneRenderer renderer(*gpu);

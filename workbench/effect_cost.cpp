@@ -148,10 +148,10 @@ std::vector<EffectCost> effectCosts(const HapticScene& scene) {
         }
         HapticMaterialData& material = without->materials[static_cast<size_t>(effect.material)];
         const HapticMaterialData kept = material;
-        removeEffect(material, effect.effect);
-        settlePlan(*without);
+        removeEffect(*without, effect.material, effect.effect);
         costs[i] = costOf(scene, *without, effect.material, spots);
         material = kept;
+        without->objects = scene.objects;
     }
     return costs;
 }

@@ -22,9 +22,17 @@ Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& 
     return model;
 }
 
-Model loadModelToSee(const std::filesystem::path& path, Fit fit) {
+Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits) {
+    LoadOptions options;
+    options.images.visual = false;
+    return loadModel(path, fit, limits, options);
+}
+
+Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor) {
+    LoadOptions options;
+    options.images.haptic = falseColor;
     Model model;
-    model.scene = loadScene(path);
+    model.scene = loadScene(path, options);
     model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
     return model;
 }

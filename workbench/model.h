@@ -20,8 +20,10 @@ struct Model {
 /// tenth.
 [[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
                               const LoadOptions& options = {});
-/// The eye's half only.
-[[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit);
+/// For who touches and draws nothing: what only the eye would need is not decoded.
+[[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits);
+/// The eye's half only; `falseColor`: it wants to see what the hand would feel.
+[[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor);
 
 /// Builds what these settings call for besides the plan, so that the first tick has it, and says on stderr
 /// what they ask for that cannot be had.

@@ -24,7 +24,8 @@ struct PixelData {
 /// An image of the file. `pixels` is empty when nobody asked for it or when it is broken (`problem` says
 /// why).
 struct Image {
-    std::string name; ///< what to call it in messages: name, URI or "images[3]"
+    std::string name;                        ///< what to call it in messages: name, URI or "images[3]"
+    int width = 0, height = 0, channels = 0; ///< by its header, decoded or not
     PixelData pixels;
     std::string problem;
     bool decoded = false;

@@ -39,7 +39,7 @@ ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
     scene->bounds = sceneBounds(context, *scene);
 
     // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.
-    scene->images = readImages(context, file, document, scene->materials, context.options().images);
+    scene->images = readImages(context, file, document, *scene, context.options().images);
     dropBrokenImages(scene->images, scene->materials);
     for (Material& material : scene->materials)
         deriveFriction(material.haptic, statedRoughness(material, scene->images));

@@ -11,10 +11,11 @@
 
 namespace touchstone {
 
-/// Which images to decode. What nobody uses is not decoded (DESIGN §7).
+/// Which images to decode: of these only what a material of a placed mesh needs (DESIGN §7).
 struct ImageUse {
     bool visual = true; ///< base colour, metallic-roughness, normal, occlusion, emissive
-    bool haptic = true; ///< normal maps that are felt, height, friction, stiffness, damping
+    /// Normal and height maps that are felt, friction, stiffness, damping, and roughness to derive friction.
+    bool haptic = true;
 };
 
 struct LoadOptions {

@@ -41,7 +41,6 @@ std::shared_ptr<RTCSceneTy> buildBvh(const HapticObject& object) {
 constexpr double kSmoothCosine = 0.999998;
 
 void markSmoothTriangles(HapticObject& object) {
-    object.smooth.assign(object.triangleCount(), 0);
     for (size_t t = 0; t < object.triangleCount(); ++t) {
         const glm::dvec3 face = triangleOf(object, static_cast<uint32_t>(t)).normal;
         if (face == glm::dvec3(0.0))
@@ -57,7 +56,8 @@ void markSmoothTriangles(HapticObject& object) {
 
 /// Attributes of the source vertices, taken to the object frame. Normals go with the inverse transpose. A
 /// mirroring node turns the handedness of the tangent frame over.
-void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, HapticObject& object) {
+void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, const AttributeUse& use,
+                    HapticObject& object) {
     const bool invertible = std::abs(glm::determinant(linear)) > 0.0;
     const glm::dmat3 normalFrom = invertible ? glm::transpose(glm::inverse(linear)) : glm::dmat3(1.0);
     object.normals.resize(mesh.positions.size(), glm::vec3(0, 1, 0));
@@ -67,16 +67,18 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, H
         if (length > 0.0)
             object.normals[v] = glm::vec3(normal / length);
     }
-    object.tangents.resize(mesh.tangents.size());
-    for (size_t v = 0; v < mesh.tangents.size(); ++v) {
+    object.tangents.resize(use.tangents ? mesh.tangents.size() : 0);
+    for (size_t v = 0; v < object.tangents.size(); ++v) {
         const glm::vec4& t = mesh.tangents[v];
         const glm::dvec3 tangent = linear * glm::dvec3(t.x, t.y, t.z);
         const double length = glm::length(tangent);
         const glm::vec3 unit(length > 0.0 ? tangent / length : glm::dvec3(0.0));
         object.tangents[v] = glm::vec4(unit, mirrored ? -t.w : t.w);
     }
-    object.uv[0] = mesh.uv0;
-    object.uv[1] = mesh.uv1;
+    if (use.uv[0])
+        object.uv[0] = mesh.uv0;
+    if (use.uv[1])
+        object.uv[1] = mesh.uv1;
     object.stiffness = mesh.stiffness;
     object.damping = mesh.damping;
     object.friction = mesh.friction;
@@ -89,13 +91,11 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, H
 }
 
 /// What texture needs to follow a smooth surface rather than its facets; nothing where no height is felt.
-void addGradients(const Material& material, HapticObject& object) {
+void addGradients(const AttributeUse& use, HapticObject& object) {
     const GradientMesh mesh{object.vertices, object.indices, object.sourceIndices, object.normals};
-    if (material.haptic.height.value) {
-        const auto set = static_cast<size_t>(material.haptic.height.value->texture.texCoord & 1);
-        if (!object.uv[set].empty())
+    for (size_t set = 0; set < 2; ++set)
+        if (use.uvGradients[set] && !object.uv[set].empty())
             object.uvGradients[set] = smoothGradients(mesh, object.uv[set], Charted::Yes);
-    }
     if (!object.heights.empty()) {
         std::vector<glm::vec2> values(object.heights.size());
         for (size_t v = 0; v < values.size(); ++v)
@@ -128,18 +128,25 @@ uint64_t bytesOf(const std::vector<T>& values) {
 
 } // namespace
 
-uint64_t HapticObject::reliefBytes() const {
-    return bytesOf(heights) + bytesOf(uvGradients[0]) + bytesOf(uvGradients[1]) + bytesOf(heightGradients);
+AttributeBytes HapticObject::attributeBytes() const {
+    return {.normals = anySmooth ? bytesOf(normals) + bytesOf(smooth) : 0,
+            .tangents = bytesOf(tangents),
+            .uv = {bytesOf(uv[0]), bytesOf(uv[1])},
+            .relief = bytesOf(heights) + bytesOf(uvGradients[0]) + bytesOf(uvGradients[1]) +
+                      bytesOf(heightGradients),
+            .stiffness = bytesOf(stiffness),
+            .damping = bytesOf(damping),
+            .friction = bytesOf(friction)};
 }
 
 uint64_t HapticObject::memoryBytes() const {
-    return bytesOf(vertices) + bytesOf(indices) + bytesOf(sourceIndices) + bytesOf(normals) +
-           bytesOf(tangents) + bytesOf(uv[0]) + bytesOf(uv[1]) + bytesOf(stiffness) + bytesOf(damping) +
-           bytesOf(friction) + bytesOf(smooth) + reliefBytes() + tree.memoryBytes();
+    return bytesOf(vertices) + bytesOf(indices) + bytesOf(sourceIndices) + (anySmooth ? 0 : bytesOf(smooth)) +
+           attributeBytes().all() + tree.memoryBytes();
 }
 
 std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instanceIndex,
-                                                      const Similarity& workspaceFromScene) {
+                                                      const Similarity& workspaceFromScene,
+                                                      const AttributeUse& use) {
     const Instance& instance = scene.instances[static_cast<size_t>(instanceIndex)];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     auto object = std::make_unique<HapticObject>();
@@ -180,9 +187,13 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
             std::swap(object->sourceIndices[t + 1], object->sourceIndices[t + 2]);
 
     weldGeometry(local, *object);
-    copyAttributes(mesh, linear, mirrored, *object);
-    markSmoothTriangles(*object);
-    addGradients(scene.materials[static_cast<size_t>(mesh.material)], *object);
+    copyAttributes(mesh, linear, mirrored, use, *object);
+    object->smooth.assign(object->triangleCount(), 0);
+    if (use.normals)
+        markSmoothTriangles(*object);
+    addGradients(use, *object);
+    if (!object->anySmooth)
+        object->normals = {};
     object->bvh = buildBvh(*object);
     object->tree = TriangleTree(object->vertices, object->indices);
     return object;

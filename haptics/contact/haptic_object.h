@@ -23,6 +23,22 @@ namespace touchstone {
 /// A crack narrower than this is closed at any proxy radius, also at zero.
 inline constexpr double kWeldTolerance = 1e-6;
 
+/// Which attributes of the vertices the effects of a material read. What none reads is not kept.
+struct AttributeUse {
+    bool uv[2] = {};          ///< the coordinates of a map that is felt
+    bool uvGradients[2] = {}; ///< and how they change over the surface: of a height map
+    bool tangents = false;    ///< of a normal map
+    bool normals = false;     ///< of force shading, where the surface is smooth
+};
+
+/// What an object keeps for effects, bytes.
+struct AttributeBytes {
+    uint64_t normals = 0, tangents = 0, uv[2] = {}, relief = 0, stiffness = 0, damping = 0, friction = 0;
+    [[nodiscard]] uint64_t all() const {
+        return normals + tangents + uv[0] + uv[1] + relief + stiffness + damping + friction;
+    }
+};
+
 /// Immutable. Object frame: centred on the object, longest side 1, so that float vertices are good to 6e-8 of
 /// the object wherever it stands and however large it is. Triangle t is triangle t of the source mesh; its
 /// corners are turned over where the node mirrors, so that the winding always shows outwards.
@@ -34,7 +50,7 @@ struct HapticObject {
     std::vector<uint32_t> indices;   ///< 3 per triangle into `vertices`
     std::vector<uint32_t>
         sourceIndices;               ///< 3 per triangle into the mesh's vertex attributes, same corner order
-    std::vector<glm::vec3> normals;  ///< per source vertex, object frame, unit
+    std::vector<glm::vec3> normals;  ///< per source vertex, object frame, unit; empty unless anySmooth
     std::vector<glm::vec4> tangents; ///< per source vertex, object frame; may be empty
     std::vector<glm::vec2> uv[2];    ///< per source vertex; may be empty
     std::vector<float> stiffness, damping, friction; ///< per source vertex; may be empty
@@ -43,7 +59,8 @@ struct HapticObject {
     std::vector<GradientPair>
         uvGradients[2]; ///< per source vertex, per object unit; only of a height map's set
     std::vector<GradientPair> heightGradients; ///< of `heights`, model metres per object unit, and nothing
-    std::vector<uint8_t> smooth;    ///< per triangle: 1 where the vertex normals differ from the face's
+    std::vector<uint8_t> smooth;    ///< per triangle: 1 where the vertex normals differ from the face's and
+                                    ///< shading may follow them
     Similarity workspaceFromObject; ///< rest pose
     glm::dmat4 objectFromMesh{1.0}; ///< what was baked into the vertices
     double diagonal = 0.0;          ///< of the bounds, object units
@@ -57,7 +74,7 @@ struct HapticObject {
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] uint64_t memoryBytes() const;
-    [[nodiscard]] uint64_t reliefBytes() const; ///< of heights and gradients, part of memoryBytes
+    [[nodiscard]] AttributeBytes attributeBytes() const; ///< part of memoryBytes
 };
 
 /// Triangle `index` of the object, object frame.
@@ -69,7 +86,8 @@ struct HapticObject {
 
 /// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails.
 [[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,
-                                                                    const Similarity& workspaceFromScene);
+                                                                    const Similarity& workspaceFromScene,
+                                                                    const AttributeUse& use);
 
 /// Centre and radius of a sphere around the object at a pose, workspace.
 [[nodiscard]] inline glm::dvec4 boundingSphere(const HapticObject& object,

@@ -7,30 +7,41 @@ namespace touchstone {
 
 namespace {
 
-/// The map of a texture reference, or an empty map with a warning when its image could not be read.
-HapticMap mapOf(const Scene& scene, const TextureRef& reference, int channels, const std::string& place,
-                std::vector<Warning>& warnings) {
-    if (!reference)
-        return {};
-    const Image& image = scene.images[static_cast<size_t>(reference.image)];
-    if (image.pixels.bytes.empty()) {
-        if (!image.problem.empty())
-            warnings.push_back({place, "not felt: " + image.problem});
-        return {};
-    }
-    return {image.pixels, reference, channels};
-}
+/// Makes the maps of one material.
+struct MapMaker {
+    const Scene& scene;
+    const CoordinateSets& sets;
+    std::vector<Warning>& warnings;
 
-HapticFactor factorOf(const Scene& scene, const HapticMaterial::Field<FactorMap>& field,
-                      const std::string& place, std::vector<Warning>& warnings) {
-    HapticFactor factor;
-    if (!field.value)
+    /// Empty, with a warning, where the image could not be read or no mesh has the coordinates.
+    [[nodiscard]] HapticMap map(const TextureRef& reference, int channels, const std::string& place) {
+        if (!reference)
+            return {};
+        if (!sets[static_cast<size_t>(reference.texCoord & 1)]) {
+            warnings.push_back({place, "not felt: no mesh with this material has texture coordinates " +
+                                           std::to_string(reference.texCoord)});
+            return {};
+        }
+        const Image& image = scene.images[static_cast<size_t>(reference.image)];
+        if (image.pixels.bytes.empty()) {
+            if (!image.problem.empty())
+                warnings.push_back({place, "not felt: " + image.problem});
+            return {};
+        }
+        return {image.pixels, reference, channels};
+    }
+
+    [[nodiscard]] HapticFactor factor(const HapticMaterial::Field<FactorMap>& field,
+                                      const std::string& place) {
+        HapticFactor factor;
+        if (!field.value)
+            return factor;
+        factor.map = map(field.value->texture, 1, place);
+        factor.min = static_cast<double>(field.value->min);
+        factor.max = static_cast<double>(field.value->max);
         return factor;
-    factor.map = mapOf(scene, field.value->texture, 1, place, warnings);
-    factor.min = static_cast<double>(field.value->min);
-    factor.max = static_cast<double>(field.value->max);
-    return factor;
-}
+    }
+};
 
 double numberOr(const HapticMaterial::Field<float>& field, double otherwise) {
     return field.value ? static_cast<double>(*field.value) : otherwise;
@@ -55,7 +66,8 @@ ShadingMode shadingOf(ShadingChoice choice) {
 
 } // namespace
 
-HapticMaterialData buildHapticMaterial(const Scene& scene, int index, std::vector<Warning>& warnings) {
+HapticMaterialData buildHapticMaterial(const Scene& scene, int index, const CoordinateSets& sets,
+                                       std::vector<Warning>& warnings) {
     const Material& material = scene.materials[static_cast<size_t>(index)];
     const HapticMaterial& haptic = material.haptic;
     const std::string place = "materials[" + std::to_string(index) + "]";
@@ -73,16 +85,17 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, std::vecto
         data.dynamicFriction = data.staticFriction;
     }
     const double influence = numberOr(haptic.normalTextureInfluence, 1.0);
-    if (influence > 0.0)
-        data.normal = mapOf(scene, material.normalTexture, 3, place + ".normalTexture", warnings);
+    MapMaker maker{scene, sets, warnings};
     data.normalScale = static_cast<double>(material.normalScale) * influence;
-    if (haptic.height.value) {
-        data.height = mapOf(scene, haptic.height.value->texture, 1, place + ".heightTexture", warnings);
+    if (data.normalScale != 0.0)
+        data.normal = maker.map(material.normalTexture, 3, place + ".normalTexture");
+    if (haptic.height.value && haptic.height.value->scale != 0.0f) {
+        data.height = maker.map(haptic.height.value->texture, 1, place + ".heightTexture");
         data.heightScale = static_cast<double>(haptic.height.value->scale);
     }
-    data.friction = factorOf(scene, haptic.friction, place + ".frictionTexture", warnings);
-    data.stiffnessMap = factorOf(scene, haptic.stiffnessMap, place + ".stiffnessTexture", warnings);
-    data.dampingMap = factorOf(scene, haptic.dampingMap, place + ".dampingTexture", warnings);
+    data.friction = maker.factor(haptic.friction, place + ".frictionTexture");
+    data.stiffnessMap = maker.factor(haptic.stiffnessMap, place + ".stiffnessTexture");
+    data.dampingMap = maker.factor(haptic.dampingMap, place + ".dampingTexture");
     data.shading = shadingOf(haptic.forceShading);
     // Told, never silently ignored: read and kept, and the tick does not know it yet.
     if (haptic.sides == SideChoice::Front)

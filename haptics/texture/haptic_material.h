@@ -4,6 +4,7 @@
 #include "haptics/haptic_settings.h"
 #include "haptics/texture/haptic_map.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -39,8 +40,12 @@ struct HapticMaterialData {
     }
 };
 
+/// Which sets of texture coordinates some mesh with the material has.
+using CoordinateSets = std::array<bool, 2>;
+
 /// Settles one material; appends what the user should know to `warnings`.
 [[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, int material,
+                                                     const CoordinateSets& sets,
                                                      std::vector<Warning>& warnings);
 
 } // namespace touchstone

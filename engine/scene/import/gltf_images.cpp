@@ -83,36 +83,74 @@ void warnOfType(ImportContext& context, const Encoded& encoded, const std::strin
         context.warn(place, "is declared as " + encoded.declaredType.substr(0, 60) + " but holds " + format);
 }
 
-void markUsed(std::vector<bool>& used, const TextureRef& texture) {
-    if (texture)
-        used[static_cast<size_t>(texture.image)] = true;
+/// Which sets of texture coordinates the meshes with a material have that somebody placed; bits 0 and 1.
+/// Nothing for a material that no visible triangle has.
+struct MaterialUse {
+    bool placed = false;
+    uint8_t sets = 0;
+    [[nodiscard]] bool has(int set) const { return (sets >> (set & 1) & 1) != 0; }
+};
+
+std::vector<MaterialUse> usesOf(const Scene& scene) {
+    std::vector<MaterialUse> uses(scene.materials.size());
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+        if (mesh.triangleCount() == 0)
+            continue;
+        MaterialUse& use = uses[static_cast<size_t>(mesh.material)];
+        use.placed = true;
+        use.sets = static_cast<uint8_t>(use.sets | (mesh.uv0.empty() ? 0 : 1) | (mesh.uv1.empty() ? 0 : 2));
+    }
+    return uses;
 }
 
-std::vector<bool> usedImages(size_t count, const std::vector<Material>& materials, const ImageUse& use) {
-    std::vector<bool> used(count, false);
-    for (const Material& material : materials) {
-        if (use.visual) {
-            markUsed(used, material.baseColorTexture);
-            markUsed(used, material.metallicRoughnessTexture);
-            markUsed(used, material.normalTexture);
-            markUsed(used, material.occlusionTexture);
-            markUsed(used, material.emissiveTexture);
-        }
-        if (!use.haptic)
-            continue;
+/// Marks the images that somebody looks at or feels.
+class UsedImages {
+  public:
+    explicit UsedImages(size_t count) : used(count, false) {}
+    std::vector<bool> used;
+
+    void seen(const Material& material) {
+        for (const TextureRef* texture :
+             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
+              &material.occlusionTexture, &material.emissiveTexture})
+            mark(*texture);
+    }
+    void felt(const Material& material, const MaterialUse& use) {
         const HapticMaterial& haptic = material.haptic;
-        if (haptic.normalTextureInfluence.value.value_or(1.0f) > 0.0f)
-            markUsed(used, material.normalTexture);
-        if (haptic.height.value)
-            markUsed(used, haptic.height.value->texture);
-        for (const auto* map : {&haptic.friction, &haptic.stiffnessMap, &haptic.dampingMap})
-            if (map->value)
-                markUsed(used, map->value->texture);
+        const auto map = [&](const TextureRef& texture) {
+            if (use.has(texture.texCoord))
+                mark(texture);
+        };
+        if (haptic.normalTextureInfluence.value.value_or(1.0f) > 0.0f && material.normalScale != 0.0f)
+            map(material.normalTexture);
+        if (haptic.height.value && haptic.height.value->scale != 0.0f)
+            map(haptic.height.value->texture);
+        for (const auto* factor : {&haptic.friction, &haptic.stiffnessMap, &haptic.dampingMap})
+            if (factor->value)
+                map(factor->value->texture);
         // Friction that is to be derived reads the roughness texture too.
         if (!haptic.staticFriction.value || !haptic.dynamicFriction.value)
-            markUsed(used, material.metallicRoughnessTexture);
+            mark(material.metallicRoughnessTexture);
     }
-    return used;
+
+  private:
+    void mark(const TextureRef& texture) {
+        if (texture)
+            used[static_cast<size_t>(texture.image)] = true;
+    }
+};
+
+std::vector<bool> usedImages(size_t count, const Scene& scene, const ImageUse& use) {
+    UsedImages images(count);
+    const std::vector<MaterialUse> uses = usesOf(scene);
+    for (size_t m = 0; m < scene.materials.size(); ++m) {
+        if (use.visual && uses[m].placed)
+            images.seen(scene.materials[m]);
+        if (use.haptic && uses[m].placed)
+            images.felt(scene.materials[m], uses[m]);
+    }
+    return images.used;
 }
 
 void dropIfBroken(const std::vector<Image>& images, TextureRef& texture) {
@@ -129,12 +167,12 @@ void dropIfBroken(const std::vector<Image>& images, HapticMaterial::Field<Map>& 
 } // namespace
 
 std::vector<Image> readImages(ImportContext& context, const GltfFile& file, const GltfDocument& document,
-                              const std::vector<Material>& materials, const ImageUse& use) {
+                              const Scene& scene, const ImageUse& use) {
     if (!file.json.contains("images"))
         return {};
     const json& gltf = file.json["images"];
     std::vector<Image> images(gltf.size());
-    const std::vector<bool> used = usedImages(images.size(), materials, use);
+    const std::vector<bool> used = usedImages(images.size(), scene, use);
     ImageSource source(context, file, document);
     for (size_t i = 0; i < images.size(); ++i) {
         context.step(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(images.size()),
@@ -151,6 +189,9 @@ std::vector<Image> readImages(ImportContext& context, const GltfFile& file, cons
             DecodedImage decoded = decodeImage(encoded.bytes, !used[i],
                                                [&](uint64_t bytes) { return context.spendPixels(bytes); });
             image.problem = std::move(decoded.problem);
+            image.width = decoded.pixels.width;
+            image.height = decoded.pixels.height;
+            image.channels = decoded.pixels.channels;
             if (used[i] && image.problem.empty()) {
                 image.pixels = std::move(decoded.pixels);
                 image.decoded = true;

@@ -1,18 +1,19 @@
 #pragma once
 
 #include "engine/scene/import/gltf_document.h"
+#include "engine/scene/scene.h"
 
 #include <optional>
 #include <vector>
 
 namespace touchstone {
 
-/// Reads all images of the file: decodes those that the materials use as `use` asks, looks at the header of
-/// the others. What is missing or broken leaves `problem` and a warning. A URI that is malformed or leaves
-/// the folder throws.
+/// Reads all images of the file: decodes those that `use` asks for and a material of the scene's instances
+/// needs, looks at the header of the others. `scene` is complete but for its images. What is missing or
+/// broken leaves `problem` and a warning. A URI that is malformed or leaves the folder throws.
 [[nodiscard]] std::vector<Image> readImages(ImportContext& context, const GltfFile& file,
-                                            const GltfDocument& document,
-                                            const std::vector<Material>& materials, const ImageUse& use);
+                                            const GltfDocument& document, const Scene& scene,
+                                            const ImageUse& use);
 
 /// Lets the materials stand without the images that could not be read: references are dropped, a lost base
 /// colour becomes grey.

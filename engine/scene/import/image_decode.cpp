@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
 #include <string_view>
 
@@ -17,6 +18,8 @@ bool startsWith(ByteSpan bytes, std::string_view magic, size_t at = 0) {
     return bytes.size() >= at + magic.size() &&
            std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
+
+std::atomic<uint64_t> decodes{0};
 
 /// How the image is stored, and how we keep it: 8 and 16 bit as they are, everything else as float.
 std::pair<ComponentType, OIIO::TypeDesc> keptAs(const OIIO::TypeDesc& stored) {
@@ -34,6 +37,10 @@ std::string lastError(OIIO::ImageInput& input) {
 }
 
 } // namespace
+
+uint64_t imageDecodes() noexcept {
+    return decodes.load(std::memory_order_relaxed);
+}
 
 std::string sniffImageFormat(ByteSpan bytes) {
     if (startsWith(bytes, "\x89PNG\r\n\x1a\n"sv))
@@ -93,6 +100,7 @@ DecodedImage decodeImage(ByteSpan encoded, bool headerOnly, const std::function<
                            static_cast<uint64_t>(channels) * read.size();
     if (!mayTake(bytes))
         return broken(kTooManyPixels);
+    decodes.fetch_add(1, std::memory_order_relaxed);
     image.pixels.bytes.resize(bytes);
     if (!input->read_image(0, 0, 0, channels, read, image.pixels.bytes.data()))
         return broken(lastError(*input));

@@ -3,6 +3,7 @@
 
 #include "engine/scene/import/gltf_file.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -22,6 +23,9 @@ struct DecodedImage {
 /// and no bytes). Does not throw for broken images.
 [[nodiscard]] DecodedImage decodeImage(ByteSpan encoded, bool headerOnly,
                                        const std::function<bool(uint64_t)>& mayTake);
+
+/// Images whose pixels this process has decoded so far, broken ones too; headers do not count. Any thread.
+[[nodiscard]] uint64_t imageDecodes() noexcept;
 
 /// "png", "jpeg", ... by the first bytes, empty if unknown.
 [[nodiscard]] std::string sniffImageFormat(ByteSpan encoded);

@@ -1,10 +1,8 @@
+#include "tests/support/encoded_image.h"
 #include "tests/unit/engine/load_support.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 namespace touchstone {
 namespace {
@@ -14,26 +12,6 @@ using test::contains;
 using test::GltfMaker;
 using test::load;
 using test::warns;
-
-/// Pixels written with OpenImageIO into a file of the given name and read back as bytes.
-template <class T>
-std::vector<uint8_t> encoded(const std::string& name, int width, int height, int channels,
-                             const std::vector<T>& values) {
-    test::TemporaryFolder folder;
-    const std::string path = (folder.path() / name).string();
-    const auto output = OIIO::ImageOutput::create(path);
-    if (!output) {
-        ADD_FAILURE() << OIIO::geterror();
-        return {};
-    }
-    OIIO::ImageSpec spec(width, height, channels, OIIO::BaseTypeFromC<T>::value);
-    spec["oiio:UnassociatedAlpha"] = 1;
-    EXPECT_TRUE(output->open(path, spec) &&
-                output->write_image(OIIO::BaseTypeFromC<T>::value, values.data()) && output->close())
-        << output->geterror();
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 const std::vector<uint8_t> kFourColours = {255, 0, 0, 10, 0, 255, 0, 20, 0, 0, 255, 200, 255, 255, 255, 255};
 
@@ -68,7 +46,7 @@ GltfMaker texturedByView(const std::vector<uint8_t>& bytes, const char* type) {
 }
 
 TEST(GltfImages, PngComesThroughAsStoredRowsFromTheTop) {
-    const std::vector<uint8_t> png = encoded("a.png", 2, 2, 4, kFourColours);
+    const std::vector<uint8_t> png = test::encodedImage("a.png", 2, 2, 4, kFourColours);
     const auto check = [](const Scene& scene) {
         const PixelData& pixels = scene.images.at(0).pixels;
         ASSERT_TRUE(scene.images[0].decoded);
@@ -89,7 +67,7 @@ TEST(GltfImages, PngComesThroughAsStoredRowsFromTheTop) {
 
 TEST(GltfImages, SixteenBitsStaySixteen) {
     const std::vector<uint16_t> ramp = {0, 1, 256, 32768, 65534, 65535};
-    const ScenePtr scene = load(texturedByView(encoded("a.png", 3, 2, 1, ramp), "image/png"));
+    const ScenePtr scene = load(texturedByView(test::encodedImage("a.png", 3, 2, 1, ramp), "image/png"));
     const PixelData& pixels = scene->images.at(0).pixels;
     ASSERT_EQ(pixels.type, ComponentType::U16);
     EXPECT_EQ(std::memcmp(pixels.bytes.data(), ramp.data(), 12), 0);
@@ -99,7 +77,8 @@ TEST(GltfImages, SixteenBitsStaySixteen) {
 TEST(GltfImages, FloatsStayFloats) {
     const std::vector<float> heights = {-1.5f, 0.0f, 0.25f, 1e6f};
     for (const char* name : {"a.exr", "a.tif"}) {
-        const ScenePtr scene = load(texturedByView(encoded(name, 2, 2, 1, heights), "image/x-height"));
+        const ScenePtr scene =
+            load(texturedByView(test::encodedImage(name, 2, 2, 1, heights), "image/x-height"));
         const PixelData& pixels = scene->images.at(0).pixels;
         ASSERT_EQ(pixels.type, ComponentType::F32) << name << scene->images[0].problem;
         EXPECT_EQ(std::memcmp(pixels.bytes.data(), heights.data(), 16), 0) << name;
@@ -108,11 +87,11 @@ TEST(GltfImages, FloatsStayFloats) {
 
 TEST(GltfImages, JpegAndWebpDecode) {
     std::vector<uint8_t> grey(16 * 16 * 3, 128);
-    const ScenePtr jpeg = load(texturedByView(encoded("a.jpg", 16, 16, 3, grey), "image/jpeg"));
+    const ScenePtr jpeg = load(texturedByView(test::encodedImage("a.jpg", 16, 16, 3, grey), "image/jpeg"));
     ASSERT_TRUE(jpeg->images.at(0).decoded) << jpeg->images[0].problem;
     EXPECT_NEAR(jpeg->images[0].pixels.value(8, 8, 1), 128.0 / 255.0, 0.02);
 
-    GltfMaker maker = texturedByView(encoded("a.webp", 16, 16, 3, grey), "image/webp");
+    GltfMaker maker = texturedByView(test::encodedImage("a.webp", 16, 16, 3, grey), "image/webp");
     maker.json["extensionsUsed"] = maker.json["extensionsRequired"] = {"EXT_texture_webp"};
     maker.json["textures"][0] = json::object();
     maker.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
@@ -134,17 +113,18 @@ void expectGrey(const Scene& scene, const std::string& why) {
 
 TEST(GltfImages, MissingOrBrokenOnesLeaveTheModelGreyWithAWarning) {
     expectGrey(*load(textured({{"uri", "nowhere.png"}})), "no such file");
-    std::vector<uint8_t> png = encoded("a.png", 2, 2, 4, kFourColours);
+    std::vector<uint8_t> png = test::encodedImage("a.png", 2, 2, 4, kFourColours);
     expectGrey(*load(texturedByView({'j', 'u', 'n', 'k'}, "image/png")), "format is not known");
     png.resize(png.size() / 2);
     expectGrey(*load(texturedByView(png, "image/png")), "cannot be used");
-    std::vector<uint8_t> jpeg = encoded("a.jpg", 16, 16, 3, std::vector<uint8_t>(16 * 16 * 3, 128));
+    std::vector<uint8_t> jpeg =
+        test::encodedImage("a.jpg", 16, 16, 3, std::vector<uint8_t>(16 * 16 * 3, 128));
     jpeg.resize(40);
     expectGrey(*load(texturedByView(jpeg, "image/jpeg")), "cannot be used");
 }
 
 TEST(GltfImages, OneBadImageLeavesTheOthers) {
-    GltfMaker maker = texturedByView(encoded("a.png", 2, 2, 4, kFourColours), "image/png");
+    GltfMaker maker = texturedByView(test::encodedImage("a.png", 2, 2, 4, kFourColours), "image/png");
     maker.json["images"].push_back({{"uri", "nowhere.png"}});
     maker.json["textures"].push_back({{"source", 1}});
     maker.json["materials"][0]["normalTexture"] = {{"index", 1}};
@@ -166,13 +146,14 @@ TEST(GltfImages, StructuralFaultsAreRefused) {
 }
 
 TEST(GltfImages, AWrongTypeIsToldAndTheContentCounts) {
-    const ScenePtr scene = load(texturedByView(encoded("a.png", 2, 2, 4, kFourColours), "image/jpeg"));
+    const ScenePtr scene =
+        load(texturedByView(test::encodedImage("a.png", 2, 2, 4, kFourColours), "image/jpeg"));
     EXPECT_TRUE(scene->images.at(0).decoded);
     EXPECT_TRUE(warns(*scene, "images[0]", "declared as image/jpeg but holds png"));
 }
 
 TEST(GltfImages, OnlyWhatIsUsedIsDecoded) {
-    GltfMaker maker = texturedByView(encoded("a.png", 2, 2, 4, kFourColours), "image/png");
+    GltfMaker maker = texturedByView(test::encodedImage("a.png", 2, 2, 4, kFourColours), "image/png");
     maker.json["images"].push_back(maker.json["images"][0]); // nobody's
     LoadOptions options;
     ScenePtr scene = load(maker, options);
@@ -188,8 +169,8 @@ TEST(GltfImages, OnlyWhatIsUsedIsDecoded) {
 TEST(GltfImages, BombsAreRefusedBeforeTheyAreUnpacked) {
     // 16384 x 16384 one-channel 16-bit zeros are half a gigabyte in a PNG of some hundred kilobytes: unpack
     // two rows only.
-    GltfMaker maker =
-        texturedByView(encoded("a.png", 16384, 1, 1, std::vector<uint16_t>(16384, 0)), "image/png");
+    GltfMaker maker = texturedByView(
+        test::encodedImage("a.png", 16384, 1, 1, std::vector<uint16_t>(16384, 0)), "image/png");
     auto& bytes = maker.bytes;
     const size_t at = maker.json["bufferViews"].back()["byteOffset"];
     // IHDR's height is at byte 20 of a PNG, its checksum at 29; 16384 rows of 4 channels of 16 bits.

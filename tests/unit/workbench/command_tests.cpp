@@ -378,8 +378,16 @@ TEST(Inspect, TellsWhatTheDoughnutIsAndWouldFeelLike) {
         if (effect["effect"] == "height map")
             height = effect["on"];
     EXPECT_TRUE(height);
+    EXPECT_TRUE(contains(result.out, "2 of 2 images decoded"));
+    EXPECT_GT(answer["materials"][0]["effects"][0]["memory_bytes"], 12 * 32400) << "normals of the shading";
     EXPECT_TRUE(contains(result.out, "64800 triangles"));
     EXPECT_TRUE(contains(result.out, "height map"));
+}
+
+TEST(Inspect, DecodesOnlyWhatTheHandReads) {
+    const ProgramResult result = runProgram({kProgram, "inspect", TOUCHSTONE_ASSETS "/swatches.glb"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "6 of 17 images decoded"));
 }
 
 TEST(Inspect, TellsWhatTheNeighbourhoodWatchWouldCost) {

@@ -1,0 +1,256 @@
+#include "haptics/scene/plan_effects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", value);
+    return text.data();
+}
+
+bool anyPositive(const std::vector<float>& values) {
+    return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
+}
+
+/// An effect's verdict. "a, b" of what it reads, or why there is nothing.
+struct Verdict {
+    bool on = false;
+    std::string reason;
+};
+
+/// `sources` that are not empty, joined; else `otherwise`.
+Verdict fromSources(std::initializer_list<std::string> sources, std::string otherwise) {
+    Verdict verdict;
+    for (const std::string& source : sources)
+        if (!source.empty())
+            verdict.reason += (verdict.reason.empty() ? "" : ", ") + source;
+    verdict.on = !verdict.reason.empty();
+    if (!verdict.on)
+        verdict.reason = std::move(otherwise);
+    return verdict;
+}
+
+std::string factorText(const char* what, const HapticFactor& factor) {
+    return factor.map.empty()
+               ? ""
+               : std::string(what) + " map, factor " + number(factor.min) + " to " + number(factor.max);
+}
+
+Verdict shading(const HapticMaterialData& data, const MaterialUse& use) {
+    if (data.shading == ShadingMode::Off)
+        return {false, "the material turns it off"};
+    if (!use.smooth)
+        return {false, "vertex normals equal the face normals: facets are meant"};
+    const char* kind = data.shading == ShadingMode::TwoPass     ? "two-pass"
+                       : data.shading == ShadingMode::Projected ? "projected"
+                                                                : "direction";
+    return {true,
+            std::string("vertex normals leave the face normals: the surface is meant to be smooth, ") + kind};
+}
+
+Verdict normalMap(const Material& material, const HapticMaterialData& data) {
+    if (!data.normal.empty())
+        return {true, "normal map, felt share " + number(100.0 * data.normalScale) + " %"};
+    return {false, !material.normalTexture   ? "no normal map"
+                   : data.normalScale == 0.0 ? "the normal map's felt share is 0"
+                                             : "the normal map has no coordinates or could not be read"};
+}
+
+Verdict heightMap(const Material& material, const HapticMaterialData& data, const MaterialUse& use) {
+    const auto& stated = material.haptic.height.value;
+    return fromSources(
+        {data.height.empty() ? "" : "height map, " + number(data.heightScale * 1e3) + " mm black to white",
+         use.heights ? "vertex heights (_HEIGHT)" : ""},
+        !stated                 ? "no height map"
+        : stated->scale == 0.0f ? "the height map's scale is 0"
+                                : "the height map has no coordinates or could not be read");
+}
+
+/// A map alone multiplies nothing: it waits for a session that sets the coefficient.
+Verdict friction(const HapticMaterialData& data, const MaterialUse& use) {
+    if (data.staticFriction > 0.0 || use.friction)
+        return fromSources(
+            {data.staticFriction > 0.0
+                 ? "static " + number(data.staticFriction) + ", dynamic " + number(data.dynamicFriction)
+                 : "",
+             use.friction ? "vertex friction (_FRICTION)" : "", factorText("friction", data.friction)},
+            "");
+    return {false, data.friction.map.empty() ? "no coefficient stated or derived"
+                                             : "a friction map, but no coefficient for it to multiply"};
+}
+
+Verdict damping(const HapticMaterialData& data, const MaterialUse& use) {
+    if (data.damping > 0.0 || use.damping)
+        return fromSources({data.damping > 0.0 ? number(data.damping) + " N s/m" : "",
+                            use.damping ? "vertex damping (_DAMPING)" : "",
+                            factorText("damping", data.dampingMap)},
+                           "");
+    return {false,
+            data.dampingMap.map.empty() ? "none stated" : "a damping map, but no damping for it to multiply"};
+}
+
+} // namespace
+
+void MaterialUse::add(const HapticObject& object) {
+    const AttributeBytes more = object.attributeBytes();
+    smooth |= object.anySmooth;
+    heights |= !object.heights.empty();
+    stiffness |= !object.stiffness.empty();
+    damping |= anyPositive(object.damping);
+    friction |= anyPositive(object.friction);
+    bytes.normals += more.normals;
+    bytes.tangents += more.tangents;
+    bytes.uv[0] += more.uv[0];
+    bytes.uv[1] += more.uv[1];
+    bytes.relief += more.relief;
+    bytes.stiffness += more.stiffness;
+    bytes.damping += more.damping;
+    bytes.friction += more.friction;
+}
+
+void planMaterial(int index, const Material& material, const HapticMaterialData& data, const MaterialUse& use,
+                  EffectPlan& plan) {
+    const auto add = [&](Effect effect, Verdict verdict, uint64_t memory) {
+        if (!use.placed)
+            verdict = {false, "no touchable triangle has this material"};
+        plan.effects.push_back({effect, index, verdict.on, std::move(verdict.reason), memory});
+    };
+    // Coordinates that several maps read count once, with the first of them.
+    std::array<uint64_t, 2> coordinates{use.bytes.uv[0], use.bytes.uv[1]};
+    const auto mapBytes = [&](const HapticMap& map) {
+        return map.memoryBytes() +
+               (map.empty() ? 0 : std::exchange(coordinates[static_cast<size_t>(map.texCoord() & 1)], 0));
+    };
+    add(Effect::ForceShading, shading(data, use), use.bytes.normals);
+    add(Effect::NormalMap, normalMap(material, data), mapBytes(data.normal) + use.bytes.tangents);
+    add(Effect::HeightMap, heightMap(material, data, use), mapBytes(data.height) + use.bytes.relief);
+    add(Effect::Friction, friction(data, use), mapBytes(data.friction.map) + use.bytes.friction);
+    add(Effect::ViscousFriction,
+        data.viscousFriction > 0.0 ? Verdict{true, number(data.viscousFriction) + " N s/m"}
+                                   : Verdict{false, "none stated"},
+        0);
+    add(Effect::Damping, damping(data, use), mapBytes(data.dampingMap.map) + use.bytes.damping);
+    add(Effect::VaryingStiffness,
+        fromSources({use.stiffness ? "vertex stiffness (_STIFFNESS)" : "",
+                     factorText("stiffness", data.stiffnessMap)},
+                    "one stiffness all over"),
+        mapBytes(data.stiffnessMap.map) + use.bytes.stiffness);
+}
+
+const char* effectName(Effect effect) {
+    switch (effect) {
+    case Effect::ForceShading:
+        return "force shading";
+    case Effect::NormalMap:
+        return "normal map";
+    case Effect::HeightMap:
+        return "height map";
+    case Effect::Friction:
+        return "friction";
+    case Effect::ViscousFriction:
+        return "viscous friction";
+    case Effect::Damping:
+        return "damping";
+    case Effect::VaryingStiffness:
+        return "varying stiffness";
+    }
+    return "";
+}
+
+void settlePlan(HapticScene& scene) {
+    EffectPlan& plan = scene.plan;
+    plan.plainFeel = true;
+    plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
+    for (HapticMaterialData& m : scene.materials)
+        m.plain = m.normal.empty() && m.height.empty() && m.friction.map.empty() &&
+                  m.stiffnessMap.map.empty() && m.dampingMap.map.empty() && !(m.staticFriction > 0.0) &&
+                  !(m.viscousFriction > 0.0);
+    for (const auto& object : scene.objects) {
+        if (!object->stiffness.empty() || !object->damping.empty() || !object->friction.empty() ||
+            !object->heights.empty())
+            scene.materials[static_cast<size_t>(object->material)].plain = false;
+        const ShadingMode mode = scene.materials[static_cast<size_t>(object->material)].shading;
+        const bool shaded = object->anySmooth && mode != ShadingMode::Off;
+        plan.anyShading |= shaded;
+        plan.twoPassShading |= shaded && mode == ShadingMode::TwoPass;
+        plan.oneFacetShading |= shaded && mode != ShadingMode::TwoPass;
+    }
+    for (const auto& object : scene.objects)
+        plan.plainFeel &= scene.materials[static_cast<size_t>(object->material)].plain;
+}
+
+namespace {
+
+void takeOff(Effect effect, HapticMaterialData& material) {
+    switch (effect) {
+    case Effect::ForceShading:
+        material.shading = ShadingMode::Off;
+        return;
+    case Effect::NormalMap:
+        material.normal = {};
+        return;
+    case Effect::HeightMap:
+        material.height = {};
+        return;
+    case Effect::Friction:
+        material.staticFriction = material.dynamicFriction = 0.0;
+        material.friction = {};
+        return;
+    case Effect::ViscousFriction:
+        material.viscousFriction = 0.0;
+        return;
+    case Effect::Damping:
+        material.damping = 0.0;
+        material.dampingMap = {};
+        return;
+    case Effect::VaryingStiffness:
+        material.stiffnessMap = {};
+        return;
+    }
+}
+
+/// The vertex attribute that the effect reads, if it reads one.
+std::vector<float>* attributeOf(Effect effect, HapticObject& object) {
+    switch (effect) {
+    case Effect::HeightMap:
+        return &object.heights;
+    case Effect::Friction:
+        return &object.friction;
+    case Effect::Damping:
+        return &object.damping;
+    case Effect::VaryingStiffness:
+        return &object.stiffness;
+    case Effect::ForceShading:
+    case Effect::NormalMap:
+    case Effect::ViscousFriction:
+        break;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+void removeEffect(HapticScene& scene, int material, Effect effect) {
+    takeOff(effect, scene.materials[static_cast<size_t>(material)]);
+    for (auto& object : scene.objects) {
+        if (object->material != material)
+            continue;
+        HapticObject copy = *object; // the search trees are shared or plain data
+        std::vector<float>* attribute = attributeOf(effect, copy);
+        if (attribute == nullptr || attribute->empty())
+            continue;
+        attribute->clear();
+        object = std::make_shared<const HapticObject>(std::move(copy));
+    }
+    settlePlan(scene);
+}
+
+} // namespace touchstone

@@ -1,0 +1,22 @@
+#pragma once
+// Why each effect of a material is on or off, and what it holds. For the compiler of haptic scenes only.
+
+#include "haptics/haptic_scene.h"
+
+namespace touchstone {
+
+/// What the objects with a material have to say about its effects.
+struct MaterialUse {
+    bool placed = false; ///< some instance with triangles has the material
+    bool smooth = false, heights = false, stiffness = false, damping = false, friction = false;
+    CoordinateSets sets{};
+    AttributeBytes bytes;
+
+    void add(const HapticObject& object);
+};
+
+/// Appends all effects of one material to the plan.
+void planMaterial(int index, const Material& material, const HapticMaterialData& data, const MaterialUse& use,
+                  EffectPlan& plan);
+
+} // namespace touchstone

@@ -1,0 +1,195 @@
+// The effect plan: which effects a material calls for and why, and that what it says they hold is all that is
+// held.
+
+#include "tests/support/test_shapes.h"
+#include "tests/support/touch_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace touchstone::test {
+namespace {
+
+const PlannedEffect& planned(const HapticScene& scene, Effect effect, int material = 0) {
+    for (const PlannedEffect& p : scene.plan.effects)
+        if (p.effect == effect && p.material == material)
+            return p;
+    ADD_FAILURE() << effectName(effect) << " is not in the plan";
+    return scene.plan.effects.front();
+}
+
+std::shared_ptr<const HapticScene> compiled(const Scene& scene) {
+    return compileHapticScene(scene, Similarity{});
+}
+
+Scene plainPlane() {
+    Scene scene;
+    scene.materials.emplace_back();
+    place(scene, quadMesh(0.05, 4), 0);
+    return scene;
+}
+
+/// What is held besides the geometry, and what the plan says of it.
+void expectAllMemoryTold(const HapticScene& scene) {
+    uint64_t held = 0, told = 0;
+    for (const auto& object : scene.objects)
+        held += object->attributeBytes().all();
+    for (const HapticMaterialData& material : scene.materials)
+        held += material.memoryBytes();
+    for (const PlannedEffect& effect : scene.plan.effects)
+        told += effect.memoryBytes;
+    EXPECT_EQ(told, held);
+}
+
+/// A map of everything, and every vertex attribute.
+Scene richPlane() {
+    Scene scene = plainPlane();
+    Material& material = scene.materials[0];
+    scene.images.push_back(image("wave", 16, 8, 3, [](double u, double v) {
+        return glm::vec4(static_cast<float>(0.5 + 0.2 * std::sin(6.0 * u)), static_cast<float>(v), 1.0f,
+                         1.0f);
+    }));
+    FactorMap factor;
+    factor.texture = texture(0);
+    factor.min = 0.5f;
+    HeightMap heights;
+    heights.texture = texture(0);
+    heights.scale = 2e-4f;
+    const auto stated = [](double value) -> HapticMaterial::Field<float> {
+        return {static_cast<float>(value), HapticSource::Touchstone};
+    };
+    material.normalTexture = texture(0);
+    HapticMaterial& haptic = material.haptic;
+    haptic.height = {heights, HapticSource::Touchstone};
+    haptic.friction = haptic.stiffnessMap = haptic.dampingMap = {factor, HapticSource::Touchstone};
+    haptic.staticFriction = stated(0.5);
+    haptic.dynamicFriction = stated(0.3);
+    haptic.viscousFriction = stated(0.5);
+    haptic.damping = stated(1.0);
+    Mesh& mesh = scene.meshes[0];
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+        const float x = mesh.positions[v].x;
+        mesh.friction.push_back(0.5f + x);
+        mesh.damping.push_back(1.0f + x);
+        mesh.stiffness.push_back(500.0f + 100.0f * x);
+        mesh.heights.push_back(1e-3f * x);
+        mesh.normals[v] = glm::normalize(glm::vec3(0.1f * x, 0.1f, 1.0f));
+    }
+    return scene;
+}
+
+constexpr Effect kAll[] = {Effect::ForceShading,    Effect::NormalMap,       Effect::HeightMap,
+                           Effect::Friction,        Effect::ViscousFriction, Effect::Damping,
+                           Effect::VaryingStiffness};
+
+TEST(EffectPlan, APlainSceneHasNoneAndHoldsNothing) {
+    const auto scene = compiled(plainPlane());
+    for (const Effect effect : kAll) {
+        EXPECT_FALSE(planned(*scene, effect).on) << effectName(effect);
+        EXPECT_EQ(planned(*scene, effect).memoryBytes, 0u) << effectName(effect);
+        EXPECT_FALSE(planned(*scene, effect).reason.empty());
+    }
+    EXPECT_TRUE(scene->plan.plainFeel);
+    EXPECT_EQ(scene->objects[0]->attributeBytes().all(), 0u)
+        << "coordinates, tangents and normals that nothing reads";
+}
+
+TEST(EffectPlan, VertexAttributesAloneTurnTheirEffectOn) {
+    struct Case {
+        Effect effect;
+        std::vector<float> Mesh::*attribute;
+        const char* name;
+        float value;
+    };
+    for (const Case& c : {Case{Effect::Friction, &Mesh::friction, "_FRICTION", 0.4f},
+                          Case{Effect::Damping, &Mesh::damping, "_DAMPING", 2.0f},
+                          Case{Effect::VaryingStiffness, &Mesh::stiffness, "_STIFFNESS", 300.0f},
+                          Case{Effect::HeightMap, &Mesh::heights, "_HEIGHT", 1e-3f}}) {
+        Scene source = plainPlane();
+        std::vector<float>& values = source.meshes[0].*c.attribute;
+        values.assign(source.meshes[0].positions.size(), c.value);
+        const auto scene = compiled(source);
+        const PlannedEffect& effect = planned(*scene, c.effect);
+        EXPECT_TRUE(effect.on) << c.name;
+        EXPECT_NE(effect.reason.find(c.name), std::string::npos) << effect.reason;
+        EXPECT_GE(effect.memoryBytes, sizeof(float) * values.size()) << c.name;
+        for (const Effect other : kAll)
+            EXPECT_EQ(planned(*scene, other).on, other == c.effect) << c.name;
+        expectAllMemoryTold(*scene);
+    }
+    Scene none = plainPlane(); // coefficients of nothing do nothing
+    none.meshes[0].friction.assign(none.meshes[0].positions.size(), 0.0f);
+    EXPECT_FALSE(planned(*compiled(none), Effect::Friction).on);
+}
+
+TEST(EffectPlan, TellsAllThatIsHeldAndNothingTwice) {
+    const auto scene = compiled(richPlane());
+    for (const Effect effect : kAll) {
+        EXPECT_TRUE(planned(*scene, effect).on) << effectName(effect);
+        EXPECT_EQ(planned(*scene, effect).memoryBytes > 0, effect != Effect::ViscousFriction);
+    }
+    const size_t vertices = scene->objects[0]->normals.size();
+    EXPECT_EQ(planned(*scene, Effect::ForceShading).memoryBytes,
+              sizeof(glm::vec3) * vertices + scene->objects[0]->triangleCount());
+    expectAllMemoryTold(*scene);
+}
+
+TEST(EffectPlan, SaysWhyAMapIsNotFelt) {
+    Scene source = richPlane();
+    HapticMaterial& haptic = source.materials[0].haptic;
+    haptic.staticFriction = haptic.dynamicFriction = haptic.damping = {};
+    Mesh& mesh = source.meshes[0];
+    mesh.friction.clear();
+    mesh.damping.clear();
+    mesh.heights.clear();
+    haptic.height.value->texture.texCoord = 1; // which the mesh has not
+    source.materials[0].normalScale = 0.0f;
+    const auto scene = compiled(source);
+    const auto expectOff = [&](Effect effect, const char* why) {
+        EXPECT_FALSE(planned(*scene, effect).on) << effectName(effect);
+        EXPECT_NE(planned(*scene, effect).reason.find(why), std::string::npos)
+            << planned(*scene, effect).reason;
+    };
+    expectOff(Effect::Friction, "no coefficient for it to multiply");
+    expectOff(Effect::Damping, "no damping for it to multiply");
+    expectOff(Effect::HeightMap, "no coordinates");
+    expectOff(Effect::NormalMap, "felt share is 0");
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_EQ(scene->warnings[0].place, "materials[0].heightTexture");
+    expectAllMemoryTold(*scene);
+
+    source.materials.emplace_back(); // nobody's
+    source.materials[1].haptic.staticFriction = {0.5f, HapticSource::Touchstone};
+    EXPECT_EQ(planned(*compiled(source), Effect::Friction, 1).reason,
+              "no touchable triangle has this material");
+    source.materials[0].haptic.forceShading = ShadingChoice::Off;
+    const auto flat = compiled(source);
+    EXPECT_EQ(planned(*flat, Effect::ForceShading).reason, "the material turns it off");
+    EXPECT_EQ(planned(*flat, Effect::ForceShading).memoryBytes, 0u);
+}
+
+TEST(EffectPlan, AnEffectThatIsTakenOffIsNotFelt) {
+    // What `inspect` compares an effect with to tell its cost: the scene as if nobody had asked for it.
+    const auto scene = compiled(richPlane());
+    for (const Effect effect : kAll) {
+        const std::shared_ptr<HapticScene> without = copyOf(*scene);
+        removeEffect(*without, 0, effect);
+        TouchBench all(richPlane()), one(richPlane());
+        one.scene = without;
+        double apart = 0.0;
+        for (TouchBench* bench : {&all, &one})
+            bench->step({0.011, -0.007, 0.005});
+        for (int i = 0; i < 400; ++i) {
+            const glm::dvec3 hip(0.011 + 2e-5 * i, -0.007, 0.002 - 1.2e-5 * std::min(i, 250));
+            all.step(hip);
+            one.step(hip);
+            apart = std::max(apart, glm::distance(all.output.force, one.output.force));
+        }
+        EXPECT_GT(apart, 1e-3) << effectName(effect);
+        EXPECT_EQ(scene->objects[0]->heights.size(), scene->objects[0]->friction.size()) << "the copy alone";
+    }
+}
+
+} // namespace
+} // namespace touchstone::test
