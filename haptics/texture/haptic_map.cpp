@@ -55,13 +55,18 @@ Cover coverOf(int i, int fine, int coarse) {
 } // namespace
 
 HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int channels)
-    : channels_(channels), texCoord_(reference.texCoord), wrapS_(reference.wrapS), wrapT_(reference.wrapT),
-      offset_(reference.offset) {
+    : layout_{.texCoord = reference.texCoord,
+              .width = pixels.width,
+              .height = pixels.height,
+              .wrapS = reference.wrapS,
+              .wrapT = reference.wrapT,
+              .offset = glm::dvec2(reference.offset)},
+      channels_(channels) {
     // KHR_texture_transform: scale, then rotate counter-clockwise as seen in the image (v points down).
     const auto angle = static_cast<double>(reference.rotation);
     const double c = std::cos(angle), s = std::sin(angle);
     const glm::dvec2 scale(reference.scale);
-    jacobian_ = glm::dmat2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y);
+    layout_.jacobian = glm::dmat2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y);
 
     Level level;
     level.width = pixels.width;
@@ -121,11 +126,11 @@ uint64_t HapticMap::memoryBytes() const {
 
 void HapticMap::addTo(Hash64& hash) const {
     hash.add(channels_);
-    hash.add(texCoord_);
-    hash.add(wrapS_);
-    hash.add(wrapT_);
-    for (const double number :
-         {offset_.x, offset_.y, jacobian_[0][0], jacobian_[0][1], jacobian_[1][0], jacobian_[1][1]})
+    hash.add(layout_.texCoord);
+    hash.add(layout_.wrapS);
+    hash.add(layout_.wrapT);
+    for (const double number : {layout_.offset.x, layout_.offset.y, layout_.jacobian[0][0],
+                                layout_.jacobian[0][1], layout_.jacobian[1][0], layout_.jacobian[1][1]})
         hash.add(number);
     if (empty())
         return;
@@ -134,50 +139,59 @@ void HapticMap::addTo(Hash64& hash) const {
 }
 
 glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
-    return offset_ + jacobian_ * uv;
+    return layout_.offset + layout_.jacobian * uv;
 }
 
-template <class Value>
-Value HapticMap::texel(const Level& level, int x, int y) const {
-    const float* t = &level.texels[static_cast<size_t>((y * level.width + x) * channels_)];
-    if constexpr (std::is_same_v<Value, double>)
-        return static_cast<double>(*t);
-    else
-        return channels_ >= 3 ? glm::dvec3(t[0], t[1], t[2]) : glm::dvec3(t[0], 0.0, 0.0);
-}
-
-template <class Value>
-Value HapticMap::bilinear(const Level& level, const glm::dvec2& uv) const {
+HapticMap::Footprint::Cell HapticMap::cell(const Level& level, const glm::dvec2& uv) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
     const double x = bounded(uv.x * level.width - 0.5), y = bounded(uv.y * level.height - 0.5);
     const double fx = std::floor(x), fy = std::floor(y);
-    const double wx = x - fx, wy = y - fy;
-    const int x0 = wrapIndex(static_cast<int>(fx), level.width, wrapS_);
-    const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, wrapS_);
-    const int y0 = wrapIndex(static_cast<int>(fy), level.height, wrapT_);
-    const int y1 = wrapIndex(static_cast<int>(fy) + 1, level.height, wrapT_);
-    return (1.0 - wy) * ((1.0 - wx) * texel<Value>(level, x0, y0) + wx * texel<Value>(level, x1, y0)) +
-           wy * ((1.0 - wx) * texel<Value>(level, x0, y1) + wx * texel<Value>(level, x1, y1));
+    const int x0 = wrapIndex(static_cast<int>(fx), level.width, layout_.wrapS);
+    const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, layout_.wrapS);
+    const int y0 = wrapIndex(static_cast<int>(fy), level.height, layout_.wrapT);
+    const int y1 = wrapIndex(static_cast<int>(fy) + 1, level.height, layout_.wrapT);
+    const auto texel = [&](int column, int row) { return static_cast<size_t>(row * level.width + column); };
+    return {{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)}, x - fx, y - fy};
 }
 
-/// Linear between the levels on both sides of `level`: `read(level)` gives what one says.
-template <class Read>
-auto HapticMap::between(double level, const Read& read) const {
+HapticMap::Footprint HapticMap::footprint(const glm::dvec2& uv, double level) const {
+    Footprint at;
     const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));
-    const auto fine = static_cast<size_t>(bound);
-    const double share = bound - static_cast<double>(fine);
-    auto value = read(levels_[fine]);
-    if (share > 0.0)
-        value = (1.0 - share) * value + share * read(levels_[fine + 1]);
-    return value;
+    at.level = static_cast<size_t>(bound);
+    at.share = bound - static_cast<double>(at.level);
+    at.fine = cell(levels_[at.level], uv);
+    if (at.share > 0.0)
+        at.coarse = cell(levels_[at.level + 1], uv);
+    return at;
 }
 
-double HapticMap::scalar(const glm::dvec2& uv, double level) const {
-    return between(level, [&](const Level& at) { return bilinear<double>(at, uv); });
+template <class Value>
+Value HapticMap::bilinear(const Level& level, const Footprint::Cell& cell) const {
+    const auto texel = [&](size_t i) {
+        const float* t = &level.texels[cell.texel[i] * static_cast<size_t>(channels_)];
+        if constexpr (std::is_same_v<Value, double>)
+            return static_cast<double>(*t);
+        else
+            return channels_ >= 3 ? glm::dvec3(t[0], t[1], t[2]) : glm::dvec3(t[0], 0.0, 0.0);
+    };
+    return (1.0 - cell.down) * ((1.0 - cell.right) * texel(0) + cell.right * texel(1)) +
+           cell.down * ((1.0 - cell.right) * texel(2) + cell.right * texel(3));
 }
 
-glm::dvec3 HapticMap::vector(const glm::dvec2& uv, double level) const {
-    return between(level, [&](const Level& at) { return bilinear<glm::dvec3>(at, uv); });
+template <class Value>
+Value HapticMap::read(const Footprint& at) const {
+    const Value fine = bilinear<Value>(levels_[at.level], at.fine);
+    if (!(at.share > 0.0))
+        return fine;
+    return (1.0 - at.share) * fine + at.share * bilinear<Value>(levels_[at.level + 1], at.coarse);
+}
+
+double HapticMap::scalar(const Footprint& at) const {
+    return read<double>(at);
+}
+
+glm::dvec3 HapticMap::vector(const Footprint& at) const {
+    return read<glm::dvec3>(at);
 }
 
 /// (value, d/du, d/dv). Half a texel to the left of the place and half a texel to the right lie in two cells
@@ -198,13 +212,15 @@ glm::dvec3 HapticMap::valueAndSlope(const Level& level, const glm::dvec2& uv) co
     };
     std::array<int, 3> column;
     for (int i = 0; i < 3; ++i)
-        column[static_cast<size_t>(i)] = wrapIndex(static_cast<int>(fx) + i, level.width, wrapS_);
+        column[static_cast<size_t>(i)] = wrapIndex(static_cast<int>(fx) + i, level.width, layout_.wrapS);
     const glm::dvec3 columns = weights(wx), rows = weights(wy);
     glm::dvec3 values, slopes; // of the rows
     for (int j = 0; j < 3; ++j) {
-        const int row = wrapIndex(static_cast<int>(fy) + j, level.height, wrapT_);
-        const glm::dvec3 texels(texel<double>(level, column[0], row), texel<double>(level, column[1], row),
-                                texel<double>(level, column[2], row));
+        const int row = level.width * wrapIndex(static_cast<int>(fy) + j, level.height, layout_.wrapT);
+        const auto texel = [&](size_t i) {
+            return static_cast<double>(level.texels[static_cast<size_t>((row + column[i]) * channels_)]);
+        };
+        const glm::dvec3 texels(texel(0), texel(1), texel(2));
         values[j] = glm::dot(columns, texels);
         slopes[j] = step(wx, texels);
     }
@@ -212,8 +228,13 @@ glm::dvec3 HapticMap::valueAndSlope(const Level& level, const glm::dvec2& uv) co
 }
 
 HapticMap::Slope HapticMap::slope(const glm::dvec2& uv, double level) const {
+    const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));
+    const auto fine = static_cast<size_t>(bound);
+    const double share = bound - static_cast<double>(fine);
+    glm::dvec3 s = valueAndSlope(levels_[fine], uv);
     // Each level by its own texel, so that the gradient does not jump where one level gives way to the next.
-    const glm::dvec3 s = between(level, [&](const Level& at) { return valueAndSlope(at, uv); });
+    if (share > 0.0)
+        s = (1.0 - share) * s + share * valueAndSlope(levels_[fine + 1], uv);
     return {s.x, {s.y, s.z}};
 }
 

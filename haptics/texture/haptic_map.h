@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,11 +20,18 @@ class HapticMap {
     /// Takes the first `channels` channels of the pixels (1 for height and factors, 3 for normals).
     HapticMap(const PixelData& pixels, const TextureRef& reference, int channels);
 
+    /// How the texels lie over the texture coordinates: what decides where a place falls among them.
+    struct Layout {
+        int texCoord = 0;
+        int width = 1, height = 1; ///< of the finest level
+        Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
+        glm::dvec2 offset{0.0};   ///< KHR_texture_transform
+        glm::dmat2 jacobian{1.0}; ///< d(transformed)/d(uv), column-major
+        bool operator==(const Layout&) const = default;
+    };
+
     [[nodiscard]] bool empty() const { return levels_.empty(); }
-    [[nodiscard]] int texCoord() const { return texCoord_; }
-    [[nodiscard]] glm::dvec2 size() const {
-        return empty() ? glm::dvec2(1.0) : glm::dvec2(levels_[0].width, levels_[0].height);
-    }
+    [[nodiscard]] const Layout& layout() const { return layout_; }
     [[nodiscard]] float least() const { return least_; } ///< of channel 0 over the finest level
     [[nodiscard]] float greatest() const { return greatest_; }
     [[nodiscard]] uint64_t memoryBytes() const;
@@ -32,12 +40,28 @@ class HapticMap {
 
     /// The texture coordinate after KHR_texture_transform.
     [[nodiscard]] glm::dvec2 transform(const glm::dvec2& uv) const;
-    /// d(transformed)/d(uv), column-major.
-    [[nodiscard]] const glm::dmat2& transformJacobian() const { return jacobian_; }
 
-    /// Bilinear in the level, linear between levels. `uv` is transformed already; `level` >= 0.
-    [[nodiscard]] double scalar(const glm::dvec2& uv, double level) const;
-    [[nodiscard]] glm::dvec3 vector(const glm::dvec2& uv, double level) const;
+    /// The texels around a place in two levels, and the shares of them: bilinear in the level, linear between
+    /// levels.
+    struct Footprint {
+        struct Cell {
+            std::array<size_t, 4> texel{}; ///< left and right of the upper row, then of the lower
+            double right = 0.0, down = 0.0;
+        };
+        size_t level = 0;   ///< the finer one
+        double share = 0.0; ///< of the next
+        Cell fine, coarse;
+    };
+    /// `uv` is transformed already; `level` >= 0. Good for every map of the same layout.
+    [[nodiscard]] Footprint footprint(const glm::dvec2& uv, double level) const;
+    [[nodiscard]] double scalar(const Footprint& at) const;
+    [[nodiscard]] glm::dvec3 vector(const Footprint& at) const;
+    [[nodiscard]] double scalar(const glm::dvec2& uv, double level) const {
+        return scalar(footprint(uv, level));
+    }
+    [[nodiscard]] glm::dvec3 vector(const glm::dvec2& uv, double level) const {
+        return vector(footprint(uv, level));
+    }
     struct Slope {
         double value = 0.0;
         glm::dvec2 gradient{0.0}; ///< over transformed uv
@@ -52,19 +76,16 @@ class HapticMap {
         std::vector<float> texels; ///< channels interleaved, rows from the top
     };
     [[nodiscard]] Level halved(const Level& fine) const;
+    [[nodiscard]] Footprint::Cell cell(const Level& level, const glm::dvec2& uv) const;
     template <class Value>
-    [[nodiscard]] Value texel(const Level& level, int x, int y) const;
+    [[nodiscard]] Value bilinear(const Level& level, const Footprint::Cell& cell) const;
     template <class Value>
-    [[nodiscard]] Value bilinear(const Level& level, const glm::dvec2& uv) const;
+    [[nodiscard]] Value read(const Footprint& at) const;
     [[nodiscard]] glm::dvec3 valueAndSlope(const Level& level, const glm::dvec2& uv) const;
-    template <class Read>
-    [[nodiscard]] auto between(double level, const Read& read) const;
 
     std::vector<Level> levels_;
-    int channels_ = 1, texCoord_ = 0;
-    Wrap wrapS_ = Wrap::Repeat, wrapT_ = Wrap::Repeat;
-    glm::dvec2 offset_{0.0};
-    glm::dmat2 jacobian_{1.0};
+    Layout layout_;
+    int channels_ = 1;
     float least_ = 0.0f, greatest_ = 0.0f;
 };
 

@@ -9,12 +9,11 @@ namespace {
 
 /// What the core normal map says, object frame, not of unit length; the felt normal where there is no tangent
 /// frame.
-glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotGradients& gradients, double stroke) {
+glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
     const HapticMap& map = spot.material.normal;
-    if (!spot.hasUv(map.texCoord()))
+    if (!spot.hasUv(map.layout().texCoord))
         return spot.normal;
-    const double level = gradients.strokeLevel(map, stroke);
-    glm::dvec3 local = 2.0 * map.vector(spot.at(map), level) - 1.0;
+    glm::dvec3 local = 2.0 * map.vector(maps.footprint(map)) - 1.0;
     local.x *= spot.material.normalScale;
     local.y *= spot.material.normalScale;
     local.z = std::max(local.z, 0.0); // a normal that points into the surface would pull the hand in
@@ -28,7 +27,7 @@ glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotGradients& gradients, doub
         }
     } else {
         // dP/du lies across grad v, on the side of grad u; the image's top is against growing v.
-        const SurfaceGradients& g = gradients.uv(map.texCoord());
+        const SurfaceGradients& g = maps.gradients(map.layout().texCoord);
         tangent = glm::cross(g.second, spot.normal);
         if (glm::dot(tangent, g.first) < 0.0)
             tangent = -tangent;
@@ -56,16 +55,16 @@ double aboveLowest(double value, double low, double high, bool fromBack) {
     return std::max(fromBack ? high - value : value - low, 0.0);
 }
 
-Heights heightsFromMap(const SurfaceSpot& spot, SpotGradients& gradients, double stroke) {
+Heights heightsFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
     const HapticMap& map = spot.material.height;
     const double scale = spot.material.heightScale;
-    if (map.empty() || scale == 0.0 || !spot.hasUv(map.texCoord()))
+    if (map.empty() || scale == 0.0 || !spot.hasUv(map.layout().texCoord))
         return {};
-    const HapticMap::Slope read = map.slope(spot.at(map), gradients.strokeLevel(map, stroke));
+    const HapticMap::Slope read = map.slope(maps.place(map), maps.level(map));
     const double black = scale * static_cast<double>(map.least()),
                  white = scale * static_cast<double>(map.greatest());
     const glm::dvec2 overMap = scale * read.gradient;
-    const SurfaceGradients g = gradients.map(map);
+    const SurfaceGradients g = maps.gradients(map);
     return {true,
             aboveLowest(scale * read.value, std::min(black, white), std::max(black, white), spot.backside),
             overMap.x * g.first + overMap.y * g.second};
@@ -127,12 +126,11 @@ glm::dvec3 compressTilt(const glm::dvec3& n, const glm::dvec3& m, double limit, 
 
 } // namespace
 
-Relief readRelief(const SurfaceSpot& spot, SpotGradients& gradients, const HapticSettings& settings,
-                  double stroke) noexcept {
+Relief readRelief(const SurfaceSpot& spot, SpotMaps& maps, const HapticSettings& settings) noexcept {
     const double strength = settings.textureStrength;
     Relief relief;
     relief.normal = spot.normal;
-    Heights heights = heightsFromMap(spot, gradients, stroke);
+    Heights heights = heightsFromMap(spot, maps);
     if (!heights.known)
         heights = heightsFromVertices(spot);
     // Blinn's and Minsky's are about grad H.
@@ -147,7 +145,7 @@ Relief readRelief(const SurfaceSpot& spot, SpotGradients& gradients, const Hapti
     }
     if (fromNormalMap) {
         constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees slopes run away
-        const glm::dvec3 m = normalFromMap(spot, gradients, stroke);
+        const glm::dvec3 m = normalFromMap(spot, maps);
         const double along = std::max(glm::dot(m, spot.normal), kSteepest * glm::length(m));
         relief.normal = spot.normal + strength * (m / along - spot.normal);
     }

@@ -2,7 +2,7 @@
 // The displaced surface at the contact: its height and its normal, out of maps or vertex heights.
 
 #include "haptics/haptic_settings.h"
-#include "haptics/texture/spot_gradients.h"
+#include "haptics/texture/spot_maps.h"
 
 #include <glm/glm.hpp>
 
@@ -17,9 +17,9 @@ struct Relief {
 
 /// What the material's maps and the mesh's vertex heights say at the spot. With texture=law the
 /// normal map supplies m where there is one; else the heights do: m = normalize(n - grad H + (grad H . n) n)
-/// [000], with texture=blinn Blinn's bump normal [001 4.11]. `stroke` (m along the surface in a tick) chooses
-/// the mip level: what would alias at the servo rate is left out.
-[[nodiscard]] Relief readRelief(const SurfaceSpot& spot, SpotGradients& gradients,
-                                const HapticSettings& settings, double stroke) noexcept;
+/// [000], with texture=blinn Blinn's bump normal [001 4.11]. At the mip level of the stroke: what would alias
+/// at the servo rate is left out.
+[[nodiscard]] Relief readRelief(const SurfaceSpot& spot, SpotMaps& maps,
+                                const HapticSettings& settings) noexcept;
 
 } // namespace touchstone

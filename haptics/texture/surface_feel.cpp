@@ -67,10 +67,11 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
                 spot.uv[static_cast<size_t>(set)] +=
                     spot.weight[corner] * spot.uvAt(set, static_cast<size_t>(corner));
 
-    SpotGradients gradients(spot);
-    const double stroke = speed * dt;
+    SpotMaps maps(spot, speed * dt);
     const auto factor = [&](const HapticFactor& f) {
-        return f.map.empty() ? 1.0 : spot.factor(f, gradients.strokeLevel(f.map, stroke));
+        if (f.map.empty() || !spot.hasUv(f.map.layout().texCoord))
+            return 1.0;
+        return f.min + (f.max - f.min) * f.map.scalar(maps.footprint(f.map));
     };
     const double given = settings.stiffness > 0.0         ? settings.stiffness
                          : std::isnan(material.stiffness) ? scene.limits.recommendedStiffness
@@ -97,7 +98,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
         feel.viscousFriction = material.viscousFriction;
     }
     if (settings.texture != TextureMode::Off && (material.textured() || !object.heights.empty())) {
-        const Relief relief = readRelief(spot, gradients, settings, stroke);
+        const Relief relief = readRelief(spot, maps, settings);
         feel.height = relief.height;
         feel.hasHeight = relief.hasHeight && settings.texture == TextureMode::Law;
         feel.tiltCompressed = relief.tiltCompressed;

@@ -41,15 +41,6 @@ struct SurfaceSpot {
     [[nodiscard]] glm::dvec2 uvAt(int set, size_t corner) const {
         return glm::dvec2(object.uv[set & 1][source(corner)]);
     }
-    /// The map's coordinates there.
-    [[nodiscard]] glm::dvec2 at(const HapticMap& map) const {
-        return map.transform(uv[map.texCoord() & 1 ? 1 : 0]);
-    }
-    [[nodiscard]] double factor(const HapticFactor& f, double level) const {
-        if (f.map.empty() || !hasUv(f.map.texCoord()))
-            return 1.0;
-        return f.min + (f.max - f.min) * f.map.scalar(at(f.map), level);
-    }
 };
 
 } // namespace touchstone

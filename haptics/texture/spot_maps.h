@@ -1,5 +1,5 @@
 #pragma once
-// How texture coordinates change over the surface at the contact. For stage 5 only.
+// How the maps lie over the surface at the contact. For stage 5 only.
 
 #include "haptics/texture/surface_spot.h"
 
@@ -35,34 +35,44 @@ template <class Facet>
     return sum;
 }
 
-/// Those of the coordinate sets at one spot, each found when it is first asked for.
-class SpotGradients {
+/// What maps share at one spot, each part found when it is first asked for: gradients of the texture
+/// coordinates, mip level and footprint. Maps of one material mostly lie the same way.
+class SpotMaps {
   public:
-    explicit SpotGradients(const SurfaceSpot& spot) : spot_(spot) {}
+    /// `stroke`: m in the workspace that the hand goes along the surface in this tick; chooses mip levels.
+    SpotMaps(const SurfaceSpot& spot, double stroke) : spot_(spot), stroke_(stroke) {}
 
-    [[nodiscard]] const SurfaceGradients& uv(int set) noexcept;
+    [[nodiscard]] const SurfaceGradients& gradients(int set) noexcept;
     /// Of the map's own coordinates, by the chain rule over KHR_texture_transform.
-    [[nodiscard]] SurfaceGradients map(const HapticMap& map) noexcept;
+    [[nodiscard]] SurfaceGradients gradients(const HapticMap& map) noexcept;
+
+    // What follows is for maps whose coordinates the mesh has (SurfaceSpot::hasUv).
     /// Mip level whose texel is at least two strokes long: at that spacing the servo still samples every
-    /// feature twice (Nyquist). `stroke`: m in the workspace that the hand goes in a tick. 0 without
-    /// coordinates.
-    [[nodiscard]] double strokeLevel(const HapticMap& map, double stroke) noexcept;
+    /// feature twice (Nyquist).
+    [[nodiscard]] double level(const HapticMap& map) noexcept {
+        settle(map);
+        return level_;
+    }
+    /// The spot in the map, after its transform.
+    [[nodiscard]] const glm::dvec2& place(const HapticMap& map) noexcept {
+        settle(map);
+        return place_;
+    }
+    [[nodiscard]] const HapticMap::Footprint& footprint(const HapticMap& map) noexcept;
 
   private:
-    /// What a level was found for: maps of one size that lie the same way share it.
-    struct Laid {
-        int set = -1;
-        glm::dvec2 size{0.0};
-        glm::dmat2 jacobian{0.0};
-        double stroke = 0.0;
-        bool operator==(const Laid&) const = default;
-    };
+    void settle(const HapticMap& map) noexcept;
 
     const SurfaceSpot& spot_;
-    std::array<SurfaceGradients, 2> uv_;
+    double stroke_;
+    std::array<SurfaceGradients, 2> gradients_;
     std::array<bool, 2> known_{};
-    Laid laid_; ///< the last map asked for
+    // Of the layout asked for last:
+    const HapticMap* settled_ = nullptr;
     double level_ = 0.0;
+    glm::dvec2 place_{0.0};
+    bool printed_ = false;
+    HapticMap::Footprint footprint_;
 };
 
 } // namespace touchstone

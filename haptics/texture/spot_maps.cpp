@@ -1,0 +1,51 @@
+#include "haptics/texture/spot_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+const SurfaceGradients& SpotMaps::gradients(int set) noexcept {
+    const auto s = static_cast<size_t>(set & 1);
+    if (!known_[s]) {
+        gradients_[s] = smoothed(spot_, spot_.object.uvGradients[s], [&]() -> SurfaceGradients {
+            const glm::dvec2 a = spot_.uvAt(set, 0), b = spot_.uvAt(set, 1), c = spot_.uvAt(set, 2);
+            return {gradientOver(spot_.triangle, a.x, b.x, c.x), gradientOver(spot_.triangle, a.y, b.y, c.y)};
+        });
+        known_[s] = true;
+    }
+    return gradients_[s];
+}
+
+SurfaceGradients SpotMaps::gradients(const HapticMap& map) noexcept {
+    const SurfaceGradients& over = gradients(map.layout().texCoord);
+    const glm::dmat2& j = map.layout().jacobian;
+    return {j[0][0] * over.first + j[1][0] * over.second, j[0][1] * over.first + j[1][1] * over.second};
+}
+
+void SpotMaps::settle(const HapticMap& map) noexcept {
+    if (settled_ == &map || (settled_ != nullptr && settled_->layout() == map.layout()))
+        return;
+    settled_ = &map;
+    printed_ = false;
+    place_ = map.transform(spot_.uv[map.layout().texCoord & 1 ? 1 : 0]);
+    level_ = 0.0;
+    if (!(stroke_ > 0.0))
+        return;
+    const SurfaceGradients g = gradients(map);
+    const glm::dvec2 size(map.layout().width, map.layout().height);
+    const double texelsPerObject = std::sqrt(std::max(size.x * size.x * glm::dot(g.first, g.first),
+                                                      size.y * size.y * glm::dot(g.second, g.second)));
+    const double texels = 2.0 * stroke_ / spot_.workspacePerObject * texelsPerObject;
+    level_ = texels > 1.0 ? std::log2(texels) : 0.0;
+}
+
+const HapticMap::Footprint& SpotMaps::footprint(const HapticMap& map) noexcept {
+    settle(map);
+    if (!printed_)
+        footprint_ = map.footprint(place_, level_);
+    printed_ = true;
+    return footprint_;
+}
+
+} // namespace touchstone
