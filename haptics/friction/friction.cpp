@@ -26,6 +26,14 @@ void startAt(const glm::dvec3& held, MeshProxy& proxy) {
 }
 void startAt(const glm::dvec3&, NeighbourhoodWatch&) {}
 
+/// The short way, from the place without friction over the facet that it lies on.
+bool slide(const glm::dvec3& goal, MeshProxy& proxy) {
+    return proxy.slideOnFacet(goal);
+}
+bool slide(const glm::dvec3&, NeighbourhoodWatch&) {
+    return false;
+}
+
 /// Onto the surface at `goal`, a place on the chord between two places of the surface: below it where the
 /// surface bulges, above it, in the air, where it is hollow.
 template <class Model>
@@ -44,6 +52,8 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
     // the frictionless side.
     constexpr double kNear = 0.1;
     const glm::dvec3 frictionless = state.frictionless;
+    if (slide(frictionless + stretch, proxy))
+        return;
     const double tolerance = kNear * glm::length(stretch);
     startAt(held, proxy);
     if (settle(frictionless + stretch, down, tolerance, proxy, state, rest))

@@ -58,18 +58,21 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
 
 /// Makes sure that all triangles are known that a proxy moving by `length` along `direction` could touch; or
 /// as far as the hand went in this tick, if that is less: a long move that a near surface ends must not
-/// gather what lies behind it. False if not even the place itself can be covered.
-bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
+/// gather what lies behind it. How far they are known; negative if not even the place itself can be covered.
+double MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     const double reach = radius_ + kContactReach;
     const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
     // A ball gathered in flight may hold thousands of triangles: of little use to a hand that has landed.
     const double ball = state_.candidates.radius();
     const bool crowded =
         state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + kLasting * travel_);
-    if (crowded)
+    if (crowded) {
         state_.gatherMargin = 0.25 * ball;
-    else if (state_.candidates.freeAlong(state_.proxy, direction, reach) >= wanted)
-        return true;
+    } else {
+        const double known = state_.candidates.freeAlong(state_.proxy, direction, reach);
+        if (known >= wanted)
+            return known;
+    }
     const bool atRest = motions_.data() == scene_.restMotions.data();
     constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -100,10 +103,10 @@ bool MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
         const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
         state_.gatherMargin = std::clamp(next, least, kLargestMargin);
         if (fits)
-            return true;
+            return state_.candidates.freeAlong(state_.proxy, direction, reach);
     }
     rest_.flags = rest_.flags | TickFlag::CandidatesFull;
-    return false;
+    return -1.0;
 }
 
 void MeshProxy::findContacts(double within) noexcept {
@@ -134,7 +137,8 @@ void MeshProxy::findContacts(double within) noexcept {
                                                 .point = d.closest,
                                                 .gap = d.distance - radius_,
                                                 .object = cache.item(i).object,
-                                                .triangle = cache.item(i).index};
+                                                .triangle = cache.item(i).index,
+                                                .candidate = static_cast<uint32_t>(i)};
     });
 }
 
@@ -155,7 +159,7 @@ void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
 }
 
 bool MeshProxy::isFree() noexcept {
-    if (!cover(glm::dvec3(0.0), 0.0))
+    if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
     for (size_t i = 0; i < state_.candidates.count(); ++i)
         if (distanceTo(state_.candidates.triangle(i), state_.proxy).distance < radius_ + kContactGap)
@@ -178,9 +182,37 @@ void MeshProxy::dropTowards(const glm::dvec3& goal) noexcept {
     rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
 }
 
+bool MeshProxy::slideOnFacet(const glm::dvec3& goal) noexcept {
+    if (rest_.contactCount != 1)
+        return false;
+    Contact& contact = rest_.contacts[0];
+    const glm::dvec3 wish = goal - state_.proxy;
+    const double above = glm::dot(wish, contact.normal);
+    // A goal in the air would have to be dropped from.
+    if (above > kContactReach)
+        return false;
+    const glm::dvec3 move = wish - above * contact.normal;
+    const double length = glm::length(move);
+    if (!(length > 0.0))
+        return false;
+    CandidateCache& cache = state_.candidates;
+    if (cache.freeAlong(state_.proxy, move / length, radius_ + kContactReach) < length ||
+        freeShare(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
+        return false;
+    const TriangleDistance there = distanceTo(cache.triangle(contact.candidate), state_.proxy + move);
+    if (!there.face || there.distance > radius_ + kContactReach)
+        return false;
+    state_.proxy += move;
+    cache.moved();
+    contact.point = there.closest;
+    contact.gap = there.distance - radius_;
+    ++rest_.iterations;
+    return true;
+}
+
 /// One move: false when the proxy rests, or may not or cannot go on; then contacts and hold are up to date.
 bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
-    if (!cover(glm::dvec3(0.0), 0.0))
+    if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
     findContacts();
     buildPlanes();
@@ -204,9 +236,9 @@ bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
         return true;
     }
     const glm::dvec3 direction = move / length;
-    if (!cover(direction, length))
+    const double known = cover(direction, length);
+    if (known < 0.0)
         return false;
-    const double known = state_.candidates.freeAlong(state_.proxy, direction, radius_ + kContactReach);
     const double share =
         freeShare(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, std::min(1.0, known / length));
     state_.proxy += share * move;

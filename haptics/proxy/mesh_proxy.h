@@ -33,7 +33,8 @@ inline constexpr double kRestLength = 1e-11;
 /// 1e-9 changes are below the contact gap, and the proxy would go round and round in it until the budget
 /// ends. (At 8e-8 a proxy that crept was taken to rest 1.7e-6 of its object from where it was going.)
 [[nodiscard]] inline double restLength(uint32_t moves) noexcept {
-    return std::ldexp(kRestLength, (std::clamp(static_cast<int>(moves), 8, 28) - 8) / 2);
+    return moves < 10 ? kRestLength
+                      : std::ldexp(kRestLength, (std::min(static_cast<int>(moves), 28) - 8) / 2);
 }
 
 /// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object
@@ -52,6 +53,11 @@ class MeshProxy {
     /// Moves the proxy straight towards `goal` until it touches something, without sliding on from there.
     void dropTowards(const glm::dvec3& goal) noexcept;
 
+    /// Straight to the place nearest to `goal` on the plane of the one facet that the proxy rests on, where
+    /// nothing is in the way and that facet holds the proxy there too. False, and nothing moved, where it is
+    /// not so simple. Only after a solve that came to rest. What moveTowards would do in two moves.
+    [[nodiscard]] bool slideOnFacet(const glm::dvec3& goal) noexcept;
+
     /// Puts the proxy at `p` (anchor frame) without a sweep. Only for places that are known to be free: where
     /// the proxy stood before, or where isFree says so.
     void placeAt(const glm::dvec3& p) noexcept;
@@ -67,7 +73,7 @@ class MeshProxy {
     void findContacts(double within = kContactReach) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
-    bool cover(const glm::dvec3& direction, double length) noexcept;
+    double cover(const glm::dvec3& direction, double length) noexcept;
     void buildPlanes() noexcept;
 
     const HapticScene& scene_;

@@ -16,6 +16,7 @@ struct Contact {
     double gap = 0.0;       ///< distance minus radius, object units
     int object = -1;        ///< HapticScene::objects
     uint32_t triangle = 0;  ///< of that object
+    uint32_t candidate = 0; ///< of the cache, until it gathers anew; MeshProxy's
 };
 
 /// Where the last move ended and what holds the proxy there.

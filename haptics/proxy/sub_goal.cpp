@@ -12,7 +12,6 @@ constexpr int kMaxExchanges = 48;
 /// plane. A move of the object's own length along one of them then violates the other by less than the
 /// tolerance.
 constexpr double kDependent = 3e-13;
-constexpr double kTolerance = 3e-14;
 
 const ConstraintPlane& at(std::span<const ConstraintPlane> planes, int index) {
     return planes[static_cast<size_t>(index)];
@@ -98,10 +97,10 @@ bool exchange(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, c
 
 } // namespace
 
-SubGoal nearestFeasible(const glm::dvec3& goal, std::span<const ConstraintPlane> planes) noexcept {
+SubGoal detail::nearestToGoal(const glm::dvec3& goal, std::span<const ConstraintPlane> planes) noexcept {
     SubGoal current;
     current.point = goal;
-    const double tolerance = kTolerance * (1.0 + glm::length(goal));
+    const double tolerance = detail::kPlaneTolerance * (1.0 + glm::length(goal));
     for (int step = 0; step < kMaxExchanges; ++step) {
         int worst = -1;
         double deepest = -tolerance;
@@ -115,12 +114,8 @@ SubGoal nearestFeasible(const glm::dvec3& goal, std::span<const ConstraintPlane>
         if (worst < 0)
             return current;
         SubGoal next;
-        if (current.count == 0)
-            meet(goal, planes, {worst, -1, -1}, 1, next); // one plane: nothing to exchange
-        else if (!exchange(goal, planes, current, worst, tolerance, next))
+        if (!exchange(goal, planes, current, worst, tolerance, next))
             break;
-        if (planes.size() == 1)
-            return next;
         current = next;
     }
     SubGoal stay;

@@ -22,10 +22,32 @@ struct SubGoal {
     bool exact = true; ///< false: numerically degenerate, `point` is the origin
 };
 
+namespace detail {
+
+/// A plane is violated beyond this share of 1 + |goal|.
+inline constexpr double kPlaneTolerance = 3e-14;
+
+/// Any number of planes.
+[[nodiscard]] SubGoal nearestToGoal(const glm::dvec3& goal, std::span<const ConstraintPlane> planes) noexcept;
+
+} // namespace detail
+
 /// Nearest point to `goal` in the intersection of the half-spaces, of which at most three are active: faces,
 /// edges and corners by one rule [000 §3, 001]. Planes whose normals differ by less than 3e-13 rad count as
-/// one. Bounded: at most kMaxExchanges planes enter.
-[[nodiscard]] SubGoal nearestFeasible(const glm::dvec3& goal,
-                                      std::span<const ConstraintPlane> planes) noexcept;
+/// one. Bounded: at most 48 planes enter. In most ticks there is one plane, and nothing to exchange.
+[[nodiscard]] inline SubGoal nearestFeasible(const glm::dvec3& goal,
+                                             std::span<const ConstraintPlane> planes) noexcept {
+    if (planes.size() != 1)
+        return detail::nearestToGoal(goal, planes);
+    SubGoal result;
+    result.point = goal;
+    const double lack = planes[0].offset - glm::dot(planes[0].normal, goal);
+    if (lack > detail::kPlaneTolerance * (1.0 + glm::length(goal))) {
+        result.point += lack * planes[0].normal;
+        result.multiplier[0] = lack;
+        result.count = 1;
+    }
+    return result;
+}
 
 } // namespace touchstone

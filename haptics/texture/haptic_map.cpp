@@ -142,7 +142,7 @@ glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
     return layout_.offset + layout_.jacobian * uv;
 }
 
-HapticMap::Footprint::Cell HapticMap::cell(const Level& level, const glm::dvec2& uv) const {
+void HapticMap::findCell(const Level& level, const glm::dvec2& uv, Footprint::Cell& cell) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
     const double x = bounded(uv.x * level.width - 0.5), y = bounded(uv.y * level.height - 0.5);
     const double fx = std::floor(x), fy = std::floor(y);
@@ -150,25 +150,25 @@ HapticMap::Footprint::Cell HapticMap::cell(const Level& level, const glm::dvec2&
     const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, layout_.wrapS);
     const int y0 = wrapIndex(static_cast<int>(fy), level.height, layout_.wrapT);
     const int y1 = wrapIndex(static_cast<int>(fy) + 1, level.height, layout_.wrapT);
-    const auto texel = [&](int column, int row) { return static_cast<size_t>(row * level.width + column); };
-    return {{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)}, x - fx, y - fy};
+    const int upper = y0 * level.width, lower = y1 * level.width;
+    cell.texel = {upper + x0, upper + x1, lower + x0, lower + x1};
+    cell.right = x - fx;
+    cell.down = y - fy;
 }
 
-HapticMap::Footprint HapticMap::footprint(const glm::dvec2& uv, double level) const {
-    Footprint at;
+void HapticMap::footprint(const glm::dvec2& uv, double level, Footprint& at) const {
     const double bound = std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1));
     at.level = static_cast<size_t>(bound);
     at.share = bound - static_cast<double>(at.level);
-    at.fine = cell(levels_[at.level], uv);
+    findCell(levels_[at.level], uv, at.fine);
     if (at.share > 0.0)
-        at.coarse = cell(levels_[at.level + 1], uv);
-    return at;
+        findCell(levels_[at.level + 1], uv, at.coarse);
 }
 
 template <class Value>
 Value HapticMap::bilinear(const Level& level, const Footprint::Cell& cell) const {
     const auto texel = [&](size_t i) {
-        const float* t = &level.texels[cell.texel[i] * static_cast<size_t>(channels_)];
+        const float* t = &level.texels[static_cast<size_t>(cell.texel[i] * channels_)];
         if constexpr (std::is_same_v<Value, double>)
             return static_cast<double>(*t);
         else

@@ -45,22 +45,26 @@ class HapticMap {
     /// levels.
     struct Footprint {
         struct Cell {
-            std::array<size_t, 4> texel{}; ///< left and right of the upper row, then of the lower
-            double right = 0.0, down = 0.0;
+            std::array<int32_t, 4> texel; ///< left and right of the upper row, then of the lower
+            double right, down;
         };
         size_t level = 0;   ///< the finer one
         double share = 0.0; ///< of the next
         Cell fine, coarse;
     };
     /// `uv` is transformed already; `level` >= 0. Good for every map of the same layout.
-    [[nodiscard]] Footprint footprint(const glm::dvec2& uv, double level) const;
+    void footprint(const glm::dvec2& uv, double level, Footprint& at) const;
     [[nodiscard]] double scalar(const Footprint& at) const;
     [[nodiscard]] glm::dvec3 vector(const Footprint& at) const;
     [[nodiscard]] double scalar(const glm::dvec2& uv, double level) const {
-        return scalar(footprint(uv, level));
+        Footprint at;
+        footprint(uv, level, at);
+        return scalar(at);
     }
     [[nodiscard]] glm::dvec3 vector(const glm::dvec2& uv, double level) const {
-        return vector(footprint(uv, level));
+        Footprint at;
+        footprint(uv, level, at);
+        return vector(at);
     }
     struct Slope {
         double value = 0.0;
@@ -76,7 +80,7 @@ class HapticMap {
         std::vector<float> texels; ///< channels interleaved, rows from the top
     };
     [[nodiscard]] Level halved(const Level& fine) const;
-    [[nodiscard]] Footprint::Cell cell(const Level& level, const glm::dvec2& uv) const;
+    void findCell(const Level& level, const glm::dvec2& uv, Footprint::Cell& cell) const;
     template <class Value>
     [[nodiscard]] Value bilinear(const Level& level, const Footprint::Cell& cell) const;
     template <class Value>

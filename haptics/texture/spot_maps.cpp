@@ -43,7 +43,7 @@ void SpotMaps::settle(const HapticMap& map) noexcept {
 const HapticMap::Footprint& SpotMaps::footprint(const HapticMap& map) noexcept {
     settle(map);
     if (!printed_)
-        footprint_ = map.footprint(place_, level_);
+        map.footprint(place_, level_, footprint_);
     printed_ = true;
     return footprint_;
 }
