@@ -25,14 +25,14 @@ PERIOD = 0.001  # s
 def wish(t, depth):
     """Where the finger wants to be: from above, down to `depth` and up again every two seconds."""
     share = 0.5 - 0.5 * math.cos(math.pi * t)
-    return (0.0, 0.05 + (depth - 0.05) * share, 0.0)
+    return (0.0, 0.1 + (depth - 0.1) * share, 0.0)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--port", type=int, default=47470)
     parser.add_argument("--seconds", type=float, default=10.0)
-    parser.add_argument("--depth", type=float, default=-0.02, help="how far down, m")
+    parser.add_argument("--depth", type=float, default=0.0, help="how far down, m")
     options = parser.parse_args()
 
     link = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

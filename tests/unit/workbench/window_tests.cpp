@@ -1,91 +1,16 @@
 // The real window, driven as a person would: pointer and keys on a screen of its own.
 
-#include "tests/unit/workbench/virtual_display.h"
+#include "tests/unit/workbench/window_test.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
-#include <functional>
-#include <thread>
 
 namespace touchstone::test {
 namespace {
 
-using Json = nlohmann::json;
-
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
-
-class WindowTest : public testing::Test {
-  protected:
-    void open(const std::string& scene, const std::vector<std::string>& more = {}) {
-        std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size",
-                                           "1000x640",        "--status-json", status_.string()};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        Environment environment = display_.environment();
-        environment.emplace_back("TOUCHSTONE_VALIDATION=1");
-        environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
-        program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
-        try {
-            corner_ = display_.waitForWindow("Touchstone");
-        } catch (const std::exception& error) {
-            throw std::runtime_error(std::string(error.what()) +
-                                     (program_->running() ? "" : "; it has ended") + ": " +
-                                     readFile(scratch_ / "log"));
-        }
-        until("the model to be loaded",
-              [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
-    }
-
-    /// The newest status; fails when the program has gone.
-    Json status() {
-        if (!program_->running())
-            throw std::runtime_error("the window has closed: " + readFile(scratch_ / "log"));
-        const std::string text = readFile(status_);
-        return text.empty() ? Json{{"update", 0}, {"loading", true}, {"model", ""}} : Json::parse(text);
-    }
-
-    /// Waits for a status that says so, and returns it.
-    Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
-        for (int i = 0; i < 600; ++i) {
-            const Json now = status();
-            if (now["update"] > 0 && holds(now))
-                return now;
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-        throw std::runtime_error("waited in vain for " + what + ": " + status().dump(2) +
-                                 readFile(scratch_ / "log"));
-    }
-
-    /// A status that was measured wholly after now.
-    Json later() {
-        const int update = status()["update"];
-        return until("a newer status", [&](const Json& s) { return s["update"] >= update + 2; });
-    }
-
-    VirtualDisplay::Place middleOf(const std::string& widget) {
-        const Json rect = status()["widgets"].at(widget);
-        return {corner_.x + static_cast<int>(rect["x"].get<double>() + 12.0),
-                corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())};
-    }
-    /// A place in the picture, as shares of its width and height.
-    VirtualDisplay::Place inPicture(double x, double y) const {
-        return {corner_.x + static_cast<int>(680.0 * x), corner_.y + static_cast<int>(640.0 * y)};
-    }
-
-    void expectCleanEnd() {
-        const Json last = status();
-        EXPECT_EQ(last["validation_messages"], 0) << readFile(scratch_ / "log");
-        EXPECT_EQ(last["allocations_in_tick"], 0);
-        EXPECT_EQ(program_->stop(), 0) << readFile(scratch_ / "log");
-    }
-
-    ScratchFolder scratch_;
-    std::filesystem::path status_ = scratch_ / "status.json";
-    VirtualDisplay display_{1280, 800};
-    std::unique_ptr<BackgroundProgram> program_;
-    VirtualDisplay::Place corner_;
-};
 
 bool touching(const Json& s) {
     return s["recent"]["in_contact"].get<bool>();
