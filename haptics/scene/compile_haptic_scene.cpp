@@ -11,9 +11,9 @@ AttributeUse attributeUse(const HapticMaterialData& material) {
     for (const HapticMap* map : {&material.normal, &material.height, &material.friction.map,
                                  &material.stiffnessMap.map, &material.dampingMap.map})
         if (!map->empty())
-            use.uv[map->texCoord() & 1] = true;
+            use.uv[map->layout().texCoord & 1] = true;
     if (!material.height.empty())
-        use.uvGradients[material.height.texCoord() & 1] = true;
+        use.uvGradients[material.height.layout().texCoord & 1] = true;
     use.tangents = !material.normal.empty();
     use.normals = material.shading != ShadingMode::Off;
     return use;
