@@ -180,17 +180,17 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
 
     // 3. Proxy solve: as near to the goal as free space allows.
     const bool shading = !Plain && anyTwoPass(scene.plan, settings);
-    const glm::dvec3 goal = shading ? firstGoal(scene, settings, state, hip,
-                                                glm::length(state.travel) / workspaceFromAnchor.scale)
-                                    : hip;
+    FirstGoal first{.goal = hip};
+    if (shading)
+        first = firstGoal(scene, settings, state, hip, glm::length(state.travel) / workspaceFromAnchor.scale);
     if (!shading)
         state.shaded = false; // what was felt before it was switched off is no place to start from again
-    proxy.moveTowards(goal);
+    proxy.moveTowards(first.goal);
     stopwatch.lap(Stage::Proxy);
 
     // 4. Force shading: the same solve against the interpolated planes.
     if (shading)
-        shadeTwoPass(scene, motions, settings, hip, goal, proxy, state, rest);
+        shadeTwoPass(scene, motions, settings, hip, first, proxy, state, rest);
     FeltShape shape;
     if (rest.contactCount > 0)
         shape = feltShape(scene, motions, settings, !Plain && anyOneFacet(scene.plan, settings), hip, state,

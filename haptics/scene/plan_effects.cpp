@@ -127,7 +127,8 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
     std::array<uint64_t, 2> coordinates{use.bytes.uv[0], use.bytes.uv[1]};
     const auto mapBytes = [&](const HapticMap& map) {
         return map.memoryBytes() +
-               (map.empty() ? 0 : std::exchange(coordinates[static_cast<size_t>(map.layout().texCoord & 1)], 0));
+               (map.empty() ? 0
+                            : std::exchange(coordinates[static_cast<size_t>(map.layout().texCoord & 1)], 0));
     };
     add(Effect::ForceShading, shading(data, use), use.bytes.normals);
     add(Effect::NormalMap, normalMap(material, data), mapBytes(data.normal) + use.bytes.tangents);

@@ -1,5 +1,6 @@
 #include "haptics/shading/first_goal.h"
 
+#include "haptics/shading/shading_mode.h"
 #include "haptics/shading/tilt_limit.h"
 
 #include <array>
@@ -48,11 +49,11 @@ struct SmoothFacet {
 /// facet, without asking the mesh: what takes a move each in the rounds takes a square root here. Nothing
 /// where the facet does not hold the proxy, the normals lean beyond the limit, or it does not converge (a
 /// hollow that is pressed deeper than it is wide).
-std::optional<glm::dvec3> goalOnFacet(const HapticObject& object, const HapticSettings& settings,
-                                      const DeviceState& state, const glm::dvec3& hip,
-                                      const glm::dvec3& guess) {
+std::optional<FirstGoal> goalOnFacet(const HapticObject& object, const HapticSettings& settings,
+                                     const DeviceState& state, const glm::dvec3& hip,
+                                     const glm::dvec3& guess) {
     constexpr int kMostSteps = 6;
-    constexpr double kStill = 3e-8; // object units; what is left is a few hundredths of it
+    constexpr double kStill = 1e-8; // object units; what is left is a few hundredths of it
     const SmoothFacet facet(object, state.shadedTriangle);
     glm::dvec3 place = state.proxy - facet.a, up = facet.normal;
     if (!facet.contains(place))
@@ -70,41 +71,47 @@ std::optional<glm::dvec3> goalOnFacet(const HapticObject& object, const HapticSe
         const glm::dvec3 field = outwards * facet.normalAt(place);
         const double squared = glm::dot(field, field), cosine = glm::dot(field, up);
         const double depth = glm::dot(field, place - hand);
-        if (!(depth > 0.0) || leansBeyond(cosine / std::sqrt(squared), settings.shadingTiltLimit))
+        const double length = std::sqrt(squared);
+        if (!(depth > 0.0) || leansBeyond(cosine / length, settings.shadingTiltLimit))
             return {};
         const glm::dvec3 goal = hand + depth / squared * field;
         const double above = glm::dot(goal, up) - height;
         const glm::dvec3 onPlane = goal - above * up;
         const glm::dvec3 change = onPlane - place;
         place = onPlane;
-        if (glm::dot(change, change) < kStill * kStill) {
-            // Over the facet's edge another plane holds, and starting from this one's goal costs a move more.
-            if (!facet.contains(place))
-                return {};
-            return facet.a + (above > 0.0 ? onPlane : goal);
-        }
+        if (glm::dot(change, change) > kStill * kStill)
+            continue;
+        // Over the facet's edge another plane holds, and starting from this one's goal costs a move more.
+        if (!facet.contains(place))
+            return {};
+        return FirstGoal{.goal = facet.a + (above > 0.0 ? onPlane : goal),
+                         .onFacet = true,
+                         .place = facet.a + place,
+                         .normal = field / length};
     }
     return {};
 }
 
 } // namespace
 
-glm::dvec3 firstGoal(const HapticScene& scene, const HapticSettings& settings, const DeviceState& state,
-                     const glm::dvec3& hip, double travel) noexcept {
+FirstGoal firstGoal(const HapticScene& scene, const HapticSettings& settings, const DeviceState& state,
+                    const glm::dvec3& hip, double travel) noexcept {
     if (!state.shaded)
-        return hip;
+        return {.goal = hip};
     const glm::dvec3 normal = travel > 0.0 ? state.shadedNormal + state.shadedTurn : state.shadedNormal;
     if (state.shadedObject == state.anchor) {
         const HapticObject& object = *scene.objects[static_cast<size_t>(state.anchor)];
-        if (const auto goal = goalOnFacet(object, settings, state, hip, normal))
-            return *goal;
+        const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
+        if (shadingMode(settings, material) == ShadingMode::TwoPass)
+            if (const auto goal = goalOnFacet(object, settings, state, hip, normal))
+                return *goal;
     }
     // The goal stays a little under the shaded plane, by what that plane can rise over the true one in this
     // tick, so that the proxy is not lifted off before it is shaded.
     constexpr double kRise = 0.2;
     const glm::dvec3 unit = glm::normalize(normal);
     const double depth = glm::dot(state.proxy - hip, unit) - kRise * travel;
-    return depth > 0.0 ? hip + depth * unit : hip;
+    return {.goal = depth > 0.0 ? hip + depth * unit : hip};
 }
 
 } // namespace touchstone

@@ -76,6 +76,22 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Hap
     return result;
 }
 
+/// How far the shaded normal turned, where that says something about the next tick.
+glm::dvec3 smallTurn(const glm::dvec3& turn) {
+    return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
+}
+
+/// True where stage 3 came to rest where the first goal said, held by that facet alone: then a round would
+/// find just that goal again.
+bool cameTo(const FirstGoal& first, const DeviceState& state, const ProxyRest& rest) {
+    if (!first.onFacet || rest.contactCount != 1)
+        return false;
+    const Contact& contact = rest.contacts[0];
+    const glm::dvec3 off = state.proxy - first.place;
+    return contact.object == state.shadedObject && contact.triangle == state.shadedTriangle &&
+           glm::dot(off, off) <= kGoalTolerance * kGoalTolerance;
+}
+
 } // namespace
 
 glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
@@ -120,11 +136,16 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
 
 template <class Model>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                  const glm::dvec3& hip, const glm::dvec3& firstGoal, Model& proxy, DeviceState& state,
+                  const glm::dvec3& hip, const FirstGoal& first, Model& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept {
+    if (cameTo(first, state, rest)) {
+        state.shadedTurn = smallTurn(first.normal - state.shadedNormal);
+        state.shadedNormal = first.normal;
+        return;
+    }
     const bool wasShaded = state.shaded;
     const glm::dvec3 lastNormal = state.shadedNormal;
-    glm::dvec3 lastGoal = firstGoal, lastStep(0.0);
+    glm::dvec3 lastGoal = first.goal, lastStep(0.0);
     double relax = 1.0;
     for (int round = 0; round < kMaxRounds; ++round) {
         const ShadedGoal shaded = shadedGoal(scene, motions, settings, state, hip, rest);
@@ -136,9 +157,7 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
             state.shadedObject = facet.object;
             state.shadedTriangle = facet.triangle;
         }
-        state.shadedTurn = wasShaded && shaded.held ? shaded.normal - lastNormal : glm::dvec3(0.0);
-        if (glm::dot(state.shadedTurn, state.shadedTurn) > kLargestTurn * kLargestTurn)
-            state.shadedTurn = glm::dvec3(0.0);
+        state.shadedTurn = wasShaded && shaded.held ? smallTurn(shaded.normal - lastNormal) : glm::dvec3(0.0);
         if (!shaded.tilted && lastGoal == hip)
             return;
         glm::dvec3 step = shaded.goal - lastGoal;
@@ -170,8 +189,8 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
 }
 
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const glm::dvec3&, MeshProxy&, DeviceState&, ProxyRest&) noexcept;
+                           const FirstGoal&, MeshProxy&, DeviceState&, ProxyRest&) noexcept;
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const glm::dvec3&, NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
+                           const FirstGoal&, NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

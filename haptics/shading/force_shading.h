@@ -5,38 +5,12 @@
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_settings.h"
 #include "haptics/proxy/mesh_proxy.h"
+#include "haptics/shading/first_goal.h"
+#include "haptics/shading/shading_mode.h"
 
 #include <glm/glm.hpp>
 
 namespace touchstone {
-
-[[nodiscard]] inline const HapticMaterialData& materialOf(const HapticScene& scene,
-                                                          const Contact& contact) noexcept {
-    return scene.materials[static_cast<size_t>(scene.objects[static_cast<size_t>(contact.object)]->material)];
-}
-
-/// How a material is shaded in this session: a material that says off stays off, else the session's choice.
-[[nodiscard]] inline ShadingMode shadingMode(const HapticSettings& settings,
-                                             const HapticMaterialData& material) noexcept {
-    return settings.forceShading == ShadingMode::Material || material.shading == ShadingMode::Off
-               ? material.shading
-               : settings.forceShading;
-}
-
-/// True where some surface of the scene is felt by two-pass shading: else stage 4 moves nothing.
-[[nodiscard]] inline bool anyTwoPass(const EffectPlan& plan, const HapticSettings& settings) noexcept {
-    return settings.forceShading == ShadingMode::Material
-               ? plan.twoPassShading
-               : plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
-}
-
-/// True where some surface may turn the force of one facet (Ho, Morgenbesser).
-[[nodiscard]] inline bool anyOneFacet(const EffectPlan& plan, const HapticSettings& settings) noexcept {
-    return settings.forceShading == ShadingMode::Material
-               ? plan.oneFacetShading
-               : plan.anyShading && (settings.forceShading == ShadingMode::Direction ||
-                                     settings.forceShading == ShadingMode::Projected);
-}
 
 /// The normal that the model's vertex normals give at a contact (anchor frame, unit), on the proxy's side and
 /// tilted from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1, eq. 1]; on an
@@ -48,11 +22,11 @@ namespace touchstone {
 /// Ruspini's two-pass shading run to its fixed point: goal = nearest point to the HIP on the interpolated
 /// planes through the proxy; then the proxy moves to the point of the true surface nearest to that goal;
 /// repeated with the normals of the new place until the goal stands still. There the force is along the
-/// interpolated normal of the final proxy. Sets ShadingNotConverged.
+/// interpolated normal of the final proxy. `first`: what stage 3 went for. Sets ShadingNotConverged.
 /// Model: MeshProxy or NeighbourhoodWatch.
 template <class Model>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                  const glm::dvec3& hip, const glm::dvec3& firstGoal, Model& proxy, DeviceState& state,
+                  const glm::dvec3& hip, const FirstGoal& first, Model& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept;
 
 } // namespace touchstone

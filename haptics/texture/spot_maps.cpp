@@ -17,25 +17,19 @@ const SurfaceGradients& SpotMaps::gradients(int set) noexcept {
     return gradients_[s];
 }
 
-SurfaceGradients SpotMaps::gradients(const HapticMap& map) noexcept {
-    const SurfaceGradients& over = gradients(map.layout().texCoord);
-    const glm::dmat2& j = map.layout().jacobian;
-    return {j[0][0] * over.first + j[1][0] * over.second, j[0][1] * over.first + j[1][1] * over.second};
-}
-
 void SpotMaps::settle(const HapticMap& map) noexcept {
     if (settled_ == &map || (settled_ != nullptr && settled_->layout() == map.layout()))
         return;
     settled_ = &map;
     printed_ = false;
     place_ = map.transform(spot_.uv[map.layout().texCoord & 1 ? 1 : 0]);
-    level_ = 0.0;
-    if (!(stroke_ > 0.0))
-        return;
-    const SurfaceGradients g = gradients(map);
+    const SurfaceGradients& uv = gradients(map.layout().texCoord);
+    const glm::dmat2& j = map.layout().jacobian;
+    over_ = {j[0][0] * uv.first + j[1][0] * uv.second, j[0][1] * uv.first + j[1][1] * uv.second};
     const glm::dvec2 size(map.layout().width, map.layout().height);
-    const double texelsPerObject = std::sqrt(std::max(size.x * size.x * glm::dot(g.first, g.first),
-                                                      size.y * size.y * glm::dot(g.second, g.second)));
+    const double texelsPerObject =
+        std::sqrt(std::max(size.x * size.x * glm::dot(over_.first, over_.first),
+                           size.y * size.y * glm::dot(over_.second, over_.second)));
     const double texels = 2.0 * stroke_ / spot_.workspacePerObject * texelsPerObject;
     level_ = texels > 1.0 ? std::log2(texels) : 0.0;
 }

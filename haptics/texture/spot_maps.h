@@ -43,10 +43,12 @@ class SpotMaps {
     SpotMaps(const SurfaceSpot& spot, double stroke) : spot_(spot), stroke_(stroke) {}
 
     [[nodiscard]] const SurfaceGradients& gradients(int set) noexcept;
-    /// Of the map's own coordinates, by the chain rule over KHR_texture_transform.
-    [[nodiscard]] SurfaceGradients gradients(const HapticMap& map) noexcept;
-
     // What follows is for maps whose coordinates the mesh has (SurfaceSpot::hasUv).
+    /// Gradients of the map's own coordinates, by the chain rule over KHR_texture_transform.
+    [[nodiscard]] const SurfaceGradients& gradients(const HapticMap& map) noexcept {
+        settle(map);
+        return over_;
+    }
     /// Mip level whose texel is at least two strokes long: at that spacing the servo still samples every
     /// feature twice (Nyquist).
     [[nodiscard]] double level(const HapticMap& map) noexcept {
@@ -69,6 +71,7 @@ class SpotMaps {
     std::array<bool, 2> known_{};
     // Of the layout asked for last:
     const HapticMap* settled_ = nullptr;
+    SurfaceGradients over_;
     double level_ = 0.0;
     glm::dvec2 place_{0.0};
     bool printed_ = false;

@@ -1,6 +1,7 @@
 #include "haptics/texture/surface_feel.h"
 
 #include "haptics/shading/force_shading.h"
+#include "haptics/texture/plain_feel.h"
 #include "haptics/texture/relief.h"
 #include "haptics/texture/surface_spot.h"
 
@@ -14,6 +15,24 @@ namespace {
 /// 87 degrees: the steepest slope that Minsky's force climbs.
 constexpr double kLeastCosine = 0.05;
 
+/// The touched triangle at `point`, both in the object's frame.
+SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& material, uint32_t triangle,
+                   const glm::dvec3& point, const glm::dvec3& towardsProxy) {
+    SurfaceSpot spot{.object = object,
+                     .material = material,
+                     .triangle = triangleOf(object, triangle),
+                     .first = 3 * static_cast<size_t>(triangle)};
+    spot.weight = barycentric(spot.triangle, point);
+    spot.backside = glm::dot(spot.triangle.normal, towardsProxy) < 0.0;
+    spot.normal = spot.backside ? -towardsProxy : towardsProxy;
+    for (int set = 0; set < 2; ++set)
+        if (spot.hasUv(set))
+            for (int corner = 0; corner < 3; ++corner)
+                spot.uv[static_cast<size_t>(set)] +=
+                    spot.weight[corner] * spot.uvAt(set, static_cast<size_t>(corner));
+    return spot;
+}
+
 } // namespace
 
 SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
@@ -22,14 +41,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
     SurfaceFeel feel;
     if (rest.contactCount == 0)
         return feel;
-    uint32_t primary = 0;
-    double most = -1.0;
-    for (int i = 0; i < rest.hold.count; ++i)
-        if (rest.hold.multiplier[static_cast<size_t>(i)] > most) {
-            most = rest.hold.multiplier[static_cast<size_t>(i)];
-            primary = static_cast<uint32_t>(rest.hold.active[static_cast<size_t>(i)]);
-        }
-    const Contact& contact = rest.contacts[primary];
+    const Contact& contact = loadedContact(rest);
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
     const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
@@ -42,30 +54,19 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
 
     const Similarity& workspaceFromObject = motions[k].workspaceFromObject;
     Similarity anchorFromObject;
+    glm::dvec3 point = contact.point, towardsProxy = normal;
     const bool foreign = contact.object != anchor;
-    if (foreign)
+    if (foreign) {
         anchorFromObject =
             motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(workspaceFromObject);
-    const Similarity objectFromAnchor = foreign ? anchorFromObject.inverse() : Similarity{};
-    const Triangle triangle = triangleOf(object, contact.triangle);
-    const glm::dvec3 towardsProxy = foreign ? objectFromAnchor.direction(normal) : normal;
-    const bool backside = glm::dot(triangle.normal, towardsProxy) < 0.0;
-    SurfaceSpot spot{
-        .object = object,
-        .material = material,
-        .triangle = triangle,
-        .first = 3 * static_cast<size_t>(contact.triangle),
-        .weight = barycentric(triangle, foreign ? objectFromAnchor.point(contact.point) : contact.point),
-        .normal = backside ? -towardsProxy : towardsProxy,
-        .backside = backside,
-        .smooth = shadingMode(settings, material) != ShadingMode::Off,
-        .workspacePerObject = workspaceFromObject.scale,
-        .modelPerObject = workspaceFromObject.scale / scene.workspaceFromScene.scale};
-    for (int set = 0; set < 2; ++set)
-        if (spot.hasUv(set))
-            for (int corner = 0; corner < 3; ++corner)
-                spot.uv[static_cast<size_t>(set)] +=
-                    spot.weight[corner] * spot.uvAt(set, static_cast<size_t>(corner));
+        const Similarity objectFromAnchor = anchorFromObject.inverse();
+        point = objectFromAnchor.point(point);
+        towardsProxy = objectFromAnchor.direction(towardsProxy);
+    }
+    SurfaceSpot spot = spotOf(object, material, contact.triangle, point, towardsProxy);
+    spot.smooth = shadingMode(settings, material) != ShadingMode::Off;
+    spot.workspacePerObject = workspaceFromObject.scale;
+    spot.modelPerObject = workspaceFromObject.scale / scene.workspaceFromScene.scale;
 
     SpotMaps maps(spot, speed * dt);
     const auto factor = [&](const HapticFactor& f) {
@@ -104,7 +105,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
         feel.tiltCompressed = relief.tiltCompressed;
         if (settings.texture == TextureMode::Minsky)
             feel.lengthening = 1.0 / std::max(glm::dot(relief.normal, spot.normal), kLeastCosine);
-        const glm::dvec3 m = backside ? -relief.normal : relief.normal; // the same surface from below
+        const glm::dvec3 m = spot.backside ? -relief.normal : relief.normal; // the same surface from below
         feel.textured = foreign ? anchorFromObject.direction(m) : m;
     }
     return feel;

@@ -1,0 +1,38 @@
+#pragma once
+// Which kind of force shading holds where: what the material says and the session allows.
+
+#include "haptics/haptic_scene.h"
+#include "haptics/haptic_settings.h"
+#include "haptics/proxy/proxy_rest.h"
+
+namespace touchstone {
+
+[[nodiscard]] inline const HapticMaterialData& materialOf(const HapticScene& scene,
+                                                          const Contact& contact) noexcept {
+    return scene.materials[static_cast<size_t>(scene.objects[static_cast<size_t>(contact.object)]->material)];
+}
+
+/// How a material is shaded in this session: a material that says off stays off, else the session's choice.
+[[nodiscard]] inline ShadingMode shadingMode(const HapticSettings& settings,
+                                             const HapticMaterialData& material) noexcept {
+    return settings.forceShading == ShadingMode::Material || material.shading == ShadingMode::Off
+               ? material.shading
+               : settings.forceShading;
+}
+
+/// True where some surface of the scene is felt by two-pass shading: else stage 4 moves nothing.
+[[nodiscard]] inline bool anyTwoPass(const EffectPlan& plan, const HapticSettings& settings) noexcept {
+    return settings.forceShading == ShadingMode::Material
+               ? plan.twoPassShading
+               : plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
+}
+
+/// True where some surface may turn the force of one facet (Ho, Morgenbesser).
+[[nodiscard]] inline bool anyOneFacet(const EffectPlan& plan, const HapticSettings& settings) noexcept {
+    return settings.forceShading == ShadingMode::Material
+               ? plan.oneFacetShading
+               : plan.anyShading && (settings.forceShading == ShadingMode::Direction ||
+                                     settings.forceShading == ShadingMode::Projected);
+}
+
+} // namespace touchstone
