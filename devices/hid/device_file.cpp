@@ -215,6 +215,8 @@ DeviceFile parseDeviceFile(std::string_view text, const std::string& name) {
     } catch (const Json::parse_error& error) {
         throw Error(name, "byte " + std::to_string(error.byte), "is not JSON",
                     "check commas and quotes there");
+    } catch (const Json::exception&) { // 1e999
+        throw Error(name, "", "has a number that is too large", "SI units: m, rad, N, A, s");
     }
     const Node root(json, name, "");
     root.object({"format", "version", "name", "protocol", "usb", "arm", "limits"});

@@ -99,6 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"\"recommendedStiffness\": 300", "\"recommendedStiffness\": 1000",
                           "limits.recommendedStiffness", "900"},
                     Fault{"\"limits\": {", "\"limit\": {", "", "unknown key 'limit'"},
+                    Fault{"4000,", "1e999,", "", "too large"},
                     Fault{"\"version\": 1,", "\"version\": 1", "byte 54", "not JSON"}));
 
 TEST(DeviceFile, AWoodenHapticsNeedsAnArmAndDrivesThreeMotors) {
