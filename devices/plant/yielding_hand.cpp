@@ -11,6 +11,7 @@ DeviceLimits YieldingHand::limits() const {
     limits.positionResolution = plant_.parameters().resolution;
     limits.apparentMass = plant_.parameters().mass;
     limits.coulombFriction = plant_.parameters().coulombFriction;
+    limits.commandDelay = plant_.parameters().delay > 0;
     return limits;
 }
 

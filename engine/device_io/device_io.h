@@ -47,6 +47,7 @@ struct DeviceLimits {
     double positionResolution = 3e-5; ///< m
     double apparentMass = 0.075;      ///< kg at the tip, the least in any direction. Phantom Premium 1.5.
     double coulombFriction = 0.04;    ///< N at the tip, the least in any direction; 0: none is known of
+    bool commandDelay = false;        ///< a command acts a tick later, not at once
 };
 
 } // namespace touchstone

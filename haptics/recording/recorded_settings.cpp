@@ -39,6 +39,7 @@ void eachLimit(Limits& l, const Visit& visit) {
     visit("positionResolution", l.positionResolution, 0);
     visit("apparentMass", l.apparentMass, 0);
     visit("coulombFriction", l.coulombFriction, 0);
+    visit("commandDelay", l.commandDelay, 2);
 }
 
 using NamedNumbers = std::map<std::string, double, std::less<>>;
@@ -102,7 +103,7 @@ void putSettings(ByteWriter& bytes, const HapticSettings& settings) {
 
 void putLimits(ByteWriter& bytes, const DeviceLimits& limits) {
     NamedNumbers numbers;
-    eachLimit(limits, [&](const char* name, double value, int) { numbers[name] = value; });
+    eachLimit(limits, [&](const char* name, auto value, int) { numbers[name] = static_cast<double>(value); });
     putNumbers(bytes, numbers);
 }
 
@@ -123,9 +124,8 @@ HapticSettings getSettings(ByteReader& bytes) {
 DeviceLimits getLimits(ByteReader& bytes) {
     NamedNumbers numbers = getNumbers(bytes);
     DeviceLimits limits;
-    eachLimit(limits, [&](const char* name, double& field, int choices) {
-        takeNumber(numbers, name, field, choices);
-    });
+    eachLimit(limits,
+              [&](const char* name, auto& field, int choices) { takeNumber(numbers, name, field, choices); });
     refuseStrangers(numbers);
     return limits;
 }

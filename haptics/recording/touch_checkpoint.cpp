@@ -43,7 +43,9 @@ void eachField(State& s, const Visit& visit) {
     visit(s.limiter.faults);
     visit(s.limiter.latched);
     visit(s.limiter.passivity.placed);
+    visit(s.limiter.passivity.reading);
     visit(s.limiter.passivity.position);
+    visit(s.limiter.passivity.delayed);
     visit(s.limiter.passivity.balance);
 }
 

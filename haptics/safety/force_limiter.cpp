@@ -59,17 +59,17 @@ void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterSt
         flags = flags | TickFlag::EnergyGiven;
 }
 
-/// `target` with the controller's damper, where it is asked for and force is given at all.
-glm::dvec3 damped(const glm::dvec3& target, const SafetyInputs& inputs, const ForceLimiterState& state,
-                  uint32_t& flags, bool& cut) {
+/// What the passivity controller leaves of `target`, where it is asked for and force is given at all.
+glm::dvec3 madePassive(const glm::dvec3& target, const SafetyInputs& inputs, const ForceLimiterState& state,
+                       uint32_t& flags, bool& cut) {
     if (inputs.passivity != PassivityMode::Control || !inputs.inputValid || !inputs.forceEnabled ||
         state.latched)
         return target;
-    const glm::dvec3 damping = passivityDamping(target, inputs.dt, inputs.limits, state.passivity);
-    if (damping == glm::dvec3(0.0) || !finite(damping))
+    const glm::dvec3 passive = passiveForce(target, inputs.dt, inputs.limits, state.passivity);
+    if (passive == target || !finite(passive))
         return target;
     flags = flags | TickFlag::EnergyDamped;
-    return shortened(target + damping, inputs.limits.maxForce, cut);
+    return shortened(passive, inputs.limits.maxForce, cut);
 }
 
 } // namespace
@@ -116,7 +116,7 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
     if (state.ramp < 1.0)
         flags = flags | TickFlag::ForceRamping;
 
-    const glm::dvec3 target = damped(state.ramp * state.heldForce, inputs, state, flags, cut);
+    const glm::dvec3 target = madePassive(state.ramp * state.heldForce, inputs, state, flags, cut);
     state.lastForce =
         stepTowards(state.lastForce, target, limits.maxForce, limits.maxForceRate * inputs.dt, cut);
     state.lastTorque = stepTowards(state.lastTorque, state.ramp * state.heldTorque, limits.maxTorque,

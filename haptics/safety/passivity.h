@@ -1,7 +1,7 @@
 #pragma once
-// What the device gives the hand, in joules, and a damper that takes back what it gave too much (DESIGN §9):
-// Hannaford and Ryu, Time-domain passivity control of haptic interfaces, IEEE T-RA 18(1), 2002. Pure
-// functions; part of stage 8.
+// What the device gives the hand, in joules, and what is done where it gave too much (DESIGN §9): Hannaford
+// and Ryu, Time-domain passivity control of haptic interfaces, IEEE T-RA 18(1), 2002, and a force that
+// yields. Pure functions; part of stage 8.
 
 #include "engine/device_io/device_io.h"
 
@@ -14,24 +14,38 @@ namespace touchstone {
 /// (0.56 N a step of 30 µm at 75 g and 1 kHz).
 inline constexpr double kMostDampingRate = 250.0;
 
+/// J. The controller lets the force yield as the balance rises, until at this none is left: so whatever the
+/// wall, the sensor or the delay, no more than this and a tick's work can be given. Ordinary touch stays
+/// below a sixth of it (tests/stability/closed_loop/effects_test.cpp); less makes such touch softer where it
+/// is lively.
+inline constexpr double kMostEnergy = 2e-3;
+
 /// J. A balance above this is worth a flag: the energy that sampling alone gives in a firm tap (k v² T² / 2 a
 /// tick: 0.1 mJ for 20 ticks at 1000 N/m and 0.1 m/s), which hand and device swallow unnoticed.
 inline constexpr double kNoticedEnergy = 1e-4;
 
 /// Device frame.
 struct PassivityState {
-    bool placed = false;      ///< `position` is where the hand was in the last tick
-    glm::dvec3 position{0.0}; ///< m
-    glm::dvec3 way{0.0};      ///< m since the tick before
+    bool placed = false;      ///< `reading` and `position` are of the last tick
+    glm::dvec3 reading{0.0};  ///< m, of the sensor
+    glm::dvec3 position{0.0}; ///< m; of all places that the readings allow, the one that moved least
+    glm::dvec3 way{0.0};      ///< m that it moved since the tick before
+    glm::dvec3 delayed{0.0};  ///< N, the command before the last: what a device with a tick of delay has held
     /// J, the observer: what was given beyond what was taken and what the device's own friction takes. Above
     /// 0 the device was not passive. What was taken and cannot be stored is lost: it is no credit for later.
     double balance = 0.0;
 };
 
-/// Servo thread, once a tick. `held`: N, the force since the last tick, which the device held over the way to
-/// `position` (m): so the work is exact, not an estimate. `stored`: J, what the contact can give back (the
-/// energy of its springs now), below which the balance does not fall.
-void observeEnergy(const glm::dvec3& held, const glm::dvec3& position, double stored,
+/// Servo thread, once a tick. `sent`: N, the last command, which the device held over the way to here (or
+/// holds from here on, with a tick of delay): the work is force times way, not an estimate from a velocity.
+/// `reading`: m. `stored`: J, what the contact can give back (the energy of its springs now), below which the
+/// balance does not fall.
+///
+/// The way is that between readings, which overstates what a stiff wall gives by up to half a sensor's step
+/// times the step's force: a buzz between two steps counts, as it should. The device's friction counts for
+/// the way that the hand has gone for sure (a reading that flickers between two steps may be a hand at rest).
+/// A false alarm is then possible only above 2 fc / step, Abbott and Okamura's bound.
+void observeEnergy(const glm::dvec3& sent, const glm::dvec3& reading, double stored,
                    const DeviceLimits& limits, PassivityState& state) noexcept;
 
 /// The tick's position is not known: the observer begins anew where the hand is next seen.
@@ -40,11 +54,11 @@ inline void losePosition(PassivityState& state) noexcept {
     state.way = glm::dvec3(0.0);
 }
 
-/// The controller, after observeEnergy: N, to be added to `force` (N, what would be sent). A damper -a v with
-/// a = E / (dt v²), which takes the balance E back in one tick if the hand goes on at v; at most
-/// kMostDampingRate's, and on top of that what `force` itself pushes along the motion, which taking away
-/// cannot overshoot. Zero where the balance is not above zero or the hand rests.
-[[nodiscard]] glm::dvec3 passivityDamping(const glm::dvec3& force, double dt, const DeviceLimits& limits,
-                                          const PassivityState& state) noexcept;
+/// The controller, after observeEnergy: N, what is left of `force` (N), which is all of it where the balance
+/// is not above zero. It yields by balance / kMostEnergy. A damper -a v with a = E / (dt v²) is added, which
+/// takes the balance E back in one tick if the hand goes on at v; at most kMostDampingRate's, and on top of
+/// that what the force itself pushes along the motion, which taking away cannot overshoot.
+[[nodiscard]] glm::dvec3 passiveForce(const glm::dvec3& force, double dt, const DeviceLimits& limits,
+                                      const PassivityState& state) noexcept;
 
 } // namespace touchstone

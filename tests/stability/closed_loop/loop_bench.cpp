@@ -35,9 +35,9 @@ HapticSettings plainWall(double stiffness, double damping) {
 }
 
 LoopBench::LoopBench(const Scene& scene, const HapticSettings& settings, const PlantParameters& plant,
-                     double rateHz, const DeviceLimits& limits)
-    : bench(scene, settings), rate_(rateHz), wish_(*this), hand_(wish_, plant) {
-    bench.scene = compileHapticScene(scene, workspaceFromScene(scene, Fit::None), limits);
+                     double rateHz, const DeviceLimits& limits, Fit fit)
+    : bench(scene, settings, fit), rate_(rateHz), wish_(*this), hand_(wish_, plant) {
+    bench.scene = compileHapticScene(scene, workspaceFromScene(scene, fit), limits);
     bench.dt = 1.0 / rateHz;
 }
 

@@ -18,7 +18,7 @@ namespace touchstone::test {
 class LoopBench {
   public:
     LoopBench(const Scene& scene, const HapticSettings& settings, const PlantParameters& plant, double rateHz,
-              const DeviceLimits& limits = noLimits());
+              const DeviceLimits& limits = noLimits(), Fit fit = Fit::None);
 
     /// Leads the device from `outside` to `position` and holds it fast while the safety stage fades its force
     /// in.

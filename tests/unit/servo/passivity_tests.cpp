@@ -66,19 +66,52 @@ TEST(PassivityObserver, WhatCannotBeStoredIsNoCredit) {
     EXPECT_NEAR(state.balance, 1e-3, 1e-12) << "the third millijoule of 3 is a gift";
 }
 
-TEST(PassivityObserver, TheDevicesOwnFrictionTakesWhatIsSure) {
+TEST(PassivityObserver, CountsFrictionOnlyForTheWayThatIsSure) {
+    // A reading that flickers between two steps may be a hand at rest on the border: no friction.
     DeviceLimits limits;
-    limits.coulombFriction = 0.04;
     limits.positionResolution = 3e-5;
+    limits.coulombFriction = 0.04;
+    PassivityState state;
+    for (int tick = 0; tick < 1000; ++tick)
+        observeEnergy({}, {tick % 2 == 0 ? 0.0 : 3e-5, 0, 0}, 1.0, limits, state);
+    EXPECT_NEAR(state.position.x, 1.5e-5, 1e-18);
+    EXPECT_NEAR(state.balance, -0.04 * 1.5e-5, 1e-15) << "but for the way to the border";
+    EXPECT_EQ(state.way, glm::dvec3(0.0));
+    // Over many steps it is where the hand is, within half of one.
+    for (int tick = 0; tick <= 300; ++tick)
+        observeEnergy({}, {3e-5 * tick, 0, 0}, 1.0, limits, state);
+    EXPECT_NEAR(state.position.x, 3e-5 * 299.5, 1e-15);
+    EXPECT_NEAR(state.balance, -0.04 * 3e-5 * 299.5, 1e-12);
+}
+
+TEST(PassivityObserver, CountsABuzzBetweenTwoSteps) {
+    // Out under 3 N and in under none, a step each: the wall throws, whatever the hand really did.
+    DeviceLimits limits;
+    limits.positionResolution = 3e-5;
+    PassivityState state;
+    for (int tick = 0; tick <= 100; ++tick)
+        observeEnergy({tick % 2 == 0 ? 0.0 : 3.0, 0, 0}, {tick % 2 == 0 ? 0.0 : 3e-5, 0, 0}, 1.0, limits,
+                      state);
+    EXPECT_NEAR(state.balance, 50 * 3.0 * 3e-5, 1e-5);
+}
+
+TEST(PassivityObserver, TheDevicesOwnFrictionTakesItsShare) {
+    DeviceLimits limits = exactDevice();
+    limits.coulombFriction = 0.04;
     PassivityState state;
     observeEnergy({}, {0, 0, 0}, 0.0, limits, state);
     observeEnergy({1, 0, 0}, {1e-3, 0, 0}, 0.0, limits, state);
-    EXPECT_NEAR(state.balance, 1e-3 - 0.04 * (1e-3 - std::sqrt(3.0) * 3e-5), 1e-15);
-    // A sensor that flickers by one step has not moved for sure.
-    PassivityState flicker;
-    for (int tick = 0; tick < 100; ++tick)
-        observeEnergy({}, {tick % 2 == 0 ? 0.0 : 3e-5, 0, 0}, 1.0, limits, flicker);
-    EXPECT_EQ(flicker.balance, 0.0);
+    EXPECT_NEAR(state.balance, 1e-3 - 0.04 * 1e-3, 1e-15);
+}
+
+TEST(PassivityObserver, KnowsOfADevicesDelay) {
+    DeviceLimits limits = exactDevice();
+    limits.commandDelay = true;
+    PassivityState state;
+    observeEnergy({1, 0, 0}, {0, 0, 0}, kMuch, limits, state);
+    observeEnergy({2, 0, 0}, {0.1, 0, 0}, kMuch, limits, state); // held: 1 N
+    observeEnergy({4, 0, 0}, {0.3, 0, 0}, kMuch, limits, state); // held: 2 N
+    EXPECT_NEAR(state.balance, 0.1 + 0.4, 1e-15);
 }
 
 TEST(PassivityObserver, BeginsAnewWhereThePositionWasLost) {
@@ -96,29 +129,35 @@ TEST(PassivityController, TakesTheBalanceBackInOneTickAtTheSameSpeed) {
     const glm::dvec3 way{1e-4, -2e-4, 0};
     observeEnergy({0.05, 0, 0}, way, 0.0, exactDevice(), state);
     ASSERT_NEAR(state.balance, 5e-6, 1e-18);
-    const glm::dvec3 damping = passivityDamping({}, kTick, exactDevice(), state);
+    const glm::dvec3 damping = passiveForce({}, kTick, exactDevice(), state);
     EXPECT_NEAR(glm::length(glm::cross(damping, way)), 0.0, 1e-18) << "along the motion";
     // a = E / (dt v²), Hannaford and Ryu.
     const double a = 5e-6 / (kTick * glm::dot(way, way) / (kTick * kTick));
     EXPECT_NEAR(glm::length(damping), a * glm::length(way) / kTick, 1e-12);
     observeEnergy(damping, 2.0 * way, 0.0, exactDevice(), state);
     EXPECT_NEAR(state.balance, 0.0, 1e-18);
-    EXPECT_EQ(passivityDamping({}, kTick, exactDevice(), PassivityState{}), glm::dvec3(0.0));
+    const glm::dvec3 force{1, 2, 3};
+    EXPECT_EQ(passiveForce(force, kTick, exactDevice(), state), force) << "nothing is owed";
 }
 
 TEST(PassivityController, DampsNoMoreThanAMassBearsAndThePushAlongTheMotion) {
     PassivityState state;
-    observeEnergy({}, {0, 0, 0}, 0.0, exactDevice(), state);
-    observeEnergy({1, 0, 0}, {0.1, 0, 0}, 0.0, exactDevice(), state);
+    state.balance = 0.25 * kMostEnergy;
     state.way = {1e-4, 0, 0};
     const double most = 0.075 * kMostDampingRate * 0.1; // N at 0.1 m/s
-    EXPECT_NEAR(passivityDamping({}, kTick, exactDevice(), state).x, -most, 1e-12);
-    EXPECT_NEAR(passivityDamping({2, 5, 0}, kTick, exactDevice(), state).x, -most - 2.0, 1e-12);
-    EXPECT_NEAR(passivityDamping({-2, 5, 0}, kTick, exactDevice(), state).x, -most, 1e-12);
+    const auto passive = [&](const glm::dvec3& force, double dt = kTick) {
+        return passiveForce(force, dt, exactDevice(), state);
+    };
+    EXPECT_NEAR(passive({}).x, -most, 1e-12);
+    EXPECT_NEAR(passive({2, 5, 0}).x, -most, 1e-12) << "what pushes is gone";
+    EXPECT_NEAR(passive({2, 5, 0}).y, 0.75 * 5.0, 1e-12) << "across the motion it yields by a quarter";
+    EXPECT_NEAR(passive({-2, 5, 0}).x, -most - 0.75 * 2.0, 1e-12);
     // In long ticks a damper must not turn the motion round: at most half of mass / dt.
-    EXPECT_NEAR(passivityDamping({}, 0.01, exactDevice(), state).x, -0.075 * 50.0 * 0.01, 1e-12);
+    EXPECT_NEAR(passive({}, 0.01).x, -0.075 * 50.0 * 0.01, 1e-12);
     state.way = {};
-    EXPECT_EQ(passivityDamping({2, 0, 0}, kTick, exactDevice(), state), glm::dvec3(0.0));
+    EXPECT_EQ(passive({2, 0, 0}), glm::dvec3(1.5, 0, 0));
+    state.balance = kMostEnergy;
+    EXPECT_EQ(passive({2, 0, 0}), glm::dvec3(0.0)) << "no force is left";
 }
 
 /// The limiter on a device that is dragged along +x by a force that pushes that way.
