@@ -40,13 +40,15 @@ class Hash64 {
     void addBytes(const std::vector<Plain>& values) noexcept { addBytes(std::as_bytes(std::span(values))); }
 
     [[nodiscard]] uint64_t value() const noexcept { return state_; }
-    [[nodiscard]] uint32_t folded() const noexcept { return static_cast<uint32_t>(state_ ^ (state_ >> 32)); }
+    /// The upper half of one more product: the lower halves would let the last word's sign cancel out.
+    [[nodiscard]] uint32_t folded() const noexcept { return static_cast<uint32_t>((state_ * kFactor) >> 32); }
 
   private:
     void addWord(uint64_t word) noexcept {
-        state_ = (state_ ^ word) * 0x9e3779b97f4a7c15u;
+        state_ = (state_ ^ word) * kFactor;
         state_ ^= state_ >> 32;
     }
+    static constexpr uint64_t kFactor = 0x9e3779b97f4a7c15u;
     uint64_t state_ = 0x243f6a8885a308d3u;
 };
 

@@ -16,8 +16,10 @@ std::optional<Fault> FaultWatch::add(const RecordedTick& tick) {
     sinceContact_ = tick.contacts > 0 ? 0.0 : sinceContact_ + tick.dt;
     invalid_ = invalid ? invalid_ + tick.dt : std::max(0.0, invalid_ - kForget * tick.dt);
     valid_ = invalid ? 0.0 : valid_ + tick.dt;
-    if (valid_ > kMemory)
+    if (valid_ > kMemory) {
         lost_ = false;
+        invalid_ = 0.0;
+    }
     const bool beganFault = faulty && !std::exchange(faulty_, faulty);
     const bool beganLatch = latched && !std::exchange(latched_, latched);
     faulty_ = faulty;
@@ -26,7 +28,7 @@ std::optional<Fault> FaultWatch::add(const RecordedTick& tick) {
         return Fault{"force-fault", "the force was not a finite number: it was cut to zero and stays off"};
     if (beganLatch)
         return Fault{"safety-latched", "too many late ticks in a row: the force faded out and stays off"};
-    if (invalid_ < kInputLost || sinceContact_ > kMemory || std::exchange(lost_, true))
+    if (!invalid || invalid_ < kInputLost || sinceContact_ > kMemory || std::exchange(lost_, true))
         return std::nullopt;
     return Fault{"input-lost", "the device gave no usable samples while it touched: the force faded out"};
 }

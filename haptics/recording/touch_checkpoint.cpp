@@ -1,5 +1,7 @@
 #include "haptics/recording/touch_checkpoint.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -52,23 +54,48 @@ void eachField(State& s, const Visit& visit) {
 /// Only the fields that eachField visits; a DeviceState's own copy would be a megabyte.
 struct CarriedFields {
     bool sampled = false;
-    glm::dvec3 hip, travel, velocity;
+    glm::dvec3 hip{0.0}, travel{0.0}, velocity{0.0};
     bool placed = false;
     int anchor = -1;
-    glm::dvec3 proxy;
+    glm::dvec3 proxy{0.0};
     PinchedObjects pinched;
     double gatherMargin = 0.0;
     WatchState watch;
     bool shaded = false;
-    glm::dvec3 shadedNormal, shadedTurn;
+    glm::dvec3 shadedNormal{0.0}, shadedTurn{0.0};
     int shadedObject = -1;
     uint32_t shadedTriangle = 0;
     FrictionState friction = FrictionState::Free;
-    glm::dvec3 stictionPoint, frictionless;
+    glm::dvec3 stictionPoint{0.0}, frictionless{0.0};
     ForceLimiterState limiter;
 };
 
+/// No number that a touch comes to, in any unit, is larger; Embree takes none above 1.8e18.
+constexpr double kLargest = 1e15;
+
+bool reasonable(const CarriedFields& fields) {
+    bool all = fields.gatherMargin > 0.0;
+    const auto look = [&](double number) { all &= std::abs(number) < kLargest; };
+    const auto lookAt = [&](const glm::dvec3& v) {
+        look(v.x);
+        look(v.y);
+        look(v.z);
+    };
+    eachField(fields, [&](const auto& field) {
+        using Field = std::remove_cvref_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, double>)
+            look(field);
+        else if constexpr (std::is_same_v<Field, glm::dvec3>)
+            lookAt(field);
+        else if constexpr (std::is_same_v<Field, decltype(PinchedObjects::places)>)
+            std::for_each(field.begin(), field.end(), lookAt);
+    });
+    return all;
+}
+
 bool possible(const CarriedFields& fields, const HapticScene* scene) {
+    if (!reasonable(fields))
+        return false;
     const int objects = scene != nullptr ? static_cast<int>(scene->objects.size()) : 0;
     if (fields.anchor >= objects || fields.pinched.count > PinchedObjects::kMost ||
         fields.friction > FrictionState::Sliding)

@@ -92,6 +92,19 @@ bool BackgroundProgram::running() {
     return false;
 }
 
+void BackgroundProgram::send(int signal) {
+    if (running())
+        kill(pid_, signal);
+}
+
+int BackgroundProgram::wait(std::chrono::seconds limit) {
+    if (running()) {
+        status_ = await(pid_, limit);
+        pid_ = -1;
+    }
+    return status_;
+}
+
 int BackgroundProgram::stop() {
     if (running()) {
         kill(pid_, SIGTERM);

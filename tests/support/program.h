@@ -33,6 +33,9 @@ class BackgroundProgram {
     BackgroundProgram& operator=(const BackgroundProgram&) = delete;
 
     [[nodiscard]] bool running();
+    void send(int signal);
+    /// Waits for its end without asking for it.
+    int wait(std::chrono::seconds limit = std::chrono::seconds(60));
     /// Asks it to end (SIGTERM) and returns its status.
     int stop();
 

@@ -1,0 +1,263 @@
+// What is written is what was meant, byte by byte as docs/recording.md says, and nothing else is read.
+
+#include "engine/core/checksum.h"
+#include "engine/core/error.h"
+#include "engine/core/machine.h"
+#include "haptics/recording/byte_stream.h"
+#include "haptics/recording/recorded_settings.h"
+#include "haptics/recording/recording_format.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace touchstone {
+namespace {
+
+template <class Number>
+Number numberAt(const std::vector<std::byte>& bytes, size_t at) {
+    Number number{};
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return number;
+}
+
+RecordedTick someTick() {
+    RecordedTick tick;
+    tick.tick = 0x0102030405060708;
+    tick.time = 1.25;
+    tick.dt = 1e-3;
+    tick.sample.position = {0.1, -0.2, 0.3};
+    tick.sample.orientation = glm::dquat(0.5, 0.5, -0.5, 0.5);
+    tick.sample.buttons = 5;
+    tick.sample.age = 2e-3;
+    tick.sample.valid = true;
+    tick.settings = 7;
+    tick.scene = 3;
+    tick.late = tick.checkpoint = true;
+    tick.wakeLatencyNs = -12;
+    tick.stepNs = 3456;
+    tick.hashes = {1, 2, 3, 4, 5, 6, 7, 0xfffffff8};
+    tick.proxy = {1.0, 2.0, 3.0};
+    tick.force = {4.0, 5.0, 6.0};
+    tick.command = {7.0, 8.0, 9.0};
+    tick.contacts = 2;
+    tick.flags = 0x80000001;
+    return tick;
+}
+
+std::vector<RecordedItem> oneOfEach() {
+    RecordedScene scene{3, {}};
+    scene.identity.path = "a b/ü.glb";
+    scene.identity.absolutePath = "/x";
+    scene.identity.generated = true;
+    scene.identity.fileSize = 12;
+    scene.identity.fileHash = 0x1122334455667788;
+    scene.identity.feltHash = 0x99;
+    scene.identity.fit = Fit::Workspace;
+    scene.identity.limits.maxForce = 3.3;
+    RecordedSettings settings{9, {}};
+    settings.settings.friction = FrictionMode::Elastoplastic;
+    settings.settings.forceEnabled = false;
+    settings.settings.stiffness = 1.0 / 3.0;
+    TouchCheckpoint checkpoint;
+    checkpoint.tick = 77;
+    checkpoint.scene = 3;
+    checkpoint.previousTime = 0.076;
+    checkpoint.size = 5;
+    for (size_t i = 0; i < 5; ++i)
+        checkpoint.bytes[i] = static_cast<std::byte>(200 + i);
+    return {recordingOrigin("touch", 1000.0),
+            scene,
+            settings,
+            checkpoint,
+            RecordedTicks{{someTick(), {}}},
+            RecordedLoss{12},
+            RecordedNote{5, "what"},
+            RecordedEnd{99}};
+}
+
+TEST(Checksum, IsTheCastagnoliPolynomialsAtAnyLength) {
+    const std::string_view digits = "123456789"; // the check value of every catalogue of CRCs
+    EXPECT_EQ(crc32c(std::as_bytes(std::span(digits))), 0xe3069283u);
+    const std::vector<std::byte> zeros(32); // RFC 3720, B.4
+    EXPECT_EQ(crc32c(zeros), 0x8a9136aau);
+    for (size_t cut = 0; cut <= digits.size(); ++cut)
+        EXPECT_EQ(crc32c(std::as_bytes(std::span(digits.substr(cut))),
+                         crc32c(std::as_bytes(std::span(digits.substr(0, cut))))),
+                  0xe3069283u);
+}
+
+TEST(Machine, NamesTheBuildAndTheProcessor) {
+    EXPECT_EQ(buildIdentity().size(), 40u) << buildIdentity(); // SHA-1, hexadecimal
+    EXPECT_FALSE(compilerName().empty());
+    EXPECT_FALSE(processorName().empty());
+}
+
+TEST(RecordingFormat, ATickStandsWhereTheDocumentSays) {
+    const std::vector<std::byte> bytes = encode(RecordedTicks{{someTick()}});
+    ASSERT_EQ(bytes.size(), 4 + kTickSize);
+    EXPECT_EQ(numberAt<uint32_t>(bytes, 0), 1u);
+    const auto tick = std::vector(bytes.begin() + 4, bytes.end());
+    EXPECT_EQ(numberAt<uint64_t>(tick, 0), 0x0102030405060708u);
+    EXPECT_EQ(tick[0], std::byte{8}) << "little endian";
+    EXPECT_EQ(numberAt<double>(tick, 8), 1.25);
+    EXPECT_EQ(numberAt<double>(tick, 16), 1e-3);
+    EXPECT_EQ(numberAt<double>(tick, 32), -0.2);
+    EXPECT_EQ(numberAt<double>(tick, 56), -0.5) << "y of the orientation";
+    EXPECT_EQ(numberAt<double>(tick, 80), 2e-3);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 88), 5u);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 92), 7u);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 96), 3u);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 100), 1u + 2u + 8u);
+    EXPECT_EQ(numberAt<int32_t>(tick, 104), -12);
+    EXPECT_EQ(numberAt<int32_t>(tick, 108), 3456);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 112), 1u);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 140), 0xfffffff8u);
+    EXPECT_EQ(numberAt<double>(tick, 144), 1.0);
+    EXPECT_EQ(numberAt<double>(tick, 168), 4.0);
+    EXPECT_EQ(numberAt<double>(tick, 192), 7.0);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 216), 2u);
+    EXPECT_EQ(numberAt<uint32_t>(tick, 220), 0x80000001u);
+}
+
+TEST(RecordingFormat, EveryItemReadsBackToTheSameBytes) {
+    const std::vector<RecordedItem> items = oneOfEach();
+    ASSERT_EQ(items.size(), kChunkNames.size());
+    for (size_t i = 0; i < items.size(); ++i) {
+        ASSERT_EQ(items[i].index(), i);
+        const std::vector<std::byte> bytes = encode(items[i]);
+        EXPECT_EQ(encode(decode(i, bytes)), bytes) << kChunkNames[i];
+    }
+    const auto scene = std::get<RecordedScene>(decode(1, encode(items[1])));
+    EXPECT_EQ(scene.identity.path, "a b/ü.glb");
+    EXPECT_EQ(scene.identity.limits.maxForce, 3.3);
+    EXPECT_EQ(scene.identity.fit, Fit::Workspace);
+    EXPECT_EQ(std::get<RecordedSettings>(decode(2, encode(items[2]))).settings,
+              std::get<RecordedSettings>(items[2]).settings);
+    const auto ticks = std::get<RecordedTicks>(decode(4, encode(items[4]))).ticks;
+    ASSERT_EQ(ticks.size(), 2u);
+    EXPECT_EQ(ticks[0].hashes, someTick().hashes);
+    EXPECT_EQ(ticks[0].sample.orientation, someTick().sample.orientation);
+}
+
+TEST(RecordingFormat, APayloadThatIsTooShortOrTooLongIsRefused) {
+    for (const RecordedItem& item : oneOfEach()) {
+        std::vector<std::byte> bytes = encode(item);
+        for (size_t length = 0; length < bytes.size(); ++length)
+            EXPECT_THROW((void)decode(item.index(), std::span(bytes).first(length)), Error)
+                << kChunkNames[item.index()] << " of " << length;
+        bytes.push_back(std::byte{0});
+        EXPECT_THROW((void)decode(item.index(), bytes), Error) << kChunkNames[item.index()];
+    }
+}
+
+TEST(RecordingFormat, HoldsEverySettingToTheLastBit) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    // Whatever --set can make, and --set itself knows no field that a recording does not hold.
+    for (int turn = 0; turn < 300; ++turn) {
+        HapticSettings settings;
+        for (const SettingInfo& info : settingInfos()) {
+            std::string value;
+            const std::string values(info.values);
+            const size_t range = values.find("..");
+            if (range != std::string::npos) {
+                const double low = std::stod(values), high = std::stod(values.substr(range + 2));
+                double number = low + share(random) * (high - low);
+                if (info.name == "iterationBudget")
+                    number = std::floor(number);
+                value = std::to_string(number);
+            } else {
+                std::vector<std::string> choices;
+                std::stringstream stream(values);
+                for (std::string choice; std::getline(stream >> std::ws, choice, ',');)
+                    choices.push_back(choice);
+                value = choices[random() % choices.size()];
+            }
+            ASSERT_EQ(setSetting(settings, info.name, value), "");
+        }
+        std::vector<std::byte> bytes;
+        ByteWriter writer(bytes);
+        putSettings(writer, settings);
+        ByteReader reader(bytes);
+        EXPECT_EQ(getSettings(reader), settings);
+    }
+}
+
+/// Settings with one named number in place of another.
+std::vector<std::byte> settingsWith(const std::string& name, double value) {
+    std::vector<std::byte> bytes;
+    ByteWriter writer(bytes);
+    writer.put(uint16_t{1});
+    writer.put(name);
+    writer.put(value);
+    return bytes;
+}
+
+TEST(RecordingFormat, RefusesSettingsThatCannotBe) {
+    for (const auto& [name, value] : {std::pair<std::string, double>{"friction", 9.0},
+                                      {"friction", -1.0},
+                                      {"friction", 0.5},
+                                      {"friction", std::nan("")},
+                                      {"proxyRadius", 1.0},
+                                      {"proxyRadius", std::nan("")},
+                                      {"iterationBudget", 0.0},
+                                      {"iterationBudget", 1e300},
+                                      {"iterationBudget", 3.5},
+                                      {"noSuchSetting", 0.0}}) {
+        const std::vector<std::byte> bytes = settingsWith(name, value);
+        ByteReader reader(bytes);
+        EXPECT_THROW((void)getSettings(reader), Error) << name << " " << value;
+    }
+    const std::vector<std::byte> bytes = settingsWith("stiffness", 321.0);
+    ByteReader reader(bytes);
+    HapticSettings expected; // what is not there keeps its default
+    expected.stiffness = 321.0;
+    EXPECT_EQ(getSettings(reader), expected);
+}
+
+TEST(StageHashes, AreThoseOfTheDocument) {
+    // state = (state ^ word) * 9e3779b97f4a7c15, state ^= state >> 32, over the proxy's three doubles.
+    StageTrace trace;
+    trace.proxy[1] = {1.0, -2.0, 0.5};
+    uint64_t state = 0x243f6a8885a308d3;
+    for (const uint64_t word : {0x3ff0000000000000u, 0xc000000000000000u, 0x3fe0000000000000u}) {
+        state = (state ^ word) * 0x9e3779b97f4a7c15;
+        state ^= state >> 32;
+    }
+    EXPECT_EQ(stageHashes(trace, {})[static_cast<size_t>(Stage::Proxy)],
+              static_cast<uint32_t>((state * 0x9e3779b97f4a7c15) >> 32));
+}
+
+TEST(StageHashes, EachStageTellsOfItsOwnOutputsOnly) {
+    const StageHashes still = stageHashes({}, {});
+    const auto changed = [&](const std::function<void(StageTrace&, HapticOutput&)>& change) {
+        StageTrace trace;
+        HapticOutput output;
+        change(trace, output);
+        const StageHashes hashes = stageHashes(trace, output);
+        std::string stages;
+        for (size_t i = 0; i < kStageCount; ++i)
+            if (hashes[i] != still[i])
+                stages += std::string(kStageNames[i]) + " ";
+        return stages;
+    };
+    EXPECT_EQ(changed([](auto&, auto& o) { o.hip.x = 1e-300; }), "sample ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.hipVelocity.z = -0.0; }), "sample ");
+    EXPECT_EQ(changed([](auto& t, auto&) { t.proxy[0].y = 1.0; }), "contact ");
+    EXPECT_EQ(changed([](auto& t, auto&) { t.anchor = 0; }), "contact ");
+    EXPECT_EQ(changed([](auto& t, auto&) { t.proxy[1].y = 1.0; }), "proxy ");
+    EXPECT_EQ(changed([](auto& t, auto&) { t.proxy[2].y = 1.0; }), "shading ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.normal.y = 1.0; }), "texture ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.triangle = 4; }), "texture ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.proxy.y = 1.0; }), "friction ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.friction = FrictionState::Sliding; }), "friction ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.force.y = 1.0; }), "force ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.commandInWorkspace.y = 1.0; }), "safety ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.flags = 0u | TickFlag::ForceLimited; }), "safety ");
+    EXPECT_EQ(changed([](auto&, auto& o) { o.flags = 0u | TickFlag::Teleported; }), "force safety ");
+}
+
+} // namespace
+} // namespace touchstone

@@ -1,0 +1,247 @@
+// Files as they come back from the world: whole, cut off, spoilt, or something else altogether.
+
+#include "engine/core/checksum.h"
+#include "engine/core/error.h"
+#include "haptics/recording/recording_file.h"
+#include "haptics/recording/recording_reader.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_servo.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+
+namespace touchstone::test {
+namespace {
+
+/// Three blocks of ticks and what they refer to.
+std::vector<RecordedItem> smallRecording() {
+    std::vector<RecordedItem> items{recordingOrigin("touch", 1000.0), RecordedSettings{}};
+    for (uint64_t block = 0; block < 3; ++block) {
+        RecordedTicks ticks;
+        for (uint64_t i = 0; i < 4; ++i)
+            ticks.ticks.emplace_back().tick = 4 * block + i;
+        items.emplace_back(ticks);
+    }
+    items.emplace_back(RecordedEnd{12});
+    return items;
+}
+
+/// Every chunk that a reader gives, as bytes.
+struct Reading {
+    std::vector<std::vector<std::byte>> items;
+    std::vector<bool> damageBefore;
+    bool cutOff = false;
+    size_t damage = 0;
+};
+Reading readingOf(const std::filesystem::path& file) {
+    RecordingReader reader(file);
+    Reading reading;
+    while (const auto item = reader.next()) {
+        reading.items.push_back(encode(item->item));
+        reading.damageBefore.push_back(item->damageBefore);
+    }
+    reading.cutOff = reader.cutOff();
+    reading.damage = reader.damage().size();
+    return reading;
+}
+
+class ReaderTest : public testing::Test {
+  protected:
+    ReaderTest() {
+        writeItems(file_, smallRecording());
+        bytes_ = readFile(file_);
+        whole_ = readingOf(file_);
+    }
+    Reading reading(const std::string& bytes) {
+        writeTextFile(file_, bytes);
+        return readingOf(file_);
+    }
+    std::string problem(const std::string& bytes) {
+        writeTextFile(file_, bytes);
+        try {
+            (void)readingOf(file_);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+    ScratchFolder scratch_;
+    std::filesystem::path file_ = scratch_ / "r.tsrec";
+    std::string bytes_;
+    Reading whole_;
+};
+
+TEST_F(ReaderTest, AWholeFileIsReadAsItWasWritten) {
+    const std::vector<RecordedItem> items = smallRecording();
+    ASSERT_EQ(whole_.items.size(), items.size());
+    for (size_t i = 0; i < items.size(); ++i)
+        EXPECT_EQ(whole_.items[i], encode(items[i]));
+    EXPECT_FALSE(whole_.cutOff);
+    EXPECT_EQ(whole_.damage, 0u);
+}
+
+TEST_F(ReaderTest, AFileCutAnywhereGivesAllThatIsWholeBeforeIt) {
+    for (size_t length = kFileHeaderSize; length < bytes_.size(); length += length < 400 ? 1 : 7) {
+        const Reading cut = reading(bytes_.substr(0, length));
+        ASSERT_LT(cut.items.size(), whole_.items.size()) << length;
+        for (size_t i = 0; i < cut.items.size(); ++i)
+            ASSERT_EQ(cut.items[i], whole_.items[i]) << length;
+        ASSERT_TRUE(cut.cutOff) << length;
+        ASSERT_EQ(cut.damage, 0u) << length;
+    }
+    const size_t lastChunk = kChunkHeaderSize + 8; // DONE
+    EXPECT_EQ(reading(bytes_.substr(0, bytes_.size() - lastChunk)).items.size(), whole_.items.size() - 1);
+}
+
+TEST_F(ReaderTest, ASpoiltByteLosesItsOwnChunkAndNoOther) {
+    for (size_t at = kFileHeaderSize; at < bytes_.size(); at += at < 400 ? 1 : 7) {
+        std::string spoilt = bytes_;
+        spoilt[at] = static_cast<char>(spoilt[at] ^ 0x40);
+        const Reading got = reading(spoilt);
+        // All that is read was written, in its order, and at most one is missing.
+        size_t next = 0;
+        for (const std::vector<std::byte>& item : got.items) {
+            while (next < whole_.items.size() && whole_.items[next] != item)
+                ++next;
+            ASSERT_LT(next++, whole_.items.size()) << "byte " << at;
+        }
+        ASSERT_GE(got.items.size() + 1, whole_.items.size()) << "byte " << at;
+        ASSERT_TRUE(got.damage > 0 || got.cutOff) << "byte " << at;
+    }
+}
+
+TEST_F(ReaderTest, AChunkThatIsMissingIsNoticedAndSaid) {
+    // The middle block of ticks taken out, as a careless tool might.
+    const std::vector<RecordedItem> items = smallRecording();
+    std::string cut;
+    size_t at = kFileHeaderSize;
+    for (size_t i = 0; i < items.size(); ++i) {
+        const size_t size = kChunkHeaderSize + encode(items[i]).size();
+        if (i != 3)
+            cut += bytes_.substr(at, size);
+        at += size;
+    }
+    const Reading got = reading(bytes_.substr(0, kFileHeaderSize) + cut);
+    EXPECT_EQ(got.items.size(), items.size() - 1);
+    EXPECT_EQ(got.damage, 1u);
+    EXPECT_TRUE(got.damageBefore[3]);
+}
+
+TEST_F(ReaderTest, AChunkOfAnUnknownKindIsLeftOut) {
+    // A chunk of a later version between two of ours: name, checksum and number as they should be.
+    const std::vector<RecordedItem> items = smallRecording();
+    std::string bytes = bytes_.substr(0, kFileHeaderSize);
+    for (uint32_t i = 0; i < items.size(); ++i) {
+        std::vector<std::byte> chunk = chunkOf(items[i], i < 2 ? i : i + 1);
+        bytes.append(reinterpret_cast<const char*>(chunk.data()), chunk.size());
+        if (i != 1)
+            continue;
+        chunk = chunkOf(RecordedLoss{}, 2);
+        std::memcpy(chunk.data() + 4, "XTRA", 4);
+        const std::span<const std::byte> all(chunk);
+        const uint32_t checksum = crc32c(all.subspan(kChunkHeaderSize), crc32c(all.subspan(4, 12)));
+        std::memcpy(chunk.data() + 16, &checksum, sizeof checksum);
+        bytes.append(reinterpret_cast<const char*>(chunk.data()), chunk.size());
+    }
+    const Reading got = reading(bytes);
+    EXPECT_EQ(got.items, whole_.items);
+    EXPECT_EQ(got.damage, 0u);
+}
+
+TEST_F(ReaderTest, WhatIsNoRecordingIsToldApart) {
+    EXPECT_NE(problem("").find("is empty"), std::string::npos);
+    EXPECT_NE(problem("t,x,y,z\n0,0,0,0\n").find("is no recording"), std::string::npos);
+    EXPECT_NE(problem(bytes_.substr(0, kFileHeaderSize - 1)).find("is no recording"), std::string::npos);
+    EXPECT_THROW(RecordingReader(scratch_ / "nothing"), Error);
+    EXPECT_THROW(RecordingReader(scratch_.path()), Error);
+    std::string spoilt = bytes_;
+    spoilt[9] = 'x';
+    EXPECT_NE(problem(spoilt).find("header is damaged"), std::string::npos);
+}
+
+TEST_F(ReaderTest, ANewerFormatSaysSo) {
+    std::vector<std::byte> header(kFileHeaderSize - 4);
+    std::memcpy(header.data(), bytes_.data(), header.size());
+    const uint32_t newer = kRecordingVersion + 1;
+    std::memcpy(header.data() + 8, &newer, sizeof newer);
+    const uint32_t checksum = crc32c(header);
+    std::string bytes(reinterpret_cast<const char*>(header.data()), header.size());
+    bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+    const std::string said = problem(bytes + bytes_.substr(kFileHeaderSize));
+    EXPECT_NE(said.find("is of format 2"), std::string::npos) << said;
+    EXPECT_NE(said.find("newer Touchstone"), std::string::npos) << said;
+}
+
+TEST(RecordingFile, ADeviceThatIsFullIsAnErrorThatNamesIt) {
+    try {
+        RecordingFile file("/dev/full");
+        FAIL() << "it took the header";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.file(), "/dev/full");
+        EXPECT_NE(error.problem().find("No space left"), std::string::npos) << error.problem();
+    }
+}
+
+/// Runs `work` in a process of its own and returns how it ended.
+int inAChild(const std::function<void()>& work) {
+    const pid_t child = fork();
+    if (child == 0) {
+        work();
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
+}
+
+TEST(RecordingFile, WhereItMayNotGrowItEndsWithItsLastWholeChunk) {
+    const ScratchFolder scratch;
+    const std::filesystem::path path = scratch / "r.tsrec";
+    constexpr size_t kLimit = 10000;
+    const int status = inAChild([&] {
+        signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{kLimit, kLimit};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        RecordingFile file(path);
+        RecordedTicks ticks;
+        ticks.ticks.resize(7);
+        try {
+            for (;;)
+                file.append(ticks);
+        } catch (const Error&) {
+            _exit(3);
+        }
+    });
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    const size_t chunk = kChunkHeaderSize + 4 + 7 * kTickSize;
+    EXPECT_EQ(std::filesystem::file_size(path), kFileHeaderSize + (kLimit - kFileHeaderSize) / chunk * chunk);
+    const Reading got = readingOf(path);
+    EXPECT_EQ(got.items.size(), (kLimit - kFileHeaderSize) / chunk);
+    EXPECT_EQ(got.damage, 0u);
+    EXPECT_TRUE(got.cutOff);
+}
+
+TEST(RecordingFile, AKilledProcessLeavesAllThatItAppended) {
+    const ScratchFolder scratch;
+    const std::filesystem::path path = scratch / "r.tsrec";
+    const int status = inAChild([&] {
+        RecordingFile file(path);
+        for (uint64_t i = 0; i < 1000; ++i)
+            file.append(RecordedLoss{i});
+        raise(SIGKILL);
+    });
+    ASSERT_TRUE(WIFSIGNALED(status));
+    const Reading got = readingOf(path);
+    ASSERT_EQ(got.items.size(), 1000u);
+    EXPECT_EQ(got.items[999], encode(RecordedLoss{999}));
+    EXPECT_TRUE(got.cutOff);
+}
+
+} // namespace
+} // namespace touchstone::test
