@@ -134,7 +134,8 @@ TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(ForceLimiterState), 184u);
     EXPECT_EQ(sizeof(PinchedObjects), 232u);
     EXPECT_EQ(sizeof(WatchState), 8u);
-    EXPECT_EQ(sizeof(DeviceState), 9336u);
+    // What a tick writes before it reads, and what can be found again, may be of any size.
+    EXPECT_EQ(sizeof(DeviceState) - sizeof(ProxyRest) - 2 * sizeof(CandidateCache), 688u);
     EXPECT_LE(checkpointSize(), TouchCheckpoint::kCapacity);
 }
 
