@@ -17,6 +17,11 @@ void HandSwitch::hold(std::shared_ptr<LinkedDevice> device) {
     held_.offer(std::make_shared<const Held>(Held{std::move(device)}));
 }
 
+void HandSwitch::face(const glm::dquat& deviceFromView) {
+    if (device_ != nullptr)
+        device_->face(deviceFromView);
+}
+
 void HandSwitch::apply(const DeviceCommand& command) noexcept {
     if (driven_ != nullptr)
         driven_->apply(command);

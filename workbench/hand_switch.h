@@ -24,6 +24,8 @@ class HandSwitch final : public Device {
     void offerPath(std::shared_ptr<const StrokePath> path) { path_.offer(std::move(path)); }
     /// Null: back to the mouse or the simulated hand. A device that is let go gets zero force.
     void hold(std::shared_ptr<LinkedDevice> device);
+    /// How the user looks at the workspace: LinkedDevice::face.
+    void face(const glm::dquat& deviceFromView);
     /// Frees what the servo has let go.
     void collect() { held_.collect(); }
     [[nodiscard]] MouseDevice& mouse() { return mouse_; }

@@ -20,6 +20,10 @@ class ViewControl {
     void update(const glm::dvec2& area);
 
     [[nodiscard]] const OrbitCamera& camera() const { return camera_; }
+    /// The view's axes (x right, y up, z towards the viewer) in the workspace.
+    [[nodiscard]] glm::dquat workspaceFromView() const {
+        return glm::quat_cast(glm::dmat3(camera_.right(), camera_.up(), -camera_.forward()));
+    }
     [[nodiscard]] const glm::dvec3& handGoal() const { return hand_.goal(); } ///< workspace, m
 
   private:

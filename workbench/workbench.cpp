@@ -95,6 +95,7 @@ class Workbench {
             draw();
         hand_.mouse().moveTo(view_.handGoal()); // in every frame: a frozen window is a hand that is gone
         hand_.simulate(state_.simulatedHand);
+        hand_.face(view_.workspaceFromView());
         devices_.renew(start);
         holdDevice();
         pace(start);

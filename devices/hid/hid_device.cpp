@@ -71,11 +71,14 @@ HidDevice::~HidDevice() {
 }
 
 DeviceSample HidDevice::sample(double time) noexcept {
-    const DeviceReading& reading = mailbox_.reading();
+    DeviceReading reading = mailbox_.reading();
     DeviceSample sample = sampleOf(reading, steadyNs());
     if (!rateHand_)
         return sample;
     const bool fresh = sample.valid && sample.age <= recipe_.limits.staleAge;
+    deviceFromView_.update();
+    reading.push = deviceFromView_.value() * reading.push;
+    reading.turn = deviceFromView_.value() * reading.turn;
     rateHand_->follow(reading, fresh, moving_ ? time - lastTime_ : 0.0);
     moving_ = true;
     lastTime_ = time;

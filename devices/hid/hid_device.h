@@ -46,6 +46,7 @@ class HidDevice final : public LinkedDevice {
     [[nodiscard]] std::string name() const override { return recipe_.name; }
     [[nodiscard]] DeviceLimits limits() const override { return recipe_.limits; }
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
+    void face(const glm::dquat& deviceFromView) override { deviceFromView_.write(deviceFromView); }
 
   private:
     // I/O thread
@@ -70,6 +71,7 @@ class HidDevice final : public LinkedDevice {
     bool stopping_ = false;
     std::atomic<bool> stop_{false};
 
+    TripleBuffer<glm::dquat> deviceFromView_{glm::dquat(1.0, 0.0, 0.0, 0.0)};
     // Servo thread
     std::optional<RateHand> rateHand_;
     double lastTime_ = 0.0;

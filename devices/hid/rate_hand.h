@@ -12,13 +12,14 @@ struct RateSettings {
     /// rad/s. The speed follows the cap through a low-pass, which hides the steps of reports that come every
     /// 8 to 16 ms. Lower is smoother and overshoots more after letting go: speed / smoothing.
     double smoothing = 40.0;
-    double reach = 0.2; ///< m; the hand stays within this of the middle on each axis
+    double reach = 0.2;              ///< m; the hand stays within this of the middle on each axis
+    glm::dvec3 start{0.0, 0.0, 0.1}; ///< m; a fitted model reaches 0.075 m, so this is before it
 };
 
 /// Turns deflection into a place. Pure but for its memory; no clock.
 class RateHand {
   public:
-    explicit RateHand(const RateSettings& settings = {}) : settings_(settings) {}
+    explicit RateHand(const RateSettings& settings = {}) : settings_(settings), position_(settings.start) {}
 
     /// Moves on by `dt` s (kLongestStep at most). A deflection that is too old to be believed is one of zero:
     /// the hand stops, it does not drift. Servo thread.
@@ -32,7 +33,7 @@ class RateHand {
 
   private:
     RateSettings settings_;
-    glm::dvec3 position_{0.0}, velocity_{0.0}, spin_{0.0};
+    glm::dvec3 position_, velocity_{0.0}, spin_{0.0};
     glm::dquat orientation_{1.0, 0.0, 0.0, 0.0};
 };
 

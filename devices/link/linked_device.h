@@ -65,6 +65,10 @@ class LinkedDevice : public Device {
     }
     void apply(const DeviceCommand& command) noexcept override { mailbox_.give(command); }
 
+    /// Owner thread: how the user looks at the workspace (view: x right, y up, z towards the viewer). What is
+    /// pushed goes where it is pushed on the screen; what is moved stands on the desk and does not care.
+    virtual void face(const glm::dquat& deviceFromView) { (void)deviceFromView; }
+
   protected:
     DeviceMailbox mailbox_;
     LinkMonitor monitor_;

@@ -94,6 +94,16 @@ TEST(HidDevice, ASpaceMouseIsReadPacketByPacket) {
     EXPECT_EQ(sample.buttons, 1u);
     EXPECT_GT(sample.position.x, 1e-3);
     EXPECT_EQ(sample.position.y, 0.0);
+    // Seen from the left, where the screen's right is the workspace's z.
+    device.face(glm::angleAxis(glm::radians(-90.0), glm::dvec3(0.0, 1.0, 0.0)));
+    for (int i = 0; i < 200; ++i) // the speed turns with the view
+        (void)device.sample(time += 1e-3);
+    const glm::dvec3 before = device.sample(time += 1e-3).position;
+    ASSERT_TRUE(eventually([&] {
+        mouse->say({1, 0x5E, 0x01, 0, 0, 0, 0}); // still pushed
+        const glm::dvec3 moved = device.sample(time += 1e-3).position - before;
+        return moved.z > 1e-3 && std::abs(moved.x) < 1e-2 * moved.z;
+    }));
     EXPECT_TRUE(mouse->heard().empty()) << "a SpaceMouse takes nothing";
 }
 
