@@ -29,48 +29,21 @@ struct Grip {
 /// None (a weight presses), light, limp and heavy, stiff without losses.
 constexpr Grip kGrips[]{{0, 0, 0}, {0.02, 3, 300}, {0.3, 0.5, 40}, {0.05, 0, 3000}};
 
-struct Start {
-    double height, speed; ///< m above the wall, m/s downwards
-};
-constexpr Start kStarts[]{{0.002, 0.05}, {0.002, 0.3}, {-0.0013, 0.0}, {-0.00071, -0.1}};
-
-/// True if the device comes to rest within `seconds`.
-bool comesToRest(const Device& device, const Grip& grip, const Start& start, double stiffness,
-                 double seconds) {
-    static const Scene plane = sceneOf(assets::plane(0.2, 0.2));
+/// True if the device comes to rest in that hand within `seconds`.
+bool rests(const Device& device, const Grip& grip, const Start& start, double stiffness, double seconds) {
     PlantParameters plant = bareDevice(device.mass, device.viscous);
     plant.coulombFriction = device.coulomb;
     plant.resolution = device.step;
     plant.handMass = grip.mass;
     plant.handDamping = grip.damping;
     plant.handStiffness = grip.stiffness;
-    LoopBench loop(plane, plainWall(stiffness), plant, device.rate);
-    constexpr double kPress = 0.7; // N
-    const glm::dvec3 place{0.0131, 0.0, 0.0172};
-    if (grip.stiffness > 0.0)
-        loop.intention = [=](double) {
-            return place - glm::dvec3(0, kPress / grip.stiffness + kPress / stiffness, 0);
-        };
-    else
-        loop.weight = {0, -kPress, 0};
-    const glm::dvec3 begin = place + glm::dvec3(0, start.height, 0);
-    loop.hold(place + glm::dvec3(0, 0.003, 0), begin);
-    loop.release(begin, {0, -start.speed, 0});
-    constexpr double kRest = 0.05; // s
-    int resting = 0;
-    for (int tick = 0; tick < static_cast<int>(seconds * device.rate); ++tick) {
-        (void)loop.tick();
-        resting = loop.plant().velocity() == glm::dvec3(0.0) ? resting + 1 : 0;
-        if (resting > kRest * device.rate)
-            return true;
-    }
-    return false;
+    return meetWall(plant, plainWall(stiffness), device.rate, start, seconds).rests;
 }
 
-bool alwaysComesToRest(const Device& device, double stiffness, double seconds) {
+bool alwaysRests(const Device& device, double stiffness, double seconds) {
     for (const Grip& grip : kGrips)
-        for (const Start& start : kStarts)
-            if (!comesToRest(device, grip, start, stiffness, seconds))
+        for (const Start& start : kWallStarts)
+            if (!rests(device, grip, start, stiffness, seconds))
                 return false;
     return true;
 }
@@ -89,8 +62,8 @@ TEST(FrictionAndSteps, NothingIsUnstableBelowAbbottAndOkamurasBound) {
     for (const Device& device : kDevices)
         for (const double share : {0.1, 0.3, 0.6, 0.9, 0.999})
             for (const Grip& grip : kGrips)
-                for (const Start& start : kStarts)
-                    EXPECT_TRUE(comesToRest(device, grip, start, share * device.bound(), 120.0))
+                for (const Start& start : kWallStarts)
+                    EXPECT_TRUE(rests(device, grip, start, share * device.bound(), 120.0))
                         << device.name << ", " << share << " of the bound, hand of " << grip.stiffness
                         << " N/m, from " << start.height << " m at " << start.speed << " m/s";
 }
@@ -98,7 +71,7 @@ TEST(FrictionAndSteps, NothingIsUnstableBelowAbbottAndOkamurasBound) {
 /// Up in steps of 10 % from the bound until something does not come to rest.
 double measuredLimit(const Device& device) {
     double stiffness = device.bound();
-    while (stiffness < 1e6 && alwaysComesToRest(device, 1.1 * stiffness, 120.0))
+    while (stiffness < 1e6 && alwaysRests(device, 1.1 * stiffness, 120.0))
         stiffness *= 1.1;
     return stiffness;
 }
@@ -127,8 +100,8 @@ TEST(FrictionAndSteps, APhantomBearsMoreThanItsViscosityAlone) {
     std::cout << "  " << device.name << ": bound " << device.bound() << " N/m, everything rests up to "
               << limit << ", ratio " << limit / device.bound() << "\n";
     const auto inALightGrip = [&](double stiffness) {
-        for (const Start& start : kStarts)
-            if (!comesToRest(device, kGrips[1], start, stiffness, 20.0))
+        for (const Start& start : kWallStarts)
+            if (!rests(device, kGrips[1], start, stiffness, 20.0))
                 return false;
         return true;
     };

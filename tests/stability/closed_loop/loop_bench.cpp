@@ -86,6 +86,36 @@ bool pressedWallSettles(const PlantParameters& plant, const HapticSettings& wall
     return late[1] - late[0] < std::max(early[1] - early[0], 1e-12);
 }
 
+Aftermath meetWall(const PlantParameters& plant, const HapticSettings& wall, double rateHz,
+                   const Start& start, double seconds) {
+    static const Scene plane = sceneOf(assets::plane(0.2, 0.2));
+    LoopBench loop(plane, wall, plant, rateHz);
+    constexpr double kPress = 0.7; // N
+    const glm::dvec3 place{0.0131, 0.0, 0.0172};
+    if (plant.handStiffness > 0.0) {
+        const double depth = kPress / plant.handStiffness + kPress / wall.stiffness;
+        loop.intention = [=](double) { return place - glm::dvec3(0, depth, 0); };
+    } else {
+        loop.weight = {0, -kPress, 0};
+    }
+    const glm::dvec3 begin = place + glm::dvec3(0, start.height, 0);
+    loop.hold(place + glm::dvec3(0, 0.003, 0), begin);
+    loop.release(begin, {0, -start.speed, 0});
+    constexpr double kRest = 0.05; // s
+    double resting = 0.0, lowest = INFINITY, highest = -INFINITY;
+    for (double tick = 0.0; tick < seconds * rateHz; tick += 1.0) {
+        (void)loop.tick();
+        resting = loop.plant().velocity() == glm::dvec3(0.0) ? resting + 1.0 : 0.0;
+        if (resting > kRest * rateHz)
+            return {.rests = true};
+        if (tick > 0.75 * seconds * rateHz) {
+            lowest = std::min(lowest, loop.plant().position().y);
+            highest = std::max(highest, loop.plant().position().y);
+        }
+    }
+    return {.rests = false, .swing = highest - lowest};
+}
+
 double largestStable(double low, double high, const std::function<bool(double)>& stable) {
     while (high - low > 1e-4 * low) {
         const double middle = std::sqrt(low * high);

@@ -60,6 +60,21 @@ class LoopBench {
 [[nodiscard]] bool pressedWallSettles(const PlantParameters& plant, const HapticSettings& wall, double rateHz,
                                       int ticks);
 
+/// How a device meets a wall: from above, or let go inside it.
+struct Start {
+    double height, speed; ///< m above the wall, m/s downwards
+};
+inline constexpr Start kWallStarts[]{{0.002, 0.05}, {0.002, 0.3}, {-0.0013, 0.0}, {-0.00071, -0.1}};
+
+/// What becomes of a device after such a start: pressed into the plane with 0.7 N by its hand, or by a weight
+/// where the hand has no spring.
+struct Aftermath {
+    bool rests = false; ///< to the bit, for 50 ms; the run ends there
+    double swing = 0.0; ///< m, of the true motion in the last quarter, where it does not rest
+};
+[[nodiscard]] Aftermath meetWall(const PlantParameters& plant, const HapticSettings& wall, double rateHz,
+                                 const Start& start, double seconds);
+
 /// The largest K in low..high for which `stable` is true, to 1e-4 of itself; `stable` holds at low and not at
 /// high.
 [[nodiscard]] double largestStable(double low, double high, const std::function<bool(double)>& stable);
