@@ -29,7 +29,7 @@ int wrapIndex(int i, int size, Wrap wrap) {
 /// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must not
 /// harm.
 double bounded(double x) {
-    return std::isfinite(x) ? std::clamp(x, -1e9, 1e9) : 0.0;
+    return std::max(-1e9, std::min(1e9, x)); // in this order, what is no number becomes one
 }
 
 /// Float maps may hold anything; beyond this sums of texels would overflow.
@@ -55,18 +55,19 @@ Cover coverOf(int i, int fine, int coarse) {
 } // namespace
 
 HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int channels)
-    : layout_{.texCoord = reference.texCoord,
-              .width = pixels.width,
-              .height = pixels.height,
-              .wrapS = reference.wrapS,
-              .wrapT = reference.wrapT,
-              .offset = glm::dvec2(reference.offset)},
-      channels_(channels) {
+    : channels_(channels) {
+    Layout layout{.texCoord = reference.texCoord,
+                  .width = pixels.width,
+                  .height = pixels.height,
+                  .wrapS = reference.wrapS,
+                  .wrapT = reference.wrapT,
+                  .offset = glm::dvec2(reference.offset)};
     // KHR_texture_transform: scale, then rotate counter-clockwise as seen in the image (v points down).
     const auto angle = static_cast<double>(reference.rotation);
     const double c = std::cos(angle), s = std::sin(angle);
     const glm::dvec2 scale(reference.scale);
-    layout_.jacobian = glm::dmat2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y);
+    layout.jacobian = glm::dmat2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y);
+    layout_ = std::make_shared<const Layout>(layout);
 
     Level level;
     level.width = pixels.width;
@@ -124,13 +125,18 @@ uint64_t HapticMap::memoryBytes() const {
     return bytes;
 }
 
+void HapticMap::shareLayout(const HapticMap& other) {
+    if (*layout_ == *other.layout_)
+        layout_ = other.layout_;
+}
+
 void HapticMap::addTo(Hash64& hash) const {
     hash.add(channels_);
-    hash.add(layout_.texCoord);
-    hash.add(layout_.wrapS);
-    hash.add(layout_.wrapT);
-    for (const double number : {layout_.offset.x, layout_.offset.y, layout_.jacobian[0][0],
-                                layout_.jacobian[0][1], layout_.jacobian[1][0], layout_.jacobian[1][1]})
+    hash.add(layout_->texCoord);
+    hash.add(layout_->wrapS);
+    hash.add(layout_->wrapT);
+    for (const double number : {layout_->offset.x, layout_->offset.y, layout_->jacobian[0][0],
+                                layout_->jacobian[0][1], layout_->jacobian[1][0], layout_->jacobian[1][1]})
         hash.add(number);
     if (empty())
         return;
@@ -139,17 +145,17 @@ void HapticMap::addTo(Hash64& hash) const {
 }
 
 glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
-    return layout_.offset + layout_.jacobian * uv;
+    return layout_->offset + layout_->jacobian * uv;
 }
 
 void HapticMap::findCell(const Level& level, const glm::dvec2& uv, Footprint::Cell& cell) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
     const double x = bounded(uv.x * level.width - 0.5), y = bounded(uv.y * level.height - 0.5);
     const double fx = std::floor(x), fy = std::floor(y);
-    const int x0 = wrapIndex(static_cast<int>(fx), level.width, layout_.wrapS);
-    const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, layout_.wrapS);
-    const int y0 = wrapIndex(static_cast<int>(fy), level.height, layout_.wrapT);
-    const int y1 = wrapIndex(static_cast<int>(fy) + 1, level.height, layout_.wrapT);
+    const int x0 = wrapIndex(static_cast<int>(fx), level.width, layout_->wrapS);
+    const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, layout_->wrapS);
+    const int y0 = wrapIndex(static_cast<int>(fy), level.height, layout_->wrapT);
+    const int y1 = wrapIndex(static_cast<int>(fy) + 1, level.height, layout_->wrapT);
     const int upper = y0 * level.width, lower = y1 * level.width;
     cell.texel = {upper + x0, upper + x1, lower + x0, lower + x1};
     cell.right = x - fx;
@@ -212,11 +218,11 @@ glm::dvec3 HapticMap::valueAndSlope(const Level& level, const glm::dvec2& uv) co
     };
     std::array<int, 3> column;
     for (int i = 0; i < 3; ++i)
-        column[static_cast<size_t>(i)] = wrapIndex(static_cast<int>(fx) + i, level.width, layout_.wrapS);
+        column[static_cast<size_t>(i)] = wrapIndex(static_cast<int>(fx) + i, level.width, layout_->wrapS);
     const glm::dvec3 columns = weights(wx), rows = weights(wy);
     glm::dvec3 values, slopes; // of the rows
     for (int j = 0; j < 3; ++j) {
-        const int row = level.width * wrapIndex(static_cast<int>(fy) + j, level.height, layout_.wrapT);
+        const int row = level.width * wrapIndex(static_cast<int>(fy) + j, level.height, layout_->wrapT);
         const auto texel = [&](size_t i) {
             return static_cast<double>(level.texels[static_cast<size_t>((row + column[i]) * channels_)]);
         };

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace touchstone {
@@ -30,8 +31,11 @@ class HapticMap {
         bool operator==(const Layout&) const = default;
     };
 
+    /// Takes the other's layout for its own where they are equal: then they have one address.
+    void shareLayout(const HapticMap& other);
+
     [[nodiscard]] bool empty() const { return levels_.empty(); }
-    [[nodiscard]] const Layout& layout() const { return layout_; }
+    [[nodiscard]] const Layout& layout() const { return *layout_; }
     [[nodiscard]] float least() const { return least_; } ///< of channel 0 over the finest level
     [[nodiscard]] float greatest() const { return greatest_; }
     [[nodiscard]] uint64_t memoryBytes() const;
@@ -75,6 +79,8 @@ class HapticMap {
     [[nodiscard]] Slope slope(const glm::dvec2& uv, double level) const;
 
   private:
+    static inline const std::shared_ptr<const Layout> kNoLayout = std::make_shared<const Layout>();
+
     struct Level {
         int width = 0, height = 0;
         std::vector<float> texels; ///< channels interleaved, rows from the top
@@ -88,7 +94,7 @@ class HapticMap {
     [[nodiscard]] glm::dvec3 valueAndSlope(const Level& level, const glm::dvec2& uv) const;
 
     std::vector<Level> levels_;
-    Layout layout_;
+    std::shared_ptr<const Layout> layout_ = kNoLayout;
     int channels_ = 1;
     float least_ = 0.0f, greatest_ = 0.0f;
 };

@@ -1,6 +1,7 @@
 #include "haptics/texture/haptic_material.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace touchstone {
@@ -96,6 +97,11 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, const Coor
     data.friction = maker.factor(haptic.friction, place + ".frictionTexture");
     data.stiffnessMap = maker.factor(haptic.stiffnessMap, place + ".stiffnessTexture");
     data.dampingMap = maker.factor(haptic.dampingMap, place + ".dampingTexture");
+    const std::array maps{&data.normal, &data.height, &data.friction.map, &data.stiffnessMap.map,
+                          &data.dampingMap.map};
+    for (size_t i = 1; i < maps.size(); ++i)
+        for (size_t k = i; k-- > 0;)
+            maps[i]->shareLayout(*maps[k]);
     data.shading = shadingOf(haptic.forceShading);
     // Told, never silently ignored: read and kept, and the tick does not know it yet.
     if (haptic.sides == SideChoice::Front)

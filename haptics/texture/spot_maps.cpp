@@ -18,9 +18,9 @@ const SurfaceGradients& SpotMaps::gradients(int set) noexcept {
 }
 
 void SpotMaps::settle(const HapticMap& map) noexcept {
-    if (settled_ == &map || (settled_ != nullptr && settled_->layout() == map.layout()))
+    if (settled_ == &map.layout())
         return;
-    settled_ = &map;
+    settled_ = &map.layout();
     printed_ = false;
     place_ = map.transform(spot_.uv[map.layout().texCoord & 1 ? 1 : 0]);
     const SurfaceGradients& uv = gradients(map.layout().texCoord);

@@ -70,7 +70,7 @@ class SpotMaps {
     std::array<SurfaceGradients, 2> gradients_;
     std::array<bool, 2> known_{};
     // Of the layout asked for last:
-    const HapticMap* settled_ = nullptr;
+    const HapticMap::Layout* settled_ = nullptr;
     SurfaceGradients over_;
     double level_ = 0.0;
     glm::dvec2 place_{0.0};
