@@ -302,6 +302,10 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
                                              state.limiter, output.flags);
         output.energyBalance = state.limiter.passivity.balance;
+        // A hand that was gone for as long as its force took to fade may come back anywhere: it is not pulled
+        // to where it was, but begins anew.
+        if (!sampled && state.limiter.ramp <= 0.0)
+            state.forgetTouch();
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
         stopwatch.lap(Stage::Safety);
     }
