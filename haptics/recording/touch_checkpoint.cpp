@@ -107,7 +107,8 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
         return object >= 0 && object < objects &&
                triangle < scene->objects[static_cast<size_t>(object)]->triangleCount();
     };
-    if (fields.shadedObject != -1 && !inObject(fields.shadedObject, fields.shadedTriangle))
+    // After a scene swap it names a facet of the scene before, which nobody asks for.
+    if (fields.shaded && fields.shadedObject != -1 && !inObject(fields.shadedObject, fields.shadedTriangle))
         return false;
     return !fields.watch.touching || inObject(fields.anchor, triangleOf(fields.watch.side));
 }

@@ -130,12 +130,12 @@ INSTANTIATE_TEST_SUITE_P(
 /// A field that outlives the tick and is not in the checkpoint would make replays differ here and there: who
 /// changes these structures is sent to eachField in touch_checkpoint.cpp and to docs/recording.md.
 TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
-    EXPECT_EQ(sizeof(PassivityState), 64u);
-    EXPECT_EQ(sizeof(ForceLimiterState), 184u);
+    EXPECT_EQ(sizeof(PassivityState), 112u);
+    EXPECT_EQ(sizeof(ForceLimiterState), 232u);
     EXPECT_EQ(sizeof(PinchedObjects), 232u);
     EXPECT_EQ(sizeof(WatchState), 8u);
     // What a tick writes before it reads, and what can be found again, may be of any size.
-    EXPECT_EQ(sizeof(DeviceState) - sizeof(ProxyRest) - 2 * sizeof(CandidateCache), 688u);
+    EXPECT_EQ(sizeof(DeviceState) - sizeof(ProxyRest) - 2 * sizeof(CandidateCache), 736u);
     EXPECT_LE(checkpointSize(), TouchCheckpoint::kCapacity);
 }
 
