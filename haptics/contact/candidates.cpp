@@ -26,6 +26,7 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index, const S
         return false;
     // The float gradient of a box is good to 1e-6 of the ball.
     const double doubt = rounding + static_cast<double>(TriangleTree::kDoubt) + 2e-6 * localRadius;
+    oneSided_ |= object.oneSided;
     const size_t before = count_;
     for (const TriangleTree::Near& n : found.first(near)) {
         Candidate& item = items_[count_];
@@ -88,6 +89,7 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
                                ObjectMotions poses, const SphereOf& sphereOf, int anchor,
                                const glm::dvec3& centre, double radius) noexcept {
     invalidate();
+    oneSided_ = false;
     centre_ = centre;
     radius_ = radius;
     const Similarity& workspaceFromAnchor = poses[static_cast<size_t>(anchor)].workspaceFromObject;
@@ -121,6 +123,22 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
         setBound(i, glm::dvec3(0.0), INFINITY, glm::dvec3(0.0));
     valid_ = true;
     return true;
+}
+
+bool CandidateCache::passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept {
+    const Triangle& t = triangle(i);
+    const double height = glm::dot(t.normal, p - t.a), clear = reach - kNotClear;
+    if (!(height > 0.0) || distance < clear)
+        return true;
+    // What is straight above a triangle stands on it, whatever else it is coming through.
+    if (height >= clear)
+        return false;
+    bool comingThrough = false;
+    eachNear(p, clear, [&](size_t k) {
+        comingThrough = comingThrough ||
+                        (items_[k].object == items_[i].object && distanceTo(triangle(k), p).distance < clear);
+    });
+    return comingThrough;
 }
 
 std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3& p, const glm::dvec3& move,

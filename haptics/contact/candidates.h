@@ -110,6 +110,16 @@ class CandidateCache {
         items_[i].measured = 0; // not at the proxy's place
         return d;
     }
+    /// A triangle of the ball belongs to a one-sided object.
+    [[nodiscard]] bool anyOneSided() const noexcept { return oneSided_; }
+    /// True where triangle i, at `distance` from the place p where a move begins, is not there for a proxy of
+    /// this reach: it is one-sided, and p is behind its plane; or not clear of it, coming through from behind
+    /// or turned round on the way; or beside it while it comes through another triangle of the same object,
+    /// as it would be coming through this one there. What came through is felt once it is clear of it, so
+    /// that there is no place between the sides.
+    [[nodiscard]] bool passes(size_t i, const glm::dvec3& p, double distance, double reach) noexcept {
+        return items_[i].source->oneSided && passesOneSided(i, p, distance, reach);
+    }
     /// The proxy is somewhere else now.
     void moved() noexcept { place_ += place_ + 1 == 0 ? 2 : 1; } // 0 is never a place
 
@@ -140,6 +150,11 @@ class CandidateCache {
                                     double reach) noexcept;
 
   private:
+    /// Far more than a resting proxy sinks into what it stands on, far less than the smallest radius: object
+    /// units.
+    static constexpr double kNotClear = 1e-8;
+
+    [[nodiscard]] bool passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept;
     template <class SphereOf>
     bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                    const SphereOf& sphereOf, int anchor, const glm::dvec3& centre, double radius) noexcept;
@@ -169,7 +184,7 @@ class CandidateCache {
     size_t count_ = 0;
     glm::dvec3 centre_{0.0};
     double radius_ = 0.0;
-    bool valid_ = false;
+    bool valid_ = false, oneSided_ = false;
     uint32_t place_ = 1; ///< counts the proxy's places
 };
 

@@ -153,6 +153,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     object->name = mesh.name;
     object->instance = instanceIndex;
     object->material = mesh.material;
+    object->oneSided = scene.materials[static_cast<size_t>(mesh.material)].haptic.sides == SideChoice::Front;
 
     // Scene positions in double, then one centre and one scale for the float frame.
     std::vector<glm::dvec3> inScene(mesh.positions.size());

@@ -69,6 +69,7 @@ struct HapticObject {
     uint32_t droppedTriangles = 0;  ///< triangles with two equal corners after welding
     bool closed = false;            ///< every edge has an even number of triangles
     bool anySmooth = false;
+    bool oneSided = false; ///< the material's `sides` is front: there only for who comes from outside
     std::shared_ptr<RTCSceneTy> bvh; ///< for rays
     TriangleTree tree;               ///< for what is near
 

@@ -58,6 +58,7 @@ double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& m
                  double limit) noexcept {
     const std::span<CandidateCache::Approach> all = cache.approaching(p, move, limit, reach);
     size_t left = all.size();
+    const bool oneSided = cache.anyOneSided();
     const double parallel = kParallel * glm::length(move);
     while (left > 0) {
         size_t next = 0;
@@ -70,6 +71,12 @@ double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& m
             return limit;
         const TriangleDistance here = time > 0.0 ? cache.measureAhead(approach.index, p + time * move)
                                                  : cache.measure(approach.index, p);
+        // One-sided triangles are asked where the move begins; what is not reached at once is clear there.
+        if (oneSided && approach.steps == 0 &&
+            cache.passes(approach.index, p, time > 0.0 ? INFINITY : here.distance, reach)) {
+            approach = all[--left];
+            continue;
+        }
         const double rate = glm::dot(here.gradient, move);
         const double gap = here.distance - reach;
         if (rate >= -parallel) {

@@ -145,16 +145,18 @@ bool Carry::isNear(size_t k, double within) const {
 bool Carry::blockedAt(size_t k, const glm::dvec3& place) noexcept {
     const Similarity& pose = motions_[k].workspaceFromObject;
     const glm::dvec3 p = pose.inversePoint(place);
-    if (insideObject(*scene_.objects[k], p))
+    if (!scene_.objects[k]->oneSided && insideObject(*scene_.objects[k], p))
         return true;
     CandidateCache& cache = state_.carryCandidates;
     const double reach = radius_ / pose.scale + kCarryGap;
     if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
                       std::span(scene_.boundingRadii).subspan(k, 1), 0, p, reach))
         return true;
-    for (size_t i = 0; i < cache.count(); ++i)
-        if (distanceTo(cache.triangle(i), p).distance < reach)
+    for (size_t i = 0; i < cache.count(); ++i) {
+        const double distance = distanceTo(cache.triangle(i), p).distance;
+        if (distance < reach && !cache.passes(i, p, distance, reach))
             return true;
+    }
     return false;
 }
 
@@ -212,7 +214,9 @@ void Carry::note(size_t copy, const CarriedObject& object) noexcept {
     CandidateCache& cache = state_.carryCandidates;
     const double touching = object.reach - 0.4 * kCarryGap;
     cache.eachNear(object.place, touching, [&](size_t i) {
-        if (struckCount_ < kMaxStruck && distanceTo(cache.triangle(i), object.place).distance <= touching)
+        const double distance = distanceTo(cache.triangle(i), object.place).distance;
+        if (struckCount_ < kMaxStruck && distance <= touching &&
+            !cache.passes(i, object.place, distance, object.reach))
             struck_[struckCount_++] = {copy, cache.triangle(i)};
     });
 }

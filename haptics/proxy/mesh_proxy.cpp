@@ -112,10 +112,11 @@ double MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
 void MeshProxy::findContacts(double within) noexcept {
     CandidateCache& cache = state_.candidates;
     const double reach = radius_ + within;
+    const bool oneSided = cache.anyOneSided();
     rest_.contactCount = 0;
     cache.eachNear(state_.proxy, reach, [&](size_t i) {
         const TriangleDistance d = cache.measure(i, state_.proxy);
-        if (d.distance > reach)
+        if (d.distance > reach || (oneSided && cache.passes(i, state_.proxy, d.distance, radius_)))
             return;
         // Coplanar neighbours say the same: one plane for both. The same to the last bits, no less: a
         // neighbour seen from beside its edge may lean by 1e-8, and what leans is a plane of its own or it
@@ -161,9 +162,12 @@ void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
 bool MeshProxy::isFree() noexcept {
     if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
-    for (size_t i = 0; i < state_.candidates.count(); ++i)
-        if (distanceTo(state_.candidates.triangle(i), state_.proxy).distance < radius_ + kContactGap)
+    CandidateCache& cache = state_.candidates;
+    for (size_t i = 0; i < cache.count(); ++i) {
+        const double distance = distanceTo(cache.triangle(i), state_.proxy).distance;
+        if (distance < radius_ + kContactGap && !cache.passes(i, state_.proxy, distance, radius_))
             return false;
+    }
     return true;
 }
 

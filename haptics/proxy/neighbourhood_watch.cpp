@@ -56,18 +56,18 @@ void NeighbourhoodWatch::query() noexcept {
         // Off this surface: from where it was left, the way to the HIP may be barred by another.
         state_.watch.touching = false;
         state_.shaded = false;
-        if (acquire(here.point))
+        if (acquire(here.point, true))
             return;
     } else {
-        acquire(state_.proxy);
+        acquire(state_.proxy, false);
     }
 }
 
 /// Looks for the first triangle of any object that the HIP's path crosses, in each object's own frame, so
-/// that what moves towards a resting HIP crosses it too. `start`: anchor frame, where the path begins.
-bool NeighbourhoodWatch::acquire(const glm::dvec3& start) noexcept {
+/// that what moves towards a resting HIP crosses it too. `start`: anchor frame, where the path begins;
+/// `left`: on the anchor's surface, which it has just let go.
+bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
     const auto anchor = static_cast<size_t>(state_.anchor);
-    const bool left = start != state_.proxy;
     const glm::dvec3 begin = motions_[anchor].before.point(start);
     double first = 1.0;
     int struck = -1;
@@ -128,7 +128,8 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
         const glm::dvec3 normal = view.normal(2 * hit->triangle);
         const bool front = glm::dot(direction, normal) < 0.0;
         const double height = glm::dot(from - view.triangle(2 * hit->triangle).a, normal);
-        if (normal != glm::dvec3(0.0) && (front ? height >= 0.0 : height <= 0.0)) {
+        const bool felt = front || !view.object.oneSided;
+        if (felt && normal != glm::dvec3(0.0) && (front ? height >= 0.0 : height <= 0.0)) {
             const SurfacePlace there = walkTowards(view, 2 * hit->triangle + (front ? 0u : 1u), to, budget_);
             const bool seen = passed && glm::length(there.point - passedAt) < margin;
             if (!seen && (budget_.spent || !isOnFreeSide(view, there, to, budget_))) {

@@ -43,7 +43,7 @@ class NeighbourhoodWatch {
     void placeAt(const glm::dvec3& p) noexcept;
 
   private:
-    bool acquire(const glm::dvec3& start) noexcept;
+    bool acquire(const glm::dvec3& start, bool left) noexcept;
     bool strikes(size_t object, const glm::dvec3& from, const glm::dvec3& to, double skip, double& first,
                  SurfacePlace& place) noexcept;
     [[nodiscard]] SurfaceView surface(size_t object) const noexcept;

@@ -21,7 +21,8 @@ int nearestObject(const HapticScene& scene, ObjectMotions motions, const glm::dv
 
 bool isInsideAny(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
     for (size_t k = 0; k < scene.objects.size(); ++k)
-        if (insideObject(*scene.objects[k], motions[k].workspaceFromObject.inversePoint(hip)))
+        if (!scene.objects[k]->oneSided &&
+            insideObject(*scene.objects[k], motions[k].workspaceFromObject.inversePoint(hip)))
             return true;
     return false;
 }

@@ -102,7 +102,8 @@ FirstGoal firstGoal(const HapticScene& scene, const HapticSettings& settings, co
     if (state.shadedObject == state.anchor) {
         const HapticObject& object = *scene.objects[static_cast<size_t>(state.anchor)];
         const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
-        if (shadingMode(settings, material) == ShadingMode::TwoPass)
+        // A checkpoint may name any facet: one of an object without normals, too.
+        if (shadingMode(settings, material) == ShadingMode::TwoPass && !object.normals.empty())
             if (const auto goal = goalOnFacet(object, settings, state, hip, normal))
                 return *goal;
     }

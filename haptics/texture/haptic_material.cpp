@@ -103,9 +103,6 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, const Coor
         for (size_t k = i; k-- > 0;)
             maps[i]->shareLayout(*maps[k]);
     data.shading = shadingOf(haptic.forceShading);
-    // Told, never silently ignored: read and kept, and the tick does not know it yet.
-    if (haptic.sides == SideChoice::Front)
-        warnings.push_back({place, "sides: front is not yet available; both sides are touchable"});
     return data;
 }
 

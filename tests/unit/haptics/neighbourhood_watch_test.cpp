@@ -168,6 +168,25 @@ TEST(NeighbourhoodWatch, AnOpenSheetIsTouchedFromBothSidesAndLeftOverItsBorder) 
     }
 }
 
+TEST(NeighbourhoodWatch, StraightOffASheetItLetsGo) {
+    // To the last bit along the normal: the place that is left is the one where the proxy was.
+    for (const double side : {1.0, -1.0}) {
+        HapticSettings s;
+        s.forceShading = ShadingMode::Off;
+        s.contact = ContactMethod::Neighbourhood;
+        TouchBench bench(sceneOf(assets::plane(0.1, 0.1, 3, 3)), s);
+        bench.scene->buildNeighbourhoods();
+        bench.step({0.011, 0.005 * side, 0.007});
+        for (const double depth : {1e-3, 3e-3}) {
+            bench.moveTo({0.011, -depth * side, 0.007}, 0.1);
+            EXPECT_GT(bench.output.contacts, 0u) << side;
+            bench.moveTo({0.011, 0.0013 * side, 0.007}, 0.1);
+            EXPECT_EQ(bench.output.contacts, 0u) << side;
+            EXPECT_EQ(bench.output.proxy, bench.output.hip) << side;
+        }
+    }
+}
+
 TEST(NeighbourhoodWatch, AThinPlateHoldsHoweverFastAndDeepItIsPressed) {
     for (const double speed : {0.05, 1.0, 5.0, 50.0}) {
         TouchBench bench = watchBench(sceneOf(assets::box({0.1, 0.001, 0.1}, 8)));
