@@ -49,6 +49,7 @@ void add(Hash64& hash, const HapticObject& object) {
     hash.add(object.instance);
     hash.add(object.material);
     hash.add(object.closed);
+    hash.add(object.oneSided);
     add(hash, object.workspaceFromObject);
     add(hash, object.objectFromMesh);
 }
