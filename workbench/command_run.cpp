@@ -20,6 +20,7 @@
 #include "workbench/overlays.h"
 #include "workbench/recording_desk.h"
 #include "workbench/settings_json.h"
+#include "workbench/stolen_time.h"
 #include "workbench/tick_csv.h"
 #include "workbench/tick_statistics.h"
 
@@ -136,7 +137,8 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
     return frames;
 }
 
-nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& statistics, double seconds) {
+nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& statistics, double seconds,
+                                 const std::optional<double>& stolen) {
     const ServoLoop::Counters counters = servo.counters();
     const ServoScheduling scheduling = servo.scheduling();
     nlohmann::ordered_json json{{"ticks", counters.ticks}, {"missed", counters.missed}};
@@ -147,7 +149,8 @@ nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& s
                  {"dropped_records", counters.droppedRecords},
                  {"scheduling", scheduling.policy},
                  {"memory_locked", scheduling.memoryLocked},
-                 {"pinned_cpu", scheduling.pinnedCpu}});
+                 {"pinned_cpu", scheduling.pinnedCpu},
+                 {"stolen_s", stolen ? nlohmann::ordered_json(*stolen) : nlohmann::ordered_json()}});
     return json;
 }
 
@@ -182,9 +185,11 @@ int runCommand(const RunOptions& options) {
     desk.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
                                  identify(*model.haptic, *model.scene, Fit::Workspace));
     realtime::resetViolations();
+    const StolenTime stolenTime;
     servo.start();
     const Frames frames = drawFrames(options, model, servo, renderer, reader, desk);
     servo.stop();
+    const std::optional<double> stolen = stolenTime.seconds();
     const RealtimeViolations violations = realtime::violations();
     reader.drain(servo, desk);
     desk.finish();
@@ -213,8 +218,10 @@ int runCommand(const RunOptions& options) {
                                                            : plantJson(yielding.plant())},
             {"settings", settingsJson(options.settings)},
             {"setting_warnings", settingWarnings(options.settings)},
-            {"servo", servoJson(servo, reader.statistics, frames.seconds)},
+            {"servo", servoJson(servo, reader.statistics, frames.seconds, stolen)},
+            {"wake_histogram", histogramJson(reader.statistics.wake())},
             {"step", reader.statistics.stepJson()},
+            {"step_histogram", histogramJson(reader.statistics.step())},
             {"frames",
              {{"count", frames.count},
               {"fps", fps},
@@ -225,6 +232,8 @@ int runCommand(const RunOptions& options) {
               {"smallest_height", frames.smallest.y}}},
             {"allocations_in_tick", violations.allocations},
             {"deallocations_in_tick", violations.deallocations},
+            {"locks_in_tick", realtime::locksAreCounted() ? nlohmann::ordered_json(violations.locks)
+                                                          : nlohmann::ordered_json()},
             {"contact", reader.statistics.contactJson()},
             {"force", reader.statistics.forceJson()},
             {"energy", reader.statistics.energyJson()},

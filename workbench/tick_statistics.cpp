@@ -40,6 +40,20 @@ nlohmann::ordered_json nanoseconds(const Samples& samples) {
 
 } // namespace
 
+nlohmann::ordered_json histogramJson(const Samples& samples) {
+    // 1, 2, 5 in each decade from 1 us to 10 ms: from a tick in the free to a scheduler that forgot us.
+    static constexpr std::array<int64_t, 13> kEndsUs{1,   2,   5,    10,   20,   50,   100,
+                                                     200, 500, 1000, 2000, 5000, 10000};
+    std::array<int64_t, kEndsUs.size()> ends{};
+    nlohmann::ordered_json to = nlohmann::ordered_json::array();
+    for (size_t i = 0; i < ends.size(); ++i) {
+        ends[i] = 1000 * kEndsUs[i];
+        to.push_back(kEndsUs[i]);
+    }
+    to.push_back(nullptr);
+    return {{"to_us", std::move(to)}, {"ticks", samples.histogram(ends)}};
+}
+
 void TickStatistics::addLive(const TickRecord& record) {
     // Records were dropped, or the loop stood still: what the hand did meanwhile is not known.
     if (record.step != nextStep_ || record.tick == 0) {

@@ -62,6 +62,9 @@ class TickStatistics {
     std::array<uint64_t, kFlagCount> flags_{};
 };
 
+/// {to_us: upper ends of the bins, ticks: how many are in each}; the last bin has no end (null).
+[[nodiscard]] nlohmann::ordered_json histogramJson(const Samples& nanoseconds);
+
 /// How far the proxy sphere's surface is from the mesh in a tick with contact, m; at most 1 mm is looked at.
 /// `motions` are the poses of that tick, empty: at rest.
 [[nodiscard]] double proxyGap(const HapticScene& scene, ObjectMotions motions, const HapticOutput& output,

@@ -9,7 +9,9 @@ constinit thread_local bool inTick = false;
 namespace {
 constinit std::atomic<uint64_t> allocations{0};
 constinit std::atomic<uint64_t> deallocations{0};
+constinit std::atomic<uint64_t> locks{0};
 constinit std::atomic<bool> interposed{false};
+constinit std::atomic<bool> lockInterposed{false};
 } // namespace
 
 void noteAllocation() noexcept {
@@ -22,6 +24,19 @@ void noteDeallocation() noexcept {
         deallocations.fetch_add(1, std::memory_order_relaxed);
 }
 
+void noteLock() noexcept {
+    if (inTick)
+        locks.fetch_add(1, std::memory_order_relaxed);
+}
+
+void announceLockInterposer() noexcept {
+    lockInterposed.store(true, std::memory_order_relaxed);
+}
+
+bool locksAreCounted() noexcept {
+    return lockInterposed.load(std::memory_order_relaxed);
+}
+
 void announceInterposer() noexcept {
     interposed.store(true, std::memory_order_relaxed);
 }
@@ -31,12 +46,14 @@ bool allocationsAreCounted() noexcept {
 }
 
 RealtimeViolations violations() noexcept {
-    return {allocations.load(std::memory_order_relaxed), deallocations.load(std::memory_order_relaxed)};
+    return {allocations.load(std::memory_order_relaxed), deallocations.load(std::memory_order_relaxed),
+            locks.load(std::memory_order_relaxed)};
 }
 
 void resetViolations() noexcept {
     allocations.store(0, std::memory_order_relaxed);
     deallocations.store(0, std::memory_order_relaxed);
+    locks.store(0, std::memory_order_relaxed);
 }
 
 } // namespace touchstone::realtime

@@ -10,6 +10,7 @@ namespace touchstone {
 struct RealtimeViolations {
     uint64_t allocations = 0;   ///< malloc, operator new and their kin inside a tick
     uint64_t deallocations = 0; ///< free, operator delete inside a tick
+    uint64_t locks = 0;         ///< mutexes and locks of readers and writers asked for inside a tick
 };
 
 namespace realtime {
@@ -20,10 +21,14 @@ extern constinit thread_local bool inTick;
 /// Called by an interposed allocator (workbench/allocation_guard.cpp) for every call on any thread.
 void noteAllocation() noexcept;
 void noteDeallocation() noexcept;
+/// The same for locks (workbench/lock_guard.cpp).
+void noteLock() noexcept;
 
 /// Whether an interposed allocator is linked into this program; without one nothing is ever counted.
 void announceInterposer() noexcept;
 [[nodiscard]] bool allocationsAreCounted() noexcept;
+void announceLockInterposer() noexcept;
+[[nodiscard]] bool locksAreCounted() noexcept;
 
 [[nodiscard]] RealtimeViolations violations() noexcept;
 void resetViolations() noexcept;

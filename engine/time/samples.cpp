@@ -25,6 +25,13 @@ int64_t Samples::percentile(double share) const {
     return *nth;
 }
 
+std::vector<uint64_t> Samples::histogram(std::span<const int64_t> ends) const {
+    std::vector<uint64_t> bins(ends.size() + 1, 0);
+    for (const int64_t value : values_)
+        ++bins[static_cast<size_t>(std::lower_bound(ends.begin(), ends.end(), value) - ends.begin())];
+    return bins;
+}
+
 double Samples::mean() const {
     if (values_.empty())
         return 0.0;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace touchstone {
@@ -20,6 +21,9 @@ class Samples {
     /// The least kept value that at least the fraction `share` (0..1) of the values does not exceed
     /// (nearest rank). 0 if nothing was added.
     [[nodiscard]] int64_t percentile(double share) const;
+    /// How many of the kept values lie in each bin: up to and with `ends[i]`, over the end before; one bin
+    /// more for what is over the last. `ends` increase.
+    [[nodiscard]] std::vector<uint64_t> histogram(std::span<const int64_t> ends) const;
     [[nodiscard]] double mean() const;
     [[nodiscard]] int64_t most() const;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <vector>
 
@@ -47,6 +48,15 @@ TEST(Samples, AgreesWithSortingOnRandomValues) {
             EXPECT_LT(static_cast<double>(below), share * static_cast<double>(all.size()) + 1e-9);
         }
     }
+}
+
+TEST(Samples, AHistogramCountsEachValueOnce) {
+    Samples samples;
+    for (const int value : {-5, 0, 10, 11, 20, 21, 1000})
+        samples.add(value);
+    const std::array<int64_t, 2> ends{10, 20};
+    EXPECT_EQ(samples.histogram(ends), (std::vector<uint64_t>{3, 2, 2})) << "an end belongs to its own bin";
+    EXPECT_EQ(samples.histogram({}), std::vector<uint64_t>{7});
 }
 
 TEST(Samples, AWindowForgetsTheOldest) {

@@ -41,7 +41,18 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     const auto figures = nlohmann::json::parse(readFile(json));
     EXPECT_EQ(figures["allocations_in_tick"], 0);
     EXPECT_EQ(figures["deallocations_in_tick"], 0);
+    EXPECT_EQ(figures["locks_in_tick"], 0);
     EXPECT_GT(figures["servo"]["ticks"], 100);
+    EXPECT_TRUE(figures["servo"].contains("stolen_s"));
+    for (const char* name : {"wake_histogram", "step_histogram"}) {
+        const auto& histogram = figures[name];
+        ASSERT_EQ(histogram["to_us"].size(), histogram["ticks"].size()) << name;
+        uint64_t ticks = 0;
+        for (const auto& bin : histogram["ticks"])
+            ticks += bin.get<uint64_t>();
+        EXPECT_EQ(ticks + figures["servo"]["dropped_records"].get<uint64_t>(), figures["servo"]["ticks"])
+            << name;
+    }
     for (const char* name : {"missed", "p50_us", "p99_us", "p999_us", "rate_hz", "scheduling"})
         EXPECT_TRUE(figures["servo"].contains(name)) << name;
     EXPECT_GT(figures["frames"]["count"], 3);
