@@ -65,7 +65,9 @@ int await(pid_t pid, std::chrono::milliseconds limit) {
 ProgramResult runProgram(const std::vector<std::string>& arguments, const Environment& environment,
                          std::chrono::seconds limit) {
     const ScratchFolder scratch;
-    const pid_t pid = start(arguments, environment, (scratch / "out").string(), (scratch / "err").string());
+    Environment own{"XDG_STATE_HOME=" + (scratch / "state").string()}; // not the user's
+    own.insert(own.end(), environment.begin(), environment.end());
+    const pid_t pid = start(arguments, own, (scratch / "out").string(), (scratch / "err").string());
     ProgramResult result;
     result.status = await(pid, limit);
     result.out = readFile(scratch / "out");
@@ -75,7 +77,11 @@ ProgramResult runProgram(const std::vector<std::string>& arguments, const Enviro
 
 BackgroundProgram::BackgroundProgram(const std::vector<std::string>& arguments,
                                      const Environment& environment, const std::filesystem::path& log)
-    : pid_(start(arguments, environment, log.string(), log.string())) {}
+    : pid_([&] {
+          Environment own{"XDG_STATE_HOME=" + (log.parent_path() / "state").string()};
+          own.insert(own.end(), environment.begin(), environment.end());
+          return start(arguments, own, log.string(), log.string());
+      }()) {}
 
 BackgroundProgram::~BackgroundProgram() {
     stop();

@@ -15,7 +15,8 @@ struct ProgramResult {
     std::string out, err;
 };
 
-/// NAME=VALUE to set or NAME= to remove, on top of this process's environment.
+/// NAME=VALUE to set or NAME= to remove, on top of this process's environment; what the program keeps unasked
+/// (XDG_STATE_HOME) goes to a scratch folder, beside the log where there is one.
 using Environment = std::vector<std::string>;
 
 /// Runs `arguments[0]` and waits for it; kills it after `limit`, which is a failure of its own (status 137).
