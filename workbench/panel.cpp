@@ -1,6 +1,7 @@
 #include "workbench/panel.h"
 
 #include "workbench/force_plot.h"
+#include "workbench/time_histogram.h"
 
 #include <imgui.h>
 
@@ -261,9 +262,15 @@ class Panel {
         row("missed", "%.0f of %.0f", static_cast<double>(servo.counters.missed),
             static_cast<double>(servo.counters.ticks));
         row("step", "%.1f µs, p99 %.1f µs", servo.stepP50Us, servo.stepP99Us);
+        if (ImGui::IsItemHovered())
+            showTimeHistogram("Time of a step, up to µs (log of ticks)", "last 4 s", servo.stepHistogram,
+                              in_.scale);
         row("wake-up", "%.1f µs, p99 %.1f µs", servo.wakeP50Us, servo.wakeP99Us);
         if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", servo.scheduling.c_str());
+            showTimeHistogram("Wake-up after the deadline, up to µs (log of ticks)", servo.scheduling.c_str(),
+                              servo.wakeHistogram, in_.scale);
+        if (servo.stolenShare && *servo.stolenShare > 0.0005)
+            row("stolen", "%.1f %% of a processor", 100.0 * *servo.stolenShare);
         row("picture", "%.0f frames/s", in_.framesPerSecond);
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%d x %d on %s", in_.sceneSize.x, in_.sceneSize.y, in_.gpuName.c_str());

@@ -13,6 +13,10 @@ void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& rec
     counters = servo.counters();
     if (lastRenewal_ >= 0.0 && now - lastRenewal_ < kRenewal)
         return;
+    const std::optional<double> stolen = stolen_.seconds();
+    if (stolen && lastRenewal_ >= 0.0)
+        stolenShare = (*stolen - stolenThen_) / (now - lastRenewal_);
+    stolenThen_ = stolen.value_or(0.0);
     if (lastRenewal_ >= 0.0)
         ticksPerSecond = static_cast<double>(counters.ticks - ticksThen_) / (now - lastRenewal_);
     lastRenewal_ = now;
@@ -24,6 +28,8 @@ void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& rec
     wakeP99Us = us(statistics_.wake().percentile(0.99));
     stepP50Us = us(statistics_.step().percentile(0.5));
     stepP99Us = us(statistics_.step().percentile(0.99));
+    wakeHistogram = histogramOf(statistics_.wake());
+    stepHistogram = histogramOf(statistics_.step());
 }
 
 } // namespace touchstone

@@ -3,9 +3,12 @@
 #include "haptics/recording/servo_recorder.h"
 #include "haptics/servo/servo_loop.h"
 #include "workbench/force_history.h"
+#include "workbench/stolen_time.h"
 #include "workbench/tick_statistics.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -23,6 +26,9 @@ class ServoView {
     double ticksPerSecond = 0.0;
     double wakeP50Us = 0.0, wakeP99Us = 0.0;
     double stepP50Us = 0.0, stepP99Us = 0.0;
+    std::vector<uint64_t> wakeHistogram, stepHistogram; ///< by kHistogramEndsUs
+    /// Share of one processor that the host took away since the last renewal; nothing where it does not tell.
+    std::optional<double> stolenShare;
 
   private:
     static constexpr size_t kWindow = 4000; // ticks
@@ -30,6 +36,8 @@ class ServoView {
 
     TickStatistics statistics_{kWindow};
     double lastRenewal_ = -1.0;
+    StolenTime stolen_;
+    double stolenThen_ = 0.0;
     uint64_t ticksThen_ = 0;
 };
 

@@ -40,18 +40,17 @@ nlohmann::ordered_json nanoseconds(const Samples& samples) {
 
 } // namespace
 
+std::vector<uint64_t> histogramOf(const Samples& samples) {
+    std::array<int64_t, kHistogramEndsUs.size()> ends{};
+    std::transform(kHistogramEndsUs.begin(), kHistogramEndsUs.end(), ends.begin(),
+                   [](int64_t us) { return 1000 * us; });
+    return samples.histogram(ends);
+}
+
 nlohmann::ordered_json histogramJson(const Samples& samples) {
-    // 1, 2, 5 in each decade from 1 us to 10 ms: from a tick in the free to a scheduler that forgot us.
-    static constexpr std::array<int64_t, 13> kEndsUs{1,   2,   5,    10,   20,   50,   100,
-                                                     200, 500, 1000, 2000, 5000, 10000};
-    std::array<int64_t, kEndsUs.size()> ends{};
-    nlohmann::ordered_json to = nlohmann::ordered_json::array();
-    for (size_t i = 0; i < ends.size(); ++i) {
-        ends[i] = 1000 * kEndsUs[i];
-        to.push_back(kEndsUs[i]);
-    }
+    nlohmann::ordered_json to(kHistogramEndsUs);
     to.push_back(nullptr);
-    return {{"to_us", std::move(to)}, {"ticks", samples.histogram(ends)}};
+    return {{"to_us", std::move(to)}, {"ticks", histogramOf(samples)}};
 }
 
 void TickStatistics::addLive(const TickRecord& record) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace touchstone {
 
@@ -62,6 +63,12 @@ class TickStatistics {
     std::array<uint64_t, kFlagCount> flags_{};
 };
 
+/// Upper ends of the bins in which times of ticks are counted, us: 1, 2, 5 in each decade, from a tick in the
+/// free to a scheduler that forgot us.
+inline constexpr std::array<int64_t, 13> kHistogramEndsUs{1,   2,   5,    10,   20,   50,   100,
+                                                          200, 500, 1000, 2000, 5000, 10000};
+/// How many of the times (ns) are in each bin; one bin more for what is over the last end.
+[[nodiscard]] std::vector<uint64_t> histogramOf(const Samples& nanoseconds);
 /// {to_us: upper ends of the bins, ticks: how many are in each}; the last bin has no end (null).
 [[nodiscard]] nlohmann::ordered_json histogramJson(const Samples& nanoseconds);
 

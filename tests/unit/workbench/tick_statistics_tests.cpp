@@ -1,5 +1,6 @@
 // What a stream of records amounts to when some of it was lost.
 
+#include "workbench/stolen_time.h"
 #include "workbench/tick_statistics.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,29 @@ TEST(TickStatistics, ALoopThatStartsAgainHasDoneNothingMeanwhile) {
     statistics.addLive(again);
     EXPECT_EQ(joules(statistics, "given_j"), 0.0);
     EXPECT_EQ(statistics.energyJson()["gaps"], 1u);
+}
+
+TEST(TickStatistics, AHistogramTellsEveryTick) {
+    Samples nanoseconds;
+    for (const int64_t time : {300, 1000, 1001, 49'999, 999'999'999})
+        nanoseconds.add(time);
+    const std::vector<uint64_t> bins = histogramOf(nanoseconds);
+    ASSERT_EQ(bins.size(), kHistogramEndsUs.size() + 1);
+    EXPECT_EQ(bins[0], 2u) << "up to and with 1 us";
+    EXPECT_EQ(bins[1], 1u);
+    EXPECT_EQ(bins[5], 1u) << "20 to 50 us";
+    EXPECT_EQ(bins.back(), 1u) << "over 10 ms";
+    const auto json = histogramJson(nanoseconds);
+    EXPECT_EQ(json["to_us"].size(), json["ticks"].size());
+    EXPECT_TRUE(json["to_us"].back().is_null());
+}
+
+TEST(StolenTime, IsTheEighthFigureOfTheFirstLine) {
+    EXPECT_EQ(StolenTime::parse("cpu  1 2 3 4 5 6 7 88 9 10\ncpu0 1 2 3 4 5 6 7 8 9 10\n"), 88u);
+    for (const char* text : {"", "cpu 1 2 3", "intr 1 2 3 4 5 6 7 8", "cpu0 1 2 3 4 5 6 7 8", "cpu a b"})
+        EXPECT_EQ(StolenTime::parse(text), std::nullopt) << text;
+    const StolenTime here;
+    EXPECT_GE(here.seconds().value_or(0.0), 0.0);
 }
 
 } // namespace
