@@ -160,14 +160,24 @@ MockHid::MockHid(UMockdevTestbed* testbed, int number, const MockHidInfo& info)
     reader_ = ::open(fifo_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); // keeps it open for the writer
     writer_ = ::open(fifo_.c_str(), O_WRONLY | O_CLOEXEC);
     // Packet mode cannot be asked for while opening a FIFO, only afterwards (pipe(2), fcntl(2)).
-    if (writer_ < 0 || fcntl(writer_, F_SETFL, O_DIRECT) != 0 || fcntl(writer_, F_SETPIPE_SZ, kPipeBytes) < 0)
+    if (writer_ < 0 || fcntl(writer_, F_SETFL, O_DIRECT | O_NONBLOCK) != 0 ||
+        fcntl(writer_, F_SETPIPE_SZ, kPipeBytes) < 0)
         fail("no packets through " + fifo_);
     ::chmod(fifo_.c_str(), info.mode);
 }
 
 void MockHid::say(const Bytes& report) {
-    if (::write(writer_, report.data(), report.size()) != static_cast<ssize_t>(report.size()))
+    if (!eventually([&] { return trySay(report); }))
+        fail("nobody reads the reports");
+}
+
+bool MockHid::trySay(const Bytes& report) {
+    const ssize_t written = ::write(writer_, report.data(), report.size());
+    if (written < 0 && errno == EAGAIN)
+        return false;
+    if (written != static_cast<ssize_t>(report.size()))
         fail("a report of " + std::to_string(report.size()) + " bytes was not taken");
+    return true;
 }
 
 std::vector<Bytes> MockHid::heard() const {
@@ -196,7 +206,6 @@ void MockHid::unplug() {
     ::unlink(fifo_.c_str());
     umockdev_testbed_remove_device(testbed_, syspath_.c_str());
     // Whoever waits for a report is woken and finds the device gone.
-    fcntl(writer_, F_SETFL, O_NONBLOCK);
     (void)!::write(writer_, "x", 1);
     // The handler stays: a program that still has the node open must hear that it is gone.
     ::close(writer_);

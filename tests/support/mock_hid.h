@@ -37,8 +37,10 @@ class MockHid {
 
     [[nodiscard]] std::string node() const { return node_; } ///< "/dev/hidraw3"
 
-    /// One report, exactly these bytes in one packet. Waits while 200 are unread.
+    /// One report, exactly these bytes in one packet. Waits while 256 are unread; throws when that lasts.
     void say(const Bytes& report);
+    /// The same, but lost while 256 are unread, as the kernel's own queue does it.
+    bool trySay(const Bytes& report);
     /// Every report that was written to it so far, the id first.
     [[nodiscard]] std::vector<Bytes> heard() const;
     [[nodiscard]] Bytes lastHeard() const;

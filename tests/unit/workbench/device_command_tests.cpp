@@ -62,7 +62,7 @@ class Firmware {
               const auto start = std::chrono::steady_clock::now();
               for (uint32_t i = 1; !stop_; ++i) {
                   const glm::dvec3 at = path(1e-3 * i);
-                  mock.say(place(i, at.x, at.y, at.z));
+                  mock.trySay(place(i, at.x, at.y, at.z));
                   std::this_thread::sleep_until(start + std::chrono::milliseconds(i));
               }
           }) {}
