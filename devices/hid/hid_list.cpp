@@ -118,9 +118,10 @@ std::string hidRemedy(const HidNode& device) {
     case HidAccess::None:
         break;
     }
-    const std::string vendor = ids(device.vendor, device.product).substr(0, 4);
-    return "allow it with a udev rule: echo 'KERNEL==\"hidraw*\", ATTRS{idVendor}==\"" + vendor +
-           "\", TAG+=\"uaccess\"' | sudo tee /etc/udev/rules.d/70-touchstone.rules, then plug it in again";
+    const std::string both = ids(device.vendor, device.product);
+    return "allow it with a udev rule: echo 'KERNEL==\"hidraw*\", ATTRS{idVendor}==\"" + both.substr(0, 4) +
+           "\", ATTRS{idProduct}==\"" + both.substr(5) +
+           "\", TAG+=\"uaccess\"' | sudo tee -a /etc/udev/rules.d/70-touchstone.rules, then plug it in again";
 }
 
 std::vector<HidNode> listHidNodes() {

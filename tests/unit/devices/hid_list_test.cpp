@@ -1,8 +1,11 @@
+#include "devices/device_choice.h"
 #include "devices/hid/hid_list.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -63,6 +66,32 @@ TEST(HidList, GivesTheUdevRuleWhenPermissionIsMissing) {
     EXPECT_NE(hidRemedy(device).find("ATTRS{idVendor}==\"256f\""), std::string::npos) << hidRemedy(device);
     device.access = HidAccess::ReadWrite;
     EXPECT_TRUE(hidRemedy(device).empty());
+}
+
+TEST(HidList, TheUdevRuleThatWeShipKnowsEveryDevice) {
+    std::ifstream in(TOUCHSTONE_SOURCE "/devices/udev/70-touchstone.rules");
+    std::vector<std::string> rules;
+    for (std::string line; std::getline(in, line);)
+        if (line.starts_with("KERNEL==\"hidraw*\""))
+            rules.push_back(line);
+    const auto hex = [](unsigned id) {
+        char text[8];
+        std::snprintf(text, sizeof text, "%04x", id);
+        return std::string(text);
+    };
+    const auto allowed = [&](unsigned vendor, unsigned product) {
+        return std::any_of(rules.begin(), rules.end(), [&](const std::string& rule) {
+            const bool anyProduct = rule.find("idProduct") == std::string::npos;
+            return rule.find("ATTRS{idVendor}==\"" + hex(vendor) + "\"") != std::string::npos &&
+                   (anyProduct || rule.find(hex(product)) != std::string::npos) &&
+                   rule.find("TAG+=\"uaccess\"") != std::string::npos;
+        });
+    };
+    for (const KnownHid& known : knownHids())
+        EXPECT_TRUE(allowed(known.vendor, known.product)) << known.model;
+    for (const DeviceFile& file : deviceFiles())
+        EXPECT_TRUE(allowed(file.usb.vendor, file.usb.product)) << file.name;
+    EXPECT_FALSE(allowed(0x046d, 0xc077)) << "not every Logitech mouse";
 }
 
 TEST(HidList, ListsEachNodeOnceAndOursFirst) {
