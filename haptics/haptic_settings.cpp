@@ -114,6 +114,17 @@ std::string text(double number) {
     return {buffer.data(), result.ptr};
 }
 
+/// An angle in degrees, the shorter where that says the same radians.
+std::string degrees(double radians) {
+    const double exact = radians / kDegree;
+    std::array<char, 32> buffer{};
+    const auto result =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), exact, std::chars_format::general, 12);
+    double rounded = exact;
+    std::from_chars(buffer.data(), result.ptr, rounded);
+    return text(rounded * kDegree == radians ? rounded : exact);
+}
+
 } // namespace
 
 std::span<const SettingInfo> settingInfos() {
@@ -172,9 +183,9 @@ std::string settingValue(const HapticSettings& s, std::string_view name) {
     if (name == "dynamicFriction")
         return text(s.dynamicFriction);
     if (name == "shadingTiltLimit")
-        return text(s.shadingTiltLimit / kDegree);
+        return degrees(s.shadingTiltLimit);
     if (name == "textureTiltLimit")
-        return text(s.textureTiltLimit / kDegree);
+        return degrees(s.textureTiltLimit);
     if (name == "textureStrength")
         return text(s.textureStrength);
     if (name == "iterationBudget")

@@ -21,6 +21,13 @@ TEST(Settings, AValueChangesWhatItNames) {
     EXPECT_EQ(settings.forceShading, ShadingMode::Direction);
     EXPECT_EQ(setSetting(settings, "textureTiltLimit", "90"), "");
     EXPECT_NEAR(settings.textureTiltLimit, 1.5707963, 1e-6);
+    EXPECT_EQ(settingValue(HapticSettings{}, "shadingTiltLimit"), "30");
+    for (const char* angle : {"12.5", "0.1", "33.333333333333336"}) { // told and taken, to the last bit
+        EXPECT_EQ(setSetting(settings, "shadingTiltLimit", angle), "");
+        HapticSettings again;
+        EXPECT_EQ(setSetting(again, "shadingTiltLimit", settingValue(settings, "shadingTiltLimit")), "");
+        EXPECT_EQ(again.shadingTiltLimit, settings.shadingTiltLimit) << angle;
+    }
 }
 
 TEST(Settings, AWrongValueIsToldAndChangesNothing) {
