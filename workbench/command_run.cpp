@@ -159,8 +159,9 @@ nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& s
 int runCommand(const RunOptions& options) {
     catchInterrupts();
     const std::unique_ptr<LinkedDevice> device = openDeviceOrHand(options.device);
+    const DeviceLimits simulatedLimits = options.openLoop ? DeviceLimits{} : limitsOf(options.plant);
     const Model model =
-        loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : DeviceLimits{});
+        loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : simulatedLimits);
     printWarnings(model);
     prepareFor(model, options.settings);
     SimulatedHand path(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));

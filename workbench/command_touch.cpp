@@ -203,7 +203,8 @@ nlohmann::ordered_json floorJson(const Samples& rays) {
 
 int touchCommand(const TouchOptions& options) {
     const HipPath path = readHipPath(options.path);
-    const Model model = loadModelToTouch(options.scene, options.fit, DeviceLimits{});
+    const Model model = loadModelToTouch(options.scene, options.fit,
+                                         options.closedLoop ? limitsOf(options.plant) : DeviceLimits{});
     printWarnings(model);
     prepareFor(model, options.settings);
     OutputFile out(options.out);

@@ -178,7 +178,7 @@ ArmKinematics readArm(const Node& node) {
 
 DeviceLimits readLimits(const Node& node, const std::optional<ArmKinematics>& arm) {
     node.object({"maxForce", "maxForceRate", "recommendedStiffness", "maxStiffness", "staleAge",
-                 "positionResolution"});
+                 "positionResolution", "apparentMass", "coulombFriction"});
     DeviceLimits limits;
     limits.maxForce = node["maxForce"].number(0, 100);
     limits.maxForceRate = limits.maxForce / 1e-3; // full force in a tick of 1 kHz
@@ -194,6 +194,8 @@ DeviceLimits readLimits(const Node& node, const std::optional<ArmKinematics>& ar
     optional("recommendedStiffness", 1, limits.maxStiffness, limits.recommendedStiffness);
     optional("staleAge", 0.002, 0.5, limits.staleAge);
     optional("positionResolution", 1e-9, 0.1, limits.positionResolution);
+    optional("apparentMass", 1e-3, 10, limits.apparentMass);
+    optional("coulombFriction", 0, 10, limits.coulombFriction);
     return limits;
 }
 

@@ -2,18 +2,18 @@
 
 namespace touchstone {
 
-YieldingHand::YieldingHand(Device& intention, const PlantParameters& parameters)
-    : intention_(intention), plant_(parameters) {}
-
-DeviceLimits YieldingHand::limits() const {
-    DeviceLimits limits = intention_.limits();
-    limits.maxForce = plant_.parameters().maxForce;
-    limits.positionResolution = plant_.parameters().resolution;
-    limits.apparentMass = plant_.parameters().mass;
-    limits.coulombFriction = plant_.parameters().coulombFriction;
-    limits.commandDelay = plant_.parameters().delay > 0;
+DeviceLimits limitsOf(const PlantParameters& parameters) {
+    DeviceLimits limits;
+    limits.maxForce = parameters.maxForce;
+    limits.positionResolution = parameters.resolution;
+    limits.apparentMass = parameters.mass;
+    limits.coulombFriction = parameters.coulombFriction;
+    limits.commandDelay = parameters.delay > 0;
     return limits;
 }
+
+YieldingHand::YieldingHand(Device& intention, const PlantParameters& parameters)
+    : intention_(intention), plant_(parameters) {}
 
 DeviceSample YieldingHand::sample(double time) noexcept {
     DeviceSample sample = intention_.sample(time);

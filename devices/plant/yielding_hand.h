@@ -5,6 +5,10 @@
 
 namespace touchstone {
 
+/// What such a device can do, for the safety stage: a Phantom Premium 1.5's limits with the plant's own
+/// force, mass, friction, resolution and delay.
+[[nodiscard]] DeviceLimits limitsOf(const PlantParameters& parameters);
+
 /// A device in a hand that yields: the hand wants to be where `intention` is (the simulated hand, a recorded
 /// path), and holds a device with mass, friction, a sensor with steps and a force that is held from tick to
 /// tick. This closes the loop: position to force to motion. Deterministic: samples depend on the times and
@@ -18,8 +22,7 @@ class YieldingHand final : public Device {
     explicit YieldingHand(Device& intention, const PlantParameters& parameters = {});
 
     [[nodiscard]] std::string name() const override { return intention_.name() + " that yields"; }
-    /// A Phantom Premium 1.5's, with the plant's own force, mass, friction and resolution.
-    [[nodiscard]] DeviceLimits limits() const override;
+    [[nodiscard]] DeviceLimits limits() const override { return limitsOf(plant_.parameters()); }
     /// The plant moves on to `time` under the last command, and its sensor is read. The first sample (and one
     /// at a time that does not come after the last) places the hand at rest where it wants to be. Invalid
     /// while the intention is.

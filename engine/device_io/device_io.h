@@ -46,7 +46,7 @@ struct DeviceLimits {
     double staleAge = 0.02;
     double positionResolution = 3e-5; ///< m
     double apparentMass = 0.075;      ///< kg at the tip, the least in any direction. Phantom Premium 1.5.
-    double coulombFriction = 0.04;    ///< N at the tip, the least in any direction; 0: none is known of
+    double coulombFriction = 0.0;     ///< N at the tip, the least in any direction; 0: none is known of
     bool commandDelay = false;        ///< a command acts a tick later, not at once
 };
 

@@ -41,9 +41,7 @@ struct Case {
 
 Account run(Case c, PassivityMode passivity) {
     c.settings.passivity = passivity;
-    DeviceLimits limits;
-    limits.commandDelay = c.plant.delay > 0;
-    LoopBench loop(*c.scene, c.settings, c.plant, c.rate, limits, c.fit);
+    LoopBench loop(*c.scene, c.settings, c.plant, c.rate, limitsOf(c.plant), c.fit);
     loop.intention = c.path;
     loop.release(c.path(0.0), glm::dvec3(0.0));
     Account account;

@@ -18,7 +18,7 @@ constexpr double kMuch = 1e9;
 /// No friction, exact sensor.
 DeviceLimits exactDevice() {
     DeviceLimits limits;
-    limits.positionResolution = limits.coulombFriction = 0.0;
+    limits.positionResolution = 0.0;
     return limits;
 }
 

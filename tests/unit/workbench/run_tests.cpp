@@ -61,6 +61,10 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     EXPECT_GT(figures["contact"]["ticks"], 0);
     EXPECT_GE(figures["contact"]["proxy_on_mesh_share"], 0.95);
     EXPECT_GT(figures["force"]["max_n"], 0.0);
+    EXPECT_EQ(figures["loop"]["mass"], 0.075) << "the hand yields";
+    EXPECT_LT(figures["loop"]["coulomb_loss_j"], 0.1);
+    EXPECT_GT(figures["loop"]["coulomb_loss_j"], 0.0);
+    EXPECT_LT(figures["energy"]["most_balance_j"], 1e-3);
     EXPECT_EQ(figures["flags"]["force_fault"], 0);
     EXPECT_EQ(figures["gpu"]["validation_active"], true);
     EXPECT_EQ(figures["gpu"]["validation_messages"], 0) << result.err;
