@@ -53,16 +53,17 @@ class SceneFinder {
         const SceneIdentity now = identify(*model.haptic, *model.scene, recorded.identity.fit);
         found.sameFile = now.fileHash == recorded.identity.fileHash;
         found.sameFelt = now.feltHash == recorded.identity.feltHash;
+        const char* change = nullptr;
         if (!found.sameFelt)
-            std::fprintf(stderr,
-                         "touchstone: warning: %s has changed since it was touched: what is felt is not "
-                         "the same, so the ticks will differ\n",
-                         found.path.c_str());
+            change = found.sameFile
+                         ? "is the same file, but this build makes something else of it: the ticks "
+                           "will differ"
+                         : "has changed since it was touched: what is felt is not the same, so the "
+                           "ticks will differ";
         else if (!found.sameFile)
-            std::fprintf(stderr,
-                         "touchstone: warning: %s has changed since it was touched, but nothing that is "
-                         "felt\n",
-                         found.path.c_str());
+            change = "has changed since it was touched, but nothing that is felt";
+        if (change != nullptr)
+            std::fprintf(stderr, "touchstone: warning: %s %s\n", found.path.c_str(), change);
         scenes_.push_back(std::move(found));
         return {model.haptic, model.scene};
     }
@@ -163,6 +164,12 @@ nlohmann::ordered_json reportJson(const ReplayOptions& options, const ReplayRepo
 
 void printResult(const ReplayReport& report) {
     const auto replayed = static_cast<unsigned long long>(report.replayed);
+    if (report.replayed == 0) {
+        std::printf(report.ticks == 0
+                        ? "there are no ticks in it\n"
+                        : "none of its ticks can be replayed: what they began with is missing\n");
+        return;
+    }
     if (!report.first) {
         std::printf("%llu ticks (%.1f s) replayed, all equal\n", replayed, report.seconds);
         return;
@@ -220,7 +227,7 @@ int replayCommand(const ReplayOptions& options) {
         json->commit();
     }
     printResult(report);
-    return report.first || !report.damage.empty() ? 1 : 0;
+    return report.first || report.replayed == 0 || !report.damage.empty() ? 1 : 0;
 }
 
 } // namespace touchstone

@@ -24,9 +24,10 @@ ReplayReport Replayer::replay(RecordingReader& reader, const Each& each) {
     }
     report_.damage = reader.damage();
     report_.cutOff = reader.cutOff();
-    if (report_.ticks > 0 && report_.replayed == 0)
-        throw Error("recording", "", "no tick can be replayed: no state to begin with fits this version",
-                    "use the version that recorded it (" + report_.origin.version + ")");
+    if (report_.ticks > 0 && report_.replayed == 0 && report_.gaps == 0)
+        throw Error("recording", "", "no tick can be replayed: no state to begin with fits this build",
+                    "use the build that recorded it (" + report_.origin.version + ", " +
+                        report_.origin.build + ")");
     return std::move(report_);
 }
 

@@ -162,6 +162,24 @@ TEST_F(Replay, ADamagedFileIsNotTakenForAWholeOne) {
     EXPECT_LT(figures()["replayed"], figures()["ticks"]) << "there is no checkpoint behind the gap";
 }
 
+TEST_F(Replay, NothingToReplayIsNoSuccess) {
+    record("doughnut.glb");
+    const std::string bytes = readFile(file_);
+    writeTextFile(file_, bytes.substr(0, 100)); // the header and half a chunk
+    const ProgramResult empty = replay();
+    EXPECT_EQ(empty.status, 1);
+    EXPECT_TRUE(says(empty.out, "there are no ticks in it")) << empty.out;
+    std::string spoilt = bytes;
+    const size_t state = bytes.find("STAT");
+    ASSERT_NE(state, std::string::npos);
+    spoilt[state + 30] = static_cast<char>(spoilt[state + 30] ^ 1);
+    writeTextFile(file_, spoilt);
+    const ProgramResult headless = replay();
+    EXPECT_EQ(headless.status, 1);
+    EXPECT_TRUE(says(headless.out, "none of its ticks can be replayed")) << headless.out << headless.err;
+    EXPECT_TRUE(says(headless.err, "spoilt")) << headless.err;
+}
+
 TEST_F(Replay, WhatIsNoRecordingSaysSo) {
     writeTextFile(file_, "t,x,y,z\n0,0,0,0\n");
     const ProgramResult text = replay();
