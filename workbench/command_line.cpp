@@ -209,9 +209,16 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     addRecording(app, options.recording);
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
                                      "The hand follows its path whatever the force, as no hand can");
-    addPlant(app, options.plant)->excludes(open);
+    CLI::Option* plant = addPlant(app, options.plant)->excludes(open);
     addDevice(app, "hand (the simulated one, the default)",
               [&options](const std::string& device) { options.device = device; });
+    app.parse_complete_callback([&options, open, plant] {
+        const bool real = !options.device.empty() && options.device != "hand";
+        for (const CLI::Option* simulated : {open, plant})
+            if (real && simulated->count() > 0)
+                throw CLI::ValidationError(simulated->get_name(),
+                                           "is of the simulated hand, and --device names another");
+    });
     addSize(app, options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Servo rate [1000]");

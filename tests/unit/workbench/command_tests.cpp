@@ -79,6 +79,8 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--closed-loop", "--plant", "delay=0.5"},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--closed-loop", "--plant", "weight=1"},
         {"run", kPlane, "--headless", "--open-loop", "--plant", "mass=0.1"},
+        {"run", kPlane, "--headless", "--device", "udp", "--plant", "mass=0.1"},
+        {"run", kPlane, "--headless", "--device", "udp", "--open-loop"},
         {"render", kPlane},
         {"render", kPlane, "--out", "a.png", "--size", "640"},
         {"render", kPlane, "--out", "a.png", "--size", "0x480"},
