@@ -83,7 +83,9 @@ long double touchTime(const Corners& triangle, const BruteContact& start, const 
 /// move.
 struct Near {
     Corners corners;
+    int oneSided = -1; ///< its object, if it shows only its front
     long double atLeast = 0.0L;
+    bool there = true; ///< for the move that begins now
 
     BruteContact look(const LVec3& p) {
         const BruteContact contact = distanceFrom(corners, p);
@@ -91,6 +93,31 @@ struct Near {
         return contact;
     }
 };
+
+/// What shows only its front is there for a sphere that is in front of it and clear of it, and not coming
+/// through another triangle of the same object while it is lower than its radius over this one's plane.
+void tellWhatIsThere(std::vector<Near>& near, const LVec3& p, long double radius) {
+    constexpr long double kNotClear = 1e-8L;
+    std::vector<int> comingThrough;
+    for (Near& t : near) {
+        t.there = true;
+        if (t.oneSided < 0)
+            continue;
+        const LVec3 normal = glm::cross(t.corners.b - t.corners.a, t.corners.c - t.corners.a);
+        const long double height = glm::dot(p - t.corners.a, normal) / glm::length(normal);
+        const bool clear = t.look(p).distance >= radius - kNotClear;
+        if (!clear)
+            comingThrough.push_back(t.oneSided);
+        t.there = height > 0.0L && clear;
+    }
+    for (Near& t : near) {
+        if (t.oneSided < 0 || !t.there ||
+            std::find(comingThrough.begin(), comingThrough.end(), t.oneSided) == comingThrough.end())
+            continue;
+        const LVec3 normal = glm::cross(t.corners.b - t.corners.a, t.corners.c - t.corners.a);
+        t.there = glm::dot(p - t.corners.a, normal) / glm::length(normal) >= radius - kNotClear;
+    }
+}
 
 } // namespace
 
@@ -101,11 +128,15 @@ OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, lo
     const long double reach = glm::length(goal - from) + radius + kTouch;
     std::vector<Near> near;
     for (const size_t t : soup.near(goal, reach))
-        near.push_back({soup.corners(t), 0.0L});
+        near.push_back({soup.corners(t), soup.oneSided(t), 0.0L});
+    const bool oneSided =
+        std::any_of(near.begin(), near.end(), [](const Near& t) { return t.oneSided >= 0; });
     for (; rest.moves < kOracleMoves; ++rest.moves) {
         rest.touching.clear();
+        if (oneSided)
+            tellWhatIsThere(near, rest.proxy, radius);
         for (Near& t : near)
-            if (t.atLeast <= radius + kTouch) {
+            if (t.there && t.atLeast <= radius + kTouch) {
                 const BruteContact contact = t.look(rest.proxy);
                 if (contact.distance <= radius + kTouch)
                     rest.touching.push_back(contact.normal);
@@ -118,7 +149,7 @@ OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, lo
         }
         long double share = 1.0L;
         for (Near& t : near)
-            if (t.atLeast <= radius + kGap + share * length)
+            if (t.there && t.atLeast <= radius + kGap + share * length)
                 share = touchTime(t.corners, t.look(rest.proxy), rest.proxy, move, radius, share);
         if (share <= 0.0L)
             return rest;

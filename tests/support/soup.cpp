@@ -72,6 +72,7 @@ Soup::Soup(const HapticScene& scene, int frame) {
         }
         for (const uint32_t index : object.indices)
             indices_.push_back(base + index);
+        oneSided_.resize(triangleCount(), object.oneSided ? static_cast<int>(k) : -1);
     }
     std::vector<LVec3> centres(triangleCount());
     for (size_t t = 0; t < centres.size(); ++t) {

@@ -31,6 +31,9 @@ class Soup {
     /// False where two corners are the same vertex after welding: neighbours cover such a triangle.
     [[nodiscard]] bool counts(size_t triangle) const;
 
+    /// The object of a triangle that shows only its front; -1 for the others.
+    [[nodiscard]] int oneSided(size_t triangle) const { return oneSided_[triangle]; }
+
     /// Every triangle whose box comes within `reach` of `p`, those that do not count left out.
     [[nodiscard]] std::vector<size_t> near(const LVec3& p, long double reach) const;
     /// The triangles within `reach` of `p`, as contacts.
@@ -55,6 +58,7 @@ class Soup {
 
     std::vector<LVec3> vertices_;
     std::vector<uint32_t> indices_;
+    std::vector<int> oneSided_; ///< by triangle
     std::vector<uint32_t> order_;
     std::vector<Node> nodes_;
 };
