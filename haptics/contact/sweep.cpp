@@ -48,17 +48,15 @@ double timeToHalfPlane(const Triangle& triangle, const TriangleDistance& here, c
     return std::max(newton, (above - reach) / closing);
 }
 
-} // namespace
-
 // A triangle is convex, so its distance along a straight move is a convex function of time, and steps that
 // end where a convex set around it is touched never overstep the first touch. The triangle whose next step is
 // the earliest goes first; when that one touches, every other one touches later, wherever its own steps
 // stand.
-double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move, double reach,
-                 double limit) noexcept {
+template <bool OneSided>
+[[gnu::always_inline]] inline double firstTouch(CandidateCache& cache, const glm::dvec3& p,
+                                                const glm::dvec3& move, double reach, double limit) noexcept {
     const std::span<CandidateCache::Approach> all = cache.approaching(p, move, limit, reach);
     size_t left = all.size();
-    const bool oneSided = cache.anyOneSided();
     const double parallel = kParallel * glm::length(move);
     while (left > 0) {
         size_t next = 0;
@@ -72,10 +70,12 @@ double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& m
         const TriangleDistance here = time > 0.0 ? cache.measureAhead(approach.index, p + time * move)
                                                  : cache.measure(approach.index, p);
         // One-sided triangles are asked where the move begins; what is not reached at once is clear there.
-        if (oneSided && approach.steps == 0 &&
-            cache.passes(approach.index, p, time > 0.0 ? INFINITY : here.distance, reach)) {
-            approach = all[--left];
-            continue;
+        if constexpr (OneSided) {
+            if (approach.steps == 0 &&
+                cache.passes(approach.index, p, time > 0.0 ? INFINITY : here.distance, reach)) {
+                approach = all[--left];
+                continue;
+            }
         }
         const double rate = glm::dot(here.gradient, move);
         const double gap = here.distance - reach;
@@ -89,6 +89,21 @@ double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& m
             time + timeToHalfPlane(cache.triangle(approach.index), here, p + time * move, move, reach, rate);
     }
     return limit;
+}
+
+/// Out of line: what a scene does not call for must not take registers from what it does.
+[[gnu::noinline]] double firstTouchOneSided(CandidateCache& cache, const glm::dvec3& p,
+                                            const glm::dvec3& move, double reach, double limit) noexcept {
+    return firstTouch<true>(cache, p, move, reach, limit);
+}
+
+} // namespace
+
+double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move, double reach,
+                 double limit) noexcept {
+    if (cache.anyOneSided())
+        return firstTouchOneSided(cache, p, move, reach, limit);
+    return firstTouch<false>(cache, p, move, reach, limit);
 }
 
 } // namespace touchstone

@@ -109,15 +109,18 @@ double MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     return -1.0;
 }
 
-void MeshProxy::findContacts(double within) noexcept {
+template <bool OneSided>
+[[gnu::always_inline]] inline void MeshProxy::collectContacts(double within) noexcept {
     CandidateCache& cache = state_.candidates;
     const double reach = radius_ + within;
-    const bool oneSided = cache.anyOneSided();
     rest_.contactCount = 0;
     cache.eachNear(state_.proxy, reach, [&](size_t i) {
         const TriangleDistance d = cache.measure(i, state_.proxy);
-        if (d.distance > reach || (oneSided && cache.passes(i, state_.proxy, d.distance, radius_)))
+        if (d.distance > reach)
             return;
+        if constexpr (OneSided)
+            if (cache.passes(i, state_.proxy, d.distance, radius_))
+                return;
         // Coplanar neighbours say the same: one plane for both. The same to the last bits, no less: a
         // neighbour seen from beside its edge may lean by 1e-8, and what leans is a plane of its own or it
         // blocks unseen.
@@ -141,6 +144,17 @@ void MeshProxy::findContacts(double within) noexcept {
                                                 .triangle = cache.item(i).index,
                                                 .candidate = static_cast<uint32_t>(i)};
     });
+}
+
+/// Out of line: what a scene does not call for must not take registers from what it does.
+[[gnu::noinline]] void MeshProxy::findOneSidedContacts(double within) noexcept {
+    collectContacts<true>(within);
+}
+
+void MeshProxy::findContacts(double within) noexcept {
+    if (state_.candidates.anyOneSided())
+        return findOneSidedContacts(within);
+    collectContacts<false>(within);
 }
 
 /// A plane lets the proxy down to the resting gap, or lifts it there after a strike. Around that gap it asks

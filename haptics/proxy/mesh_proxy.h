@@ -71,6 +71,9 @@ class MeshProxy {
     void adoptAnchor(int anchor) noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts(double within = kContactReach) noexcept;
+    void findOneSidedContacts(double within) noexcept;
+    template <bool OneSided>
+    void collectContacts(double within) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
