@@ -200,7 +200,8 @@ void FlightRecorder::rotate() {
 
 void FlightRecorder::add(const TickToRecord& tick) {
     const double dt = std::clamp(tick.tick.dt, 0.0, 1.0);
-    if (tick.checkpoint != nullptr && (!writer_ || recorded_ >= config_.seconds))
+    // Half a tick less: a second of ticks adds up to a hair less or more than a second.
+    if (tick.checkpoint != nullptr && (!writer_ || recorded_ + 0.5 * dt >= config_.seconds))
         rotate();
     if (!writer_)
         return;
