@@ -9,47 +9,69 @@
 #include <dlfcn.h>
 #include <pthread.h>
 
+#include <atomic>
+#include <ctime>
+
 namespace {
 
 struct Announce {
     Announce() { touchstone::realtime::announceLockInterposer(); }
 } const announce;
 
-/// The function of this name behind ours. Found at its first use, which may be before any constructor here.
-template <class Function>
-Function behind(Function& found, const char* name) {
-    if (found == nullptr)
-        found = reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
-    return found;
-}
+/// The function of a name behind ours. Found at its first use, which may be before any constructor here.
+template <class... Arguments>
+class Behind {
+  public:
+    explicit constexpr Behind(const char* name) : name_(name) {}
 
-using MutexCall = int (*)(pthread_mutex_t*);
-using RwlockCall = int (*)(pthread_rwlock_t*);
-constinit MutexCall mutexLock = nullptr, mutexTrylock = nullptr;
-constinit RwlockCall readLock = nullptr, writeLock = nullptr;
+    int operator()(Arguments... arguments) {
+        touchstone::realtime::noteLock();
+        auto* function = found_.load(std::memory_order_relaxed);
+        if (function == nullptr) {
+            function = reinterpret_cast<int (*)(Arguments...)>(dlsym(RTLD_NEXT, name_));
+            found_.store(function, std::memory_order_relaxed);
+        }
+        return function(arguments...);
+    }
+
+  private:
+    const char* name_;
+    std::atomic<int (*)(Arguments...)> found_{nullptr};
+};
+
+constinit Behind<pthread_mutex_t*> mutexLock{"pthread_mutex_lock"}, mutexTrylock{"pthread_mutex_trylock"};
+constinit Behind<pthread_mutex_t*, const timespec*> mutexTimedlock{"pthread_mutex_timedlock"};
+constinit Behind<pthread_mutex_t*, clockid_t, const timespec*> mutexClocklock{"pthread_mutex_clocklock"};
+constinit Behind<pthread_rwlock_t*> readLock{"pthread_rwlock_rdlock"}, writeLock{"pthread_rwlock_wrlock"},
+    readTrylock{"pthread_rwlock_tryrdlock"}, writeTrylock{"pthread_rwlock_trywrlock"};
 
 } // namespace
 
 extern "C" {
 
 int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
-    touchstone::realtime::noteLock();
-    return behind(mutexLock, "pthread_mutex_lock")(mutex);
+    return mutexLock(mutex);
 }
-
 int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
-    touchstone::realtime::noteLock();
-    return behind(mutexTrylock, "pthread_mutex_trylock")(mutex);
+    return mutexTrylock(mutex);
 }
-
+int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* until) noexcept {
+    return mutexTimedlock(mutex, until);
+}
+int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock, const timespec* until) noexcept {
+    return mutexClocklock(mutex, clock, until);
+}
 int pthread_rwlock_rdlock(pthread_rwlock_t* lock) noexcept {
-    touchstone::realtime::noteLock();
-    return behind(readLock, "pthread_rwlock_rdlock")(lock);
+    return readLock(lock);
 }
-
 int pthread_rwlock_wrlock(pthread_rwlock_t* lock) noexcept {
-    touchstone::realtime::noteLock();
-    return behind(writeLock, "pthread_rwlock_wrlock")(lock);
+    return writeLock(lock);
+}
+int pthread_rwlock_tryrdlock(pthread_rwlock_t* lock) noexcept {
+    return readTrylock(lock);
+}
+int pthread_rwlock_trywrlock(pthread_rwlock_t* lock) noexcept {
+    return writeTrylock(lock);
 }
 
 } // extern "C"

@@ -102,8 +102,10 @@ FirstGoal firstGoal(const HapticScene& scene, const HapticSettings& settings, co
     if (state.shadedObject == state.anchor) {
         const HapticObject& object = *scene.objects[static_cast<size_t>(state.anchor)];
         const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
-        // A checkpoint may name any facet: one of an object without normals, too.
-        if (shadingMode(settings, material) == ShadingMode::TwoPass && !object.normals.empty())
+        // A checkpoint may name any facet: one of an object without normals, too. A flat one may have held
+        // the proxy beside a smooth one.
+        if (shadingMode(settings, material) == ShadingMode::TwoPass && !object.normals.empty() &&
+            object.smooth[state.shadedTriangle] != 0)
             if (const auto goal = goalOnFacet(object, settings, state, hip, normal))
                 return *goal;
     }

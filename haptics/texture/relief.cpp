@@ -116,6 +116,9 @@ glm::dvec3 compressTilt(const glm::dvec3& n, const glm::dvec3& m, double limit, 
     const double squared = glm::dot(sideways, sideways);
     if (!(limit > 0.0) || !(squared > 0.0))
         return n;
+    constexpr double kSteep = 1e30; // beyond it fourth powers would overflow
+    if (squared > kSteep)
+        return compressTilt(n, glm::normalize(m), limit, compressed);
     // Tangent = |sideways| / root; without a limit root is `along`.
     const double slope = std::tan(limit);
     const double c = std::max(along, 0.0) * std::max(along, 0.0), s = squared / (slope * slope);

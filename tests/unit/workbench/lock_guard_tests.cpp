@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <mutex>
 #include <shared_mutex>
 
@@ -31,6 +32,10 @@ TEST(LockGuard, SeesEveryKindOfLockInATick) {
     EXPECT_EQ(locksIn([&] { const std::unique_lock lock(mutex, std::try_to_lock); }), 1u);
     EXPECT_EQ(locksIn([&] { const std::unique_lock lock(shared); }), 1u);
     EXPECT_EQ(locksIn([&] { const std::shared_lock lock(shared); }), 1u);
+    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(shared, std::try_to_lock); }), 1u);
+    EXPECT_EQ(locksIn([&] { const std::shared_lock lock(shared, std::try_to_lock); }), 1u);
+    std::timed_mutex timed;
+    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(timed, std::chrono::milliseconds(1)); }), 1u);
     EXPECT_EQ(locksIn([] {}), 0u);
 }
 
