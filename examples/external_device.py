@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A device for Touchstone in sixty lines: a finger on a spring that presses down and up again.
+"""A device for Touchstone in seventy lines: a finger on a spring that presses down and up again.
 
 Start Touchstone with `touchstone SCENE --device udp` (or `touchstone run SCENE --headless --device udp`), then this.
 It sends where the finger is a thousand times a second and moves the finger by the force that comes back.
@@ -20,6 +20,7 @@ MASS = 0.08  # kg, of a finger and a light device
 SPRING = 300.0  # N/m, from the finger to where it wants to be
 DAMPING = 4.0  # N s/m
 PERIOD = 0.001  # s
+SILENCE = 0.05  # s without a packet, after which there is no force
 
 
 def wish(t, depth):
@@ -41,26 +42,29 @@ def main():
     place, speed, force = list(wish(0.0, options.depth)), [0.0] * 3, (0.0, 0.0, 0.0)
     sequence = answers = malformed = 0
     greatest = 0.0
-    start = time.monotonic()
-    while (now := time.monotonic() - start) < options.seconds:
-        goal = wish(now, options.depth)
+    start = due = heard = time.monotonic()
+    while (now := time.monotonic()) - start < options.seconds:
+        if now - heard > SILENCE:
+            force = (0.0, 0.0, 0.0)
+        goal = wish(now - start, options.depth)
         for i in range(3):
             push = SPRING * (goal[i] - place[i]) - DAMPING * speed[i] + force[i]
             speed[i] += push / MASS * PERIOD
             place[i] += speed[i] * PERIOD
         sequence += 1
         packet = PLACE.pack(b"TSXP", 1, PLACE.size, sequence, 0, *place, 1.0, 0.0, 0.0, 0.0)
+        due = max(due + PERIOD, now)  # what was slept through is not made up for in a burst
         try:
             link.send(packet)
-            # What comes until the next place is due; the newest force counts.
-            while (left := start + sequence * PERIOD - time.monotonic()) > 0.0:
-                if not select.select([link], [], [], left)[0]:
+            while True:  # what comes until the next place is due, and once if that is now; the newest force counts
+                if not select.select([link], [], [], max(due - time.monotonic(), 0.0))[0]:
                     break
                 answer = link.recv(256)
                 if len(answer) != FORCE.size or answer[:4] != b"TSXF":
                     malformed += 1
                     continue
                 force = FORCE.unpack(answer)[5:8]
+                heard = time.monotonic()
                 answers += 1
                 greatest = max(greatest, math.sqrt(sum(f * f for f in force)))
         except ConnectionRefusedError:

@@ -69,7 +69,7 @@ class Workbench {
 
     void open(const std::filesystem::path& path) {
         problem_.clear();
-        loader_.start(path, hand_.limits());
+        loader_.start(path, handLimits());
     }
 
     /// Ends what is recorded as it should.
@@ -124,6 +124,8 @@ class Workbench {
     }
 
     void show(LoadedModel loaded) {
+        loaded.model.haptic =
+            limited(*loaded.model.haptic); // another hand may be held than when it was begun
         shown_ = std::move(loaded);
         renderer_.setScene(shown_.model.scene);
         shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
@@ -155,27 +157,52 @@ class Workbench {
                                    [haptic = shown_.model.haptic] { haptic->buildNeighbourhoods(); });
     }
 
-    /// Holds what was chosen; a model that is already there is touched anew, within the device's limits.
+    /// Holds what was chosen. A device is driven only by a scene with its own limits: it waits until the
+    /// servo has adopted that; meanwhile nothing is held.
     void holdDevice() {
         hand_.collect();
-        if (state_.device == devices_.chosen())
-            return;
-        hand_.hold(devices_.choose(state_.device));
+        if (state_.device != devices_.chosen())
+            chooseDevice();
+        if (coming_ != nullptr && (!hasModel() || servo_.snapshot().scene == offered_))
+            hand_.hold(std::exchange(coming_, nullptr));
+    }
+
+    void chooseDevice() {
+        hand_.hold(nullptr);
+        coming_.reset();
+        coming_ = devices_.choose(state_.device);
         state_.device = devices_.chosen();
         if (!hasModel())
             return;
-        const std::shared_ptr<HapticScene> limited = copyOf(*shown_.model.haptic);
-        limited->limits = hand_.limits();
-        limited->warnings = shown_.model.haptic->warnings;
-        shown_.model.haptic = limited;
-        offerScene();
+        try {
+            shown_.model.haptic = limited(*shown_.model.haptic);
+            offerScene();
+        } catch (const std::bad_alloc&) {
+            coming_.reset();
+            devices_.choose("");
+            state_.device.clear();
+            problem_ = "there is not enough memory for the device's limits: nothing is held";
+        }
+    }
+
+    /// Of what is held or will be next.
+    [[nodiscard]] DeviceLimits handLimits() const {
+        return coming_ != nullptr ? coming_->limits() : hand_.limits();
+    }
+
+    /// The same scene within the hand's limits.
+    [[nodiscard]] std::shared_ptr<HapticScene> limited(const HapticScene& scene) const {
+        std::shared_ptr<HapticScene> copy = copyOf(scene);
+        copy->limits = handLimits();
+        copy->warnings = scene.warnings;
+        return copy;
     }
 
     /// To the servo, and to what records it.
     void offerScene() {
         shown_.identity.limits = shown_.model.haptic->limits;
-        desk_.recorder().sceneOffered(servo_.offerScene(shown_.model.haptic, shown_.model.scene),
-                                      shown_.identity);
+        offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene);
+        desk_.recorder().sceneOffered(offered_, shown_.identity);
     }
 
     void draw() {
@@ -271,6 +298,8 @@ class Workbench {
     AdaptiveResolution resolution_;
     DeviceMenu devices_;
     HandSwitch hand_;
+    std::shared_ptr<LinkedDevice> coming_; // held once the servo has adopted a scene with its limits
+    uint32_t offered_ = 0;                 // number of the newest scene
     ServoLoop servo_;
     std::string notice_; // of the recorder
     RecordingDesk desk_;

@@ -17,9 +17,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kPollMs = 1;         // how long an order may wait while a client is there
-constexpr int kLonelyPollMs = 20;  // while none is
-constexpr int kMostInOneTurn = 64; // packets, before an order gets its turn
+constexpr int kPollMs = 1;                  // how long an order may wait while a client is there
+constexpr int kLonelyPollMs = 20;           // while none is
+constexpr int kMostInOneTurn = 64;          // packets, before an order gets its turn
+constexpr int64_t kKeepAliveNs = 5'000'000; // a client hears from us at least this often
 
 sockaddr_in loopback(uint16_t port) {
     sockaddr_in address{};
@@ -68,11 +69,12 @@ void ExternalDevice::run() {
         const int64_t now = steadyNs();
         if (!alone && static_cast<double>(now - heardNs_) > 1e9 * kClientSilence)
             leave();
-        if (mailbox_.updateOrder() && client_ != Client{})
-            send(mailbox_.order(now));
+        const bool news = mailbox_.updateOrder();
+        if (client_ != Client{} && (news || now - sentNs_ >= kKeepAliveNs))
+            send(mailbox_.order(now), now);
     }
     if (client_ != Client{})
-        send(ForceOrder{});
+        send(ForceOrder{}, steadyNs());
 }
 
 /// Waits for a packet and takes all there are. One that was already waiting may have come any time since the
@@ -135,12 +137,14 @@ void ExternalDevice::welcome(const Client& client) {
 }
 
 void ExternalDevice::leave() {
+    send(ForceOrder{}, steadyNs());
     client_ = {};
     mailbox_.publish(DeviceReading{});
     monitor_.disconnected(LinkState::Searching, waitingFor(port_));
 }
 
-void ExternalDevice::send(const ForceOrder& order) {
+void ExternalDevice::send(const ForceOrder& order, int64_t nowNs) {
+    sentNs_ = nowNs;
     const auto bytes = forcePacket({++said_, heard_, order.force, order.torque});
     sockaddr_in to = loopback(ntohs(client_.port));
     to.sin_addr.s_addr = client_.address;

@@ -12,7 +12,8 @@ namespace touchstone {
 inline constexpr uint16_t kExternalPort = 47470;
 
 /// Speaks with one client at a time: the first whose packet is well formed, until it has been silent for
-/// kClientSilence. What others send meanwhile is counted as ignored.
+/// kClientSilence. What others send meanwhile is counted as ignored. The client hears zero force when the
+/// servo falls silent (kServoSilence), and as the last word.
 class ExternalDevice final : public LinkedDevice {
   public:
     /// s; then the sample is invalid and another client may come.
@@ -47,13 +48,14 @@ class ExternalDevice final : public LinkedDevice {
     void take(std::span<const uint8_t> packet, const Client& from, int64_t arrivedNs);
     void welcome(const Client& client);
     void leave();
-    void send(const ForceOrder& order);
+    void send(const ForceOrder& order, int64_t nowNs);
 
     uint16_t port_ = 0;
     int socket_ = -1;
     Client client_;
     uint32_t heard_ = 0, said_ = 0;
     int64_t heardNs_ = 0; ///< the client's last well-formed packet
+    int64_t sentNs_ = 0;  ///< the last force to the client
     int64_t emptyNs_ = 0; ///< when the socket was last seen empty
     std::atomic<bool> stop_{false};
     std::thread thread_;

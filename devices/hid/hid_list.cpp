@@ -121,7 +121,8 @@ std::string hidRemedy(const HidNode& device) {
     const std::string both = ids(device.vendor, device.product);
     return "allow it with a udev rule: echo 'KERNEL==\"hidraw*\", ATTRS{idVendor}==\"" + both.substr(0, 4) +
            "\", ATTRS{idProduct}==\"" + both.substr(5) +
-           "\", TAG+=\"uaccess\"' | sudo tee -a /etc/udev/rules.d/70-touchstone.rules, then plug it in again";
+           "\", TAG+=\"uaccess\"' | sudo tee -a /etc/udev/rules.d/71-touchstone-local.rules, then plug it in "
+           "again";
 }
 
 std::vector<HidNode> listHidNodes() {
