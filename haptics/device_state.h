@@ -30,6 +30,7 @@ struct DeviceState {
     glm::dvec3 hip{0.0};      ///< workspace, last tick
     glm::dvec3 travel{0.0};   ///< m, of the HIP since the last tick, workspace
     glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
+    double unsampled = 0.0;   ///< s since the last usable sample, kForceRampOutTime at most
 
     // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor
     // moves it carries the proxy along.

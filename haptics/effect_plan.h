@@ -33,6 +33,8 @@ struct EffectPlan {
     // Smooth surfaces: of any material that does not say off; of those that are two-pass by themselves; of
     // those that say projected or direction. Where none is, stage 4 is not there.
     bool plainFeel = false; ///< every touchable material is plain: stages 5 and 6 are not there either
+    bool dampingMap =
+        false; ///< some touchable material has one, which a session's own damping is multiplied by
     bool anyShading = false, twoPassShading = false, oneFacetShading = false;
 };
 

@@ -244,11 +244,26 @@ void touchAsPlanned(const HapticScene& scene, const HapticSettings& settings, co
                     DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const bool plain =
         kPlainTick || (scene.plan.plainFeel && !(settings.staticFriction > 0.0) &&
+                       !(scene.plan.dampingMap && settings.damping > 0.0) &&
                        !anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings));
     if (plain)
         return touch<Model, true>(scene, settings, input, state, output, stopwatch);
     if constexpr (!kPlainTick)
         touch<Model, false>(scene, settings, input, state, output, stopwatch);
+}
+
+/// A tick without a sample in a scene that moves: the proxy goes on with the objects, as if the hand stood. A
+/// watch that touches goes with its anchor; one in the free would have to know where every object was when
+/// the hand was last seen, and begins anew.
+void carryUnseen(const HapticScene& scene, const HapticSettings& settings, ObjectMotions motions,
+                 DeviceState& state, uint32_t& flags) {
+    if (!state.placed || state.anchor < 0)
+        return;
+    if (settings.contact == ContactMethod::Sweep || scene.neighbourhoods() == nullptr)
+        return carry<MeshProxy>(scene, motions, settings, state, flags);
+    carry<NeighbourhoodWatch>(scene, motions, settings, state, flags);
+    if (!state.watch.touching)
+        state.placed = false;
 }
 
 /// The contact model that the settings name.
@@ -287,7 +302,7 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         if (sampled && !scene.objects.empty())
             touchWithModel(scene, settings, input, state, output, stopwatch);
         else if (!input.objects.empty())
-            state.placed = false; // objects move on unseen: touch begins anew where the hand is next
+            carryUnseen(scene, settings, input.objects, state, output.flags);
 
         // 8. Safety: the only thing that may reach a device.
         const SafetyInputs safety{.limits = scene.limits,
@@ -302,9 +317,9 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
                                              state.limiter, output.flags);
         output.energyBalance = state.limiter.passivity.balance;
-        // A hand that was gone for as long as its force took to fade may come back anywhere: it is not pulled
-        // to where it was, but begins anew.
-        if (!sampled && state.limiter.ramp <= 0.0)
+        // A hand that was gone for as long as a full force takes to fade may come back anywhere: it is not
+        // pulled to where it was, but begins anew.
+        if (state.unsampled >= kForceRampOutTime)
             state.forgetTouch();
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
         stopwatch.lap(Stage::Safety);

@@ -19,6 +19,7 @@ void eachField(State& s, const Visit& visit) {
     visit(s.hip);
     visit(s.travel);
     visit(s.velocity);
+    visit(s.unsampled);
     visit(s.placed);
     visit(s.anchor);
     visit(s.proxy);
@@ -55,6 +56,7 @@ void eachField(State& s, const Visit& visit) {
 struct CarriedFields {
     bool sampled = false;
     glm::dvec3 hip{0.0}, travel{0.0}, velocity{0.0};
+    double unsampled = 0.0;
     bool placed = false;
     int anchor = -1;
     glm::dvec3 proxy{0.0};

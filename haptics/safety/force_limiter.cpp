@@ -49,7 +49,11 @@ bool usable(const SafetyInputs& inputs) {
 /// What the last command did on the way here. The contact's springs hold as much of their energy as the ramp
 /// lets pass.
 void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterState& state, uint32_t& flags) {
-    if (inputs.passivity == PassivityMode::Off || !inputs.inputValid || !finite(inputs.position)) {
+    if (inputs.passivity == PassivityMode::Off) {
+        state.passivity = PassivityState{}; // nobody keeps the account: none is left to be settled later
+        return;
+    }
+    if (!inputs.inputValid || !finite(inputs.position)) {
         losePosition(state.passivity);
         return;
     }
@@ -65,7 +69,7 @@ glm::dvec3 madePassive(const glm::dvec3& target, const SafetyInputs& inputs, con
     if (inputs.passivity != PassivityMode::Control || !inputs.inputValid || !inputs.forceEnabled ||
         state.latched)
         return target;
-    const glm::dvec3 passive = passiveForce(target, inputs.dt, inputs.limits, state.passivity);
+    const glm::dvec3 passive = passiveForce(target, inputs.dt, inputs.limits, state.passivity, state.ramp);
     if (passive == target || !finite(passive))
         return target;
     flags = flags | TickFlag::EnergyDamped;
@@ -128,6 +132,7 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
 
 void ForceLimiter::restartRamp(ForceLimiterState& state) noexcept {
     state.ramp = 0.0;
+    state.passivity.balance = 0.0;
     state.heldForce = glm::dvec3(0.0);
     state.heldTorque = glm::dvec3(0.0);
 }

@@ -52,9 +52,10 @@ struct SafetyInputs {
 
 /// Makes every DeviceCommand there is. What always holds, for any input whatever:
 /// - the command is finite and |force| <= limits.maxForce (torque likewise with maxTorque);
-/// - |force - previous force| <= limits.maxForceRate * dt, with one exception: a force, a dt or a limit that
-/// is
-///   not a finite number is a fault, and a fault drops the command to zero at once;
+/// - |force - previous force| <= limits.maxForceRate * dt, with two exceptions, both towards less force: a
+///   force, a dt or a limit that is not a finite number is a fault, and a fault drops the command to zero at
+///   once; where limits.maxForce has become smaller (another scene's limits) the command is cut to it at once
+///   (torque likewise);
 /// - the passivity controller's force is under the same limits, and off wherever the force is off.
 class ForceLimiter {
   public:
@@ -68,7 +69,8 @@ class ForceLimiter {
                                              uint32_t& flags) noexcept;
 
     /// Servo thread, at a scene swap: the force fades in anew. The last command is kept, since the device
-    /// still holds it and the slew limit must start from there; so is a latch.
+    /// still holds it and the slew limit must start from there; so is a latch. The energy balance begins
+    /// anew: it is that of the touch that ended.
     static void restartRamp(ForceLimiterState& state) noexcept;
 };
 

@@ -15,9 +15,10 @@ namespace touchstone {
 inline constexpr double kMostDampingRate = 250.0;
 
 /// J. The controller lets the force yield as the balance rises, until at this none is left: so whatever the
-/// wall, the sensor or the delay, no more than this and a tick's work can be given. Ordinary touch stays
-/// below a sixth of it (tests/stability/closed_loop/effects_test.cpp); less makes such touch softer where it
-/// is lively.
+/// wall, the sensor or the delay, no more than this can be given, and the work of the ticks that the slew
+/// limit and the delay need until the yielded force is what the device holds. Ordinary touch stays below a
+/// sixth of it (tests/stability/closed_loop/effects_test.cpp); less makes such touch softer where it is
+/// lively.
 inline constexpr double kMostEnergy = 2e-3;
 
 /// J. A balance above this is worth a flag: the energy that sampling alone gives in a firm tap (k v² T² / 2 a
@@ -48,7 +49,8 @@ struct PassivityState {
 void observeEnergy(const glm::dvec3& sent, const glm::dvec3& reading, double stored,
                    const DeviceLimits& limits, PassivityState& state) noexcept;
 
-/// The tick's position is not known: the observer begins anew where the hand is next seen.
+/// The tick's position is not known: ways are measured from where the hand is next seen. The balance stays: a
+/// lost sample is no payment.
 inline void losePosition(PassivityState& state) noexcept {
     state.placed = false;
     state.way = glm::dvec3(0.0);
@@ -57,8 +59,9 @@ inline void losePosition(PassivityState& state) noexcept {
 /// The controller, after observeEnergy: N, what is left of `force` (N), which is all of it where the balance
 /// is not above zero. It yields by balance / kMostEnergy. A damper -a v with a = E / (dt v²) is added, which
 /// takes the balance E back in one tick if the hand goes on at v; at most kMostDampingRate's, and on top of
-/// that what the force itself pushes along the motion, which taking away cannot overshoot.
+/// that what the force itself pushes along the motion, which taking away cannot overshoot. `ramp`: 0..1, the
+/// share that `force` was let pass, which holds for the most of the damper too: at 0 nothing drags.
 [[nodiscard]] glm::dvec3 passiveForce(const glm::dvec3& force, double dt, const DeviceLimits& limits,
-                                      const PassivityState& state) noexcept;
+                                      const PassivityState& state, double ramp) noexcept;
 
 } // namespace touchstone

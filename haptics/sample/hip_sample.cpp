@@ -2,6 +2,7 @@
 
 #include "haptics/tick_flags.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace touchstone {
@@ -24,6 +25,7 @@ bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevic
     if (!sample.valid || !usable(sample.position)) {
         flags = flags | TickFlag::InputInvalid;
         state.sampled = false; // the velocity starts anew: a gap is not one tick long
+        state.unsampled = std::min(kForceRampOutTime, state.unsampled + dt);
         return false;
     }
     const glm::dvec3 hip = workspaceFromDevice.point(sample.position);
@@ -40,6 +42,7 @@ bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevic
         state.velocity = glm::dvec3(0.0);
     }
     state.sampled = true;
+    state.unsampled = 0.0;
     state.hip = hip;
     return true;
 }

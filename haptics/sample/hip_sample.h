@@ -12,7 +12,7 @@ inline constexpr double kVelocityCutoff = 80.0;
 inline constexpr double kFastestHand = 20.0;
 
 /// Takes a sample (device frame) into state.hip and state.velocity (workspace). False when it is unusable:
-/// the state is then unchanged. Sets InputInvalid and Teleported.
+/// place and velocity are then unchanged, and the time without one goes on. Sets InputInvalid and Teleported.
 [[nodiscard]] bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevice, double dt,
                               DeviceState& state, uint32_t& flags) noexcept;
 

@@ -166,19 +166,24 @@ const char* effectName(Effect effect) {
     return "";
 }
 
+/// A map or an attribute without a coefficient above zero has no say and does not count: see feelsPlain.
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
     plan.plainFeel = true;
+    plan.dampingMap = false;
     plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
     for (HapticMaterialData& m : scene.materials)
-        m.plain = m.normal.empty() && m.height.empty() && m.friction.map.empty() &&
-                  m.stiffnessMap.map.empty() && m.dampingMap.map.empty() && !(m.staticFriction > 0.0) &&
+        m.plain = m.normal.empty() && m.height.empty() && m.stiffnessMap.map.empty() &&
+                  (m.dampingMap.map.empty() || !(m.damping > 0.0)) && !(m.staticFriction > 0.0) &&
                   !(m.viscousFriction > 0.0);
     for (const auto& object : scene.objects) {
-        if (!object->stiffness.empty() || !object->damping.empty() || !object->friction.empty() ||
-            !object->heights.empty())
-            scene.materials[static_cast<size_t>(object->material)].plain = false;
-        const ShadingMode mode = scene.materials[static_cast<size_t>(object->material)].shading;
+        HapticMaterialData& m = scene.materials[static_cast<size_t>(object->material)];
+        // Vertex damping of nothing takes the place of what the material states.
+        const bool damped = anyPositive(object->damping) || (!object->damping.empty() && m.damping > 0.0);
+        if (!object->stiffness.empty() || !object->heights.empty() || damped || anyPositive(object->friction))
+            m.plain = false;
+        plan.dampingMap |= !m.dampingMap.map.empty();
+        const ShadingMode mode = m.shading;
         const bool shaded = object->anySmooth && mode != ShadingMode::Off;
         plan.anyShading |= shaded;
         plan.twoPassShading |= shaded && mode == ShadingMode::TwoPass;

@@ -21,10 +21,12 @@ namespace touchstone {
     return rest.contacts[loaded];
 }
 
-/// True where readSurface would find no map, no vertex attribute and no friction.
+/// True where readSurface would find no map, no vertex attribute and no friction that has a say. A map of a
+/// coefficient that is nowhere stated gets one from a session that sets it.
 [[nodiscard]] inline bool feelsPlain(const HapticMaterialData& material,
                                      const HapticSettings& settings) noexcept {
-    return material.plain && !(settings.staticFriction > 0.0);
+    return material.plain && !(settings.staticFriction > 0.0) &&
+           (material.dampingMap.map.empty() || !(settings.damping > 0.0));
 }
 
 /// What readSurface would then give, into a `feel` as constructed. Arguments as there.

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace touchstone::test {
 namespace {
@@ -167,6 +169,61 @@ TEST(EffectPlan, SaysWhyAMapIsNotFelt) {
     const auto flat = compiled(source);
     EXPECT_EQ(planned(*flat, Effect::ForceShading).reason, "the material turns it off");
     EXPECT_EQ(planned(*flat, Effect::ForceShading).memoryBytes, 0u);
+}
+
+TEST(EffectPlan, WhatIsOffLeavesThePlainTick) {
+    // Maps of 1/2 all over, of coefficients that only a session states.
+    Scene source = plainPlane();
+    source.images.push_back(
+        image("black", 4, 4, 3, [](double, double) { return glm::vec4(0.0f, 0.0f, 0.0f, 1.0f); }));
+    FactorMap factor;
+    factor.texture = texture(0);
+    factor.min = 0.5f;
+    HapticMaterial& haptic = source.materials[0].haptic;
+    haptic.friction = haptic.dampingMap = {factor, HapticSource::Touchstone};
+    source.meshes[0].friction.assign(source.meshes[0].positions.size(), 0.0f);
+    source.meshes[0].damping = source.meshes[0].friction;
+    const auto plain = [](const Scene& scene) { return compiled(scene)->plan.plainFeel; };
+    EXPECT_TRUE(plain(source));
+    EXPECT_FALSE(planned(*compiled(source), Effect::Friction).on);
+    EXPECT_FALSE(planned(*compiled(source), Effect::Damping).on);
+
+    const auto stroke = [](const Scene& scene, const char* name, const char* value) {
+        TouchBench bench(scene);
+        bench.settings.textureStrength = 0.0;
+        EXPECT_EQ(setSetting(bench.settings, name, value), "");
+        bench.step({0.011, -0.007, 0.002});
+        std::vector<glm::dvec3> forces;
+        for (int i = 0; i < 300; ++i) {
+            bench.step({0.011 + 2e-5 * i, -0.007, 0.002 - 1.2e-5 * i});
+            forces.push_back(bench.output.force);
+        }
+        return forces;
+    };
+    const auto apart = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+        double most = 0.0;
+        for (size_t i = 0; i < a.size(); ++i)
+            most = std::max(most, glm::distance(a[i], b[i]));
+        return most;
+    };
+    const Scene bare = plainPlane();
+    EXPECT_EQ(apart(stroke(source, "damping", "0"), stroke(bare, "damping", "0")), 0.0);
+    EXPECT_LT(apart(stroke(source, "damping", "4"), stroke(bare, "damping", "2")), 1e-9);
+    EXPECT_GT(apart(stroke(source, "damping", "4"), stroke(bare, "damping", "4")), 0.01);
+    EXPECT_LT(apart(stroke(source, "staticFriction", "0.8"), stroke(bare, "staticFriction", "0.4")), 1e-9);
+    EXPECT_GT(apart(stroke(source, "staticFriction", "0.8"), stroke(bare, "staticFriction", "0")), 0.01);
+
+    // Vertices that say 0 take the material's own damping away: that is read.
+    Scene undamped = source;
+    undamped.materials[0].haptic.damping = {4.0f, HapticSource::Touchstone};
+    EXPECT_FALSE(plain(undamped));
+    EXPECT_EQ(apart(stroke(undamped, "stiffness", "0"), stroke(bare, "damping", "0")), 0.0);
+    Scene damped = source;
+    damped.meshes[0].damping.back() = 1.0f;
+    EXPECT_FALSE(plain(damped));
+    Scene rough = source;
+    rough.meshes[0].friction.back() = 1.0f;
+    EXPECT_FALSE(plain(rough));
 }
 
 TEST(EffectPlan, AnEffectThatIsTakenOffIsNotFelt) {

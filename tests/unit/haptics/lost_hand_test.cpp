@@ -6,9 +6,10 @@
 #include "haptics/tick_flags.h"
 #include "tests/support/touch_bench.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <vector>
 
 namespace touchstone {
 namespace {
@@ -21,6 +22,7 @@ struct LostHand {
     DeviceState state;
     WorldState world;
     HapticOutput output;
+    std::vector<ObjectMotion> motions; ///< empty: at rest
 
     const HapticOutput& tick(const glm::dvec3& position, bool valid) {
         DeviceSample sample;
@@ -28,6 +30,7 @@ struct LostHand {
         sample.valid = valid;
         TickInput input;
         input.devices = {&sample, 1};
+        input.objects = motions;
         NoStopwatch none;
         hapticStep(*scene, settings, input, world, {&state, 1}, {&output, 1}, none);
         return output;
@@ -51,6 +54,84 @@ TEST(LostHand, AMissedSampleDoesNotEndTheContact) {
     hand.beGone(3);
     hand.press(0.048, 1);
     EXPECT_GT(hand.output.contacts, 0u);
+    EXPECT_GT(hand.output.force.y, 0.5);
+}
+
+TEST(LostHand, AMissedSampleDoesNotEndTheContactWhileTheForceIsOff) {
+    LostHand hand;
+    hand.settings.forceEnabled = false;
+    hand.press(0.06, 200);
+    hand.press(0.048, 200);
+    ASSERT_EQ(hand.output.command.force(), glm::dvec3(0.0));
+    ASSERT_GT(hand.output.force.y, 0.5);
+    hand.beGone(1);
+    hand.press(0.048, 1);
+    EXPECT_GT(hand.output.force.y, 0.5);
+    EXPECT_FALSE(has(hand.output.flags, TickFlag::StartedInside));
+    hand.settings.forceEnabled = true;
+    hand.press(0.048, 1);
+    ForceLimiter::restartRamp(hand.state.limiter);
+    hand.beGone(static_cast<int>(0.8 * kForceRampOutTime / 1e-3));
+    hand.press(0.048, 1);
+    EXPECT_GT(hand.output.force.y, 0.5);
+    hand.beGone(static_cast<int>(1.2 * kForceRampOutTime / 1e-3));
+    hand.press(0.048, 1);
+    EXPECT_TRUE(has(hand.output.flags, TickFlag::StartedInside)) << "longer is for good";
+}
+
+/// The box rises under the hand at 0.1 m/s, beside a second one that rests or that it carries along.
+TEST(LostHand, ObjectsThatMoveOnUnseenTakeTheContactAlong) {
+    for (const ContactMethod contact : {ContactMethod::Sweep, ContactMethod::Neighbourhood})
+        for (const bool two : {false, true}) {
+            LostHand hand;
+            Scene scene = test::sceneOf(assets::box(glm::dvec3(0.1)));
+            if (two)
+                test::addShape(scene, assets::box(glm::dvec3(0.1)),
+                               glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.0, 0.0)));
+            hand.scene = compileHapticScene(scene, Similarity{});
+            hand.scene->buildNeighbourhoods();
+            hand.settings.contact = contact;
+            hand.motions = hand.scene->restMotions;
+            hand.press(0.06, 200);
+            hand.press(0.048, 200);
+            const double before = hand.output.force.y;
+            ASSERT_GT(before, 0.5);
+            double rise = 0.0;
+            const auto move = [&] {
+                hand.motions[0].before = hand.motions[0].workspaceFromObject;
+                hand.motions[0].workspaceFromObject.translation.y += 1e-4;
+                rise += 1e-4;
+            };
+            for (int i = 0; i < 10; ++i) {
+                move();
+                hand.tick({}, false);
+            }
+            move();
+            hand.press(0.048 + rise, 1);
+            EXPECT_FALSE(has(hand.output.flags, TickFlag::StartedInside));
+            EXPECT_NEAR(hand.output.force.y, before, 0.05 * before);
+        }
+}
+
+/// What comes over the place of a hand that is in the free and not seen pushes the proxy all the same.
+TEST(LostHand, AnObjectThatComesUnseenIsMet) {
+    LostHand hand;
+    Scene scene = test::sceneOf(assets::box(glm::dvec3(0.1)));
+    test::addShape(scene, assets::box(glm::dvec3(0.1)),
+                   glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.0, 0.0)));
+    hand.scene = compileHapticScene(scene, Similarity{});
+    hand.motions = hand.scene->restMotions;
+    hand.press(0.051, 200);
+    ASSERT_EQ(hand.output.contacts, 0u);
+    for (int i = 0; i < 10; ++i) {
+        hand.motions[0].before = hand.motions[0].workspaceFromObject;
+        hand.motions[0].workspaceFromObject.translation.y += 3e-4;
+        hand.tick({}, false);
+    }
+    hand.motions[0].before = hand.motions[0].workspaceFromObject;
+    hand.press(0.051, 1);
+    EXPECT_FALSE(has(hand.output.flags, TickFlag::StartedInside));
+    EXPECT_NEAR(hand.output.proxy.y, 0.053, 1e-4);
     EXPECT_GT(hand.output.force.y, 0.5);
 }
 

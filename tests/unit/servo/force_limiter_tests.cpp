@@ -190,6 +190,17 @@ TEST(ForceLimiter, StaleInputFadesOutFromTheLastFreshForce) {
     EXPECT_TRUE(has(ticker.flags, TickFlag::InputInvalid));
 }
 
+TEST(ForceLimiter, ASmallerLimitCutsAtOnce) {
+    Ticker ticker;
+    ticker.inputs.limits.maxForceRate = 100.0; // 0.1 N a tick
+    ticker.settle({0.0, 5.0, 0.0});
+    ticker.inputs.limits.maxForce = 2.0;
+    EXPECT_NEAR(ticker.tick({0.0, 5.0, 0.0}).y, 2.0, 1e-12);
+    EXPECT_TRUE(has(ticker.flags, TickFlag::ForceLimited));
+    ticker.inputs.limits.maxForce = 8.0; // upwards it is slewed
+    EXPECT_NEAR(ticker.tick({0.0, 5.0, 0.0}).y, 2.1, 1e-12);
+}
+
 TEST(ForceLimiter, TheForceOffKeyDoesNotWaitForAFade) {
     Ticker ticker;
     ticker.settle({0.0, 5.0, 0.0});

@@ -129,7 +129,7 @@ TEST(PassivityController, TakesTheBalanceBackInOneTickAtTheSameSpeed) {
     const glm::dvec3 way{1e-4, -2e-4, 0};
     observeEnergy({0.05, 0, 0}, way, 0.0, exactDevice(), state);
     ASSERT_NEAR(state.balance, 5e-6, 1e-18);
-    const glm::dvec3 damping = passiveForce({}, kTick, exactDevice(), state);
+    const glm::dvec3 damping = passiveForce({}, kTick, exactDevice(), state, 1.0);
     EXPECT_NEAR(glm::length(glm::cross(damping, way)), 0.0, 1e-18) << "along the motion";
     // a = E / (dt v²), Hannaford and Ryu.
     const double a = 5e-6 / (kTick * glm::dot(way, way) / (kTick * kTick));
@@ -137,7 +137,7 @@ TEST(PassivityController, TakesTheBalanceBackInOneTickAtTheSameSpeed) {
     observeEnergy(damping, 2.0 * way, 0.0, exactDevice(), state);
     EXPECT_NEAR(state.balance, 0.0, 1e-18);
     const glm::dvec3 force{1, 2, 3};
-    EXPECT_EQ(passiveForce(force, kTick, exactDevice(), state), force) << "nothing is owed";
+    EXPECT_EQ(passiveForce(force, kTick, exactDevice(), state, 1.0), force) << "nothing is owed";
 }
 
 TEST(PassivityController, DampsNoMoreThanAMassBearsAndThePushAlongTheMotion) {
@@ -145,8 +145,8 @@ TEST(PassivityController, DampsNoMoreThanAMassBearsAndThePushAlongTheMotion) {
     state.balance = 0.25 * kMostEnergy;
     state.way = {1e-4, 0, 0};
     const double most = 0.075 * kMostDampingRate * 0.1; // N at 0.1 m/s
-    const auto passive = [&](const glm::dvec3& force, double dt = kTick) {
-        return passiveForce(force, dt, exactDevice(), state);
+    const auto passive = [&](const glm::dvec3& force, double dt = kTick, double ramp = 1.0) {
+        return passiveForce(force, dt, exactDevice(), state, ramp);
     };
     EXPECT_NEAR(passive({}).x, -most, 1e-12);
     EXPECT_NEAR(passive({2, 5, 0}).x, -most, 1e-12) << "what pushes is gone";
@@ -154,6 +154,9 @@ TEST(PassivityController, DampsNoMoreThanAMassBearsAndThePushAlongTheMotion) {
     EXPECT_NEAR(passive({-2, 5, 0}).x, -most - 0.75 * 2.0, 1e-12);
     // In long ticks a damper must not turn the motion round: at most half of mass / dt.
     EXPECT_NEAR(passive({}, 0.01).x, -0.075 * 50.0 * 0.01, 1e-12);
+    // While the force fades so does the damper, but for what the force pushes.
+    EXPECT_NEAR(passive({2, 0, 0}, kTick, 0.25).x, -0.25 * most, 1e-12);
+    EXPECT_EQ(passive({}, kTick, 0.0), glm::dvec3(0.0));
     state.way = {};
     EXPECT_EQ(passive({2, 0, 0}), glm::dvec3(1.5, 0, 0));
     state.balance = kMostEnergy;
@@ -209,6 +212,43 @@ TEST(PassivityController, IsOffWhereTheForceIsOff) {
     EXPECT_FALSE(has(hand.flags, TickFlag::EnergyDamped));
     hand.inputs.forceEnabled = true;
     hand.state.latched = true;
+    EXPECT_EQ(hand.tick({2, 0, 0}), glm::dvec3(0.0));
+    EXPECT_FALSE(has(hand.flags, TickFlag::EnergyDamped));
+}
+
+TEST(PassivityController, WhatIsOwedEndsWithTheModeAndTheScene) {
+    for (const bool sceneSwap : {false, true}) {
+        Dragged hand;
+        for (int tick = 0; tick < 200; ++tick)
+            (void)hand.tick({2, 0, 0});
+        ASSERT_GT(hand.state.passivity.balance, 1e-5);
+        hand.inputs.inputValid = false;
+        (void)hand.tick({});
+        EXPECT_GT(hand.state.passivity.balance, 1e-5) << "a lost sample is no payment";
+        hand.inputs.inputValid = true;
+        if (sceneSwap) {
+            ForceLimiter::restartRamp(hand.state);
+        } else {
+            hand.inputs.passivity = PassivityMode::Off;
+            (void)hand.tick({2, 0, 0});
+        }
+        EXPECT_EQ(hand.state.passivity.balance, 0.0);
+        hand.inputs.passivity = PassivityMode::Control;
+        hand.inputs.position.x -= 1e-4; // no way: nothing is given in the next tick
+        (void)hand.tick({2, 0, 0});
+        EXPECT_EQ(hand.state.passivity.balance, 0.0);
+        EXPECT_FALSE(has(hand.flags, TickFlag::EnergyDamped));
+    }
+}
+
+TEST(PassivityController, DoesNotDragWhereNothingPasses) {
+    Dragged hand;
+    for (int tick = 0; tick < 200; ++tick)
+        (void)hand.tick({2, 0, 0});
+    hand.inputs.sampleAge = 1.0; // stale: the force fades out
+    for (int tick = 0; tick < 100; ++tick)
+        (void)hand.tick({2, 0, 0});
+    hand.state.passivity.balance = 1e-3;
     EXPECT_EQ(hand.tick({2, 0, 0}), glm::dvec3(0.0));
     EXPECT_FALSE(has(hand.flags, TickFlag::EnergyDamped));
 }
