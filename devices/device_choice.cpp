@@ -71,10 +71,17 @@ std::unique_ptr<LinkedDevice> openExternal(const std::string& choice) {
 }
 
 std::unique_ptr<LinkedDevice> openNode(const HidNode& node, std::span<const DeviceFile> files) {
-    if (isSpaceMouse(node))
-        return std::make_unique<HidDevice>(spaceMouseRecipe(node));
-    if (const DeviceFile* file = fileOf(node, files))
-        return std::make_unique<HidDevice>(recipeOf(*file, node.path));
+    if (isSpaceMouse(node)) {
+        HidRecipe recipe = spaceMouseRecipe(node);
+        if (hasAxes(node)) // else it is another node of the same device that will be read
+            recipe.identity = identityOf(node);
+        return std::make_unique<HidDevice>(std::move(recipe));
+    }
+    if (const DeviceFile* file = fileOf(node, files)) {
+        HidRecipe recipe = recipeOf(*file, node.path);
+        recipe.identity = identityOf(node);
+        return std::make_unique<HidDevice>(std::move(recipe));
+    }
     throw Error("--device", node.path, node.name() + " is no device that is known here",
                 "describe it in a device file (docs/devices.md) and give that: --device FILE.json");
 }

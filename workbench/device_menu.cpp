@@ -14,6 +14,7 @@ void DeviceMenu::renew(double now) {
     renewed_ = now;
     try {
         offers_ = deviceOffers(listHidNodes(), deviceFiles());
+        std::erase_if(offers_, [](const DeviceOffer& offer) { return offer.doubtful; });
     } catch (const Error& error) { // a device file with a mistake
         offers_.clear();
         problem_ = error.what();

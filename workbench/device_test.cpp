@@ -77,7 +77,7 @@ DeviceTestFigures testDevice(LinkedDevice& device, double seconds, double force)
         uint32_t flags = 0;
         const DeviceCommand command =
             ForceLimiter::limit(pushAt(time, force), glm::dvec3(0.0), safety, {}, limiter, flags);
-        if (force > 0.0) // a device that is only looked at is not spoken to
+        if (force > 0.0) // without an order its I/O thread keeps it at zero force
             device.apply(command);
         figures.ordered = std::max(figures.ordered, glm::length(command.force()));
         if (!sample.valid)

@@ -14,9 +14,14 @@ constexpr int kRestingPollMs = 8;           // of the others
 constexpr int64_t kKeepAliveNs = 5'000'000; // a device hears from us at least this often
 constexpr int kMostQueued = 64;             // hidraw keeps as many
 constexpr int kFailedSendsToGiveUp = 20;
+constexpr int kTriesOfTheLastWord = 5;
 constexpr double kSpaceMouseStaleAge = 0.1; // s; some report every 16 ms
 
 } // namespace
+
+HidIdentity identityOf(const HidNode& node) {
+    return {node.interfaceNumber, node.serial, node.productName};
+}
 
 HidRecipe spaceMouseRecipe(const HidNode& node) {
     HidRecipe recipe;
@@ -44,7 +49,11 @@ const HidNode* findNode(const HidRecipe& recipe, std::span<const HidNode> nodes,
     const HidNode* found = nullptr;
     for (const HidNode& node : nodes) {
         const UsbMatch& usb = recipe.usb;
-        const bool meant = node.vendor == usb.vendor && node.product == usb.product &&
+        const auto& identity = recipe.identity;
+        const bool same =
+            !identity || (node.interfaceNumber == identity->interfaceNumber &&
+                          node.serial == identity->serial && node.productName == identity->productName);
+        const bool meant = same && node.vendor == usb.vendor && node.product == usb.product &&
                            (!usb.interfaceNumber || node.interfaceNumber == *usb.interfaceNumber) &&
                            (usb.serial.empty() || node.serial == usb.serial) &&
                            (!recipe.rate || hasAxes(node)) && !inUse.contains(node.path);
@@ -103,11 +112,20 @@ void HidDevice::run() {
         if (!port_.isOpen() && waitStopping(kSearchInterval))
             break;
     }
-    if (port_.isOpen() && recipe_.protocol->driven()) {
-        std::array<uint8_t, kMostReportSize> report{};
-        (void)port_.write(std::span(report).first(recipe_.protocol->command(ForceOrder{}, report)));
-    }
+    if (port_.isOpen() && recipe_.protocol->driven())
+        sayZero();
     port_.close();
+}
+
+/// The last word; a bus that is busy just now gets it a little later.
+void HidDevice::sayZero() {
+    std::array<uint8_t, kMostReportSize> report{};
+    const size_t length = recipe_.protocol->command(ForceOrder{}, report);
+    for (int tries = 0; tries < kTriesOfTheLastWord; ++tries) {
+        if (port_.write(std::span(report).first(length)))
+            return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 }
 
 void HidDevice::connect() {
@@ -128,6 +146,7 @@ void HidDevice::connect() {
         monitor_.disconnected(LinkState::Refused, recipe_.name + ": " + problem);
         return;
     }
+    recipe_.identity = identityOf(*node);
     emptyNs_ = steadyNs();
     sentNs_ = 0;
     failedSends_ = 0;

@@ -15,11 +15,21 @@
 
 namespace touchstone {
 
+/// By what a device that was connected once is known again, wherever it is plugged in.
+struct HidIdentity {
+    int interfaceNumber = -1;
+    std::string serial, productName;
+};
+[[nodiscard]] HidIdentity identityOf(const HidNode& node);
+
 /// Everything that is known of a device before it is plugged in.
 struct HidRecipe {
     std::string name;
     UsbMatch usb;
     std::string path; ///< preferred where several match; empty: any
+    /// Of the node that was chosen or connected first: from then on no other will do, least of all another
+    /// board with the same ids.
+    std::optional<HidIdentity> identity;
     DeviceLimits limits;
     std::unique_ptr<HidProtocol> protocol;
     std::optional<RateSettings> rate; ///< of devices that are pushed instead of moved
@@ -30,8 +40,8 @@ struct HidRecipe {
 /// A device that a file describes. `path`: the node, where it was named.
 [[nodiscard]] HidRecipe recipeOf(const DeviceFile& file, const std::string& path = {});
 
-/// The node that a recipe means: by ids, interface and serial, the preferred path first, none that is in use.
-/// Null if there is none. Of a SpaceMouse with several nodes the one that has axes.
+/// The node that a recipe means: by ids, interface, serial and identity, the preferred path first, none that
+/// is in use. Null if there is none. Of a SpaceMouse with several nodes the one that has axes.
 [[nodiscard]] const HidNode* findNode(const HidRecipe& recipe, std::span<const HidNode> nodes,
                                       const std::set<std::string>& inUse);
 
@@ -57,6 +67,7 @@ class HidDevice final : public LinkedDevice {
     void takeReport(std::span<const uint8_t> report, int64_t arrivedNs);
     void send(int64_t nowNs);
     void disconnect(const std::string& problem);
+    void sayZero();
     bool waitStopping(double seconds);
 
     HidRecipe recipe_;

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <string_view>
+#include <tuple>
 
 namespace touchstone {
 
@@ -125,6 +127,13 @@ std::string hidRemedy(const HidNode& device) {
            "again";
 }
 
+bool listedBefore(const HidNode& a, const HidNode& b) {
+    const auto rank = [](const HidNode& node) {
+        return std::tuple(node.known == nullptr, node.path.size(), std::string_view(node.path));
+    };
+    return rank(a) < rank(b);
+}
+
 std::vector<HidNode> listHidNodes() {
     std::vector<HidNode> devices;
     const std::lock_guard lock(hidapiMutex());
@@ -144,10 +153,7 @@ std::vector<HidNode> listHidNodes() {
                            utf8(info->product_string), utf8(info->serial_number),
                            knownHid(info->vendor_id, info->product_id), hidAccess(info->path)});
     }
-    std::sort(devices.begin(), devices.end(), [](const HidNode& a, const HidNode& b) {
-        const bool aKnown = a.known != nullptr, bKnown = b.known != nullptr;
-        return aKnown != bKnown ? aKnown : a.path < b.path;
-    });
+    std::sort(devices.begin(), devices.end(), listedBefore);
     return devices;
 }
 

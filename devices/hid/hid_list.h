@@ -48,7 +48,10 @@ struct HidNode {
     [[nodiscard]] std::string name() const;
 };
 
-/// All raw HID nodes, ours first, then by path, each once. Owner thread; opens nothing, so it disturbs
+/// The order of the list: ours first, then by path, hidraw2 before hidraw10.
+[[nodiscard]] bool listedBefore(const HidNode& a, const HidNode& b);
+
+/// All raw HID nodes in that order, each once. Owner thread; opens nothing, so it disturbs
 /// nobody. An empty list is an answer: nothing is plugged in, or the machine has no hidraw (a container).
 [[nodiscard]] std::vector<HidNode> listHidNodes();
 

@@ -108,6 +108,8 @@ class RawProtocol final : public HidProtocol {
         }
         started_ = true;
         heard_ = state->sequence;
+        if (static_cast<int32_t>(state->answered - said_) > 0) // another process has spoken to it
+            said_ = state->answered;
         known_ = (state->flags & kRawHomed) != 0 && (state->flags & kRawFault) == 0;
         reading.valid = known_;
         reading.buttons = state->buttons;

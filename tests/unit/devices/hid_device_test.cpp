@@ -226,6 +226,24 @@ TEST(HidDevice, PluggedInLateUnpluggedAndPluggedInElsewhere) {
     }
 }
 
+TEST(HidDevice, AnotherBoardWithTheSameIdsDoesNotTakeItsPlace) {
+    MockBus bus;
+    HidDevice device(recipe("diy_position.json"));
+    auto first = bus.plug(kDiy);
+    ASSERT_TRUE(eventually([&] { return connected(device); }));
+    MockHidInfo other = kDiy;
+    other.name = "Somebody else's experiment";
+    const auto stranger = bus.plug(other);
+    first->unplug();
+    ASSERT_TRUE(eventually([&] {
+        return device.report().problem.find("not plugged in") != std::string::npos;
+    })) << "it has looked, and the stranger was there";
+    first = bus.plug(kDiy);
+    ASSERT_TRUE(eventually([&] { return connected(device); }));
+    EXPECT_EQ(device.report().where, first->node());
+    EXPECT_TRUE(stranger->heard().empty());
+}
+
 TEST(HidDevice, TwoDevicesAtOnceEachWithItsOwnReports) {
     MockBus bus;
     const auto left = bus.plug(kDiy), right = bus.plug(kDiy); // alike, without serial numbers

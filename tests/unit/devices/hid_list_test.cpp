@@ -94,6 +94,18 @@ TEST(HidList, TheUdevRuleThatWeShipKnowsEveryDevice) {
     EXPECT_FALSE(allowed(0x046d, 0xc077)) << "not every Logitech mouse";
 }
 
+TEST(HidList, OursComeFirstAndNodesInTheOrderOfTheirNumbers) {
+    HidNode two, ten, ours;
+    two.path = "/dev/hidraw2";
+    ten.path = "/dev/hidraw10";
+    ours.path = "/dev/hidraw11";
+    ours.known = &knownHids().front();
+    EXPECT_TRUE(listedBefore(two, ten));
+    EXPECT_FALSE(listedBefore(ten, two));
+    EXPECT_TRUE(listedBefore(ours, two));
+    EXPECT_FALSE(listedBefore(two, two));
+}
+
 TEST(HidList, ListsEachNodeOnceAndOursFirst) {
     const std::vector<HidNode> devices = listHidNodes();
     std::set<std::string> paths;

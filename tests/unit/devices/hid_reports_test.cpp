@@ -238,6 +238,25 @@ TEST(HidFuzz, NoReportBreaksAProtocol) {
         });
 }
 
+TEST(RawProtocol, GoesOnCountingWhereAnotherProcessLeftOff) {
+    const auto protocol = makeProtocol(deviceFile("diy_position.json"));
+    DeviceReading reading;
+    protocol->restart(reading);
+    uint64_t lost = 0;
+    std::array<uint8_t, kMostReportSize> bytes{};
+    const auto next = [&](uint32_t sequence, uint32_t answered) {
+        EXPECT_EQ(protocol->take(rawState({.flags = kRawHomed, .sequence = sequence, .answered = answered}),
+                                 reading, lost),
+                  ReportVerdict::Reading);
+        (void)protocol->command(ForceOrder{}, bytes);
+        return parseRawCommand(std::span(bytes).subspan(1))->sequence;
+    };
+    EXPECT_EQ(next(1, 700), 701u);
+    EXPECT_EQ(next(2, 700), 702u) << "a state that is behind takes nothing back";
+    protocol->restart(reading);
+    EXPECT_EQ(next(3, 0), 703u) << "a firmware that began anew takes any";
+}
+
 TEST(RawProtocol, NamesPlacesAnswersAndKeepsStillUntilItKnowsThePlace) {
     const auto protocol = makeProtocol(deviceFile("diy_position.json"));
     DeviceReading reading;
