@@ -11,6 +11,20 @@ uint64_t Scene::triangleCount() const {
     return count;
 }
 
+std::vector<MaterialPlacement> materialPlacements(const Scene& scene) {
+    std::vector<MaterialPlacement> placements(scene.materials.size());
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+        if (mesh.triangleCount() == 0)
+            continue;
+        MaterialPlacement& placement = placements[static_cast<size_t>(mesh.material)];
+        placement.placed = true;
+        placement.sets[0] |= !mesh.uv0.empty();
+        placement.sets[1] |= !mesh.uv1.empty();
+    }
+    return placements;
+}
+
 Similarity workspaceFromScene(const Scene& scene, Fit fit) {
     if (fit == Fit::None || scene.bounds.empty())
         return {};

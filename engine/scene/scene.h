@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -91,6 +92,17 @@ struct Scene {
 };
 
 using ScenePtr = std::shared_ptr<const Scene>;
+
+/// Which sets of texture coordinates there are.
+using CoordinateSets = std::array<bool, 2>;
+
+/// Where a material is in its scene.
+struct MaterialPlacement {
+    bool placed = false;   ///< some instance with triangles has it
+    CoordinateSets sets{}; ///< of the meshes that do, any of them
+};
+/// One for each material.
+[[nodiscard]] std::vector<MaterialPlacement> materialPlacements(const Scene& scene);
 
 /// Longest side of a model fitted to the device's workspace, m. A Phantom Premium 1.5 spans 381 x 267 x 191
 /// mm; 0.15 m leaves room to approach the model from every side. Larger: finer device motion is felt coarser.

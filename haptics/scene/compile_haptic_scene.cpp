@@ -19,21 +19,6 @@ AttributeUse attributeUse(const HapticMaterialData& material) {
     return use;
 }
 
-/// Per material: how many objects there will be, and which coordinates their meshes have.
-std::vector<MaterialUse> materialUses(const Scene& scene) {
-    std::vector<MaterialUse> uses(scene.materials.size());
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        if (mesh.triangleCount() == 0)
-            continue;
-        MaterialUse& use = uses[static_cast<size_t>(mesh.material)];
-        use.placed = true;
-        use.sets[0] |= !mesh.uv0.empty();
-        use.sets[1] |= !mesh.uv1.empty();
-    }
-    return uses;
-}
-
 } // namespace
 
 std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
@@ -66,11 +51,14 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     auto haptic = std::make_shared<HapticScene>();
     haptic->workspaceFromScene = workspaceFromScene;
     haptic->limits = limits;
-    std::vector<MaterialUse> uses = materialUses(scene);
-    for (size_t m = 0; m < scene.materials.size(); ++m)
-        haptic->materials.push_back(
-            uses[m].placed ? buildHapticMaterial(scene, static_cast<int>(m), uses[m].sets, haptic->warnings)
-                           : HapticMaterialData{});
+    std::vector<MaterialUse> uses;
+    for (const MaterialPlacement& at : materialPlacements(scene)) {
+        const auto material = static_cast<int>(uses.size());
+        uses.emplace_back().placed = at.placed;
+        haptic->materials.push_back(at.placed
+                                        ? buildHapticMaterial(scene, material, at.sets, haptic->warnings)
+                                        : HapticMaterialData{});
+    }
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
         if (mesh.triangleCount() == 0)

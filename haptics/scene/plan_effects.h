@@ -9,7 +9,6 @@ namespace touchstone {
 struct MaterialUse {
     bool placed = false; ///< some instance with triangles has the material
     bool smooth = false, heights = false, stiffness = false, damping = false, friction = false;
-    CoordinateSets sets{};
     AttributeBytes bytes;
 
     void add(const HapticObject& object);

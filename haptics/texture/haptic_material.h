@@ -40,10 +40,8 @@ struct HapticMaterialData {
     }
 };
 
-/// Which sets of texture coordinates some mesh with the material has.
-using CoordinateSets = std::array<bool, 2>;
-
-/// Settles one material; appends what the user should know to `warnings`.
+/// Settles one material, of whose texture coordinates its meshes have `sets`; appends what the user should
+/// know to `warnings`.
 [[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, int material,
                                                      const CoordinateSets& sets,
                                                      std::vector<Warning>& warnings);

@@ -1,5 +1,7 @@
 #include "tests/support/mock_hid.h"
 
+#include "tests/support/eventually.h"
+
 #include <fcntl.h>
 #include <linux/hidraw.h>
 #include <sys/ioctl.h>
@@ -233,16 +235,6 @@ std::unique_ptr<MockHid> MockBus::plug(const MockHidInfo& info) {
 std::unique_ptr<MockHid> MockBus::plugAt(int number, const MockHidInfo& info) {
     next_ = std::max(next_, number + 1);
     return std::make_unique<MockHid>(testbed_, number, info);
-}
-
-bool eventually(const std::function<bool()>& condition) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > limit)
-            return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
 }
 
 } // namespace touchstone::test

@@ -77,7 +77,4 @@ class MockBus {
     int next_ = 0;
 };
 
-/// Waits for what another thread will do; false after ten seconds.
-[[nodiscard]] bool eventually(const std::function<bool()>& condition);
-
 } // namespace touchstone::test

@@ -83,27 +83,6 @@ void warnOfType(ImportContext& context, const Encoded& encoded, const std::strin
         context.warn(place, "is declared as " + encoded.declaredType.substr(0, 60) + " but holds " + format);
 }
 
-/// Which sets of texture coordinates the meshes with a material have that somebody placed; bits 0 and 1.
-/// Nothing for a material that no visible triangle has.
-struct MaterialUse {
-    bool placed = false;
-    uint8_t sets = 0;
-    [[nodiscard]] bool has(int set) const { return (sets >> (set & 1) & 1) != 0; }
-};
-
-std::vector<MaterialUse> usesOf(const Scene& scene) {
-    std::vector<MaterialUse> uses(scene.materials.size());
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        if (mesh.triangleCount() == 0)
-            continue;
-        MaterialUse& use = uses[static_cast<size_t>(mesh.material)];
-        use.placed = true;
-        use.sets = static_cast<uint8_t>(use.sets | (mesh.uv0.empty() ? 0 : 1) | (mesh.uv1.empty() ? 0 : 2));
-    }
-    return uses;
-}
-
 /// Marks the images that somebody looks at or feels.
 class UsedImages {
   public:
@@ -116,10 +95,10 @@ class UsedImages {
               &material.occlusionTexture, &material.emissiveTexture})
             mark(*texture);
     }
-    void felt(const Material& material, const MaterialUse& use) {
+    void felt(const Material& material, const CoordinateSets& sets) {
         const HapticMaterial& haptic = material.haptic;
         const auto map = [&](const TextureRef& texture) {
-            if (use.has(texture.texCoord))
+            if (sets[texture.texCoord & 1])
                 mark(texture);
         };
         if (haptic.normalTextureInfluence.value.value_or(1.0f) > 0.0f && material.normalScale != 0.0f)
@@ -143,12 +122,12 @@ class UsedImages {
 
 std::vector<bool> usedImages(size_t count, const Scene& scene, const ImageUse& use) {
     UsedImages images(count);
-    const std::vector<MaterialUse> uses = usesOf(scene);
+    const std::vector<MaterialPlacement> placements = materialPlacements(scene);
     for (size_t m = 0; m < scene.materials.size(); ++m) {
-        if (use.visual && uses[m].placed)
+        if (use.visual && placements[m].placed)
             images.seen(scene.materials[m]);
-        if (use.haptic && uses[m].placed)
-            images.felt(scene.materials[m], uses[m]);
+        if (use.haptic && placements[m].placed)
+            images.felt(scene.materials[m], placements[m].sets);
     }
     return images.used;
 }

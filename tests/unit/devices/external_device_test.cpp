@@ -2,7 +2,8 @@
 
 #include "devices/external/external_device.h"
 #include "engine/core/error.h"
-#include "haptics/safety/force_limiter.h"
+#include "tests/support/device_commands.h"
+#include "tests/support/eventually.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -23,17 +24,9 @@
 namespace touchstone {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
+using test::command, test::eventually;
 
-bool eventually(const std::function<bool()>& condition) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > limit)
-            return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
-}
+using Bytes = std::vector<uint8_t>;
 
 /// A program that speaks with the device.
 class Client {
@@ -70,15 +63,6 @@ class Client {
   private:
     int socket_;
 };
-
-DeviceCommand command(const glm::dvec3& force) {
-    SafetyInputs inputs;
-    inputs.inputValid = true;
-    inputs.dt = 10.0;
-    ForceLimiterState state;
-    uint32_t flags = 0;
-    return ForceLimiter::limit(force, glm::dvec3(0.0), inputs, {}, state, flags);
-}
 
 TEST(ExternalPacket, HasTheDocumentedBytes) {
     const auto place = placePacket({.sequence = 0x04030201,

@@ -2,8 +2,9 @@
 
 #include "devices/hid/hid_device.h"
 #include "devices/hid/raw_report.h"
-#include "haptics/safety/force_limiter.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/device_commands.h"
+#include "tests/support/eventually.h"
 #include "tests/support/mock_hid.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ namespace touchstone {
 namespace {
 
 using test::Bytes;
+using test::command;
 using test::eventually;
 using test::MockBus;
 using test::MockHid;
@@ -42,16 +44,6 @@ HidRecipe navigator(const std::string& path = {}) {
 
 bool connected(const HidDevice& device) {
     return device.report().state == LinkState::Connected;
-}
-
-/// Only the limiter makes commands.
-DeviceCommand command(const glm::dvec3& force) {
-    SafetyInputs inputs;
-    inputs.inputValid = true;
-    inputs.dt = 10.0;
-    ForceLimiterState state;
-    uint32_t flags = 0;
-    return ForceLimiter::limit(force, glm::dvec3(0.0), inputs, {}, state, flags);
 }
 
 Bytes bytes(const std::array<uint8_t, kRawReportSize>& report) {

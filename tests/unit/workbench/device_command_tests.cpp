@@ -1,6 +1,7 @@
 // `devices` and `run --device` with HID devices that are not there, and with another program as the device.
 
 #include "devices/hid/raw_report.h"
+#include "tests/support/eventually.h"
 #include "tests/support/mock_hid.h"
 #include "tests/support/program.h"
 #include "tests/unit/workbench/touch_files.h"

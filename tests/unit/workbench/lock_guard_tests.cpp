@@ -22,20 +22,24 @@ uint64_t locksIn(Work work) {
 }
 
 TEST(LockGuard, SeesEveryKindOfLockInATick) {
-    if (!realtime::locksAreCounted())
-        GTEST_SKIP() << "a sanitizer stands in its place";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    constexpr uint64_t kSeen = 0; // the sanitizer stands in its place
+#else
+    constexpr uint64_t kSeen = 1;
+#endif
+    EXPECT_EQ(realtime::locksAreCounted(), kSeen > 0);
     std::mutex mutex;
     std::recursive_mutex recursive;
     std::shared_mutex shared;
-    EXPECT_EQ(locksIn([&] { const std::lock_guard lock(mutex); }), 1u);
-    EXPECT_EQ(locksIn([&] { const std::lock_guard lock(recursive); }), 1u);
-    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(mutex, std::try_to_lock); }), 1u);
-    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(shared); }), 1u);
-    EXPECT_EQ(locksIn([&] { const std::shared_lock lock(shared); }), 1u);
-    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(shared, std::try_to_lock); }), 1u);
-    EXPECT_EQ(locksIn([&] { const std::shared_lock lock(shared, std::try_to_lock); }), 1u);
+    EXPECT_EQ(locksIn([&] { const std::lock_guard lock(mutex); }), kSeen);
+    EXPECT_EQ(locksIn([&] { const std::lock_guard lock(recursive); }), kSeen);
+    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(mutex, std::try_to_lock); }), kSeen);
+    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(shared); }), kSeen);
+    EXPECT_EQ(locksIn([&] { const std::shared_lock lock(shared); }), kSeen);
+    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(shared, std::try_to_lock); }), kSeen);
+    EXPECT_EQ(locksIn([&] { const std::shared_lock lock(shared, std::try_to_lock); }), kSeen);
     std::timed_mutex timed;
-    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(timed, std::chrono::milliseconds(1)); }), 1u);
+    EXPECT_EQ(locksIn([&] { const std::unique_lock lock(timed, std::chrono::milliseconds(1)); }), kSeen);
     EXPECT_EQ(locksIn([] {}), 0u);
 }
 
