@@ -18,10 +18,10 @@ namespace realtime {
 /// True on a thread that is inside a tick. Costs one store to enter and one to leave.
 extern constinit thread_local bool inTick;
 
-/// Called by an interposed allocator (workbench/allocation_guard.cpp) for every call on any thread.
+/// Called by an interposed allocator (workbench/guards/allocation_guard.cpp) for every call on any thread.
 void noteAllocation() noexcept;
 void noteDeallocation() noexcept;
-/// The same for locks (workbench/lock_guard.cpp).
+/// The same for locks (workbench/guards/lock_guard.cpp).
 void noteLock() noexcept;
 
 /// Whether an interposed allocator is linked into this program; without one nothing is ever counted.

@@ -2,7 +2,7 @@
 
 #include "haptics/contact/candidates.h"
 #include "haptics/contact/ray_floor.h"
-#include "tests/support/brute_force.h"
+#include "study/truth/brute_force.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,9 @@
 #include <random>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 namespace {
 
 TEST(Embree, AGatheredBallHoldsEveryTriangleThatMeetsIt) {

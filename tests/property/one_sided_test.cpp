@@ -1,6 +1,6 @@
 // One-sided surfaces against the oracle: hands that come from anywhere, through and onto them.
 
-#include "tests/support/oracle.h"
+#include "study/truth/oracle.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,9 @@
 #include <random>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 namespace {
 
 struct Count {

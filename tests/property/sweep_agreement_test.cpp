@@ -3,8 +3,8 @@
 #include "haptics/contact/candidates.h"
 #include "haptics/contact/sweep.h"
 #include "haptics/haptic_scene.h"
-#include "tests/support/brute_force.h"
-#include "tests/support/soup.h"
+#include "study/truth/brute_force.h"
+#include "study/truth/soup.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,9 @@
 #include <vector>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 namespace {
 
 struct World {

@@ -1,8 +1,8 @@
 #include "tests/stability/hard_case.h"
 
 #include "haptics/proxy/mesh_proxy.h"
+#include "study/truth/oracle.h"
 #include "tests/stability/case_table.h"
-#include "tests/support/oracle.h"
 
 #include <gtest/gtest.h>
 

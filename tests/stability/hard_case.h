@@ -13,9 +13,9 @@
 // shading the force stands at tau to the surface's normal, which is not the gradient of anything: along a
 // path s that does work of at most k d sin(tau) s, and the force turns as the interpolated normal does.
 
+#include "study/truth/soup.h"
 #include "tests/stability/surface.h"
 #include "tests/stability/trial.h"
-#include "tests/support/soup.h"
 
 #include <functional>
 #include <memory>
@@ -23,6 +23,8 @@
 #include <vector>
 
 namespace touchstone::test {
+
+using namespace truth;
 
 /// One measured figure and what the geometry demands of it.
 struct Figure {

@@ -1,7 +1,7 @@
 #include "tests/stability/moving_world.h"
 
+#include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/brute_force.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,9 @@
 #include <cmath>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 
 namespace {
 

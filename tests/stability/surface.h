@@ -3,7 +3,7 @@
 // double. What the geometry demands of a force is computed here and nowhere else.
 
 #include "haptics/haptic_scene.h"
-#include "tests/support/brute_force.h"
+#include "study/truth/brute_force.h"
 
 #include <glm/glm.hpp>
 
@@ -13,6 +13,8 @@
 #include <vector>
 
 namespace touchstone::test {
+
+using namespace truth;
 
 /// What lies within reach of a proxy; workspace frame.
 struct Touching {

@@ -2,8 +2,8 @@
 // Follows a hand tick by tick and measures how exact the proxy is: against the oracle from our own last
 // place, against an oracle that runs free from the same start, and by invariants that need no second solver.
 
-#include "tests/support/oracle.h"
-#include "tests/support/soup.h"
+#include "study/truth/oracle.h"
+#include "study/truth/soup.h"
 #include "tests/support/touch_bench.h"
 
 #include <map>
@@ -13,6 +13,8 @@
 #include <vector>
 
 namespace touchstone::test {
+
+using namespace truth;
 
 /// All lengths in metres of the fitted workspace (the model's longest side is kFittedExtent), so that scenes
 /// of any scale compare.

@@ -1,12 +1,14 @@
 #pragma once
 // A hand that taps and strokes a model anywhere: repeatable, knows nothing of the solver.
 
-#include "tests/support/soup.h"
+#include "study/truth/soup.h"
 
 #include <random>
 #include <vector>
 
 namespace touchstone::test {
+
+using namespace truth;
 
 struct HandOptions {
     double speed = 0.1;  ///< fitted m/s, 1 kHz

@@ -1,6 +1,6 @@
 // The three friction laws against their formulas, through the whole tick ([000 §4.2], [001 §4.1.1]).
 
-#include "tests/support/brute_force.h"
+#include "study/truth/brute_force.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,9 @@
 #include <random>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 namespace {
 
 constexpr double kStiffness = 1000.0, kPi = 3.141592653589793;

@@ -1,8 +1,8 @@
 // The second contact method against the first, against brute force, and at its limits.
 
 #include "haptics/contact/surface_walk.h"
+#include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/brute_force.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +12,9 @@
 #include <string>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 namespace {
 
 constexpr double kPi = 3.141592653589793;

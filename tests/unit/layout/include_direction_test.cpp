@@ -1,5 +1,6 @@
 // Links run one way only (docs/architecture.md): engine knows nobody; haptics, renderer and devices know
-// engine and not each other; workbench knows them all; nobody knows workbench. assets stand alone.
+// engine and not each other; study knows haptics and devices; workbench knows them all; nobody knows
+// workbench. assets stand alone.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -26,7 +27,8 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"devices", {"engine"}},
     {"assets", {}},
     {"shaders", {}},
-    {"workbench", {"engine", "haptics", "renderer", "devices", "assets"}},
+    {"study", {"engine", "haptics", "devices", "assets"}},
+    {"workbench", {"engine", "haptics", "renderer", "devices", "assets", "study"}},
 };
 
 struct Survey {

@@ -1,7 +1,7 @@
 // What a stream of records amounts to when some of it was lost.
 
-#include "workbench/stolen_time.h"
-#include "workbench/tick_statistics.h"
+#include "workbench/figures/stolen_time.h"
+#include "workbench/figures/tick_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,165 @@
+#include "study/timing/rungs.h"
+
+#include "engine/core/float_mode.h"
+#include "engine/core/realtime_guard.h"
+#include "haptics/contact/ray_floor.h"
+#include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
+#include "haptics/servo/realtime_thread.h"
+
+#include <algorithm>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kTick = 1e-3;     // s
+constexpr double kApproach = 0.02; // m, above the stroke's depth when it begins
+constexpr double kDescent = 0.1;   // m/s
+
+/// One rung with what it remembers from turn to turn.
+class Turn {
+  public:
+    Turn(const Rung& rung, double start) : rung_(rung), start_(start) {
+        if (rung.scene->animated)
+            moving_ = MovingObjects(rung.scene->animated, *rung.scene->haptic);
+    }
+
+    void take(int ticks, RungTimes& times) {
+        hands_.resize(static_cast<size_t>(ticks));
+        touched_.clear();
+        touched_.reserve(hands_.size());
+        for (size_t i = 0; i < hands_.size(); ++i) {
+            const double time = kTick * static_cast<double>(number_ + i);
+            hands_[i] =
+                rung_.scene->stroke(start_ + rung_.speed * time, std::max(0.0, kApproach - kDescent * time));
+        }
+        Samples step;
+        int64_t longest = 0;
+        const RealtimeViolations before = realtime::violations();
+        for (size_t i = 0; i < hands_.size(); ++i) {
+            const int64_t ns = tick(hands_[i], times);
+            times.pinchedTicks += has(output_.flags, TickFlag::Pinched) ? 1 : 0;
+            longest = std::max(longest, ns);
+            if (output_.contacts == 0)
+                continue;
+            touched_.push_back({output_.proxy, output_.hip, output_.object, touchedPose()});
+            step.add(ns);
+            times.step.add(ns);
+            times.iterations += output_.iterations;
+            times.flaggedTicks +=
+                has(output_.flags, TickFlag::BudgetReached) || has(output_.flags, TickFlag::CandidatesFull)
+                    ? 1
+                    : 0;
+        }
+        const RealtimeViolations after = realtime::violations();
+        times.allocations +=
+            after.allocations - before.allocations + after.deallocations - before.deallocations;
+        times.ticks += hands_.size();
+        times.contactTicks += step.count();
+        times.medians.push_back(static_cast<double>(step.percentile(0.5)));
+        times.longest.add(longest);
+        castRays(times);
+    }
+
+  private:
+    int64_t tick(const glm::dvec3& hand, RungTimes& times) {
+        DeviceSample sample;
+        sample.position = hand;
+        sample.valid = true;
+        TickInput input;
+        input.tick = number_++;
+        input.time = kTick * static_cast<double>(input.tick);
+        input.dt = kTick;
+        input.devices = {&sample, 1};
+        NoStopwatch none;
+        long long posed = 0, begin = 0, end = 0;
+        {
+            const realtime::TickScope scope;
+            const long long start = monotonicNs();
+            if (moving_.moving())
+                input.objects = motions_ = moving_.at(input.time);
+            begin = monotonicNs();
+            posed = begin - start;
+            hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output_, 1},
+                       none);
+            end = monotonicNs();
+        }
+        if (moving_.moving())
+            times.poses.add(posed);
+        return end - begin;
+    }
+
+    void castRays(RungTimes& times) {
+        float sum = 0.0f;
+        for (const Touched& t : touched_) {
+            if (t.object < 0)
+                continue;
+            const long long begin = monotonicNs();
+            sum += castFloorRay(*rung_.scene->haptic, t.object, t.pose, t.proxy, t.hip);
+            times.ray.add(monotonicNs() - begin);
+        }
+        [[maybe_unused]] static volatile float sink;
+        sink = sum; // so that no ray is left out
+    }
+
+    /// Where a floor ray goes, and where the object was.
+    struct Touched {
+        glm::dvec3 proxy, hip;
+        int object;
+        Similarity pose;
+    };
+    [[nodiscard]] Similarity touchedPose() const {
+        if (output_.object < 0)
+            return {};
+        const ObjectMotions motions =
+            motions_.empty() ? ObjectMotions(rung_.scene->haptic->restMotions) : motions_;
+        return motions[static_cast<size_t>(output_.object)].workspaceFromObject;
+    }
+
+    const Rung& rung_;
+    double start_;
+    WorldState world_;
+    DeviceState state_;
+    MovingObjects moving_;
+    ObjectMotions motions_;
+    std::vector<glm::dvec3> hands_;
+    HapticOutput output_; ///< one for all ticks, as the servo has it
+    std::vector<Touched> touched_;
+    uint64_t number_ = 0;
+};
+
+} // namespace
+
+std::vector<RungTimes> timeRungs(std::span<const Rung> rungs, const BenchPlan& plan,
+                                 const std::function<void(double)>& progress) {
+    enterFloatMode();
+    std::vector<Turn> turns;
+    turns.reserve(rungs.size());
+    double start = 0.0;
+    for (const Rung& rung : rungs) {
+        turns.emplace_back(rung, start);
+        start += rung.speed * kTick * plan.rounds * plan.ticksPerRound;
+    }
+    std::vector<RungTimes> times(rungs.size());
+    for (int round = 0; round < plan.rounds; ++round) {
+        progress(static_cast<double>(round) / plan.rounds);
+        for (size_t i = 0; i < turns.size(); ++i)
+            turns[i].take(plan.ticksPerRound, times[i]);
+    }
+    progress(1.0);
+    return times;
+}
+
+double medianRatio(const RungTimes& above, const RungTimes& below) {
+    std::vector<double> ratios;
+    for (size_t i = 0; i < std::min(above.medians.size(), below.medians.size()); ++i)
+        ratios.push_back(above.medians[i] / below.medians[i]);
+    if (ratios.empty())
+        return 0.0;
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
+}
+
+} // namespace touchstone

@@ -1,0 +1,60 @@
+#pragma once
+// Times ticks so that a drifting machine cannot fake a difference: every rung takes its turn in every round.
+
+#include "engine/time/samples.h"
+#include "haptics/haptic_settings.h"
+#include "study/timing/bench_scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// One way to touch one scene.
+struct Rung {
+    std::string name;
+    const BenchScene* scene = nullptr;
+    HapticSettings settings;
+    double speed = 0.1; ///< m/s
+};
+
+/// What its ticks in contact took, ns; reading the clock twice (`clockCostNs`) is part of each.
+struct RungTimes {
+    Samples step;
+    Samples ray;     ///< the floor: one Embree ray from proxy to HIP for each of those ticks
+    Samples poses;   ///< where objects move: sampling the animation, of all ticks and beside the step
+    Samples longest; ///< the longest step of each round, contact or not
+    uint64_t pinchedTicks = 0; ///< TickFlag::Pinched, contact or not
+    uint64_t ticks = 0;
+    uint64_t contactTicks = 0;
+    uint64_t iterations = 0;     ///< of all ticks in contact
+    uint64_t flaggedTicks = 0;   ///< in contact, with a flag of the solver
+    uint64_t allocations = 0;    ///< and deallocations, in all ticks
+    std::vector<double> medians; ///< ns, step, of each round
+
+    [[nodiscard]] double median() const { return static_cast<double>(step.percentile(0.5)); }
+    [[nodiscard]] double p99() const { return static_cast<double>(step.percentile(0.99)); }
+    [[nodiscard]] double rayMedian() const { return static_cast<double>(ray.percentile(0.5)); }
+    [[nodiscard]] double meanIterations() const {
+        return contactTicks > 0 ? static_cast<double>(iterations) / static_cast<double>(contactTicks) : 0.0;
+    }
+    [[nodiscard]] double inRays() const { return median() / rayMedian(); }
+};
+
+struct BenchPlan {
+    int rounds = 20;
+    int ticksPerRound = 1000;
+};
+
+/// Strokes with each rung in turn, `ticksPerRound` ticks a turn. Each rung strokes a stretch of its own, so
+/// that none finds in the cache what another one has fetched. Calling thread; `progress` gets 0..1.
+[[nodiscard]] std::vector<RungTimes> timeRungs(std::span<const Rung> rungs, const BenchPlan& plan,
+                                               const std::function<void(double)>& progress);
+
+/// The median over the rounds of `above`'s median by `below`'s.
+[[nodiscard]] double medianRatio(const RungTimes& above, const RungTimes& below);
+
+} // namespace touchstone

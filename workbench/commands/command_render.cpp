@@ -1,0 +1,47 @@
+#include "engine/core/error.h"
+#include "renderer/png.h"
+#include "renderer/scene_renderer.h"
+#include "workbench/commands.h"
+#include "workbench/gpu_options.h"
+#include "workbench/model/model.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+namespace touchstone {
+
+namespace {
+
+/// No servo needs a core here.
+GpuOptions wholeMachine(const std::string& gpu) {
+    GpuOptions options = gpuOptions(gpu);
+    options.softwareThreads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return options;
+}
+
+ViewMode viewModeOf(const std::string& name) {
+    const auto found = std::find(kViewModeNames.begin(), kViewModeNames.end(), name);
+    return static_cast<ViewMode>(found - kViewModeNames.begin()); // the command line let only these through
+}
+
+} // namespace
+
+int renderCommand(const RenderOptions& options) {
+    const Model model =
+        loadModelToSee(options.scene, Fit::Workspace, viewModeOf(options.view) != ViewMode::Shaded);
+    printWarnings(model);
+    const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
+    SceneRenderer renderer(*gpu);
+    renderer.setScene(model.scene);
+
+    const double aspect = static_cast<double>(options.size.x) / options.size.y;
+    const OrbitCamera camera = OrbitCamera::threeQuarter(workspaceBounds(model), aspect);
+    View view = viewOf(camera, model.workspaceFromScene, aspect);
+    view.mode = viewModeOf(options.view);
+    writePng(options.out, renderStill(renderer, view, Overlay{}, options.size.x, options.size.y));
+    std::printf("%d x %d pixels, written to %s\n", options.size.x, options.size.y, options.out.c_str());
+    return 0;
+}
+
+} // namespace touchstone

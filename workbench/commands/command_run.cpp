@@ -1,0 +1,261 @@
+// The same loops as in the window, without one: the simulated hand strokes the model in real time.
+
+#include "devices/plant/yielding_hand.h"
+#include "devices/simulated_hand.h"
+#include "engine/core/error.h"
+#include "engine/core/realtime_guard.h"
+#include "haptics/servo/servo_loop.h"
+#include "renderer/adaptive_resolution.h"
+#include "renderer/png.h"
+#include "renderer/scene_renderer.h"
+#include "workbench/commands.h"
+#include "workbench/commands/device_test.h"
+#include "workbench/figures/output_file.h"
+#include "workbench/figures/settings_json.h"
+#include "workbench/figures/stolen_time.h"
+#include "workbench/figures/tick_csv.h"
+#include "workbench/figures/tick_statistics.h"
+#include "workbench/gpu_options.h"
+#include "workbench/guards/interrupt.h"
+#include "workbench/hand/device_menu.h"
+#include "workbench/hand/device_port.h"
+#include "workbench/model/animate.h"
+#include "workbench/model/model.h"
+#include "workbench/window/overlays.h"
+#include "workbench/window/recording_desk.h"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+namespace touchstone {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFrameRate = 30.0;
+
+/// A view from a little above and to the right, so that depth can be seen.
+View frontView(const Model& model, const glm::ivec2& size) {
+    const double aspect = static_cast<double>(size.x) / size.y;
+    OrbitCamera camera;
+    camera.yaw = 0.45;
+    camera.pitch = 0.35;
+    camera.frame(workspaceBounds(model), aspect);
+    return viewOf(camera, model.workspaceFromScene, aspect);
+}
+
+/// Takes every tick that the servo has made since the last call.
+class TickReader {
+  public:
+    TickReader(const Model& model, const RunOptions& options)
+        : model_(model), options_(options), moving_(model.scene, *model.haptic) {
+        if (!options.recordTicks.empty()) {
+            csv_.emplace(options.recordTicks);
+            csv_->write(kTickCsvHeader);
+        }
+    }
+
+    void drain(ServoLoop& servo, RecordingDesk& desk) {
+        TickRecord record;
+        rows_.clear();
+        while (servo.popRecord(record)) {
+            statistics.addLive(record);
+            desk.recorder().take(record);
+            if (record.output.contacts > 0) {
+                statistics.addProxyGap(
+                    proxyGap(*model_.haptic, moving_.at(record.time), record.output, options_.settings));
+                lastContact = record;
+            }
+            last = record;
+            if (csv_)
+                appendTickRow(rows_, record.time, record.output, record.stepNs);
+        }
+        if (csv_)
+            csv_->write(rows_);
+        desk.update();
+    }
+    void commit() {
+        if (csv_)
+            csv_->commit();
+    }
+
+    TickStatistics statistics;
+    TickRecord last;
+    std::optional<TickRecord> lastContact;
+
+  private:
+    const Model& model_;
+    const RunOptions& options_;
+    MovingObjects moving_;
+    std::optional<OutputFile> csv_;
+    std::string rows_;
+};
+
+struct Frames {
+    uint64_t count = 0;
+    double seconds = 0.0;
+    uint64_t late = 0;      ///< frames that were not ready for the next one's turn
+    glm::ivec2 smallest{0}; ///< pixels: the picture shrinks while frames are late
+};
+
+/// Draws at the frame rate until the time is over; the servo ticks beside it.
+Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
+                  TickReader& reader, RecordingDesk& desk) {
+    const View view = frontView(model, options.size);
+    const auto period =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
+    const auto length =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+    const Clock::time_point start = Clock::now();
+    Clock::time_point next = start;
+    Frames frames{.smallest = options.size};
+    AdaptiveResolution resolution({.largestPixels = options.size.x * options.size.y});
+    Overlay overlay;
+    while (Clock::now() - start < length && !interrupted()) {
+        const Clock::time_point begin = Clock::now();
+        servo.updateSnapshot();
+        reader.drain(servo, desk);
+        overlay.clear();
+        drawTick(servo.snapshot(), options.settings, overlay);
+        poseAt(servo.snapshot().time, *model.scene, renderer);
+        const glm::ivec2 size = resolution.sceneSize(options.size);
+        frames.smallest = glm::min(frames.smallest, size);
+        renderer.render(view, overlay, size.x, size.y);
+        resolution.frameDone(std::chrono::duration<double>(Clock::now() - begin).count());
+        ++frames.count;
+        next += period;
+        if (Clock::now() > next) {
+            next = Clock::now();
+            ++frames.late;
+        }
+        std::this_thread::sleep_until(std::min(next, start + length));
+    }
+    frames.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return frames;
+}
+
+nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& statistics, double seconds,
+                                 const std::optional<double>& stolen) {
+    const ServoLoop::Counters counters = servo.counters();
+    const ServoScheduling scheduling = servo.scheduling();
+    nlohmann::ordered_json json{{"ticks", counters.ticks}, {"missed", counters.missed}};
+    json.update(statistics.wakeJson());
+    json.update({{"rate_hz", servo.rateHz()},
+                 {"ticks_per_second", static_cast<double>(counters.ticks) / seconds},
+                 {"skipped", counters.skipped},
+                 {"dropped_records", counters.droppedRecords},
+                 {"scheduling", scheduling.policy},
+                 {"memory_locked", scheduling.memoryLocked},
+                 {"pinned_cpu", scheduling.pinnedCpu},
+                 {"stolen_s", stolen ? nlohmann::ordered_json(*stolen) : nlohmann::ordered_json()}});
+    return json;
+}
+
+} // namespace
+
+int runCommand(const RunOptions& options) {
+    catchInterrupts();
+    const std::unique_ptr<LinkedDevice> device = openDeviceOrHand(options.device);
+    const DeviceLimits simulatedLimits = options.openLoop ? DeviceLimits{} : limitsOf(options.plant);
+    const Model model =
+        loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : simulatedLimits);
+    printWarnings(model);
+    prepareFor(model, options.settings);
+    SimulatedHand path(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
+    YieldingHand yielding(path, options.plant);
+    Device& simulated = options.openLoop ? static_cast<Device&>(path) : yielding;
+    Device& hand = device != nullptr ? *device : simulated;
+    std::optional<OutputFile> report;
+    if (!options.json.empty())
+        report.emplace(options.json);
+    TickReader reader(model, options);
+
+    // The device comes before the servo thread (DESIGN §8); the first frame compiles the pipelines.
+    const std::unique_ptr<Gpu> gpu = Gpu::headless(gpuOptions(options.gpu));
+    SceneRenderer renderer(*gpu);
+    renderer.setScene(model.scene);
+    renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);
+    gpu->waitIdle();
+
+    ServoLoop servo(portOf(hand), {.rateHz = options.rateHz});
+    servo.setSettings(options.settings);
+    RecordingDesk desk(servo, options.recording, "run");
+    desk.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
+                                 identify(*model.haptic, *model.scene, Fit::Workspace));
+    realtime::resetViolations();
+    const StolenTime stolenTime;
+    servo.start();
+    const Frames frames = drawFrames(options, model, servo, renderer, reader, desk);
+    servo.stop();
+    const std::optional<double> stolen = stolenTime.seconds();
+    const RealtimeViolations violations = realtime::violations();
+    reader.drain(servo, desk);
+    desk.finish();
+
+    if (!options.screenshot.empty()) {
+        Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
+        const TickRecord& shown = reader.lastContact.value_or(reader.last);
+        drawTick(shown, options.settings, overlay);
+        poseAt(shown.time, *model.scene, renderer);
+        writePng(options.screenshot, renderStill(renderer, frontView(model, options.size), overlay,
+                                                 options.size.x, options.size.y));
+    }
+    for (const std::string& message : gpu->validationMessages())
+        std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
+    reader.commit();
+    if (report) {
+        const double fps = static_cast<double>(frames.count) / frames.seconds;
+        const nlohmann::ordered_json json{
+            {"command", "run"},
+            {"scene", options.scene.string()},
+            {"seconds", frames.seconds},
+            {"triangles", model.scene->triangleCount()},
+            {"device", hand.name()},
+            {"link", device != nullptr ? linkJson(device->report()) : nlohmann::ordered_json()},
+            {"loop", options.openLoop || device != nullptr ? nlohmann::ordered_json("open")
+                                                           : plantJson(yielding.plant())},
+            {"settings", settingsJson(options.settings)},
+            {"setting_warnings", settingWarnings(options.settings)},
+            {"servo", servoJson(servo, reader.statistics, frames.seconds, stolen)},
+            {"wake_histogram", histogramJson(reader.statistics.wake())},
+            {"step", reader.statistics.stepJson()},
+            {"step_histogram", histogramJson(reader.statistics.step())},
+            {"frames",
+             {{"count", frames.count},
+              {"fps", fps},
+              {"late", frames.late},
+              {"width", options.size.x},
+              {"height", options.size.y},
+              {"smallest_width", frames.smallest.x},
+              {"smallest_height", frames.smallest.y}}},
+            {"allocations_in_tick", violations.allocations},
+            {"deallocations_in_tick", violations.deallocations},
+            {"locks_in_tick", realtime::locksAreCounted() ? nlohmann::ordered_json(violations.locks)
+                                                          : nlohmann::ordered_json()},
+            {"contact", reader.statistics.contactJson()},
+            {"force", reader.statistics.forceJson()},
+            {"energy", reader.statistics.energyJson()},
+            {"flags", reader.statistics.flagsJson()},
+            {"recording", desk.json()},
+            {"gpu",
+             {{"name", gpu->name()},
+              {"description", gpu->description()},
+              {"validation_active", gpu->validationActive()},
+              {"validation_messages", gpu->validationMessages().size()}}},
+        };
+        report->write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        report->commit();
+    }
+    const ServoLoop::Counters counters = servo.counters();
+    std::printf("%llu ticks (%llu missed) in %.1f s, %llu in contact, %llu frames\n",
+                static_cast<unsigned long long>(counters.ticks),
+                static_cast<unsigned long long>(counters.missed), frames.seconds,
+                static_cast<unsigned long long>(reader.statistics.contactTicks()),
+                static_cast<unsigned long long>(frames.count));
+    return desk.failed() ? 1 : 0;
+}
+
+} // namespace touchstone

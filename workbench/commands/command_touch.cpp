@@ -1,0 +1,285 @@
+// Offline and deterministic: a path of the hand in, every tick out, as fast as it goes.
+
+#include "devices/plant/yielding_hand.h"
+#include "devices/replay_device.h"
+#include "engine/core/error.h"
+#include "engine/core/float_mode.h"
+#include "engine/core/realtime_guard.h"
+#include "haptics/contact/ray_floor.h"
+#include "haptics/haptic_step.h"
+#include "haptics/recording/recording_writer.h"
+#include "haptics/scene/moving_objects.h"
+#include "haptics/servo/realtime_thread.h"
+#include "study/timing/clock_cost.h"
+#include "workbench/commands.h"
+#include "workbench/figures/output_file.h"
+#include "workbench/figures/settings_json.h"
+#include "workbench/figures/tick_csv.h"
+#include "workbench/figures/tick_statistics.h"
+#include "workbench/model/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+constexpr size_t kBlock =
+    4096; // ticks stepped before they are written: the disk stays out of the step's time
+
+struct PlannedTick {
+    double time = 0.0; // s, as in the path
+    double dt = 0.0;   // s
+    glm::dvec3 hip{0.0};
+};
+
+struct OfflineTick {
+    uint64_t number = 0;
+    double time = 0.0, dt = 0.0;
+    DeviceSample sample;
+    StageTrace trace;
+    HapticOutput output;
+    int64_t stepNs = 0;
+    Similarity touched; // workspaceFromObject of the touched object
+    double gap = 0.0;   // m, of the proxy; in contact and where a report was asked for
+};
+
+/// The ticks that the path asks for: one a row, or at a rate of its own straight between the rows.
+std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
+    std::vector<PlannedTick> ticks;
+    if (rateHz <= 0.0) {
+        ticks.resize(path.times.size());
+        for (size_t i = 0; i < ticks.size(); ++i) {
+            ticks[i].time = path.times[i];
+            ticks[i].hip = path.positions[i];
+            if (i > 0)
+                ticks[i].dt = path.times[i] - path.times[i - 1];
+        }
+        ticks[0].dt = ticks.size() > 1 ? ticks[1].dt : 1e-3;
+        return ticks;
+    }
+    ReplayDevice replay(path);
+    const auto count = static_cast<size_t>(std::floor(replay.duration() * rateHz * (1.0 + 1e-12))) + 1;
+    ticks.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const double since = static_cast<double>(i) / rateHz;
+        ticks[i].time = path.times.front() + since;
+        ticks[i].dt = 1.0 / rateHz;
+        ticks[i].hip = replay.sample(since).position;
+    }
+    return ticks;
+}
+
+/// Is where the path is in the tick that comes next.
+class PlannedHand final : public Device {
+  public:
+    [[nodiscard]] std::string name() const override { return "path"; }
+    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
+    void apply(const DeviceCommand&) noexcept override {}
+
+    DeviceSample next;
+};
+
+/// What `--record` asks for: the state before the first tick, then every tick.
+class OfflineRecorder {
+  public:
+    static constexpr uint32_t kScene = 1;
+
+    OfflineRecorder(const TouchOptions& options, const Model& model)
+        : writer_(options.record, recordingOrigin("touch", options.rateHz)), settings_(options.settings),
+          identity_(identify(*model.haptic, *model.scene, options.fit)) {}
+
+    void add(const OfflineTick& tick, const TouchCheckpoint& first) {
+        TickRecord record;
+        record.tick = tick.number;
+        record.time = tick.time;
+        record.dt = tick.dt;
+        record.stepNs = static_cast<int32_t>(std::min<int64_t>(tick.stepNs, INT32_MAX));
+        record.checkpoint = tick.number == 0;
+        record.scene = kScene;
+        record.sample = tick.sample;
+        record.trace = tick.trace;
+        record.output = tick.output;
+        writer_.add({.tick = recordedTick(record),
+                     .settings = settings_,
+                     .scene = &identity_,
+                     .checkpoint = record.checkpoint ? &first : nullptr});
+    }
+    void flush() { writer_.flush(); }
+    void finish() { writer_.finish(); }
+
+  private:
+    RecordingWriter writer_;
+    const HapticSettings& settings_;
+    SceneIdentity identity_;
+};
+
+/// The state that one offline run carries from tick to tick.
+class OfflineTouch {
+  public:
+    OfflineTouch(const Model& model, const TouchOptions& options)
+        : model_(model), settings_(options.settings), moving_(model.scene, *model.haptic),
+          yielding_(path_, options.plant),
+          hand_(options.closedLoop ? static_cast<Device&>(yielding_) : path_) {}
+
+    void step(const PlannedTick& planned, OfflineTick& tick) {
+        path_.next.position = planned.hip;
+        path_.next.valid = true;
+        tick.sample = hand_.sample(planned.time);
+        TickInput input;
+        input.tick = tick.number = number_++;
+        input.time = tick.time = planned.time;
+        input.dt = tick.dt = planned.dt;
+        input.devices = {&tick.sample, 1};
+        input.objects = moving_.at(planned.time);
+        StageTracer tracer(device_, tick.trace);
+        const realtime::TickScope scope;
+        const long long begin = monotonicNs();
+        hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, tracer);
+        tick.stepNs = monotonicNs() - begin;
+        hand_.apply(tick.output.command);
+        objects_ = input.objects;
+        if (tick.output.object >= 0)
+            tick.touched = (objects_.empty() ? ObjectMotions(model_.haptic->restMotions)
+                                             : objects_)[static_cast<size_t>(tick.output.object)]
+                               .workspaceFromObject;
+    }
+    [[nodiscard]] bool moving() const { return moving_.moving(); }
+    /// Before the first step.
+    [[nodiscard]] TouchCheckpoint checkpoint() {
+        TouchCheckpoint checkpoint;
+        checkpoint.scene = OfflineRecorder::kScene;
+        takeCheckpoint(device_, checkpoint);
+        return checkpoint;
+    }
+    /// Of the last step.
+    [[nodiscard]] ObjectMotions objects() const { return objects_; }
+    [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
+
+  private:
+    const Model& model_;
+    const HapticSettings& settings_;
+    MovingObjects moving_;
+    ObjectMotions objects_;
+    WorldState world_;
+    DeviceState device_;
+    PlannedHand path_;
+    YieldingHand yielding_; // in the closed loop
+    Device& hand_;
+    uint64_t number_ = 0;
+};
+
+/// The ray from proxy to HIP in every tick in contact, each timed as the step is (DESIGN §11).
+void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks, Samples& rays) {
+    float sum = 0.0f;
+    for (const OfflineTick& tick : ticks) {
+        if (tick.output.contacts == 0 || tick.output.object < 0)
+            continue;
+        const long long begin = monotonicNs();
+        sum += castFloorRay(scene, tick.output.object, tick.touched, tick.output.proxy, tick.output.hip);
+        rays.add(monotonicNs() - begin);
+    }
+    [[maybe_unused]] static volatile float sink;
+    sink = sum; // so that no ray is left out
+}
+
+/// Nulls where no tick was in contact.
+nlohmann::ordered_json floorJson(const Samples& rays) {
+    nlohmann::ordered_json json{{"count", rays.count()}, {"p50_ns", nullptr}, {"p99_ns", nullptr}};
+    if (!rays.empty()) {
+        json["p50_ns"] = rays.percentile(0.5);
+        json["p99_ns"] = rays.percentile(0.99);
+    }
+    return json;
+}
+
+} // namespace
+
+int touchCommand(const TouchOptions& options) {
+    const HipPath path = readHipPath(options.path);
+    const Model model = loadModelToTouch(options.scene, options.fit,
+                                         options.closedLoop ? limitsOf(options.plant) : DeviceLimits{});
+    printWarnings(model);
+    prepareFor(model, options.settings);
+    OutputFile out(options.out);
+    std::optional<OutputFile> report;
+    if (!options.json.empty())
+        report.emplace(options.json);
+    out.write(kTickCsvHeader);
+    std::optional<OfflineRecorder> recorder;
+    if (!options.record.empty())
+        recorder.emplace(options, model);
+
+    enterFloatMode();
+    const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
+    OfflineTouch touch(model, options);
+    const bool moving = touch.moving();
+    const TouchCheckpoint first = touch.checkpoint();
+    TickStatistics statistics;
+    Samples rays;
+    std::string rows;
+    std::vector<OfflineTick> ticks(std::min(kBlock, planned.size()));
+    realtime::resetViolations();
+    for (size_t begin = 0; begin < planned.size(); begin += kBlock) {
+        const std::span<OfflineTick> block(ticks.data(), std::min(kBlock, planned.size() - begin));
+        for (size_t i = 0; i < block.size(); ++i) {
+            touch.step(planned[begin + i], block[i]);
+            if (moving && report && block[i].output.contacts > 0)
+                block[i].gap = proxyGap(*model.haptic, touch.objects(), block[i].output, options.settings);
+        }
+        if (report)
+            timeFloorRays(*model.haptic, block, rays);
+        rows.clear();
+        for (const OfflineTick& tick : block) {
+            appendTickRow(rows, tick.time, tick.output, tick.stepNs);
+            statistics.add(tick.output, tick.stepNs);
+            if (recorder)
+                recorder->add(tick, first);
+            if (report && tick.output.contacts > 0)
+                statistics.addProxyGap(moving ? tick.gap
+                                              : proxyGap(*model.haptic, {}, tick.output, options.settings));
+        }
+        out.write(rows);
+        if (recorder)
+            recorder->flush();
+    }
+    if (recorder)
+        recorder->finish();
+
+    if (report) {
+        const RealtimeViolations violations = realtime::violations();
+        const nlohmann::ordered_json json{
+            {"command", "touch"},
+            {"scene", options.scene.string()},
+            {"path", options.path.string()},
+            {"fit", options.fit == Fit::None ? "none" : "workspace"},
+            {"loop", options.closedLoop ? plantJson(touch.plant()) : nlohmann::ordered_json("open")},
+            {"settings", settingsJson(options.settings)},
+            {"setting_warnings", settingWarnings(options.settings)},
+            {"ticks", planned.size()},
+            {"step", statistics.stepJson()},
+            {"ray_floor", floorJson(rays)},
+            {"clock_ns", clockCostNs()},
+            {"contact", statistics.contactJson()},
+            {"force", statistics.forceJson()},
+            {"energy", statistics.energyJson()},
+            {"flags", statistics.flagsJson()},
+            {"allocations_in_tick", violations.allocations},
+            {"deallocations_in_tick", violations.deallocations},
+        };
+        report->write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        report->commit();
+    }
+    out.commit();
+    std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
+                static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
+    return 0;
+}
+
+} // namespace touchstone

@@ -1,0 +1,21 @@
+#include "workbench/figures/settings_json.h"
+
+namespace touchstone {
+
+nlohmann::ordered_json settingsJson(const HapticSettings& settings) {
+    nlohmann::ordered_json json;
+    for (const SettingInfo& info : settingInfos())
+        json[std::string(info.name)] = settingValue(settings, info.name);
+    return json;
+}
+
+nlohmann::ordered_json plantJson(const Plant& plant) {
+    nlohmann::ordered_json json;
+    for (const PlantInfo& info : plantInfos())
+        json[std::string(info.name)] = plantParameter(plant.parameters(), info.name);
+    json["motor_work_j"] = plant.motorWork();
+    json["coulomb_loss_j"] = plant.coulombLoss();
+    return json;
+}
+
+} // namespace touchstone

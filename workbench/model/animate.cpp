@@ -1,0 +1,12 @@
+#include "workbench/model/animate.h"
+
+#include "haptics/scene/moving_objects.h"
+
+namespace touchstone {
+
+void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
+    if (const Animation* animation = playedAnimation(scene))
+        renderer.setInstancePoses(sceneFromMeshAt(scene, animation, loopedTime(*animation, time)));
+}
+
+} // namespace touchstone

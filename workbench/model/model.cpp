@@ -1,0 +1,71 @@
+#include "workbench/model/model.h"
+
+#include "haptics/scene/moving_objects.h"
+
+#include <cstdio>
+
+namespace touchstone {
+
+Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
+                const LoadOptions& options) {
+    LoadOptions loading = options;
+    if (options.progress)
+        loading.progress = [&](double fraction, const char* what) { options.progress(0.9 * fraction, what); };
+    Model model;
+    model.scene = loadScene(path, loading);
+    model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
+    if (options.progress)
+        options.progress(0.9, "making it touchable");
+    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene, limits);
+    if (options.progress)
+        options.progress(1.0, "ready");
+    return model;
+}
+
+Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits) {
+    LoadOptions options;
+    options.images.visual = false;
+    return loadModel(path, fit, limits, options);
+}
+
+Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor) {
+    LoadOptions options;
+    options.images.haptic = falseColor;
+    Model model;
+    model.scene = loadScene(path, options);
+    model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
+    return model;
+}
+
+void prepareFor(const Model& model, const HapticSettings& settings) {
+    for (const std::string& warning : settingWarnings(settings))
+        std::fprintf(stderr, "touchstone: warning: %s\n", warning.c_str());
+    if (settings.contact == ContactMethod::Neighbourhood)
+        model.haptic->buildNeighbourhoods();
+}
+
+Bounds workspaceBounds(const Model& model) {
+    Bounds bounds;
+    if (model.scene->bounds.empty())
+        return bounds;
+    // Fitting turns nothing, so the box stays a box.
+    bounds.include(model.workspaceFromScene.point(model.scene->bounds.low));
+    bounds.include(model.workspaceFromScene.point(model.scene->bounds.high));
+    return bounds;
+}
+
+void printWarnings(const Model& model) {
+    const auto print = [&](const Warning& warning) {
+        std::fprintf(stderr, "touchstone: warning: %s: %s: %s\n", model.scene->path.c_str(),
+                     warning.place.c_str(), warning.message.c_str());
+    };
+    for (const Warning& warning : model.scene->warnings)
+        print(warning);
+    if (model.haptic != nullptr)
+        for (const Warning& warning : model.haptic->warnings)
+            print(warning);
+    for (const Warning& warning : animationWarnings(*model.scene))
+        print(warning);
+}
+
+} // namespace touchstone

@@ -1,0 +1,60 @@
+#include "workbench/model/model_loader.h"
+
+#include <utility>
+
+namespace touchstone {
+
+ModelLoader::~ModelLoader() {
+    cancel();
+}
+
+void ModelLoader::cancel() {
+    if (!worker_.joinable())
+        return;
+    cancelled_.store(true, std::memory_order_relaxed);
+    worker_.join();
+}
+
+void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& limits) {
+    cancel();
+    path_ = path;
+    cancelled_.store(false, std::memory_order_relaxed);
+    finished_.store(false, std::memory_order_relaxed);
+    fraction_.store(0.0, std::memory_order_relaxed);
+    result_.reset();
+    failure_ = nullptr;
+    worker_ = std::thread([this, path, limits] {
+        LoadOptions options;
+        options.cancel = &cancelled_;
+        options.progress = [this](double fraction, const char* what) {
+            fraction_.store(fraction, std::memory_order_relaxed);
+            activity_.store(what, std::memory_order_relaxed);
+        };
+        try {
+            LoadedModel loaded{loadModel(path, Fit::Workspace, limits, options), nullptr, {}};
+            if (loaded.model.scene->touchable())
+                loaded.path = std::make_shared<StrokePath>(
+                    strokeOver(*loaded.model.scene, loaded.model.workspaceFromScene));
+            loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
+            result_ = std::move(loaded);
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        finished_.store(true, std::memory_order_release);
+    });
+}
+
+std::optional<LoadedModel> ModelLoader::take() {
+    if (!worker_.joinable() || !finished_.load(std::memory_order_acquire))
+        return std::nullopt;
+    worker_.join();
+    if (failure_)
+        std::rethrow_exception(std::exchange(failure_, nullptr));
+    return std::exchange(result_, std::nullopt);
+}
+
+std::string ModelLoader::activity() const {
+    return activity_.load(std::memory_order_relaxed);
+}
+
+} // namespace touchstone

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "devices/stroke_path.h"
+#include "haptics/recording/scene_identity.h"
+#include "workbench/model/model.h"
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace touchstone {
+
+/// A model with the path on which the simulated hand strokes it (null where there is nothing to touch).
+struct LoadedModel {
+    Model model;
+    std::shared_ptr<const StrokePath> path;
+    SceneIdentity identity; ///< for recordings
+};
+
+/// Loads models on a worker thread, one at a time; a new request cancels the one before. Main thread only.
+class ModelLoader {
+  public:
+    ModelLoader() = default;
+    ~ModelLoader();
+    ModelLoader(const ModelLoader&) = delete;
+    ModelLoader& operator=(const ModelLoader&) = delete;
+
+    void start(const std::filesystem::path& path, const DeviceLimits& limits);
+
+    /// The model once it is there; throws the Error that stopped it, once.
+    [[nodiscard]] std::optional<LoadedModel> take();
+
+    [[nodiscard]] bool loading() const { return worker_.joinable(); }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] double fraction() const { return fraction_.load(std::memory_order_relaxed); } ///< 0..1
+    [[nodiscard]] std::string activity() const;
+
+  private:
+    void cancel();
+
+    std::filesystem::path path_;
+    std::thread worker_;
+    std::atomic<bool> cancelled_{false}, finished_{false};
+    std::atomic<double> fraction_{0.0};
+    std::atomic<const char*> activity_{""}; // string literals of the loader
+    std::optional<LoadedModel> result_;     // worker until finished_
+    std::exception_ptr failure_;            // worker until finished_
+};
+
+} // namespace touchstone

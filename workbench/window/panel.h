@@ -1,0 +1,62 @@
+#pragma once
+
+#include "devices/device_choice.h"
+#include "haptics/haptic_settings.h"
+#include "renderer/false_color.h"
+#include "renderer/view.h"
+#include "workbench/window/force_history.h"
+#include "workbench/window/servo_view.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// Where a widget is on the window, in its coordinates from the upper left corner.
+struct WidgetRect {
+    float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+};
+
+/// What the panel shows.
+struct PanelInput {
+    std::string modelName, modelFacts; ///< "doughnut.glb", "64,800 triangles"
+    std::vector<std::string> warnings;
+    std::string problem; ///< of the last load, with its remedy; empty: none
+    std::string notice;  ///< of the recorder: what went wrong, or what was kept
+    bool recording = false;
+    std::string recordingFile; ///< the last one; empty: none yet
+    double recordedSeconds = 0.0;
+    bool loading = false;
+    double loadFraction = 0.0;
+    std::string loadActivity;
+    bool canSimulate = false; ///< there is a path for the simulated hand
+    std::vector<DeviceOffer> devices;
+    std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
+    const ServoView* servo = nullptr;
+    const ForceHistory* forces = nullptr;
+    FalseColorScale legend; ///< of the view that is shown
+    double framesPerSecond = 0.0;
+    glm::ivec2 sceneSize{0};
+    std::string gpuName;
+    float scale = 1.0f; ///< window coordinates for one unit of the layout
+};
+
+/// What the panel changes. Plain values of the main thread.
+struct PanelState {
+    HapticSettings settings;
+    HapticSettings chosen; ///< what the toggles return to when switched on again
+    bool simulatedHand = false;
+    std::string device; ///< what chooses it; empty: the mouse or the simulated hand
+    ViewMode view = ViewMode::Shaded;
+    bool recordPressed = false; ///< the record button, in this frame
+};
+
+/// Units of layout that the panel takes on the right of the window.
+inline constexpr float kPanelWidth = 320.0f;
+
+/// Draws the panel over the right side of the ImGui frame and applies what the user did to `state`. Returns
+/// where its widgets are, by name ("friction", "texture", "forceShading", "stiffness", ...).
+std::map<std::string, WidgetRect> drawPanel(const PanelInput& input, PanelState& state);
+
+} // namespace touchstone

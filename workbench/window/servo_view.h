@@ -1,0 +1,44 @@
+#pragma once
+
+#include "haptics/recording/servo_recorder.h"
+#include "haptics/servo/servo_loop.h"
+#include "workbench/figures/stolen_time.h"
+#include "workbench/figures/tick_statistics.h"
+#include "workbench/window/force_history.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// The servo's figures as a person can read them: percentiles over the last seconds, renewed twice a second.
+/// Main thread.
+class ServoView {
+  public:
+    /// Takes the ticks made since the last call. `now`: s, any steady clock.
+    void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, double now);
+
+    ServoLoop::Counters counters;
+    TickRecord last;
+    std::string scheduling;
+    double rateHz = 0.0;
+    double ticksPerSecond = 0.0;
+    double wakeP50Us = 0.0, wakeP99Us = 0.0;
+    double stepP50Us = 0.0, stepP99Us = 0.0;
+    std::vector<uint64_t> wakeHistogram, stepHistogram; ///< by kHistogramEndsUs
+    /// Share of one processor that the host took away since the last renewal; nothing where it does not tell.
+    std::optional<double> stolenShare;
+
+  private:
+    static constexpr size_t kWindow = 4000; // ticks
+    static constexpr double kRenewal = 0.5; // s
+
+    TickStatistics statistics_{kWindow};
+    double lastRenewal_ = -1.0;
+    StolenTime stolen_;
+    double stolenThen_ = 0.0;
+    uint64_t ticksThen_ = 0;
+};
+
+} // namespace touchstone

@@ -1,0 +1,58 @@
+#include "workbench/window/status_file.h"
+
+#include "engine/core/realtime_guard.h"
+#include "workbench/figures/output_file.h"
+#include "workbench/figures/settings_json.h"
+
+namespace touchstone {
+
+void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
+                        const std::map<std::string, WidgetRect>& widgets, size_t validationMessages) {
+    if (target_.empty() || (last_ >= 0.0 && now - last_ < kInterval))
+        return;
+    last_ = now;
+    const ServoView& servo = *input.servo;
+    const HapticOutput& tick = servo.last.output;
+    const ForceHistory::Entry recent = input.forces->mean(static_cast<size_t>(servo.rateHz * kInterval));
+    nlohmann::ordered_json rects = nlohmann::ordered_json::object();
+    for (const auto& [name, rect] : widgets)
+        rects[name] = {{"x", rect.x}, {"y", rect.y}, {"width", rect.width}, {"height", rect.height}};
+    const nlohmann::ordered_json json{
+        {"update", ++updates_},
+        {"model", input.modelName},
+        {"loading", input.loading},
+        {"problem", input.problem},
+        {"recording",
+         {{"on", input.recording}, {"file", input.recordingFile}, {"seconds", input.recordedSeconds}}},
+        {"notice", input.notice},
+        {"hand", state.simulatedHand ? "simulated" : "mouse"},
+        {"device", state.device},
+        {"device_status", input.deviceStatus},
+        {"settings", settingsJson(state.settings)},
+        {"tick",
+         {{"time", servo.last.time},
+          {"contacts", tick.contacts},
+          {"friction_state", static_cast<unsigned>(tick.friction)},
+          {"hip", {tick.hip.x, tick.hip.y, tick.hip.z}},
+          {"proxy", {tick.proxy.x, tick.proxy.y, tick.proxy.z}},
+          {"force", {tick.force.x, tick.force.y, tick.force.z}}}},
+        {"recent",
+         {{"in_contact", recent.contact},
+          {"mean_force_n", recent.force},
+          {"mean_tangential_force_n", recent.tangential}}},
+        {"servo",
+         {{"ticks", servo.counters.ticks},
+          {"missed", servo.counters.missed},
+          {"ticks_per_second", servo.ticksPerSecond},
+          {"scheduling", servo.scheduling}}},
+        {"allocations_in_tick", realtime::violations().allocations},
+        {"fps", input.framesPerSecond},
+        {"scene_size", {input.sceneSize.x, input.sceneSize.y}},
+        {"gpu", input.gpuName},
+        {"validation_messages", validationMessages},
+        {"widgets", rects},
+    };
+    writeFile(target_, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+} // namespace touchstone

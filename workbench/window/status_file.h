@@ -1,0 +1,27 @@
+#pragma once
+
+#include "workbench/window/panel.h"
+
+#include <filesystem>
+
+namespace touchstone {
+
+/// Keeps a JSON file up to date with what the window shows, for scripts and tests (`--status-json`). Main
+/// thread.
+class StatusFile {
+  public:
+    explicit StatusFile(std::filesystem::path target) : target_(std::move(target)) {}
+
+    /// At most twice a second, does nothing without a target. `now`: s. `widgets` in window coordinates.
+    void update(double now, const PanelInput& input, const PanelState& state,
+                const std::map<std::string, WidgetRect>& widgets, size_t validationMessages);
+
+  private:
+    static constexpr double kInterval = 0.5; // s
+
+    std::filesystem::path target_;
+    double last_ = -1.0;
+    uint64_t updates_ = 0;
+};
+
+} // namespace touchstone
