@@ -12,7 +12,6 @@ namespace touchstone::test {
 
 using namespace truth;
 
-
 namespace {
 
 glm::dmat4 matrixOf(const Similarity& pose) {
