@@ -23,9 +23,11 @@ struct Spread {
 };
 
 struct Errors {
-    Spread position;                  ///< proxy from the truth's proxy, m
-    Spread forceMagnitude;            ///< | |F| - |F_truth| |, N
-    Spread forceDirection;            ///< angle between them where both are in contact, rad
+    Spread position;       ///< proxy from the truth's proxy, m
+    Spread forceMagnitude; ///< | |F| - |F_truth| |, N
+    Spread forceDirection; ///< angle between them where both are in contact, rad
+    Spread
+        force; ///< |F - F_truth| where either is in contact, N: magnitude, direction and lost contact in one
     double largestJump = 0.0;         ///< most change of force in one tick, N
     double truthJump = 0.0;           ///< the same of the truth on the same path, N
     double energyCreated = 0.0;       ///< J, given to the hand beyond what the truth gives on the same path
@@ -35,8 +37,14 @@ struct Errors {
     uint64_t truthFailed = 0;         ///< ticks for which the oracle found no rest: not compared
 };
 
-/// What the errors are against.
-enum class Truth : uint8_t { Analytic, Oracle };
+/// What the errors are against: the smooth shape in closed form; the mesh itself, in long double; the
+/// ladder's most exact rung, where an effect has no other truth.
+enum class Truth : uint8_t { Analytic, Oracle, Reference };
+
+/// By what a rung is nearer the truth than another (Pareto fronts), N.
+[[nodiscard]] inline double felt(const Errors& errors) {
+    return errors.force.p99;
+}
 
 /// One configuration on one scene and path.
 struct RungResult {
@@ -90,6 +98,7 @@ struct StudyResult {
     std::vector<RungResult> rungs;
     std::vector<RateResult> rates;
     std::vector<std::string> problems; ///< models that could not be studied: file and reason
+    std::vector<std::string> notes;    ///< rungs left out because they make no difference there, and such
 };
 
 } // namespace touchstone::study
