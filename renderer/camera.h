@@ -24,7 +24,8 @@ struct OrbitCamera {
     double fovY = 0.6108652381980153; ///< rad, full vertical angle: 35°, the look of a short tele lens
     double sceneRadius = 0.13;        ///< m, what near and far planes must hold around `target`
 
-    static constexpr double kMaxPitch = 1.5533430342749532; ///< rad, 89°: at 90° "up" is undefined
+    static constexpr double kMaxPitch =
+        1.5707963267948966; ///< rad, 90°: straight from above, where yaw says what is right
 
     /// The first view of a model: from the front right and above, so that flat things are not seen edge-on.
     [[nodiscard]] static OrbitCamera threeQuarter(const Bounds& bounds, double aspect);

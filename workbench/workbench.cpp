@@ -211,7 +211,11 @@ class Workbench {
         const HapticSettings before = state_.settings;
         const auto widgets = drawPanel(input, state_);
         const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
-        view_.update(glm::dvec2(area) / points);
+        view_.update({.area = glm::dvec2(area) / points,
+                      .probe = servo_.snapshot().output.proxy,
+                      .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
+                      .mouseIsHand = state_.device.empty() && !state_.simulatedHand},
+                     state_.view);
         if (std::exchange(state_.recordPressed, false))
             desk_.toggle();
         if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_SPACE, false))
@@ -225,7 +229,7 @@ class Workbench {
             poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
         }
         View view = viewOf(view_.camera(), shown_.model.workspaceFromScene, aspect());
-        view.mode = state_.view;
+        view.mode = state_.view.mode;
         renderer_.render(view, overlay_, input.sceneSize.x, input.sceneSize.y);
         target_.endFrame(&renderer_, {0, 0, area.x, area.y});
         status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
@@ -235,7 +239,7 @@ class Workbench {
         PanelInput input;
         if (hasModel()) {
             const Scene& scene = *shown_.model.scene;
-            input.legend = falseColorScale(scene, state_.view);
+            input.legend = falseColorScale(scene, state_.view.mode);
             input.modelName = std::filesystem::path(scene.path).filename().string();
             input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
                                (scene.touchable() ? "" : ": nothing to touch");
@@ -261,6 +265,7 @@ class Workbench {
         input.servo = &servoView_;
         input.forces = &forces_;
         input.framesPerSecond = framesPerSecond_;
+        input.camera = view_.camera();
         input.sceneSize = sceneSize;
         input.gpuName = gpu_->name();
         input.scale = window_.layoutScale();

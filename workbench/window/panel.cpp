@@ -282,13 +282,14 @@ class Panel {
                                      "damping map", "normals",    "texture coordinates"};
         static_assert(kLabels.size() == kViewModeNames.size());
         ImGui::PushItemWidth(-1.0f);
-        int mode = static_cast<int>(state_.view);
+        int mode = static_cast<int>(state_.view.mode);
         if (ImGui::Combo("##view", &mode, kLabels.data(), static_cast<int>(kLabels.size())))
-            state_.view = static_cast<ViewMode>(mode);
+            state_.view.mode = static_cast<ViewMode>(mode);
         mark("view");
         ImGui::PopItemWidth();
-        const bool map = state_.view == ViewMode::Height || state_.view == ViewMode::Friction ||
-                         state_.view == ViewMode::Stiffness || state_.view == ViewMode::Damping;
+        const ViewMode shown = state_.view.mode;
+        const bool map = shown == ViewMode::Height || shown == ViewMode::Friction ||
+                         shown == ViewMode::Stiffness || shown == ViewMode::Damping;
         if (in_.legend.meaningful)
             legend();
         else if (map)
@@ -337,10 +338,13 @@ class Panel {
         ImGui::BeginTooltip();
         ImGui::TextUnformatted("Left drag      moves the hand in the plane of the view\n"
                                "Wheel          moves it in depth (Shift: finely)\n"
-                               "Right drag     turns the view\n"
-                               "Middle drag    shifts the view\n"
+                               "Right or middle drag turns the view; Shift shifts it, Ctrl zooms\n"
+                               "Alt+left drag  does the same\n"
                                "Ctrl+wheel     zooms\n"
-                               "Home           shows all\n"
+                               "Home or F      shows all\n"
+                               "1, 3, 7        from the front, the right, above; Ctrl: the other side\n"
+                               ".              goes near the probe\n"
+                               "T              turntable\n"
                                "Space          switches the force off and on\n"
                                "A .glb or .gltf dropped here is opened");
         ImGui::EndTooltip();

@@ -3,9 +3,9 @@
 #include "devices/device_choice.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/false_color.h"
-#include "renderer/view.h"
 #include "workbench/window/force_history.h"
 #include "workbench/window/servo_view.h"
+#include "workbench/window/view_options.h"
 
 #include <map>
 #include <string>
@@ -37,6 +37,7 @@ struct PanelInput {
     const ForceHistory* forces = nullptr;
     FalseColorScale legend; ///< of the view that is shown
     double framesPerSecond = 0.0;
+    OrbitCamera camera;
     glm::ivec2 sceneSize{0};
     std::string gpuName;
     float scale = 1.0f; ///< window coordinates for one unit of the layout
@@ -48,7 +49,7 @@ struct PanelState {
     HapticSettings chosen; ///< what the toggles return to when switched on again
     bool simulatedHand = false;
     std::string device; ///< what chooses it; empty: the mouse or the simulated hand
-    ViewMode view = ViewMode::Shaded;
+    ViewOptions view;
     bool recordPressed = false; ///< the record button, in this frame
 };
 

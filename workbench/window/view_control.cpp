@@ -1,10 +1,14 @@
 #include "workbench/window/view_control.h"
 
+#include <glm/gtc/constants.hpp>
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace touchstone {
 
@@ -12,8 +16,39 @@ namespace {
 
 constexpr double kOrbitPerPixel = 0.008; // rad
 constexpr double kZoomPerNotch = 0.9;
+constexpr double kZoomPerPixel = 0.99;
+constexpr double kKeyOrbit = 1.2;                      // rad/s
+constexpr double kKeyPan = 400.0;                      // pixels/s
+constexpr double kKeyZoom = 0.4;                       // of the distance that is left after a second
+constexpr double kTurntable = 0.5;                     // rad/s: once round in 12.6 s
+constexpr double kProbeDistance = 0.6;                 // scene radii, when the probe is framed
 constexpr double kClearance = 0.012;                   // m between model and resting hand
 constexpr double kFirstYaw = 0.45, kFirstPitch = 0.35; // rad: from the right and above, so depth shows
+
+bool pressed(std::initializer_list<int> keys) {
+    return std::any_of(keys.begin(), keys.end(), [](int key) { return ImGui::IsKeyPressed(key, false); });
+}
+
+/// The move that a key asks for, as Blender has them: 1, 3, 7, and with Ctrl the opposite side.
+std::optional<CameraMove> keyMove() {
+    const bool opposite = ImGui::GetIO().KeyCtrl;
+    if (pressed({GLFW_KEY_HOME, GLFW_KEY_F}))
+        return CameraMove::Fit;
+    if (pressed({GLFW_KEY_1, GLFW_KEY_KP_1}))
+        return opposite ? CameraMove::Back : CameraMove::Front;
+    if (pressed({GLFW_KEY_3, GLFW_KEY_KP_3}))
+        return opposite ? CameraMove::Left : CameraMove::Right;
+    if (pressed({GLFW_KEY_7, GLFW_KEY_KP_7}))
+        return opposite ? CameraMove::Bottom : CameraMove::Top;
+    if (pressed({GLFW_KEY_PERIOD, GLFW_KEY_KP_DECIMAL}))
+        return CameraMove::Probe;
+    return std::nullopt;
+}
+
+/// -1, 0 or 1 of two keys that are held down.
+double axis(int less, int more) {
+    return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
+}
 
 } // namespace
 
@@ -27,29 +62,89 @@ void ViewControl::lookAt(const Bounds& bounds, double aspect) {
     hand_ = MouseHand(centre + glm::dvec3(0.0, 0.0, 0.5 * bounds.extent().z + kClearance));
 }
 
-void ViewControl::update(const glm::dvec2& area) {
+void ViewControl::go(CameraMove move, const Situation& now) {
+    constexpr double kQuarter = glm::half_pi<double>();
+    const auto look = [&](double yaw, double pitch) {
+        camera_.yaw = yaw;
+        camera_.pitch = pitch;
+        camera_.frame(bounds_, now.area.x / now.area.y);
+    };
+    switch (move) {
+    case CameraMove::Fit:
+        return camera_.frame(bounds_, now.area.x / now.area.y);
+    case CameraMove::Front:
+        return look(0.0, 0.0);
+    case CameraMove::Back:
+        return look(2.0 * kQuarter, 0.0);
+    case CameraMove::Right:
+        return look(kQuarter, 0.0);
+    case CameraMove::Left:
+        return look(-kQuarter, 0.0);
+    case CameraMove::Top:
+        return look(0.0, kQuarter);
+    case CameraMove::Bottom:
+        return look(0.0, -kQuarter);
+    case CameraMove::Probe:
+        camera_.target = now.probe;
+        camera_.distance = kProbeDistance * camera_.sceneRadius;
+    }
+}
+
+void ViewControl::update(const Situation& now, ViewOptions& options) {
+    if (!ImGui::GetIO().WantTextInput) {
+        if (const std::optional<CameraMove> move = keyMove())
+            options.move = move;
+        if (pressed({GLFW_KEY_T}))
+            options.turntable = !options.turntable;
+        turnWithKeys(now);
+    }
+    if (options.move)
+        go(*std::exchange(options.move, std::nullopt), now);
+    if (options.turntable)
+        camera_.orbit(kTurntable * now.seconds, 0.0);
+    if (!ImGui::GetIO().WantCaptureMouse)
+        turnWithPointer(now);
+}
+
+/// Arrows orbit, with Shift they pan; plus and minus zoom.
+void ViewControl::turnWithKeys(const Situation& now) {
+    if (ImGui::GetIO().WantCaptureKeyboard)
+        return;
+    const double right = axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT), up = axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
+    if (ImGui::GetIO().KeyShift)
+        camera_.pan(kKeyPan * now.seconds * glm::dvec2(-right, up), now.area.y);
+    else
+        camera_.orbit(kKeyOrbit * now.seconds * right, kKeyOrbit * now.seconds * up);
+    const double nearer = axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD);
+    if (nearer != 0.0)
+        camera_.zoom(std::pow(kKeyZoom, nearer * now.seconds));
+}
+
+void ViewControl::turnWithPointer(const Situation& now) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 moved(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
-    const ViewAxes axes{camera_.right(), camera_.up(), camera_.forward()};
-    if (!io.WantCaptureKeyboard && ImGui::IsKeyPressed(GLFW_KEY_HOME))
-        camera_.frame(bounds_, area.x / area.y);
-    if (io.WantCaptureMouse)
+    const auto notches = static_cast<double>(io.MouseWheel);
+    // Alt lends the left button to the camera, for those who have no other.
+    const bool leftIsHand = now.mouseIsHand && !io.KeyAlt;
+    if (io.MouseDown[1] || io.MouseDown[2] || (io.MouseDown[0] && !leftIsHand)) {
+        if (io.KeyShift)
+            camera_.pan(moved, now.area.y);
+        else if (io.KeyCtrl)
+            camera_.zoom(std::pow(kZoomPerPixel, -moved.y));
+        else
+            camera_.orbit(-kOrbitPerPixel * moved.x, kOrbitPerPixel * moved.y);
+    }
+    if (notches != 0.0 && (io.KeyCtrl || !now.mouseIsHand))
+        camera_.zoom(std::pow(kZoomPerNotch, notches));
+    if (!now.mouseIsHand)
         return;
-    if (io.MouseDown[0]) {
-        const glm::dvec3 along = camera_.viewPlaneDisplacement(moved, area.y, hand_.goal());
+    const ViewAxes axes{camera_.right(), camera_.up(), camera_.forward()};
+    if (io.MouseDown[0] && leftIsHand) {
+        const glm::dvec3 along = camera_.viewPlaneDisplacement(moved, now.area.y, hand_.goal());
         hand_.drag(axes, glm::dot(along, axes.right), glm::dot(along, axes.up));
     }
-    if (io.MouseDown[1])
-        camera_.orbit(-kOrbitPerPixel * moved.x, kOrbitPerPixel * moved.y);
-    if (io.MouseDown[2])
-        camera_.pan(moved, area.y);
-    if (io.MouseWheel != 0.0f) {
-        const auto notches = static_cast<double>(io.MouseWheel);
-        if (io.KeyCtrl)
-            camera_.zoom(std::pow(kZoomPerNotch, notches));
-        else
-            hand_.push(axes, notches * kWheelDepth * (io.KeyShift ? 0.1 : 1.0));
-    }
+    if (notches != 0.0 && !io.KeyCtrl)
+        hand_.push(axes, notches * kWheelDepth * (io.KeyShift ? 0.1 : 1.0));
 }
 
 } // namespace touchstone

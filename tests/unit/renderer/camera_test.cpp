@@ -45,7 +45,7 @@ TEST(OrbitCamera, PositiveAnglesMoveTheEyeRightAndUp) {
     EXPECT_GT(camera.eye().y, 0.0);
 }
 
-TEST(OrbitCamera, PitchStopsBeforeThePole) {
+TEST(OrbitCamera, PitchStopsAtThePole) {
     OrbitCamera camera;
     camera.orbit(0.0, 100.0);
     EXPECT_EQ(camera.pitch, OrbitCamera::kMaxPitch);

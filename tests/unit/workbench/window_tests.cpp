@@ -124,6 +124,40 @@ TEST_F(WindowTest, DraggingMovesTheHandInTheViewPlaneAndTheWheelInDepth) {
     expectCleanEnd();
 }
 
+TEST_F(WindowTest, KeysLookFromTheSidesAndAtAll) {
+    open(kDoughnut, {"--hand", "simulated"});
+    const auto camera = [](const Json& s, const char* what) { return s["view"][what].get<double>(); };
+    const Json first = later();
+    const auto press = [&](const char* key, double yaw, double pitch) {
+        display_.key(key);
+        until(std::string("the view of key ") + key, [&](const Json& s) {
+            return std::abs(camera(s, "yaw") - yaw) < 1e-9 && std::abs(camera(s, "pitch") - pitch) < 1e-9;
+        });
+    };
+    constexpr double kQuarter = 1.5707963267948966;
+    press("1", 0.0, 0.0);
+    press("3", kQuarter, 0.0);
+    press("7", 0.0, kQuarter);
+    press("ctrl+3", -kQuarter, 0.0);
+    display_.key("period");
+    until("the probe to be near",
+          [&](const Json& s) { return camera(s, "distance") < 0.5 * camera(first, "distance"); });
+    // The mouse is not the hand here, so its left button turns the view, too, and the wheel zooms.
+    display_.drag(inPicture(0.4, 0.5), inPicture(0.6, 0.5));
+    until("the view to turn", [&](const Json& s) { return std::abs(camera(s, "yaw") + kQuarter) > 0.1; });
+    const double before = camera(later(), "distance");
+    display_.scroll(inPicture(0.4, 0.5), -2);
+    until("the view to zoom", [&](const Json& s) { return camera(s, "distance") > 1.1 * before; });
+    display_.key("Home");
+    until("all to be seen",
+          [&](const Json& s) { return camera(s, "distance") > 0.8 * camera(first, "distance"); });
+    display_.key("t");
+    const double yaw =
+        camera(until("the turntable", [](const Json& s) { return s["view"]["turntable"] == true; }), "yaw");
+    until("it to turn", [&](const Json& s) { return std::abs(camera(s, "yaw") - yaw) > 0.2; });
+    expectCleanEnd();
+}
+
 TEST_F(WindowTest, PushingIntoTheModelIsFelt) {
     open(TOUCHSTONE_ASSETS "/box.glb");
     until("the air", [](const Json& s) { return !touching(s); });
