@@ -1,0 +1,238 @@
+#include "engine/save/material_patch.h"
+
+#include "engine/core/checksum.h"
+#include "engine/core/error.h"
+#include "engine/save/json_parts.h"
+#include "engine/save/replace_file.h"
+#include "engine/scene/import/gltf_file.h"
+#include "engine/scene/import/gltf_uri.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+
+namespace touchstone {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kOurs = "TOUCHSTONE_materials_haptic";
+constexpr const char* kReexport = "re-export the model";
+
+/// Where the JSON of a file lies. In a GLB behind the header (12 bytes) and its chunk's (8).
+struct TextSpan {
+    size_t begin = 0, end = 0;
+    bool isGlb = false;
+};
+
+uint32_t wordAt(std::span<const uint8_t> bytes, size_t at) {
+    uint32_t word = 0;
+    for (size_t i = 4; i-- > 0;)
+        word = word << 8 | bytes[at + i];
+    return word;
+}
+
+void putWord(std::vector<uint8_t>& bytes, size_t at, uint64_t word) {
+    for (size_t i = 0; i < 4; ++i)
+        bytes[at + i] = static_cast<uint8_t>(word >> 8 * i);
+}
+
+TextSpan textSpan(std::span<const uint8_t> bytes, bool isGlb) {
+    constexpr size_t kJson = 20, kLength = 12;
+    return isGlb ? TextSpan{kJson, kJson + wordAt(bytes, kLength), true} : TextSpan{0, bytes.size(), false};
+}
+
+Json withoutNulls(const Json& value) {
+    if (!value.is_object())
+        return value;
+    Json result = Json::object();
+    for (const auto& [name, member] : value.items())
+        if (!member.is_null())
+            result[name] = withoutNulls(member);
+    return result;
+}
+
+/// RFC 7396 on text, so that what the patch does not name keeps its spelling.
+std::string merged(std::string_view object, const Json& patch) {
+    std::string result(object);
+    for (const auto& [name, value] : patch.items()) {
+        if (value.is_null()) {
+            result = withoutMember(result, name);
+            continue;
+        }
+        const auto member = jsonMember(result, name);
+        const bool both = value.is_object() && member && member->of(result).starts_with('{');
+        result =
+            withMember(result, name, both ? merged(member->of(result), value) : withoutNulls(value).dump());
+    }
+    return result;
+}
+
+bool isEmpty(std::string_view object) {
+    return jsonParts(object).empty();
+}
+
+std::string patchedMaterial(std::string_view material, const Json& patch) {
+    const auto extensions = jsonMember(material, "extensions");
+    const std::string all(extensions ? extensions->of(material) : "{}");
+    const auto ours = jsonMember(all, kOurs);
+    const std::string stated = merged(ours ? ours->of(all) : "{}", patch);
+    const std::string rest = isEmpty(stated) ? withoutMember(all, kOurs) : withMember(all, kOurs, stated);
+    return isEmpty(rest) ? withoutMember(material, "extensions") : withMember(material, "extensions", rest);
+}
+
+/// The array `materials` with the patches made, from the last one to the first: what lies before keeps its
+/// place.
+std::string patchedMaterials(std::string_view materials, const MaterialPatches& patches,
+                             const std::string& shownAs) {
+    const std::vector<JsonPart> parts = jsonParts(materials);
+    std::string result(materials);
+    for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch) {
+        const auto& [index, change] = *patch;
+        if (index >= parts.size())
+            throw Error(shownAs, "materials[" + std::to_string(index) + "]",
+                        "the file has no such material: it has " + std::to_string(parts.size()),
+                        "open it again, or name one that it has");
+        const JsonPart& part = parts[index];
+        result.replace(part.begin, part.end - part.begin, patchedMaterial(part.of(materials), change));
+    }
+    return result;
+}
+
+/// Names the extension in `extensionsUsed` where some material has it, and nowhere else.
+std::string withExtensionNamed(std::string root, const std::string& shownAs) {
+    const auto used = jsonMember(root, "extensionsUsed");
+    const std::string name = Json(kOurs).dump();
+    const bool wanted = countKeys(root, kOurs) > 0;
+    if (!used)
+        return wanted ? withMember(root, "extensionsUsed", "[" + name + "]") : root;
+    const std::string list(used->of(root));
+    const nlohmann::json names = nlohmann::json::parse(list);
+    if (!names.is_array())
+        throw Error(shownAs, "extensionsUsed", "should be an array", kReexport);
+    const bool named = std::find(names.begin(), names.end(), kOurs) != names.end();
+    if (named == wanted)
+        return root;
+    if (wanted)
+        return withMember(root, "extensionsUsed", withElement(list, name));
+    const std::string left = withoutMember(list, kOurs);
+    return isEmpty(left) ? withoutMember(root, "extensionsUsed") : withMember(root, "extensionsUsed", left);
+}
+
+std::string patchedRoot(std::string_view root, const MaterialPatches& patches, const std::string& shownAs) {
+    const auto materials = jsonMember(root, "materials");
+    std::string list =
+        patchedMaterials(materials ? materials->of(root) : std::string_view("[]"), patches, shownAs);
+    return withExtensionNamed(withMember(root, "materials", list), shownAs);
+}
+
+/// The file with other JSON. A GLB's chunk is filled up with spaces to a multiple of four, as the format
+/// asks.
+std::vector<uint8_t> withText(std::span<const uint8_t> bytes, const TextSpan& span, std::string text,
+                              const std::string& shownAs) {
+    if (span.isGlb)
+        text.append((4 - text.size() % 4) % 4, ' ');
+    const size_t length = span.end - span.begin;
+    std::vector<uint8_t> result(bytes.size() - length + text.size());
+    auto out = std::copy_n(bytes.begin(), span.begin, result.begin());
+    out = std::copy(text.begin(), text.end(), out);
+    std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(span.end), bytes.end(), out);
+    if (span.isGlb) {
+        const uint64_t total = uint64_t{wordAt(bytes, 8)} - length + text.size();
+        if (total > kMaxFileBytes)
+            throw Error(shownAs, "", "would be larger than the 4 GiB that a GLB can be",
+                        "save it as .gltf with a modelling program first");
+        putWord(result, 8, total);
+        putWord(result, 12, text.size());
+    }
+    return result;
+}
+
+/// The first file beside it that it needs; empty: it needs none.
+std::string externalUri(const nlohmann::json& root) {
+    for (const char* array : {"buffers", "images"})
+        if (const auto list = root.find(array); list != root.end() && list->is_array())
+            for (const nlohmann::json& each : *list)
+                if (each.is_object() && each.contains("uri") && each["uri"].is_string() &&
+                    !isDataUri(each["uri"].get_ref<const std::string&>()))
+                    return each["uri"];
+    return {};
+}
+
+GltfFile takenApart(std::span<const uint8_t> bytes, const std::string& shownAs) {
+    const LoadOptions options;
+    ImportContext context(shownAs, options);
+    return takeGltfApart(context, {bytes.begin(), bytes.end()}, {});
+}
+
+void checkTarget(const GltfFile& file, const std::filesystem::path& source,
+                 const std::filesystem::path& target) {
+    namespace fs = std::filesystem;
+    std::string ending = target.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string_view right = file.isGlb ? ".glb" : ".gltf";
+    if (ending != right && !(ending == ".vrm" && file.isGlb))
+        throw Error(target.string(), "", "would be a " + std::string(right) + " of another name",
+                    "end the name in " + std::string(right) + ", as what was opened is");
+    std::error_code ignored;
+    const fs::path from = fs::weakly_canonical(fs::absolute(source), ignored).parent_path();
+    const fs::path to = fs::weakly_canonical(fs::absolute(target), ignored).parent_path();
+    if (const std::string uri = externalUri(file.json); from != to && !uri.empty())
+        throw Error(target.string(), "",
+                    "would not find \"" + uri.substr(0, 200) + "\" and what else it needs",
+                    "save it beside that, in " + from.string());
+}
+
+} // namespace
+
+Json jsonOf(float value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size() - 1, value).ptr;
+    *end = '\0';
+    const double number = std::strtod(text.data(), nullptr);
+    const auto whole = static_cast<int64_t>(number);
+    if (std::abs(number) < 1e9 && static_cast<double>(whole) == number)
+        return whole;
+    return number;
+}
+
+FileStamp stampOf(std::span<const uint8_t> bytes) {
+    Hash64 hash;
+    hash.addBytes(std::as_bytes(bytes));
+    return {bytes.size(), hash.value()};
+}
+
+std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes, const MaterialPatches& patches,
+                                   const std::string& shownAs) {
+    const GltfFile file = takenApart(bytes, shownAs);
+    if (patches.empty())
+        return {bytes.begin(), bytes.end()};
+    const TextSpan span = textSpan(bytes, file.isGlb);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + span.begin,
+                                span.end - span.begin);
+    std::string patched = patchedRoot(text, patches, shownAs);
+    if (span.isGlb)
+        patched.erase(patched.find_last_not_of(' ') + 1);
+    return withText(bytes, span, std::move(patched), shownAs);
+}
+
+FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
+                        const MaterialPatches& patches, const std::filesystem::path& target) {
+    const std::string shownAs = source.string();
+    const std::vector<uint8_t> bytes = readWholeFile(source, shownAs);
+    if (stampOf(bytes) != loaded)
+        throw Error(shownAs, "", "has changed since it was opened; nothing was written",
+                    "open it again and make the changes anew, or copy this version elsewhere");
+    const GltfFile file = takenApart(bytes, shownAs);
+    checkTarget(file, source, target);
+    const std::vector<uint8_t> result = withMaterials(bytes, patches, shownAs);
+    replaceFile(target, result);
+    return stampOf(result);
+}
+
+} // namespace touchstone

@@ -1,0 +1,45 @@
+#pragma once
+// What a user changes about how materials feel, written into the file that says it: only
+// `materials[i].extensions.TOUCHSTONE_materials_haptic` and `extensionsUsed` are touched, everything else of
+// the file keeps its bytes (of a GLB: but for the two lengths and the JSON chunk's padding).
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// Changes of the extension by the material's index in the file, each a merge patch (RFC 7396): members are
+/// set, those that are null removed, objects merged. An extension that states nothing any more is removed,
+/// with the name in `extensionsUsed` when it was the last.
+using MaterialPatches = std::map<size_t, nlohmann::ordered_json>;
+
+/// A float as the shortest decimal that is read back as the same float: 0.35, not 0.3499999940395355.
+[[nodiscard]] nlohmann::ordered_json jsonOf(float value);
+
+/// Which bytes a file had, so that it is known again.
+struct FileStamp {
+    uint64_t size = 0; ///< bytes
+    uint64_t hash = 0; ///< Hash64 of them
+    bool operator==(const FileStamp&) const = default;
+};
+[[nodiscard]] FileStamp stampOf(std::span<const uint8_t> bytes);
+
+/// The .gltf or .glb in `bytes` with the patches made. `shownAs` names it in messages. Without patches the
+/// same bytes. Throws Error where it is no glTF, or has no material of such an index.
+[[nodiscard]] std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes,
+                                                 const MaterialPatches& patches, const std::string& shownAs);
+
+/// Writes `source` with the patches to `target` (which may be the same file), as a whole or not at all.
+/// Throws Error where the source has no longer the bytes `loaded`, so that nobody else's work is overwritten;
+/// where the target would be of another kind (.glb, .gltf); and where the source names files beside it and
+/// the target is not beside them. Returns what the target then is.
+[[nodiscard]] FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
+                                      const MaterialPatches& patches, const std::filesystem::path& target);
+
+} // namespace touchstone
