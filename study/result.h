@@ -14,12 +14,14 @@ namespace touchstone::study {
 /// A figure and the interval that holds it with 95 % confidence.
 struct Estimate {
     double value = 0.0, low = 0.0, high = 0.0;
+    bool operator==(const Estimate&) const = default;
 };
 
 /// Differences from the truth over the ticks of a path. Lengths in m, forces in N, angles in rad, of the
 /// workspace. Maximum beside median and 99th percentile: what is rare is felt too.
 struct Spread {
     double median = 0.0, p99 = 0.0, max = 0.0;
+    bool operator==(const Spread&) const = default;
 };
 
 struct Errors {
@@ -35,6 +37,7 @@ struct Errors {
     double contactInvented = 0.0;     ///< share of ticks in contact here of the truth's ticks without
     uint64_t ticks = 0, compared = 0; ///< lived; in contact in both
     uint64_t truthFailed = 0;         ///< ticks for which the oracle found no rest: not compared
+    bool operator==(const Errors&) const = default;
 };
 
 /// What the errors are against: the smooth shape in closed form; the mesh itself, in long double; the
@@ -69,6 +72,7 @@ struct RungResult {
     double rayFloor = 0.0; ///< ns, median of one Embree ray from proxy to HIP in the same ticks
     Errors errors;
     bool pareto = false; ///< no other rung of this scene and path is both cheaper and nearer the truth
+    bool operator==(const RungResult&) const = default;
 };
 
 /// Closed-loop stability over the servo rate.
@@ -78,18 +82,21 @@ struct RateResult {
     double bound = 0.0;          ///< N/m, from theory (source in docs/closed_loop.md)
     double energyCreated = 0.0;  ///< J in a stroke over the scene at the default stiffness
     Estimate busy;               ///< share of one processor that the steps take
+    bool operator==(const RateResult&) const = default;
 };
 
 /// A difference that people just notice, and who measured it.
 struct JustNoticeable {
     std::string quantity, unit, source;
     double value = 0.0;
+    bool operator==(const JustNoticeable&) const = default;
 };
 
 /// Where and with what it was measured.
 struct Provenance {
     std::string machine, processor, kernel, compiler, buildType, commit, date, command;
     unsigned processors = 0;
+    bool operator==(const Provenance&) const = default;
 };
 
 struct StudyResult {
@@ -99,6 +106,7 @@ struct StudyResult {
     std::vector<RateResult> rates;
     std::vector<std::string> problems; ///< models that could not be studied: file and reason
     std::vector<std::string> notes;    ///< rungs left out because they make no difference there, and such
+    bool operator==(const StudyResult&) const = default;
 };
 
 } // namespace touchstone::study

@@ -1,11 +1,11 @@
 // What a tick costs against Embree's floor: the bounds that the solver promises, and how cost grows with the
 // triangles, in the form of [000 Table I].
 
+#include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "study/timing/clock_cost.h"
 #include "study/timing/rungs.h"
 #include "workbench/commands.h"
-#include "workbench/figures/output_file.h"
 #include "workbench/figures/settings_json.h"
 
 #include <unistd.h>

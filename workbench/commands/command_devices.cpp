@@ -2,9 +2,9 @@
 
 #include "devices/device_choice.h"
 #include "engine/core/error.h"
+#include "engine/core/output_file.h"
 #include "workbench/commands.h"
 #include "workbench/commands/device_test.h"
-#include "workbench/figures/output_file.h"
 #include "workbench/guards/interrupt.h"
 
 #include <nlohmann/json.hpp>

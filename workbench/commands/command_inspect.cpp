@@ -3,12 +3,12 @@
 #include "devices/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "engine/core/output_file.h"
 #include "engine/time/samples.h"
 #include "haptics/haptic_step.h"
 #include "haptics/servo/realtime_thread.h"
 #include "workbench/commands.h"
 #include "workbench/commands/effect_cost.h"
-#include "workbench/figures/output_file.h"
 #include "workbench/model/model.h"
 
 #include <algorithm>

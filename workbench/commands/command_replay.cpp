@@ -1,9 +1,9 @@
 // Touches again what a recording says, as fast as it goes, and says whether the same came out.
 
 #include "engine/core/error.h"
+#include "engine/core/output_file.h"
 #include "haptics/recording/replayer.h"
 #include "workbench/commands.h"
-#include "workbench/figures/output_file.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/model/default_scene.h"

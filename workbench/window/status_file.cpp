@@ -1,7 +1,7 @@
 #include "workbench/window/status_file.h"
 
+#include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
-#include "workbench/figures/output_file.h"
 #include "workbench/figures/settings_json.h"
 
 namespace touchstone {

@@ -1,4 +1,4 @@
-#include "workbench/figures/output_file.h"
+#include "engine/core/output_file.h"
 
 #include "engine/core/error.h"
 

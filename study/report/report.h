@@ -1,0 +1,29 @@
+#pragma once
+// Writes down what a study measured, and reads it again.
+
+#include "study/result.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone::study {
+
+/// One row a rung; the unit stands in the column's name, numbers are as exact as in memory. The rates and what
+/// the whole study has in common are in the JSON alone. Throws Error where the file cannot be written.
+void writeStudyCsv(const StudyResult& result, const std::filesystem::path& file);
+
+/// Everything. What `readStudyJson` makes of it equals `result` to the bit (but for names that are not UTF-8).
+/// Throws Error where the file cannot be written.
+void writeStudyJson(const StudyResult& result, const std::filesystem::path& file);
+
+/// Throws Error that names the file and the place in it where it is not what `writeStudyJson` writes.
+[[nodiscard]] StudyResult readStudyJson(const std::filesystem::path& file);
+
+/// What the shards of a study found, as one. Provenance is that of the first; `problems` tells where another
+/// was measured on another machine or by another build, and which configurations came twice (the first one
+/// counts).
+[[nodiscard]] StudyResult mergeStudies(std::span<const StudyResult> shards);
+
+} // namespace touchstone::study

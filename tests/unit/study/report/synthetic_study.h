@@ -1,0 +1,28 @@
+#pragma once
+// Studies that nobody measured: every field with a figure of its own, and one that looks like a measured one.
+
+#include "study/result.h"
+
+#include <filesystem>
+
+namespace touchstone::study::test {
+
+/// One of each, no two figures alike, with figures that print badly.
+[[nodiscard]] StudyResult everyField();
+
+/// A folder for the life of a test.
+class Folder {
+  public:
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+[[nodiscard]] std::string textOf(const std::filesystem::path& file);
+
+} // namespace touchstone::study::test
