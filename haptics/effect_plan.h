@@ -35,6 +35,7 @@ struct EffectPlan {
     bool plainFeel = false; ///< every touchable material is plain: stages 5 and 6 are not there either
     bool dampingMap =
         false; ///< some touchable material has one, which a session's own damping is multiplied by
+    bool oneSided = false; ///< some touchable object shows only its front
     bool anyShading = false, twoPassShading = false, oneFacetShading = false;
 };
 

@@ -140,6 +140,14 @@ void leaveFriction(MeshProxy& proxy, const DeviceState& state, bool atRest) {
 }
 void leaveFriction(NeighbourhoodWatch&, const DeviceState&, bool) {}
 
+/// For one-sided surfaces in the next tick. A point of the watch is clear of nothing.
+void settleClearance(MeshProxy& proxy, DeviceState&) {
+    proxy.settleClearance();
+}
+void settleClearance(NeighbourhoodWatch&, DeviceState& state) {
+    state.clearance = 0.0;
+}
+
 /// Places the proxy in the first tick. False while the HIP is inside a body.
 bool meet(const HapticScene& scene, ObjectMotions motions, MeshProxy& proxy, DeviceState& state) {
     return placeProxy(scene, motions, state.hip, proxy, state);
@@ -223,6 +231,8 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
         stretch = workspaceFromAnchor.scale *
                   applyFriction(settings.friction, feel, held, workspaceFromAnchor.scale, proxy, state, rest);
     stopwatch.lap(Stage::Friction);
+
+    settleClearance(proxy, state);
 
     // 7. Force.
     output.force = workspaceFromAnchor.direction(plain ? plainForce(feel, velocity)

@@ -127,7 +127,7 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
 
 bool CandidateCache::passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept {
     const Triangle& t = triangle(i);
-    const double height = glm::dot(t.normal, p - t.a), clear = reach - kNotClear;
+    const double height = glm::dot(t.normal, p - t.a), clear = std::min(reach, standing_) - kNotClear;
     if (!(height > 0.0) || distance < clear)
         return true;
     // What is straight above a triangle stands on it, whatever else it is coming through.
@@ -139,6 +139,16 @@ bool CandidateCache::passesOneSided(size_t i, const glm::dvec3& p, double distan
                         (items_[k].object == items_[i].object && distanceTo(triangle(k), p).distance < clear);
     });
     return comingThrough;
+}
+
+double CandidateCache::clearanceAt(const glm::dvec3& p, double reach) noexcept {
+    double least = reach;
+    eachNear(p, reach, [&](size_t i) {
+        const double distance = distanceTo(triangle(i), p).distance;
+        if (items_[i].source->oneSided && distance < least && !passesOneSided(i, p, distance, reach))
+            least = distance;
+    });
+    return least;
 }
 
 std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3& p, const glm::dvec3& move,

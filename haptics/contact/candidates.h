@@ -110,6 +110,10 @@ class CandidateCache {
         items_[i].measured = 0; // not at the proxy's place
         return d;
     }
+    /// Far more than a resting proxy sinks into what it stands on, far less than the smallest radius: object
+    /// units.
+    static constexpr double kNotClear = 1e-8;
+
     /// A triangle of the ball belongs to a one-sided object.
     [[nodiscard]] bool anyOneSided() const noexcept { return oneSided_; }
     /// True where triangle i, at `distance` from the place p where a move begins, is not there for a proxy of
@@ -120,6 +124,13 @@ class CandidateCache {
     [[nodiscard]] bool passes(size_t i, const glm::dvec3& p, double distance, double reach) noexcept {
         return items_[i].source->oneSided && passesOneSided(i, p, distance, reach);
     }
+    /// The proxy stands where it was clear by no more than `distance`, whatever its reach is now: nearer than
+    /// that is what it is coming through. Until it is called again.
+    void standsClearBy(double distance) noexcept { standing_ = distance; }
+    [[nodiscard]] double standing() const noexcept { return standing_; }
+    /// The least distance of the one-sided triangles that are there for a proxy of this reach at p, at most
+    /// `reach`. The ball covers p.
+    [[nodiscard]] double clearanceAt(const glm::dvec3& p, double reach) noexcept;
     /// The proxy is somewhere else now.
     void moved() noexcept { place_ += place_ + 1 == 0 ? 2 : 1; } // 0 is never a place
 
@@ -150,10 +161,6 @@ class CandidateCache {
                                     double reach) noexcept;
 
   private:
-    /// Far more than a resting proxy sinks into what it stands on, far less than the smallest radius: object
-    /// units.
-    static constexpr double kNotClear = 1e-8;
-
     [[nodiscard]] bool passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept;
     template <class SphereOf>
     bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
@@ -185,6 +192,7 @@ class CandidateCache {
     glm::dvec3 centre_{0.0};
     double radius_ = 0.0;
     bool valid_ = false, oneSided_ = false;
+    double standing_ = INFINITY; ///< standsClearBy
     uint32_t place_ = 1; ///< counts the proxy's places
 };
 

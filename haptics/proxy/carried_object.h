@@ -21,6 +21,7 @@ struct CarriedObject {
     Similarity pose;        ///< workspaceFromObject at the end of the step under way
     glm::dvec3 place{0.0};  ///< object frame and units
     double reach = 0.0;     ///< distance that the proxy keeps, object units
+    double standing = 0.0;  ///< distance that it already kept at the start of the step, object units
     double bounding = 0.0;  ///< radius about the origin, object units
     glm::dvec3 origin{0.0}; ///< `place` at the start of the step
 };

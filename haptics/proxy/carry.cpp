@@ -148,6 +148,7 @@ bool Carry::blockedAt(size_t k, const glm::dvec3& place) noexcept {
     if (!scene_.objects[k]->oneSided && insideObject(*scene_.objects[k], p))
         return true;
     CandidateCache& cache = state_.carryCandidates;
+    cache.standsClearBy(INFINITY);
     const double reach = radius_ / pose.scale + kCarryGap;
     if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
                       std::span(scene_.boundingRadii).subspan(k, 1), 0, p, reach))
@@ -202,7 +203,9 @@ bool Carry::listNear() noexcept {
 
 void Carry::startStep(double from, double to) noexcept {
     for (CarriedObject& copy : std::span(state_.carried).first(near_)) {
-        copy.place = copy.origin = copy.path.at(from).inversePoint(place_);
+        const Similarity start = copy.path.at(from);
+        copy.place = copy.origin = start.inversePoint(place_);
+        copy.standing = (from > 0.0 ? radius_ : std::min(state_.clearance, radius_)) / start.scale;
         copy.pose = copy.path.at(to);
         copy.reach = radius_ / copy.pose.scale + kCarryGap;
     }
@@ -237,6 +240,7 @@ bool Carry::sweep(size_t copy, CarriedObject& object, const glm::dvec3& to) noex
     ++sweeps_;
     const size_t k = index(object.object);
     CandidateCache& cache = state_.carryCandidates;
+    cache.standsClearBy(object.standing);
     double done = 0.0, piece = 1.0;
     for (int i = 0; i < kPieces; ++i) {
         const glm::dvec3 start = from + done * move;
@@ -415,6 +419,8 @@ bool Carry::followPinched() noexcept {
         copy.pose = motions_[k].workspaceFromObject;
         copy.place = state_.pinched.places[i];
         copy.reach = radius_ / copy.pose.scale + kCarryGap;
+        copy.standing =
+            std::min(state_.clearance, radius_) / std::max(copy.pose.scale, motions_[k].before.scale);
         copy.bounding = scene_.objects[k]->boundingRadius;
         const bool together = follow(copy);
         state_.pinched.places[i] = copy.place;
@@ -476,6 +482,12 @@ void Carry::run() noexcept {
         finish();
 }
 
+/// An object that shrinks takes the proxy's clearance along.
+void shrinkClearance(const ObjectMotion& anchor, DeviceState& state) noexcept {
+    if (!anchor.jumped && anchor.workspaceFromObject.scale < anchor.before.scale)
+        state.clearance *= anchor.workspaceFromObject.scale / anchor.before.scale;
+}
+
 } // namespace
 
 void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, DeviceState& state,
@@ -487,6 +499,8 @@ void carryProxy(const HapticScene& scene, ObjectMotions motions, double radius, 
         }
         return;
     }
+    if (scene.plan.oneSided)
+        shrinkClearance(motions[static_cast<size_t>(state.anchor)], state);
     if (scene.objects.size() < 2 && !motions[0].jumped)
         return;
     Carry(scene, motions, radius, state, flags).run();

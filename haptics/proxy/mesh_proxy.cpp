@@ -54,6 +54,27 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
     const double workspaceTravel = glm::length(travel);
     travel_ = workspaceTravel / motions_[index].workspaceFromObject.scale;
     heading_ = workspaceTravel > 0.0 ? travel / workspaceTravel : glm::dvec3(0.0);
+    if (scene_.plan.oneSided)
+        state_.candidates.standsClearBy(
+            state_.placed ? state_.clearance / motions_[index].workspaceFromObject.scale : INFINITY);
+}
+
+/// A radius that grew counts from when the proxy is clear by it wherever it may go back to: until then what
+/// is nearer lifts it and is not taken for something that it comes through.
+void MeshProxy::measureClearance() noexcept {
+    CandidateCache& cache = state_.candidates;
+    double stands = cache.standing();
+    if (stands < radius_ && cover(glm::dvec3(0.0), 0.0) >= 0.0) {
+        const double reach = radius_ + kContactReach;
+        double least = cache.clearanceAt(state_.proxy, radius_);
+        if (state_.friction != FrictionState::Free)
+            least = cache.freeAlong(state_.frictionless, heading_, reach) >= 0.0
+                        ? std::min(least, cache.clearanceAt(state_.frictionless, radius_))
+                        : stands;
+        stands = least > radius_ - CandidateCache::kNotClear ? radius_ : least;
+    }
+    state_.clearance =
+        std::min(stands, radius_) * motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.scale;
 }
 
 /// Makes sure that all triangles are known that a proxy moving by `length` along `direction` could touch; or

@@ -65,10 +65,18 @@ class MeshProxy {
     /// True when the proxy, where it stands, is farther than its radius from every surface.
     [[nodiscard]] bool isFree() noexcept;
 
+    /// At the end of the tick: remembers how far clear of one-sided surfaces the proxy stands. Nothing in
+    /// scenes without such.
+    void settleClearance() noexcept {
+        if (scene_.plan.oneSided)
+            measureClearance();
+    }
+
     [[nodiscard]] double radius() const noexcept { return radius_; }
 
   private:
     void adoptAnchor(int anchor) noexcept;
+    void measureClearance() noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts(double within = kContactReach) noexcept;
     void findOneSidedContacts(double within) noexcept;

@@ -190,6 +190,7 @@ void NeighbourhoodWatch::placeAt(const glm::dvec3& p) noexcept {
 
 void leaveWatch(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
     state.watch.touching = false;
+    state.clearance = 0.0;
     // What sticks or slides stands on the facet itself, where the sweep has no side: it may not go back
     // there.
     state.friction = FrictionState::Free;

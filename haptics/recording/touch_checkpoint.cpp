@@ -23,6 +23,7 @@ void eachField(State& s, const Visit& visit) {
     visit(s.placed);
     visit(s.anchor);
     visit(s.proxy);
+    visit(s.clearance);
     visit(s.pinched.objects);
     visit(s.pinched.places);
     visit(s.pinched.count);
@@ -60,6 +61,7 @@ struct CarriedFields {
     bool placed = false;
     int anchor = -1;
     glm::dvec3 proxy{0.0};
+    double clearance = 0.0;
     PinchedObjects pinched;
     double gatherMargin = 0.0;
     WatchState watch;

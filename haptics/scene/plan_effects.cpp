@@ -170,7 +170,7 @@ const char* effectName(Effect effect) {
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
     plan.plainFeel = true;
-    plan.dampingMap = false;
+    plan.dampingMap = plan.oneSided = false;
     plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
     for (HapticMaterialData& m : scene.materials)
         m.plain = m.normal.empty() && m.height.empty() && m.stiffnessMap.map.empty() &&
@@ -183,6 +183,7 @@ void settlePlan(HapticScene& scene) {
         if (!object->stiffness.empty() || !object->heights.empty() || damped || anyPositive(object->friction))
             m.plain = false;
         plan.dampingMap |= !m.dampingMap.map.empty();
+        plan.oneSided |= object->oneSided;
         const ShadingMode mode = m.shading;
         const bool shaded = object->anySmooth && mode != ShadingMode::Off;
         plan.anyShading |= shaded;

@@ -1,5 +1,6 @@
 // Materials with `sides: front`: from the front as any surface, from behind not there, and nothing between.
 
+#include "study/truth/brute_force.h"
 #include "tests/stability/surface/touched_plane.h"
 
 #include <algorithm>
@@ -7,6 +8,9 @@
 #include <random>
 
 namespace touchstone::test {
+
+using namespace truth;
+
 namespace {
 
 constexpr double kRadius = 0.5e-3; // m
@@ -51,6 +55,14 @@ TouchBench benchOf(const Scene& scene, const HapticSettings& settings) {
     if (settings.contact == ContactMethod::Neighbourhood)
         bench.scene->buildNeighbourhoods();
     return bench;
+}
+
+/// Distance of the proxy's centre from the mesh, workspace m, by looking at every triangle.
+double proxyClearance(const TouchBench& bench) {
+    const HapticObject& object = *bench.scene->objects[0];
+    const Similarity& pose = object.workspaceFromObject;
+    const LVec3 proxy(pose.inversePoint(bench.output.proxy));
+    return pose.scale * static_cast<double>(bruteNearest(object, proxy).distance);
 }
 
 TEST(OneSided, FromOutsideABodyIsTheSameWithBothSides) {
@@ -239,6 +251,112 @@ TEST(OneSided, AMovingSheetPushesWithItsFrontAlone) {
             if (front) {
                 EXPECT_NEAR(bench.output.proxy.z, 0.03 + radius, 1e-6);
                 EXPECT_NEAR(bench.output.force.z, kStiffness * (0.02 + radius), 1e-2);
+            }
+        }
+}
+
+/// A torus and a room with a corner, pressed by a hand that moves a little.
+struct Pressed {
+    const char* name;
+    Scene scene;
+    glm::dvec3 outside, pressed, along;
+};
+std::vector<Pressed> pressedBodies() {
+    assets::Shape room = assets::box({0.1, 0.1, 0.1});
+    for (size_t t = 0; t + 2 < room.indices.size(); t += 3)
+        std::swap(room.indices[t + 1], room.indices[t + 2]);
+    std::vector<Pressed> all;
+    all.push_back({"torus",
+                   oneSided(sceneOf(assets::torus(0.06, 0.025, 60, 60))),
+                   {0.095, 5e-4, 5e-4},
+                   {0.084, 5e-4, 5e-4},
+                   {0.0, 1.0, 0.3}});
+    all.push_back(
+        {"corner", oneSided(sceneOf(room)), {0.0, 0.0, 0.0}, {0.051, 0.0508, 0.0512}, {0.01, -0.02, 0.01}});
+    return all;
+}
+
+/// Presses, lets `change` happen `times` times, a tick after each, and holds on while the hand strokes. The
+/// force never falls to less than half of the pressed one. Returns how far clear the proxy stands at the end.
+template <class Change>
+double clearanceAfter(const Pressed& body, TouchBench& bench, int times, const Change& change) {
+    bench.step(body.outside);
+    bench.moveTo(body.pressed, 0.1);
+    const double pressed = glm::length(bench.output.force);
+    EXPECT_GT(pressed, 0.5);
+    glm::dvec3 hand = body.pressed;
+    double least = INFINITY;
+    for (int i = 0; i < times + 200; ++i) {
+        if (i < times)
+            change(bench, i);
+        hand += 2e-5 * body.along;
+        bench.step(hand);
+        least = std::min(least, glm::length(bench.output.force));
+    }
+    EXPECT_GT(least, 0.5 * pressed);
+    return proxyClearance(bench);
+}
+
+TEST(OneSided, ARadiusRaisedInContactLiftsTheProxyAndKeepsTheForce) {
+    const std::vector<Pressed> bodies = pressedBodies();
+    for (const Pressed& body : bodies)
+        for (const double from : {0.0, 1e-4})
+            for (const int times : {1, 50})
+                for (const HapticSettings& way : allWays()) {
+                    if (way.contact != ContactMethod::Sweep)
+                        continue;
+                    HapticSettings s = way;
+                    s.proxyRadius = from;
+                    SCOPED_TRACE(std::string(body.name) + " " + nameOf(s) + " in " + std::to_string(times));
+                    const auto raise = [&](TouchBench& b, int i) {
+                        b.settings.proxyRadius = from + (1e-3 - from) * (i + 1) / times;
+                    };
+                    TouchBench bench = benchOf(body.scene, s);
+                    const double clearance = clearanceAfter(body, bench, times, raise);
+                    // Friction may hold a proxy where it stood, as on a body with both sides (a room with
+                    // both sides is no body to be inside of).
+                    if (s.friction == FrictionMode::Off) {
+                        EXPECT_GT(clearance, 1e-3 - 1e-9);
+                    } else if (&body == &bodies.front()) {
+                        Scene both = body.scene;
+                        both.materials[0].haptic.sides = SideChoice::Both;
+                        TouchBench twin = benchOf(both, s);
+                        EXPECT_NEAR(clearance, clearanceAfter(body, twin, times, raise), 1e-9);
+                    }
+                }
+}
+
+TEST(OneSided, FromTheWatchToASweepWithARadiusTheForceStays) {
+    const Pressed body = pressedBodies().front();
+    HapticSettings s = Variant{1e-3, false}.settings();
+    s.contact = ContactMethod::Neighbourhood;
+    TouchBench bench = benchOf(body.scene, s);
+    const double clearance =
+        clearanceAfter(body, bench, 1, [](TouchBench& b, int) { b.settings.contact = ContactMethod::Sweep; });
+    EXPECT_GT(clearance, 1e-3 - 1e-9);
+}
+
+TEST(OneSided, AnObjectThatShrinksUnderTheHandKeepsIt) {
+    for (const double radius : {0.0, 1e-3})
+        for (const HapticSettings& way : allWays()) {
+            if (way.contact != ContactMethod::Sweep)
+                continue;
+            HapticSettings s = way;
+            s.proxyRadius = radius;
+            SCOPED_TRACE(nameOf(s));
+            // The hand is inside a room that closes on it from all sides: its wall comes towards the hand.
+            const Pressed room = pressedBodies().back();
+            TouchBench bench = benchOf(room.scene, s);
+            bench.step({0.0, 0.0, 0.0});
+            bench.moveTo({0.002, 0.001, 0.0505 - radius}, 0.1);
+            bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+            double before = glm::length(bench.output.force);
+            for (int i = 0; i < 200; ++i) {
+                bench.motions[0].before = bench.motions[0].workspaceFromObject;
+                bench.motions[0].workspaceFromObject.scale *= 0.9995;
+                bench.step({0.002, 0.001, 0.0505 - radius});
+                EXPECT_GT(glm::length(bench.output.force), before) << "tick " << i;
+                before = glm::length(bench.output.force);
             }
         }
 }

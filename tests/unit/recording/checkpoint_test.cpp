@@ -135,7 +135,7 @@ TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(PinchedObjects), 232u);
     EXPECT_EQ(sizeof(WatchState), 8u);
     // What a tick writes before it reads, and what can be found again, may be of any size.
-    EXPECT_EQ(sizeof(DeviceState) - sizeof(ProxyRest) - 2 * sizeof(CandidateCache), 744u);
+    EXPECT_EQ(sizeof(DeviceState) - sizeof(ProxyRest) - 2 * sizeof(CandidateCache), 752u);
     EXPECT_LE(checkpointSize(), TouchCheckpoint::kCapacity);
 }
 
