@@ -37,8 +37,8 @@ struct DeviceState {
     bool placed = false;   ///< the proxy is in free space or on a surface; false: not yet outside
     int anchor = -1;       ///< HapticScene::objects
     glm::dvec3 proxy{0.0}; ///< anchor frame, object units
-    /// Workspace m that the proxy stands clear of one-sided surfaces, while placed: the radius, less while one
-    /// that has grown is still being lifted out. What is nearer is being come through.
+    /// Workspace m that the proxy stands clear of one-sided surfaces, while placed: the radius, less while
+    /// one that has grown is still being lifted out. What is nearer is being come through.
     double clearance = 0.0;
     CandidateCache candidates;
     CandidateCache carryCandidates; ///< of one object that moves towards the proxy

@@ -193,7 +193,7 @@ class CandidateCache {
     double radius_ = 0.0;
     bool valid_ = false, oneSided_ = false;
     double standing_ = INFINITY; ///< standsClearBy
-    uint32_t place_ = 1; ///< counts the proxy's places
+    uint32_t place_ = 1;         ///< counts the proxy's places
 };
 
 } // namespace touchstone
