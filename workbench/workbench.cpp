@@ -56,7 +56,7 @@ class Workbench {
           target_(*gpu_, window_.handle(), [this] { applyStyle(window_.layoutScale()); }), renderer_(*gpu_),
           resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
                        .smallestScale = kSmallestScale}),
-          servo_(portOf(hand_), {.rateHz = options.rateHz}),
+          servo_(portOf(hand_), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
           forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
         state_.settings = state_.chosen = options.settings;

@@ -145,11 +145,13 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         input.late = touch.late;
         input.devices = {&record.sample, 1};
         input.objects = touch.offer->moving.at(record.time);
-        StageTracer tracer(touch.device, record.trace);
+        StageStopwatch clock;
+        StageTracer tracer(touch.device, record.trace, config_.stageTimes ? &clock : nullptr);
         const long long begin = monotonicNs();
         hapticStep(*touch.offer->scene, settings_.value().settings, input, touch.world, {&touch.device, 1},
                    {&record.output, 1}, tracer);
         record.stepNs = saturated(monotonicNs() - begin);
+        std::ranges::transform(clock.nanoseconds, record.stageNs.begin(), saturated);
         touch.previousTime = record.time;
     }
     port_.apply(port_.context, record.output.command);

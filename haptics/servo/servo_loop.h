@@ -10,6 +10,7 @@
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <deque>
@@ -26,12 +27,15 @@ struct TickRecord {
     double dt = 0.0;           ///< s, that the step was told
     int32_t wakeLatencyNs = 0; ///< wake-up against the deadline; what does not fit is saturated
     int32_t stepNs = 0;        ///< time of the whole step
-    bool missed = false;       ///< the step ended after the next deadline
-    bool late = false;         ///< what the step was told of the one before
-    bool checkpoint = false;   ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
-    uint32_t settings = 0;     ///< which: ServoLoop::settingsOf
-    uint32_t scene = 0;        ///< which: what ServoLoop::offerScene returned; 0: none, and no step
-    DeviceSample sample;       ///< device 0, as it was read
+    /// By Stage, of `stepNs`; zeros unless ServoConfig::stageTimes. What lies between two readings of the
+    /// clock, one of which is in each.
+    std::array<int32_t, kStageCount> stageNs{};
+    bool missed = false;     ///< the step ended after the next deadline
+    bool late = false;       ///< what the step was told of the one before
+    bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
+    uint32_t settings = 0;   ///< which: ServoLoop::settingsOf
+    uint32_t scene = 0;      ///< which: what ServoLoop::offerScene returned; 0: none, and no step
+    DeviceSample sample;     ///< device 0, as it was read
     StageTrace trace;
     HapticOutput output; ///< device 0
 };
@@ -41,6 +45,7 @@ struct ServoConfig {
     size_t ringCapacity = 1 << 14;
     bool wantRealtime = true;       ///< false: ask the system for nothing (tests, sanitizers)
     double checkpointSeconds = 1.0; ///< from one TouchCheckpoint to the next
+    bool stageTimes = false;        ///< TickRecord::stageNs; some 200 ns a tick
 };
 
 inline constexpr double kLeastServoRate = 100.0; ///< Hz; below it a stiff wall can no longer be stable

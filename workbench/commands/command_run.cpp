@@ -180,7 +180,7 @@ int runCommand(const RunOptions& options) {
     renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);
     gpu->waitIdle();
 
-    ServoLoop servo(portOf(hand), {.rateHz = options.rateHz});
+    ServoLoop servo(portOf(hand), {.rateHz = options.rateHz, .stageTimes = true});
     servo.setSettings(options.settings);
     RecordingDesk desk(servo, options.recording, "run");
     desk.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
@@ -222,6 +222,7 @@ int runCommand(const RunOptions& options) {
             {"servo", servoJson(servo, reader.statistics, frames.seconds, stolen)},
             {"wake_histogram", histogramJson(reader.statistics.wake())},
             {"step", reader.statistics.stepJson()},
+            {"stages", reader.statistics.stagesJson()},
             {"step_histogram", histogramJson(reader.statistics.step())},
             {"frames",
              {{"count", frames.count},

@@ -66,6 +66,9 @@ void TickStatistics::addLive(const TickRecord& record) {
     if (lastWakeNs_ >= 0)
         period_.add(wokeNs - lastWakeNs_);
     lastWakeNs_ = wokeNs;
+    if (record.output.contacts > 0)
+        for (size_t i = 0; i < kStageCount; ++i)
+            stages_[i].add(record.stageNs[i]);
     add(record.output, record.stepNs);
 }
 
@@ -102,6 +105,15 @@ nlohmann::ordered_json TickStatistics::stepJson() const {
     nlohmann::ordered_json json = nanoseconds(contact ? stepInContact_ : step_);
     json["over"] = contact ? "ticks in contact" : "all ticks: none was in contact";
     json["all"] = nanoseconds(step_);
+    return json;
+}
+
+nlohmann::ordered_json TickStatistics::stagesJson() const {
+    nlohmann::ordered_json json;
+    for (size_t i = 0; i < kStageCount; ++i)
+        json[std::string(kStageNames[i])] = {{"mean_ns", stages_[i].mean()},
+                                             {"p50_ns", stages_[i].percentile(0.5)},
+                                             {"p99_ns", stages_[i].percentile(0.99)}};
     return json;
 }
 

@@ -18,7 +18,9 @@ class TickStatistics {
   public:
     /// `window`: ticks that the percentiles look back on; 0: all of them.
     explicit TickStatistics(size_t window = 0)
-        : wake_(window), period_(window), step_(window), stepInContact_(window) {}
+        : wake_(window), period_(window), step_(window), stepInContact_(window) {
+        stages_.fill(Samples(window > 0 ? window : kStageWindow));
+    }
 
     /// A tick of the real-time loop: with its wake-up.
     void addLive(const TickRecord& record);
@@ -31,9 +33,15 @@ class TickStatistics {
     [[nodiscard]] uint64_t contactTicks() const { return contactTicks_; }
     [[nodiscard]] const Samples& wake() const { return wake_; }
     [[nodiscard]] const Samples& step() const { return step_; }
+    /// ns of each Stage over the live ticks in contact, the newest 600,000 of them.
+    [[nodiscard]] const std::array<Samples, kStageCount>& stages() const { return stages_; }
+    [[nodiscard]] const Samples& stepInContact() const { return stepInContact_; }
 
     /// {p50_ns, p99_ns, ...} over the ticks in contact (over all where none was), and the same over `all`.
     [[nodiscard]] nlohmann::ordered_json stepJson() const;
+    /// {sample: {mean_ns, p50_ns, p99_ns}, contact: ...} over the live ticks in contact: zeros where the
+    /// servo did not take the time.
+    [[nodiscard]] nlohmann::ordered_json stagesJson() const;
     /// {p50_us, p99_us, p999_us, max_us}: wake-up against the deadline; period_p50_us: from wake-up to
     /// wake-up.
     [[nodiscard]] nlohmann::ordered_json wakeJson() const;
@@ -50,8 +58,10 @@ class TickStatistics {
 
   private:
     static constexpr size_t kFlagCount = 16;
+    static constexpr size_t kStageWindow = 600'000; // ticks: 38 MB, whatever the length of the run
 
     Samples wake_, period_, step_, stepInContact_;
+    std::array<Samples, kStageCount> stages_;
     int64_t lastWakeNs_ = -1;
     uint64_t nextStep_ = 0;
     uint64_t ticks_ = 0, contactTicks_ = 0;

@@ -41,6 +41,18 @@ TEST_F(ReplayTest, ARunFromItsFirstTick) {
     EXPECT_TRUE(rig.recorder.takeProblem().empty());
 }
 
+TEST_F(ReplayTest, OfATickWhoseStagesWereTimed) {
+    ServoConfig config = RecordedServo::kQuick;
+    config.stageTimes = true;
+    RecordedServo rig(doughnutHand, config);
+    rig.recorder.start(file_, "test");
+    rig.offer(touchedScene("doughnut.glb"));
+    rig.ticks(6000);
+    rig.finish();
+    expectEqualReplay(replayOf(file_, rig.scenes)); // which takes no time
+    EXPECT_GT(rig.inContact(), 2000u);
+}
+
 TEST_F(ReplayTest, FromTheMiddleOfARun) {
     RecordedServo rig(doughnutHand);
     rig.offer(touchedScene("doughnut.glb"));

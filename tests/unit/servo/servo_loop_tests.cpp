@@ -99,6 +99,32 @@ TEST(ServoLoop, TouchesTheSceneAndEndsWithAZeroCommand) {
     EXPECT_EQ(hand.commands[hand.next - 1].force(), glm::dvec3(0.0));
 }
 
+TEST(ServoLoop, TellsTheTimeOfItsStagesWhereItIsAsked) {
+    for (const bool asked : {true, false}) {
+        BouncingHand hand;
+        ServoConfig config = kQuick;
+        config.stageTimes = asked;
+        ServoLoop loop(hand.port(), config);
+        loop.offerScene(floorAt(0.0f));
+        loop.start();
+        hand.waitFor(200);
+        loop.stop();
+        TickRecord record;
+        uint64_t received = 0;
+        while (loop.popRecord(record)) {
+            ++received;
+            int64_t sum = 0;
+            for (const int32_t ns : record.stageNs) {
+                EXPECT_GE(ns, 0);
+                sum += ns;
+            }
+            EXPECT_LE(sum, record.stepNs);
+            EXPECT_EQ(sum > 0, asked);
+        }
+        EXPECT_GT(received, 100u);
+    }
+}
+
 TEST(ServoLoop, RecordsEveryTickOrCountsIt) {
     BouncingHand hand;
     ServoLoop loop(hand.port(), kQuick);

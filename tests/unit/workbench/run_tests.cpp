@@ -58,6 +58,14 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     EXPECT_GT(figures["frames"]["count"], 3);
     EXPECT_GT(figures["frames"]["fps"], 0.0);
     EXPECT_GT(figures["step"]["p50_ns"], 0);
+    double stages = 0.0;
+    for (const auto& stage : figures["stages"]) {
+        EXPECT_GT(stage["mean_ns"], 0.0) << figures["stages"];
+        EXPECT_LE(stage["p50_ns"], stage["p99_ns"]);
+        stages += stage["mean_ns"].get<double>();
+    }
+    EXPECT_EQ(figures["stages"].size(), 8u);
+    EXPECT_LE(stages, figures["step"]["max_ns"].get<double>());
     EXPECT_GT(figures["contact"]["ticks"], 0);
     EXPECT_GE(figures["contact"]["proxy_on_mesh_share"], 0.95);
     EXPECT_GT(figures["force"]["max_n"], 0.0);

@@ -67,6 +67,22 @@ TEST(TickStatistics, ALoopThatStartsAgainHasDoneNothingMeanwhile) {
     EXPECT_EQ(statistics.energyJson()["gaps"], 1u);
 }
 
+TEST(TickStatistics, StagesAreOfTheTicksInContact) {
+    TickStatistics statistics;
+    for (uint64_t step = 0; step < 10; ++step) {
+        TickRecord record = recordOf(step);
+        record.output.contacts = step < 4 ? 1 : 0;
+        record.stageNs[static_cast<size_t>(Stage::Proxy)] = step < 4 ? 100 * static_cast<int>(step) : 9999;
+        statistics.addLive(record);
+    }
+    const auto json = statistics.stagesJson();
+    ASSERT_EQ(json.size(), kStageCount);
+    EXPECT_EQ(json["proxy"]["mean_ns"], 150.0);
+    EXPECT_EQ(json["proxy"]["p50_ns"], 100);
+    EXPECT_EQ(json["proxy"]["p99_ns"], 300);
+    EXPECT_EQ(json["safety"]["p99_ns"], 0);
+}
+
 TEST(TickStatistics, AHistogramTellsEveryTick) {
     Samples nanoseconds;
     for (const int64_t time : {300, 1000, 1001, 49'999, 999'999'999})
