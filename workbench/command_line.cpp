@@ -298,6 +298,54 @@ void defineBench(CLI::App& app, BenchOptions& options) {
     app.add_flag("--check", options.check, "Exit status 1 where a bound is missed");
 }
 
+/// "2/8"
+void parseShard(const std::string& text, StudyCommandOptions& options) {
+    const size_t slash = text.find('/');
+    int shard = 0, shards = 0;
+    const auto whole = [](std::string_view part, int& number) {
+        const auto read = std::from_chars(part.data(), part.data() + part.size(), number);
+        return read.ec == std::errc{} && read.ptr == part.data() + part.size();
+    };
+    if (slash == std::string::npos || !whole(std::string_view(text).substr(0, slash), shard) ||
+        !whole(std::string_view(text).substr(slash + 1), shards) || shard < 1 || shard > shards)
+        throw CLI::ValidationError("--shard", "'" + text + "' is no share; write I/N, I from 1 to N");
+    options.shard = shard;
+    options.shards = shards;
+}
+
+void defineStudy(CLI::App& app, StudyCommandOptions& options) {
+    app.add_option("WHAT", options.what,
+                   "Shapes (plane, sphere, cylinder, torus, waves, wedge) and glTF files; without any, every "
+                   "shape")
+        ->type_name("");
+    app.add_option("--out", options.out, "Folder for study.csv and study.json")->type_name("DIR");
+    app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")
+        ->type_name("NAME")
+        ->expected(1)
+        ->take_all();
+    app.add_option("--rounds", options.rounds, "Turns that every rung takes [30]")
+        ->type_name("N")
+        ->check(CLI::Range(2, 10000));
+    app.add_flag("--quick", options.quick, "A rougher answer in a third of the time");
+    app.add_flag("--list", options.list, "Print the ladders and shapes");
+    app.add_option_function<std::string>(
+           "--shard", [&options](const std::string& text) { parseShard(text, options); },
+           "Study every N-th of what is asked for only, from the I-th: for GNU parallel and job arrays")
+        ->type_name("I/N");
+}
+
+void defineCompare(CLI::App& app, StudyCompareOptions& options) {
+    app.add_option("A", options.first, "study.json of one run")->type_name("")->required();
+    app.add_option("B", options.second, "study.json of another")->type_name("")->required();
+}
+
+std::string asTyped(int argc, char** argv) {
+    std::string text = "touchstone";
+    for (int i = 1; i < argc; ++i)
+        text += std::string(" ") + argv[i];
+    return text;
+}
+
 } // namespace
 
 std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
@@ -314,6 +362,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     RenderOptions render;
     InspectOptions inspect;
     BenchOptions bench;
+    StudyCommandOptions study;
+    StudyCompareOptions compare;
     DevicesOptions devices;
     bool headless = false;
     defineWindow(app, window);
@@ -332,6 +382,12 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     defineInspect(*inspectApp, inspect);
     CLI::App* benchApp = app.add_subcommand("bench", "What a tick costs against Embree's floor");
     defineBench(*benchApp, bench);
+    CLI::App* studyApp =
+        app.add_subcommand("study", "What accuracy costs in time: errors and times of every way to touch");
+    defineStudy(*studyApp, study);
+    CLI::App* compareApp = studyApp->add_subcommand(
+        "compare", "Whether rungs that one run tells apart keep their order in another");
+    defineCompare(*compareApp, compare);
     CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in, and a trial of one device");
     defineDevices(*devicesApp, devices);
 
@@ -339,7 +395,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        for (CLI::App* command : {runApp, touchApp, replayApp, renderApp, inspectApp, benchApp, devicesApp})
+        for (CLI::App* command :
+             {runApp, touchApp, replayApp, renderApp, inspectApp, benchApp, compareApp, studyApp, devicesApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
                 command->footer(command == runApp || command == touchApp ? settingsHelp() + "\n" + plantHelp()
@@ -369,6 +426,12 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         return inspect;
     if (benchApp->parsed())
         return bench;
+    if (compareApp->parsed())
+        return compare;
+    if (studyApp->parsed()) {
+        study.commandLine = asTyped(argc, argv);
+        return study;
+    }
     if (devicesApp->parsed())
         return devices;
     return window;

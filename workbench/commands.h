@@ -100,6 +100,27 @@ struct BenchOptions {
 };
 int benchCommand(const BenchOptions& options);
 
+/// touchstone study [NAME|FILE...] --out DIR
+struct StudyCommandOptions {
+    std::vector<std::string> what;    ///< shapes by name and files; empty: every shape
+    std::filesystem::path out;        ///< a folder
+    std::vector<std::string> ladders; ///< empty: all
+    int rounds = 0;                   ///< turns of each rung; 0: as many as make intervals of a few per cent
+    bool quick = false;
+    bool list = false;         ///< the ladders and shapes, and nothing else
+    int shard = 1, shards = 1; ///< every `shards`-th of what is asked for, from the `shard`-th
+    std::string commandLine;   ///< as it was typed, for who reads the results
+};
+int studyCommand(const StudyCommandOptions& options);
+
+/// touchstone study compare A.json B.json
+struct StudyCompareOptions {
+    std::filesystem::path first, second;
+};
+/// Status 1 where two rungs whose intervals do not overlap in the first study have changed places in the
+/// second.
+int studyCompare(const StudyCompareOptions& options);
+
 /// touchstone devices
 struct DevicesOptions {
     std::string test; ///< the device to try, as --device names it; empty: list what there is

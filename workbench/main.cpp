@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
                                      [](const RenderOptions& options) { return renderCommand(options); },
                                      [](const InspectOptions& options) { return inspectCommand(options); },
                                      [](const BenchOptions& options) { return benchCommand(options); },
+                                     [](const StudyCommandOptions& options) { return studyCommand(options); },
+                                     [](const StudyCompareOptions& options) { return studyCompare(options); },
                                      [](const DevicesOptions& options) { return devicesCommand(options); }},
                           *command);
     } catch (const Error& error) {

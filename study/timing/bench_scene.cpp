@@ -221,6 +221,10 @@ BenchScene torusScene(size_t triangles) {
             alongTorus(kTube - kDepth), nullptr};
 }
 
+BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke) {
+    return {std::move(name), compile(std::move(shape), {glm::dvec3(0.0)}), std::move(stroke), nullptr};
+}
+
 BenchScene torusWithAllEffects(size_t triangles) {
     const auto side =
         static_cast<uint32_t>(std::max(3L, std::lround(std::sqrt(0.5 * static_cast<double>(triangles)))));

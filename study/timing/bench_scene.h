@@ -11,6 +11,10 @@
 #include <memory>
 #include <string>
 
+namespace touchstone::assets {
+struct Shape;
+}
+
 namespace touchstone {
 
 /// Where the hand is after `metres` of its stroke, `lift` m above the depth that it strokes at. Workspace.
@@ -35,7 +39,10 @@ struct BenchScene {
 /// The torus of the issues, 60 mm and 25 mm, of about `triangles` triangles.
 [[nodiscard]] BenchScene torusScene(size_t triangles);
 
-/// The same with every effect that a material can ask for: smooth normals, a normal map, a height map,
+/// Any shape, as large as it is, with a stroke of one's own.
+[[nodiscard]] BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke);
+
+/// The same torus with every effect that a material can ask for: smooth normals, a normal map, a height map,
 /// friction and viscous friction with a friction map, damping with a map and a stiffness map.
 [[nodiscard]] BenchScene torusWithAllEffects(size_t triangles);
 

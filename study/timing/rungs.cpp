@@ -8,6 +8,7 @@
 #include "haptics/servo/realtime_thread.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace touchstone {
 
@@ -17,6 +18,32 @@ constexpr double kTick = 1e-3;     // s
 constexpr double kApproach = 0.02; // m, above the stroke's depth when it begins
 constexpr double kDescent = 0.1;   // m/s
 
+constexpr size_t kFewest = 20; ///< ticks in contact that a round must have to be one
+constexpr double kKept = 0.99; ///< share of a round's ticks that its means are of
+
+struct Staged {
+    int64_t whole;
+    std::array<int64_t, kStageCount> stages;
+};
+
+/// Sorts both.
+RoundTimes roundOf(std::vector<double>& plain, std::vector<Staged>& staged) {
+    RoundTimes round;
+    std::sort(plain.begin(), plain.end());
+    round.median = 0.5 * (plain[(plain.size() - 1) / 2] + plain[plain.size() / 2]);
+    round.ticks = static_cast<size_t>(kKept * static_cast<double>(plain.size()));
+    for (size_t i = 0; i < round.ticks; ++i)
+        round.mean += plain[i] / static_cast<double>(round.ticks);
+    std::sort(staged.begin(), staged.end(),
+              [](const Staged& a, const Staged& b) { return a.whole < b.whole; });
+    round.stagedTicks = static_cast<size_t>(kKept * static_cast<double>(staged.size()));
+    for (size_t i = 0; i < round.stagedTicks; ++i)
+        for (size_t s = 0; s < kStageCount; ++s)
+            round.stages[s] +=
+                static_cast<double>(staged[i].stages[s]) / static_cast<double>(round.stagedTicks);
+    return round;
+}
+
 /// One rung with what it remembers from turn to turn.
 class Turn {
   public:
@@ -25,25 +52,40 @@ class Turn {
             moving_ = MovingObjects(rung.scene->animated, *rung.scene->haptic);
     }
 
-    void take(int ticks, RungTimes& times) {
+    /// Ticks that nobody times.
+    void live(uint64_t ticks) {
+        RungTimes untimed;
+        for (uint64_t i = 0; i < ticks; ++i)
+            tick(handAt(number_), untimed);
+    }
+
+    void take(int ticks, bool stages, RungTimes& times) {
         hands_.resize(static_cast<size_t>(ticks));
         touched_.clear();
         touched_.reserve(hands_.size());
-        for (size_t i = 0; i < hands_.size(); ++i) {
-            const double time = kTick * static_cast<double>(number_ + i);
-            hands_[i] =
-                rung_.scene->stroke(start_ + rung_.speed * time, std::max(0.0, kApproach - kDescent * time));
-        }
+        for (size_t i = 0; i < hands_.size(); ++i)
+            hands_[i] = handAt(number_ + i);
+        std::vector<Staged> staged;
+        std::vector<double> plain;
+        staged.reserve(hands_.size());
+        plain.reserve(hands_.size());
         Samples step;
         int64_t longest = 0;
         const RealtimeViolations before = realtime::violations();
         for (size_t i = 0; i < hands_.size(); ++i) {
-            const int64_t ns = tick(hands_[i], times);
+            const bool byStage = stages && i % 2 == 1;
+            const int64_t ns = byStage ? stagedTick(hands_[i], times) : tick(hands_[i], times);
             times.pinchedTicks += has(output_.flags, TickFlag::Pinched) ? 1 : 0;
             longest = std::max(longest, ns);
             if (output_.contacts == 0)
                 continue;
             touched_.push_back({output_.proxy, output_.hip, output_.object, touchedPose()});
+            if (byStage) {
+                staged.push_back({ns, watch_.nanoseconds});
+                continue;
+            }
+            if (stages)
+                plain.push_back(static_cast<double>(ns));
             step.add(ns);
             times.step.add(ns);
             times.iterations += output_.iterations;
@@ -59,11 +101,29 @@ class Turn {
         times.contactTicks += step.count();
         times.medians.push_back(static_cast<double>(step.percentile(0.5)));
         times.longest.add(longest);
+        if (stages && plain.size() >= kFewest && staged.size() >= kFewest)
+            times.rounds.push_back(roundOf(plain, staged));
         castRays(times);
     }
 
   private:
+    [[nodiscard]] glm::dvec3 handAt(uint64_t number) const {
+        const double time = kTick * static_cast<double>(number);
+        return rung_.scene->stroke(start_ + rung_.speed * time, std::max(0.0, kApproach - kDescent * time));
+    }
+
     int64_t tick(const glm::dvec3& hand, RungTimes& times) {
+        NoStopwatch none;
+        return tickWith(hand, times, none);
+    }
+    /// The sum of the stages: reading the clock is part of each of them.
+    int64_t stagedTick(const glm::dvec3& hand, RungTimes& times) {
+        tickWith(hand, times, watch_);
+        return std::accumulate(watch_.nanoseconds.begin(), watch_.nanoseconds.end(), int64_t{0});
+    }
+
+    template <class Stopwatch>
+    int64_t tickWith(const glm::dvec3& hand, RungTimes& times, Stopwatch& stopwatch) {
         DeviceSample sample;
         sample.position = hand;
         sample.valid = true;
@@ -72,7 +132,6 @@ class Turn {
         input.time = kTick * static_cast<double>(input.tick);
         input.dt = kTick;
         input.devices = {&sample, 1};
-        NoStopwatch none;
         long long posed = 0, begin = 0, end = 0;
         {
             const realtime::TickScope scope;
@@ -82,7 +141,7 @@ class Turn {
             begin = monotonicNs();
             posed = begin - start;
             hapticStep(*rung_.scene->haptic, rung_.settings, input, world_, {&state_, 1}, {&output_, 1},
-                       none);
+                       stopwatch);
             end = monotonicNs();
         }
         if (moving_.moving())
@@ -124,6 +183,7 @@ class Turn {
     MovingObjects moving_;
     ObjectMotions motions_;
     std::vector<glm::dvec3> hands_;
+    StageStopwatch watch_;
     HapticOutput output_; ///< one for all ticks, as the servo has it
     std::vector<Touched> touched_;
     uint64_t number_ = 0;
@@ -139,13 +199,16 @@ std::vector<RungTimes> timeRungs(std::span<const Rung> rungs, const BenchPlan& p
     double start = 0.0;
     for (const Rung& rung : rungs) {
         turns.emplace_back(rung, start);
-        start += rung.speed * kTick * plan.rounds * plan.ticksPerRound;
+        if (plan.ahead > 0)
+            turns.back().live(plan.ahead * (turns.size() - 1));
+        else
+            start += rung.speed * kTick * plan.rounds * plan.ticksPerRound;
     }
     std::vector<RungTimes> times(rungs.size());
     for (int round = 0; round < plan.rounds; ++round) {
         progress(static_cast<double>(round) / plan.rounds);
         for (size_t i = 0; i < turns.size(); ++i)
-            turns[i].take(plan.ticksPerRound, times[i]);
+            turns[i].take(plan.ticksPerRound, plan.stages, times[i]);
     }
     progress(1.0);
     return times;

@@ -3,8 +3,10 @@
 
 #include "engine/time/samples.h"
 #include "haptics/haptic_settings.h"
+#include "haptics/stopwatch.h"
 #include "study/timing/bench_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -21,6 +23,14 @@ struct Rung {
     double speed = 0.1; ///< m/s
 };
 
+/// One turn of a rung: its ticks in contact, ns, reading the clock left in. Means leave out the slowest 1 %:
+/// on a machine that does other things they are ticks from which the processor was taken away.
+struct RoundTimes {
+    double median = 0.0, mean = 0.0;          ///< of the steps that nothing was read in
+    std::array<double, kStageCount> stages{}; ///< means over the ticks between them
+    size_t ticks = 0, stagedTicks = 0;
+};
+
 /// What its ticks in contact took, ns; reading the clock twice (`clockCostNs`) is part of each.
 struct RungTimes {
     Samples step;
@@ -30,10 +40,11 @@ struct RungTimes {
     uint64_t pinchedTicks = 0; ///< TickFlag::Pinched, contact or not
     uint64_t ticks = 0;
     uint64_t contactTicks = 0;
-    uint64_t iterations = 0;     ///< of all ticks in contact
-    uint64_t flaggedTicks = 0;   ///< in contact, with a flag of the solver
-    uint64_t allocations = 0;    ///< and deallocations, in all ticks
-    std::vector<double> medians; ///< ns, step, of each round
+    uint64_t iterations = 0;        ///< of all ticks in contact
+    uint64_t flaggedTicks = 0;      ///< in contact, with a flag of the solver
+    uint64_t allocations = 0;       ///< and deallocations, in all ticks
+    std::vector<double> medians;    ///< ns, step, of each round
+    std::vector<RoundTimes> rounds; ///< with BenchPlan::stages: of each with enough ticks in contact
 
     [[nodiscard]] double median() const { return static_cast<double>(step.percentile(0.5)); }
     [[nodiscard]] double p99() const { return static_cast<double>(step.percentile(0.99)); }
@@ -47,6 +58,11 @@ struct RungTimes {
 struct BenchPlan {
     int rounds = 20;
     int ticksPerRound = 1000;
+    /// Every other tick is timed by stage; what is told of whole steps is of the others.
+    bool stages = false;
+    /// 0: every rung comes down from above where its own stretch begins. Else all begin where the path does,
+    /// and each has lived, untimed, this many ticks more than the one before when its turns begin.
+    uint64_t ahead = 0;
 };
 
 /// Strokes with each rung in turn, `ticksPerRound` ticks a turn. Each rung strokes a stretch of its own, so

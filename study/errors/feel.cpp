@@ -1,0 +1,78 @@
+#include "study/errors/feel.h"
+
+#include "engine/core/float_mode.h"
+#include "haptics/haptic_scene.h"
+#include "haptics/haptic_step.h"
+
+#include <cmath>
+
+namespace touchstone::study {
+
+namespace {
+
+constexpr double kTick = 1e-3; // s
+
+/// Angles between the facets that the proxy leaves and enters.
+class FacetAngles {
+  public:
+    void meet(const HapticScene& scene, const HapticOutput& output) {
+        if (output.contacts == 0 || output.object < 0) {
+            object_ = -1;
+            return;
+        }
+        if (output.object == object_ && output.triangle == triangle_)
+            return;
+        const HapticObject& object = *scene.objects[static_cast<size_t>(output.object)];
+        const glm::dvec3 normal = triangleOf(object, static_cast<uint32_t>(output.triangle)).normal;
+        constexpr double kLevel = 1e-5; // rad: float vertices of one plane
+        if (output.object == object_) {
+            const double angle =
+                std::atan2(glm::length(glm::cross(normal, normal_)), glm::dot(normal, normal_));
+            if (angle > kLevel) {
+                sum_ += angle;
+                ++count_;
+            }
+        }
+        object_ = output.object;
+        triangle_ = output.triangle;
+        normal_ = normal;
+    }
+    [[nodiscard]] double mean() const { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0; }
+
+  private:
+    int object_ = -1, triangle_ = -1;
+    glm::dvec3 normal_{0.0};
+    double sum_ = 0.0;
+    size_t count_ = 0;
+};
+
+} // namespace
+
+FeltPath feel(const HapticScene& scene, const HapticSettings& settings, std::span<const glm::dvec3> hips) {
+    enterFloatMode();
+    FeltPath path;
+    path.ticks.reserve(hips.size());
+    FacetAngles angles;
+    DeviceState state;
+    WorldState world;
+    HapticOutput output;
+    StageTrace trace;
+    for (size_t i = 0; i < hips.size(); ++i) {
+        DeviceSample sample;
+        sample.position = hips[i];
+        sample.valid = true;
+        TickInput input;
+        input.tick = i;
+        input.time = kTick * static_cast<double>(i);
+        input.dt = kTick;
+        input.devices = {&sample, 1};
+        StageTracer tracer(state, trace);
+        hapticStep(scene, settings, input, world, {&state, 1}, {&output, 1}, tracer);
+        path.ticks.push_back({output.proxy, output.force, output.contacts > 0, false});
+        angles.meet(scene, output);
+    }
+    path.facetAngle = angles.mean();
+    return path;
+}
+
+} // namespace touchstone::study

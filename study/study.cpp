@@ -1,0 +1,253 @@
+#include "study/study.h"
+
+#include "study/errors/compare.h"
+#include "study/errors/feel.h"
+#include "study/ladder/ladder.h"
+#include "study/pareto.h"
+#include "study/timing/clock_cost.h"
+#include "study/timing/interval.h"
+#include "study/timing/rungs.h"
+
+#include <algorithm>
+#include <future>
+#include <map>
+
+namespace touchstone::study {
+
+namespace {
+
+constexpr double kTick = 1e-3; // s
+/// What kUntextured of the ladders says, and Coulomb's ladder of friction.
+constexpr double kStiffness = 600.0, kSliding = 0.3; // N/m, 1
+
+/// Settings on a scene as they are felt: rungs that say the same are measured once.
+struct Configuration {
+    const BenchScene* bench = nullptr;
+    HapticSettings settings; ///< in effect
+    FeltPath felt;
+    RungTimes times;
+};
+
+/// A rung of the plan with where it is measured.
+struct Entry {
+    PlannedRung rung;
+    size_t configuration = 0;
+    Truth truth = Truth::Oracle;
+};
+
+/// All that is known of one subject while it is studied.
+class Run {
+  public:
+    Run(const Subject& subject, const StudyOptions& options, const StudyProgress& progress)
+        : subject_(subject), options_(options), progress_(progress), bare_(subject.bench) {
+        bare_.haptic = bareScene(subject.bench.haptic);
+        for (size_t i = 0; i < options.errorTicks; ++i)
+            hips_.push_back(subject.hand(kTick * static_cast<double>(i)));
+    }
+
+    void plan(bool tessellation, std::vector<std::string>& notes) {
+        for (const Ladder& ladder : ladders()) {
+            const bool wanted = options_.ladders.empty() ||
+                                std::find(options_.ladders.begin(), options_.ladders.end(), ladder.name) !=
+                                    options_.ladders.end();
+            if (!wanted || (ladder.name == "tessellation") != tessellation)
+                continue;
+            const BenchScene& bench = ladder.against == Against::MostExact ? subject_.bench : bare_;
+            for (PlannedRung& rung : planLadder(ladder, *bench.haptic, notes)) {
+                const size_t at = configurationOf(bench, rung.settings);
+                entries_.push_back({std::move(rung), at, truthOf(ladder)});
+            }
+        }
+    }
+
+    void feelAll() {
+        findRests();
+        for (size_t i = 0; i < configurations_.size(); ++i) {
+            progress_("errors",
+                      0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(configurations_.size()));
+            Configuration& c = configurations_[i];
+            c.felt = feel(*c.bench->haptic, c.settings, hips_);
+        }
+    }
+
+    void time() {
+        std::vector<Rung> rungs;
+        for (const Configuration& c : configurations_)
+            rungs.push_back({subject_.bench.name, c.bench, c.settings, subject_.speed});
+        const BenchPlan plan{.rounds = options_.rounds,
+                             .ticksPerRound = options_.ticksPerRound,
+                             .stages = true,
+                             .ahead = static_cast<uint64_t>(options_.ticksPerRound) / 2 + 1};
+        std::vector<RungTimes> times =
+            timeRungs(rungs, plan, [&](double share) { progress_("timing", 0.5 + 0.5 * share); });
+        for (size_t i = 0; i < times.size(); ++i)
+            configurations_[i].times = std::move(times[i]);
+    }
+
+    void report(std::vector<RungResult>& results) {
+        const double clock = static_cast<double>(clockCostNs());
+        for (const Entry& entry : entries_)
+            results.push_back(resultOf(entry, clock));
+    }
+
+  private:
+    /// The scene without what would make the spring another one from place to place.
+    static std::shared_ptr<const HapticScene> bareScene(const std::shared_ptr<const HapticScene>& scene) {
+        std::shared_ptr<HapticScene> bare;
+        for (const PlannedEffect& effect : scene->plan.effects)
+            if (effect.on &&
+                (effect.effect == Effect::VaryingStiffness || effect.effect == Effect::Damping ||
+                 effect.effect == Effect::Friction || effect.effect == Effect::ViscousFriction)) {
+                if (bare == nullptr)
+                    bare = copyOf(*scene);
+                removeEffect(*bare, effect.material, effect.effect);
+            }
+        if (bare == nullptr)
+            return scene;
+        return bare;
+    }
+
+    [[nodiscard]] Truth truthOf(const Ladder& ladder) const {
+        if (ladder.against == Against::MostExact ||
+            (ladder.against == Against::Smooth && subject_.smooth == nullptr))
+            return Truth::Reference;
+        return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;
+    }
+
+    size_t configurationOf(const BenchScene& bench, const HapticSettings& settings) {
+        const HapticSettings felt = inEffect(settings, *bench.haptic);
+        if (felt.contact == ContactMethod::Neighbourhood)
+            bench.haptic->buildNeighbourhoods();
+        for (size_t i = 0; i < configurations_.size(); ++i)
+            if (configurations_[i].bench->haptic == bench.haptic && configurations_[i].settings == felt)
+                return i;
+        Configuration& made = configurations_.emplace_back();
+        made.bench = &bench;
+        made.settings = felt;
+        return configurations_.size() - 1;
+    }
+
+    /// One path of rests for each radius; those of the oracle side by side.
+    void findRests() {
+        std::map<double, std::future<truth::RestPath>> pending;
+        for (const Entry& entry : entries_) {
+            const double radius = feltRadius(entry.rung.settings);
+            if (entry.truth == Truth::Reference || pending.contains(radius))
+                continue;
+            pending[radius] = std::async(std::launch::async, [this, radius] {
+                return subject_.smooth != nullptr
+                           ? truth::smoothPath(*subject_.smooth, hips_, radius)
+                           : truth::oraclePath(*bare_.haptic, hips_, radius, options_.oracleMoves);
+            });
+        }
+        size_t done = 0;
+        for (auto& [radius, rests] : pending) {
+            progress_("truth", 0.3 * static_cast<double>(done++) / static_cast<double>(pending.size()));
+            rests_[radius] = rests.get();
+        }
+    }
+
+    std::vector<truth::FeltTick> truthFor(const Entry& entry) {
+        if (entry.truth != Truth::Reference)
+            return truth::springForces(rests_.at(feltRadius(entry.rung.settings)), hips_, kStiffness,
+                                       entry.rung.ladder->against == Against::Coulomb ? kSliding : 0.0);
+        const BenchScene& bench = *configurations_[entry.configuration].bench;
+        const HapticSettings exact = inEffect(entry.rung.exact, *bench.haptic);
+        for (const auto& [settings, ticks] : references_)
+            if (settings == exact)
+                return ticks;
+        references_.emplace_back(exact, feel(*bench.haptic, exact, hips_).ticks);
+        return references_.back().second;
+    }
+
+    RungResult resultOf(const Entry& entry, double clock) {
+        const Configuration& c = configurations_[entry.configuration];
+        RungResult result;
+        result.scene = subject_.bench.name;
+        result.shape = subject_.shape;
+        result.triangles = subject_.bench.triangles();
+        result.facetAngle = subject_.smooth != nullptr ? c.felt.facetAngle : 0.0;
+        result.path = subject_.path;
+        result.ladder = entry.rung.ladder->name;
+        result.rung = entry.rung.name;
+        result.settings = entry.rung.text;
+        result.rateHz = 1.0 / kTick;
+        result.truth = entry.truth;
+        result.isDefault = entry.rung.isDefault;
+        result.errors = compareWithTruth(hips_, truthFor(entry), c.felt.ticks);
+        addTimes(c.times, clock, result);
+        return result;
+    }
+
+    static void addTimes(const RungTimes& times, double clock, RungResult& result) {
+        std::vector<double> medians, means;
+        std::array<std::vector<double>, kStageCount> stages;
+        for (const RoundTimes& round : times.rounds) {
+            medians.push_back(round.median - clock);
+            means.push_back(round.mean - clock);
+            for (size_t s = 0; s < kStageCount; ++s)
+                stages[s].push_back(round.stages[s] - clock);
+        }
+        result.step = medianOf(medians);
+        result.stepMean = meanOf(means);
+        for (size_t s = 0; s < kStageCount; ++s)
+            result.stages[s] = meanOf(stages[s]);
+        if (times.rounds.empty())
+            return;
+        result.stepP99 = times.p99() - clock;
+        result.rayFloor = times.rayMedian() - clock;
+    }
+
+    const Subject& subject_;
+    const StudyOptions& options_;
+    const StudyProgress& progress_;
+    BenchScene bare_;
+    std::vector<glm::dvec3> hips_;
+    std::vector<Entry> entries_;
+    std::vector<Configuration> configurations_;
+    std::map<double, truth::RestPath> rests_; ///< by radius
+    std::vector<std::pair<HapticSettings, std::vector<truth::FeltTick>>> references_;
+};
+
+void studyLadders(const Subject& subject, const StudyOptions& options, bool tessellation, StudyResult& result,
+                  const StudyProgress& progress) {
+    Run run(subject, options, progress);
+    std::vector<std::string> notes = subject.notes;
+    run.plan(tessellation, notes);
+    for (const std::string& note : notes)
+        result.notes.push_back(subject.bench.name + ": " + note);
+    run.feelAll();
+    run.time();
+    std::vector<RungResult> rungs;
+    run.report(rungs);
+    markPareto(rungs);
+    if (!rungs.empty() && std::all_of(rungs.begin(), rungs.end(),
+                                      [](const RungResult& rung) { return rung.errors.compared == 0; }))
+        result.problems.push_back(subject.bench.name + ": the stroke touched nothing");
+    std::move(rungs.begin(), rungs.end(), std::back_inserter(result.rungs));
+}
+
+} // namespace
+
+void studySubject(const Subject& subject, const StudyOptions& options, StudyResult& result,
+                  const StudyProgress& progress) {
+    studyLadders(subject, options, false, result, progress);
+}
+
+void studyTessellation(const ShapeKind& kind, const StudyOptions& options, StudyResult& result,
+                       const StudyProgress& progress) {
+    constexpr size_t kCoarsest = 1024;
+    size_t scenes = 0, done = 0;
+    for (size_t n = kCoarsest; n <= options.largestTriangles; n *= 4)
+        ++scenes;
+    for (size_t n = kCoarsest; n <= options.largestTriangles; n *= 4) {
+        const auto share = [&](const std::string& what, double fraction) {
+            progress(what, (static_cast<double>(done) + fraction) / static_cast<double>(scenes));
+        };
+        const Subject subject = kind.make(n);
+        studyLadders(subject, options, true, result, share);
+        ++done;
+    }
+}
+
+} // namespace touchstone::study

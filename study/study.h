@@ -1,0 +1,36 @@
+#pragma once
+// Shows what accuracy costs in time: climbs the ladders on a scene, measures each rung's errors against the
+// truth on one path and its time on stretches of the same path, all rungs in turn.
+
+#include "study/result.h"
+#include "study/subject.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace touchstone::study {
+
+struct StudyOptions {
+    std::vector<std::string> ladders; ///< empty: all
+    size_t errorTicks = 4000;         ///< of the path, from where the hand comes down
+    /// Of the oracle over a path, for each radius: a bound on its time, about 10 µs each.
+    size_t oracleMoves = 400'000;
+    int rounds = 30, ticksPerRound = 400;
+    /// Of a closed form's tessellation ladder: 2^10, 2^12, … up to this.
+    size_t largestTriangles = 1'048'576;
+};
+
+/// What is being done and how much of this subject is done, 0..1.
+using StudyProgress = std::function<void(const std::string& what, double fraction)>;
+
+/// Appends what the subject's rungs show, Pareto front marked, and notes. Calling thread and, for the truth,
+/// others.
+void studySubject(const Subject& subject, const StudyOptions& options, StudyResult& result,
+                  const StudyProgress& progress);
+
+/// A shape at each tessellation, the rungs of the ladder "tessellation" on each.
+void studyTessellation(const ShapeKind& kind, const StudyOptions& options, StudyResult& result,
+                       const StudyProgress& progress);
+
+} // namespace touchstone::study

@@ -1,0 +1,202 @@
+// What accuracy costs in time, on our shapes and on anybody's models: the command around study/.
+
+#include "engine/core/error.h"
+#include "study/compare_studies.h"
+#include "study/errors/noticeable.h"
+#include "study/ladder/ladder.h"
+#include "study/provenance.h"
+#include "study/report/report.h"
+#include "study/study.h"
+#include "workbench/commands.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace touchstone {
+
+namespace {
+
+using namespace study;
+
+/// A bar on a terminal, nothing in a log.
+class Bar {
+  public:
+    Bar() : shown_(isatty(STDERR_FILENO) != 0) {}
+    ~Bar() { clear(); }
+    Bar(const Bar&) = delete;
+    Bar& operator=(const Bar&) = delete;
+
+    void show(const std::string& name, const std::string& what, double all) const {
+        constexpr int kWidth = 30;
+        if (!shown_)
+            return;
+        const auto full = static_cast<size_t>(std::lround(kWidth * std::clamp(all, 0.0, 1.0)));
+        std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %s: %s", std::string(full, '#').c_str(),
+                     std::string(kWidth - full, '.').c_str(), 100.0 * all, name.c_str(), what.c_str());
+    }
+    void clear() const {
+        if (shown_)
+            std::fputs("\r\033[K", stderr);
+    }
+
+  private:
+    bool shown_;
+};
+
+const ShapeKind* kindNamed(const std::string& name) {
+    for (const ShapeKind& kind : shapeKinds())
+        if (kind.name == name)
+            return &kind;
+    return nullptr;
+}
+
+void printLadders() {
+    for (const Ladder& ladder : ladders()) {
+        std::printf("%s: %s\n  under every rung: %s\n", std::string(ladder.name).c_str(),
+                    std::string(ladder.question).c_str(), std::string(ladder.base).c_str());
+        for (const RungLine& line : rungLines())
+            if (line.ladder == ladder.name)
+                std::printf("  %-18s %s\n", std::string(line.name).c_str(),
+                            std::string(line.settings).c_str());
+        for (const Product& product : products())
+            if (product.ladder == ladder.name) {
+                std::printf("  every choice of one rung each of:");
+                for (const std::string_view axis : product.axes)
+                    std::printf(" %s", std::string(axis).c_str());
+                std::printf("\n");
+            }
+    }
+    std::printf("shapes:\n");
+    for (const ShapeKind& kind : shapeKinds())
+        std::printf("  %-18s %s; %s triangles\n", std::string(kind.name).c_str(),
+                    std::string(kind.what).c_str(), grouped(kind.triangles).c_str());
+}
+
+/// What is asked for, in a fixed order, and of it the part of this shard.
+std::vector<std::string> share(const StudyCommandOptions& options) {
+    std::vector<std::string> what = options.what;
+    if (what.empty())
+        for (const ShapeKind& kind : shapeKinds())
+            what.emplace_back(kind.name);
+    std::sort(what.begin(), what.end());
+    what.erase(std::unique(what.begin(), what.end()), what.end());
+    std::vector<std::string> mine;
+    for (size_t i = 0; i < what.size(); ++i)
+        if (i % static_cast<size_t>(options.shards) == static_cast<size_t>(options.shard - 1))
+            mine.push_back(what[i]);
+    return mine;
+}
+
+void studyOne(const std::string& name, const StudyOptions& options, bool tessellate, StudyResult& result,
+              const StudyProgress& progress) {
+    const ShapeKind* kind = kindNamed(name);
+    if (kind == nullptr) {
+        studySubject(loadSubject(name), options, result, progress);
+        return;
+    }
+    const double first = tessellate ? 0.5 : 1.0;
+    studySubject(kind->make(kind->triangles), options, result,
+                 [&](const std::string& what, double done) { progress(what, first * done); });
+    if (tessellate)
+        studyTessellation(*kind, options, result, [&](const std::string& what, double done) {
+            progress("tessellation, " + what, first + (1.0 - first) * done);
+        });
+}
+
+double sum(const std::array<Estimate, kStageCount>& stages) {
+    return std::accumulate(stages.begin(), stages.end(), 0.0,
+                           [](double total, const Estimate& stage) { return total + stage.value; });
+}
+
+void printTable(const StudyResult& result) {
+    std::string scene;
+    for (const RungResult& rung : result.rungs) {
+        if (rung.scene != scene) {
+            scene = rung.scene;
+            std::printf("\n%s, %s\n  * on the Pareto front, = what the program does by itself\n",
+                        scene.c_str(), rung.path.c_str());
+            std::printf("  %-56s %9s %17s %8s %10s %9s %9s\n", "rung", "ns", "95 %", "stages", "force mN",
+                        "angle", "proxy um");
+        }
+        const Errors& e = rung.errors;
+        std::printf("%c%c %-56s %9.0f %8.0f..%-7.0f %7.1f%% %10.4g %8.3f° %9.4g\n", rung.pareto ? '*' : ' ',
+                    rung.isDefault ? '=' : ' ', (rung.ladder + ": " + rung.rung).c_str(), rung.step.value,
+                    rung.step.low, rung.step.high,
+                    rung.stepMean.value > 0.0 ? 100.0 * (sum(rung.stages) / rung.stepMean.value - 1.0) : 0.0,
+                    1e3 * felt(e), e.forceDirection.p99 / 0.017453292519943295, 1e6 * e.position.p99);
+    }
+    std::printf(
+        "\nforce, angle and proxy: 99th percentile of the difference from the truth. stages: how much "
+        "the sum of the stages differs from the whole step.\n");
+}
+
+} // namespace
+
+int studyCommand(const StudyCommandOptions& options) {
+    if (options.list) {
+        printLadders();
+        return 0;
+    }
+    if (options.out.empty())
+        throw Error("study", "--out", "is missing", "say in which folder the results go");
+    StudyOptions plan;
+    plan.ladders = options.ladders;
+    if (options.quick) {
+        plan.rounds = 10;
+        plan.errorTicks = 1500;
+        plan.largestTriangles = 65'536;
+    }
+    if (options.rounds > 0)
+        plan.rounds = options.rounds;
+    const bool tessellate = plan.ladders.empty() || std::find(plan.ladders.begin(), plan.ladders.end(),
+                                                              "tessellation") != plan.ladders.end();
+    StudyResult result;
+    result.provenance = provenanceOf(options.commandLine);
+    result.noticeable = noticeableDifferences();
+    const std::vector<std::string> mine = share(options);
+    {
+        const Bar bar;
+        for (size_t i = 0; i < mine.size(); ++i) {
+            const auto progress = [&](const std::string& what, double done) {
+                bar.show(mine[i], what, (static_cast<double>(i) + done) / static_cast<double>(mine.size()));
+            };
+            try {
+                studyOne(mine[i], plan, tessellate, result, progress);
+            } catch (const Error& error) {
+                if (options.what.size() == 1)
+                    throw;
+                result.problems.emplace_back(error.what());
+            }
+        }
+    }
+    std::filesystem::create_directories(options.out);
+    writeStudyCsv(result, options.out / "study.csv");
+    writeStudyJson(result, options.out / "study.json");
+    printTable(result);
+    for (const std::string& note : result.notes)
+        std::printf("note: %s\n", note.c_str());
+    for (const std::string& problem : result.problems)
+        std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
+    std::printf("%s: %zu rungs, %zu problems\n", (options.out / "study.json").c_str(), result.rungs.size(),
+                result.problems.size());
+    return 0;
+}
+
+int studyCompare(const StudyCompareOptions& options) {
+    const OrderKept kept = compareOrder(readStudyJson(options.first), readStudyJson(options.second));
+    std::printf("%zu rungs in both, %zu in one only; errors differ in %zu\n", kept.matched, kept.onlyInOne,
+                kept.errorsChanged);
+    std::printf("Pareto front: %zu rungs in both, %zu in one only\n", kept.frontBoth, kept.frontOne);
+    std::printf("%zu pairs; %zu apart in the first study, %zu of these in the other order in the second\n"
+                "%zu apart in both studies, %zu of these in the other order\n",
+                kept.pairs, kept.apart, kept.swapped.size(), kept.bothApart, kept.swappedApart);
+    for (const std::string& pair : kept.swapped)
+        std::printf("  %s\n", pair.c_str());
+    return kept.swapped.empty() && kept.matched > 0 ? 0 : 1;
+}
+
+} // namespace touchstone
