@@ -23,6 +23,7 @@ DeviceSample MouseDevice::sample(double time) noexcept {
     const Goal& goal = goal_.value();
     if (!goal.held) {
         moving_ = false;
+        force_ = glm::dvec3(0.0);
         return {};
     }
     if (!moving_) {
@@ -31,7 +32,7 @@ DeviceSample MouseDevice::sample(double time) noexcept {
         lastTime_ = time;
         moving_ = true;
     }
-    follow(goal.position, std::clamp(time - lastTime_, 0.0, kLongestStep));
+    follow(goal.position + force_ / smoothing_.stiffness, std::clamp(time - lastTime_, 0.0, kLongestStep));
     lastTime_ = std::max(lastTime_, time);
 
     DeviceSample sample;

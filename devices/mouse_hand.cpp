@@ -18,6 +18,25 @@ void MouseHand::goHome() {
     goal_ = home_;
 }
 
+void MouseHand::pointAt(const PointedSurface& surface, const MousePress& press) {
+    // In series: force = hand stiffness * (goal to hand) = surface stiffness * (hand to surface).
+    const double depth = press.force > 0.0
+                             ? press.force / press.handStiffness + press.force / press.surfaceStiffness
+                             : -kHover;
+    moveTo(surface.point - depth * surface.normal);
+}
+
+void MouseHand::pointPast(const ViewAxes& view, const glm::dvec3& eye, const glm::dvec3& direction) {
+    const double forward = glm::dot(direction, view.away);
+    if (!(forward > 0.0))
+        return;
+    moveTo(eye + glm::dot(goal_ - eye, view.away) / forward * direction);
+}
+
+void MouseHand::moveTo(const glm::dvec3& place) {
+    moveBy(place - goal_);
+}
+
 void MouseHand::moveBy(const glm::dvec3& displacement) {
     // A view that looks along no direction (a camera inside its own target) moves nothing.
     const double length = glm::length(displacement);

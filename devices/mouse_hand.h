@@ -12,6 +12,19 @@ struct ViewAxes {
     glm::dvec3 away{0.0, 0.0, -1.0};
 };
 
+/// What lies under the pointer.
+struct PointedSurface {
+    glm::dvec3 point{0.0};  ///< m, device frame
+    glm::dvec3 normal{0.0}; ///< unit, towards the viewer
+};
+
+/// How hard a hand that is on the surface presses, and how soft that and the hand's own hold are.
+struct MousePress {
+    double force = 0.6;              ///< N along the normal; 0: hovers
+    double handStiffness = 150.0;    ///< N/m, MouseSmoothing::stiffness
+    double surfaceStiffness = 600.0; ///< N/m
+};
+
 /// Turns what a mouse does in a view into where the hand wants to be, in the device frame, m. The camera says
 /// how far a drag reaches on the plane through the hand (so that the hand stays under the pointer). Main
 /// thread.
@@ -25,6 +38,14 @@ class MouseHand {
     void drag(const ViewAxes& view, double right, double up);
     /// `away`: m in depth, positive away from the viewer.
     void push(const ViewAxes& view, double away);
+    /// m in front of the surface at which a hand that does not press stays.
+    static constexpr double kHover = 3e-3;
+    /// Onto the surface under the pointer: so deep below it that hand and surface, which both yield, hold
+    /// each other at `press.force`; without force kHover in front of it.
+    void pointAt(const PointedSurface& surface, const MousePress& press);
+    /// The pointer points past the model, along the line from `eye` along the unit vector `direction`: there,
+    /// as far from the viewer as the hand is.
+    void pointPast(const ViewAxes& view, const glm::dvec3& eye, const glm::dvec3& direction);
     /// Back to where it began.
     void goHome();
 
@@ -32,6 +53,7 @@ class MouseHand {
 
   private:
     void moveBy(const glm::dvec3& displacement);
+    void moveTo(const glm::dvec3& place);
 
     glm::dvec3 home_, goal_;
     double reach_;
