@@ -30,6 +30,30 @@ glm::vec4 unitOrZero(const glm::dvec3& v) {
     return length > 0.0 ? glm::vec4(glm::vec3(v / length), 0.0f) : glm::vec4(0.0f);
 }
 
+void setSurroundings(const Surroundings& from, float exposure, shared::FrameUniforms& to) {
+    const auto exposed = [exposure](const glm::vec3& radiance) {
+        return glm::vec4(exposure * radiance, 0.0f);
+    };
+    const std::array<glm::dvec3, 9> irradiance = irradiancePolynomial(from);
+    for (size_t i = 0; i < 4; ++i)
+        to.irradiance[i] = exposed(glm::vec3(irradiance[i]));
+    const auto grey = [&](size_t i) {
+        return exposure * static_cast<float>((irradiance[i].x + irradiance[i].y + irradiance[i].z) / 3.0);
+    };
+    to.irradianceSquares = {grey(4), grey(5), grey(6), grey(7)};
+    to.irradiance[0].w = grey(8);
+    to.horizon = exposed(from.horizon);
+    to.skyRise = exposed(from.zenith - from.horizon);
+    to.rim = exposed(from.rim);
+    to.floorFall = exposed(from.below - from.rim);
+    for (size_t i = 0; i < from.lamps.size(); ++i) {
+        const Lamp& lamp = from.lamps[i];
+        to.lampAxis[i] = unitOrZero(lamp.towards);
+        to.lampAxis[i].w = static_cast<float>(lamp.sharpness);
+        to.lampRadiance[i] = exposed(lamp.radiance);
+    }
+}
+
 /// Rows of the affine map and of its cofactor matrix, which takes normals also where the map is singular.
 bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item) {
     // Columns of the cofactor matrix; det = dot of a column with its cofactor.
@@ -176,7 +200,8 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye) 
     if (!scene_)
         return;
     const Scene& scene = scene_->scene();
-    const uint32_t light = secondLight_ ? shared::kHasSecondLight : 0u;
+    const uint32_t light = (view.lights[1].irradiance != glm::vec3(0.0f) ? shared::kHasSecondLight : 0u) |
+                           (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const GpuScene::MeshRange& mesh = scene_->mesh(scene.instances[i].mesh);
         if (mesh.indexCount == 0)
@@ -204,8 +229,8 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye) 
     });
 }
 
-void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const Overlay& overlay,
-                                        vk::Extent2D extent) {
+void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye,
+                                        const Overlay& overlay, vk::Extent2D extent) {
     shared::FrameUniforms uniforms{};
     const glm::dmat4 viewFromEye(glm::dmat3(view.viewFromWorkspace));
     uniforms.clipFromEye = glm::mat4(view.clipFromView * viewFromEye);
@@ -214,8 +239,9 @@ void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const
     const float exposure = view.exposure;
     uniforms.irradiance0 = glm::vec4(exposure * view.lights[0].irradiance, 0.0f);
     uniforms.irradiance1 = glm::vec4(exposure * view.lights[1].irradiance, 0.0f);
-    uniforms.sky = glm::vec4(exposure * view.ambient.sky, 0.0f);
-    uniforms.floorLight = glm::vec4(exposure * view.ambient.floor, 0.0f);
+    setSurroundings(view.surroundings, exposure, uniforms);
+    uniforms.probe = glm::vec4(
+        glm::dvec4(view.probe.centre - eye, view.probe.radius > 0.0 ? 1.0 / view.probe.radius : 0.0));
     uniforms.backgroundTop = glm::vec4(view.background.top, 1.0f);
     uniforms.backgroundBottom = glm::vec4(view.background.bottom, 1.0f);
     uniforms.image = {static_cast<float>(extent.width), static_cast<float>(extent.height),
@@ -251,12 +277,19 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
         vk::PipelineBindPoint::eGraphics, layout, 1,
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
     const bool bothSides = scene.materials[static_cast<size_t>(materialIndex)].doubleSided;
-    commands.setCullMode(bothSides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+    // What shines through shows its far side first, then its near side.
+    const bool twice = shaded && bothSides && (item.features & shared::kIsBlended) != 0;
     commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     commands.pushConstants<shared::ObjectConstants>(layout, vk::ShaderStageFlagBits::eVertex, 0,
                                                     item.constants);
-    commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.firstVertex, 0);
-    ++statistics.drawCalls;
+    using Cull = vk::CullModeFlagBits;
+    for (const Cull cull : {Cull::eFront, bothSides && !twice ? Cull::eNone : Cull::eBack}) {
+        if (cull == Cull::eFront && !twice)
+            continue;
+        commands.setCullMode(cull);
+        commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.firstVertex, 0);
+        ++statistics.drawCalls;
+    }
 }
 
 void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
@@ -397,11 +430,10 @@ void SceneRenderer::Impl::render(const View& view, const Overlay& overlay, int w
     }
     const glm::dmat3 viewAxes(view.viewFromWorkspace);
     const glm::dvec3 eye = -(glm::inverse(viewAxes) * glm::dvec3(view.viewFromWorkspace[3]));
-    secondLight_ = view.lights[1].irradiance != glm::vec3(0.0f);
     statistics.drawCalls = 0;
     collectDraws(view, eye);
     const OverlayDraw draw = layOut(overlay, eye);
-    writeUniforms(slot, view, overlay, extent);
+    writeUniforms(slot, view, eye, overlay, extent);
     writeOverlay(slot, draw);
     record(slot, view, overlay, draw);
     gpu.device.resetFences(*slot.done);

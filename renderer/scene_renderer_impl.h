@@ -57,7 +57,8 @@ struct SceneRenderer::Impl {
     void resize(FrameSlot& slot, vk::Extent2D extent);
     void waitFor(FrameSlot& slot);
     void collectDraws(const View& view, const glm::dvec3& eye);
-    void writeUniforms(FrameSlot& slot, const View& view, const Overlay& overlay, vk::Extent2D extent);
+    void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
+                       vk::Extent2D extent);
     void writeOverlay(FrameSlot& slot, const OverlayDraw& draw);
     void record(FrameSlot& slot, const View& view, const Overlay& overlay, const OverlayDraw& draw);
     void drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, ViewMode mode);
@@ -74,7 +75,6 @@ struct SceneRenderer::Impl {
     size_t next_ = 0;
     FrameSlot* last_ = nullptr;
     std::vector<DrawItem> draws_; ///< kept between frames for its memory
-    bool secondLight_ = false;
 };
 
 } // namespace touchstone

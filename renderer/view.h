@@ -3,6 +3,7 @@
 
 #include "engine/math/similarity.h"
 #include "renderer/camera.h"
+#include "renderer/surroundings.h"
 
 #include <glm/glm.hpp>
 
@@ -25,10 +26,11 @@ struct DirectionalLight {
     glm::vec3 irradiance{0.0f};        ///< linear RGB at normal incidence; zero is off
 };
 
-/// Light from everywhere, a sky above and a floor below (workspace y), linear RGB radiance.
-struct Ambient {
-    glm::vec3 sky{0.40f, 0.43f, 0.48f};
-    glm::vec3 floor{0.17f, 0.155f, 0.145f};
+/// A ball that takes light from the surface near it, so that its height above the surface can be judged. It
+/// casts no shadow through the camera's other objects: only the first light and the surroundings count.
+struct ProbeShadow {
+    glm::dvec3 centre{0.0}; ///< workspace, m
+    double radius = 0.0;    ///< m; 0: none
 };
 
 /// Linear RGB at the upper and lower edge of the image; not exposed or tone mapped.
@@ -43,13 +45,14 @@ struct View {
     Similarity workspaceFromScene;
     ViewMode mode = ViewMode::Shaded;
     std::array<DirectionalLight, 2> lights{};
-    Ambient ambient;
+    Surroundings surroundings;
+    ProbeShadow probe;
     Background background;
     float exposure = 1.0f; ///< factor before tone mapping
 };
 
-/// The view of a camera with a key light over its left shoulder and a fill light from the right, both moving
-/// with the camera, so that the side one looks at is always lit.
+/// The view of a camera with a key light over its left shoulder and soft lamps on both sides, which all move
+/// with the camera, so that the side one looks at is always lit and metal has something to reflect.
 [[nodiscard]] View viewOf(const OrbitCamera& camera, const Similarity& workspaceFromScene, double aspect);
 
 } // namespace touchstone

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Metallic-roughness of glTF 2.0 under two directional lights and an analytic surrounding.
+// Metallic-roughness of glTF 2.0 under two directional lights and analytic surroundings (renderer/surroundings.h).
 #include "shared/scene_types.h"
 
 layout(constant_id = 0) const uint kFeatures = 0u;
@@ -46,12 +46,46 @@ vec3 reflected(vec3 n, vec3 v, vec3 l, float nv, float alpha, vec3 diffuse, vec3
     return (diffuse + fresnel * (0.5 * a2 / (visibilityDivisor * d * d))) * (nl * 0.31830989); // 1/pi for both
 }
 
-/// Radiance of the surroundings around direction r: floor below, sky above that brightens to the zenith, with a
-/// horizon as wide as the reflection is blurred.
-vec3 surroundings(vec3 r, float blur) {
-    const float width = 0.08 + 0.92 * blur;
-    const float above = smoothstep(-width, width, r.y);
-    return mix(frame.floorLight.rgb * (1.0 + 0.4 * r.y), frame.sky.rgb * (0.75 + 0.5 * r.y), above);
+/// Irradiance / pi of the surroundings.
+vec3 irradianceAt(vec3 n) {
+    const vec4 squares = frame.irradianceSquares * vec4(n.x * n.y, n.y * n.z, n.z * n.x, n.x * n.x);
+    const float grey = squares.x + squares.y + squares.z + squares.w + frame.irradiance[0].w * (n.y * n.y);
+    return max(frame.irradiance[0].rgb + frame.irradiance[1].rgb * n.x + frame.irradiance[2].rgb * n.y +
+                   frame.irradiance[3].rgb * n.z + grey,
+               vec3(0.0));
+}
+
+/// A lamp, radiance / (1 + s (1 - cos))^2, seen in direction r through a lobe of the same form and sharpness 1 / blur:
+/// widths add, and what is wider is fainter: d / (d + s (1 - cos))^2 with d = 1 + s blur.
+vec3 lampAround(vec3 r, float blur, vec4 axis, vec3 radiance) {
+    const float d = 1.0 + axis.w * blur;
+    const float u = d + axis.w * (1.0 - dot(axis.xyz, r));
+    return radiance * (d / (u * u));
+}
+
+/// Radiance of the surroundings around direction r, with a horizon as wide as the reflection is blurred. Near its
+/// middle a GGX lobe is 1 / (1 + 4 (1 - cos) / (2 alpha^2))^2 in the reflected direction, half as sharp as in the normal's.
+vec3 surroundings(vec3 r, float roughness, float alpha) {
+    const float width = 0.06 + 0.94 * roughness;
+    const float above = clamp(0.5 + 0.5 * r.y / width, 0.0, 1.0);
+    const vec3 sky = mix(frame.rim.rgb - frame.floorFall.rgb * r.y, frame.horizon.rgb + frame.skyRise.rgb * r.y, above);
+    const float blur = 2.0 * alpha * alpha;
+    return sky + lampAround(r, blur, frame.lampAxis[0], frame.lampRadiance[0].rgb) +
+           lampAround(r, blur, frame.lampAxis[1], frame.lampRadiance[1].rgb);
+}
+
+/// What the probe leaves of the first light (x) and of the surroundings (y); lengths in its radii. The shadow widens with
+/// the distance along the light and fades as the ball covers less of it; of the surroundings a ball hides
+/// cos(angle) (radius / distance)^2.
+vec2 leftByProbe(vec3 n, vec3 l) {
+    const vec3 away = (frame.probe.xyz - eyePosition) * frame.probe.w;
+    const float along = dot(away, l), distance2 = dot(away, away);
+    const float width = 1.25 + 0.13 * max(along, 0.0);
+    const float cover = 1.0 / (width * width);
+    const float inside = max(0.0, 1.0 - max(distance2 - along * along, 0.0) * cover);
+    const float shadow = along > -1.0 ? min(1.0, 2.2 * inside) * min(1.0, 1.5 * cover) : 0.0;
+    const float nearness = inversesqrt(max(distance2, 1.0));
+    return vec2(1.0 - 0.9 * shadow, 1.0 - max(dot(n, away), 0.0) * nearness * nearness * nearness);
 }
 
 /// Integral of the specular lobe over a uniform surrounding, as scale of f0 and bias: the fit of Karis, "Physically
@@ -110,12 +144,15 @@ void main() {
     const vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
     const vec3 diffuse = base.rgb * (0.96 * (1.0 - metallic));
 
-    vec3 color = frame.irradiance0.rgb * reflected(n, v, frame.toLight0.xyz, nv, alpha, diffuse, f0);
+    vec2 left = vec2(1.0);
+    if (has(kHasProbeShadow)) left = leftByProbe(n, frame.toLight0.xyz);
+    vec3 color = frame.irradiance0.rgb * (left.x * reflected(n, v, frame.toLight0.xyz, nv, alpha, diffuse, f0));
     if (has(kHasSecondLight))
         color += frame.irradiance1.rgb * reflected(n, v, frame.toLight1.xyz, nv, alpha, diffuse, f0);
     const vec2 brdf = environmentBrdf(roughness, nv);
     const vec3 r = reflect(-v, n);
-    color += occlusion * (diffuse * surroundings(n, 1.0) + (f0 * brdf.x + brdf.y) * surroundings(r, roughness));
+    color += (occlusion * left.y) *
+             (diffuse * irradianceAt(n) + (f0 * brdf.x + brdf.y) * surroundings(r, roughness, alpha));
     if (has(kHasEmission)) {
         vec3 emission = material.emissiveCutoff.rgb;
         if (has(kHasEmissiveTexture)) emission *= texture(emissiveMap, uvOf(kEmissiveSlot)).rgb;

@@ -230,6 +230,8 @@ class Workbench {
         }
         View view = viewOf(view_.camera(), shown_.model.workspaceFromScene, aspect());
         view.mode = state_.view.mode;
+        if (hasModel())
+            view.probe = probeShadow(servo_.snapshot(), state_.settings);
         renderer_.render(view, overlay_, input.sceneSize.x, input.sceneSize.y);
         target_.endFrame(&renderer_, {0, 0, area.x, area.y});
         status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());

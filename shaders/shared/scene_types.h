@@ -26,8 +26,15 @@ struct FrameUniforms {
     vec4 toLight1;
     vec4 irradiance0;      ///< rgb, exposed
     vec4 irradiance1;
-    vec4 sky;              ///< rgb radiance, exposed
-    vec4 floorLight;
+    vec4 irradiance[4];    ///< rgb: irradiance / pi of the surroundings: k0 + k1 x + k2 y + k3 z, exposed; and the grey
+    vec4 irradianceSquares;///< k4 xy + k5 yz + k6 zx + k7 x² (k8 y² in irradiance[0].w)
+    vec4 horizon;          ///< rgb radiance of the sky: horizon + skyRise y, and of the floor: rim - floorFall y; exposed
+    vec4 skyRise;
+    vec4 rim;
+    vec4 floorFall;
+    vec4 lampAxis[2];      ///< xyz unit, workspace axes; w: sharpness
+    vec4 lampRadiance[2];  ///< rgb, exposed
+    vec4 probe;            ///< xyz centre in the eye frame, w 1 / radius: what casts the probe's shadow
     vec4 backgroundTop;    ///< rgb
     vec4 backgroundBottom;
     vec4 image;            ///< width, height in pixels; alpha factor of hidden overlays
@@ -80,6 +87,7 @@ TOUCHSTONE_CONST uint kSharesOcclusion = 512u;     ///< occlusion is R of the me
 TOUCHSTONE_CONST uint kIsMasked = 1024u;
 TOUCHSTONE_CONST uint kIsBlended = 2048u;
 TOUCHSTONE_CONST uint kHasSecondLight = 4096u;
+TOUCHSTONE_CONST uint kHasProbeShadow = 8192u;
 
 // Views of false_color.frag.
 TOUCHSTONE_CONST uint kShowsMap = 0u;

@@ -30,7 +30,7 @@ TEST_F(Golden, TorusWithOverlay) {
     dark.lights[0].irradiance = glm::vec3(0.0f);
     expectMutationIsSeen("torus", "key light off", draw(scene, dark, touchOverlay()));
     View flat = view;
-    flat.ambient = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    flat.surroundings = Surroundings::dark();
     expectMutationIsSeen("torus", "surroundings off", draw(scene, flat, touchOverlay()));
 }
 

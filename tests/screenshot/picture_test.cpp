@@ -25,7 +25,7 @@ class Picture : public RendererFixture {
         View view = viewOf(camera, {}, 1.0);
         for (DirectionalLight& light : view.lights)
             light.irradiance = glm::vec3(0.0f);
-        view.ambient = {glm::vec3(0.0f), glm::vec3(0.0f)};
+        view.surroundings = Surroundings::dark();
         view.background = {glm::vec3(0.0f), glm::vec3(0.0f)};
         return view;
     }
@@ -144,6 +144,51 @@ TEST_F(Picture, BackFacesShowOnlyWhereTheMaterialIsTwoSided) {
     EXPECT_TRUE(seen(turned, true));
     EXPECT_TRUE(seen(mirrored, false)) << "a mirrored object shows its outside";
     EXPECT_FALSE(seen(turned * mirrored, false));
+}
+
+TEST_F(Picture, TheProbesShadowTellsItsHeight) {
+    View view = squareView();
+    view.lights[0] = {{0.0, 0.0, 1.0}, glm::vec3(2.0f)};
+    view.surroundings = Surroundings{};
+    auto scene = std::make_shared<Scene>();
+    Material material;
+    material.baseColor = {0.4f, 0.4f, 0.4f, 1.0f};
+    material.metallic = 0.0f;
+    scene->materials.push_back(material);
+    place(*scene, quadMesh(1.0), 0);
+    const auto middle = [&](double height, double radius) {
+        view.probe = {{0.0, 0.0, height}, radius};
+        return at(draw(scene, view, {}, 65, 65), 32, 32).x;
+    };
+    const int lit = middle(0.1, 0.0), near = middle(0.1, 0.05), higher = middle(0.3, 0.05),
+              far = middle(5.0, 0.05);
+    EXPECT_LT(near, 0.75 * lit);
+    EXPECT_GT(higher, near + 10);
+    EXPECT_GT(far, higher + 10);
+    EXPECT_NEAR(far, lit, 3);
+    view.probe = {{0.0, 0.0, 0.1}, 0.05};
+    EXPECT_NEAR(at(draw(scene, view, {}, 65, 65), 60, 32).x, lit, 3) << "the shadow stays near";
+}
+
+TEST_F(Picture, WhatShinesThroughIsSeenBehindItsOwnNearSide) {
+    // Two parallel sheets of one two-sided mesh, the near one listed first: both tint what is behind.
+    View view = squareView();
+    view.background = {glm::vec3(1.0f), glm::vec3(1.0f)};
+    const auto seen = [&](int sheets) {
+        auto scene = std::make_shared<Scene>();
+        Material material = emitter({});
+        material.baseColor = {0.0f, 0.0f, 0.0f, 0.5f};
+        material.emissive = glm::vec3(0.0f);
+        material.alphaMode = AlphaMode::Blend;
+        material.doubleSided = true;
+        scene->materials.push_back(material);
+        for (int i = 0; i < sheets; ++i)
+            place(*scene, quadMesh(0.5), 0, glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.1 * i)));
+        return at(draw(scene, view, {}, 32, 32), 16, 16).x;
+    };
+    // Half and a quarter of white, as sRGB.
+    EXPECT_NEAR(seen(1), 188, 2);
+    EXPECT_NEAR(seen(2), 137, 2);
 }
 
 TEST_F(Picture, DistanceFromTheOriginChangesNothing) {

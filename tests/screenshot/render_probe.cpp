@@ -2,7 +2,8 @@
 // counts, and frame times.
 //   render_probe pixels FILE            raw RGBA8 of one 320x180 frame
 //   render_probe png FILE WIDTH HEIGHT  one picture
-//   render_probe bench FRAMES WIDTH HEIGHT
+//   render_probe bench FRAMES WIDTH HEIGHT [MODEL]   of the torus or another model, with the probe's shadow
+#include "engine/scene/scene_loader.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
 #include "tests/screenshot/scenes.h"
@@ -21,14 +22,16 @@ namespace {
 struct Probe {
     std::unique_ptr<Gpu> gpu = Gpu::headless();
     SceneRenderer renderer{*gpu};
-    std::shared_ptr<Scene> scene = torusScene();
+    ScenePtr scene;
 
-    explicit Probe() { renderer.setScene(scene); }
+    explicit Probe(ScenePtr shown = torusScene()) : scene(std::move(shown)) { renderer.setScene(scene); }
     void draw(int width, int height, double turn) {
         const double aspect = static_cast<double>(width) / height;
         OrbitCamera camera = cameraFor(*scene, aspect);
         camera.orbit(turn, 0.0);
-        renderer.render(viewOf(camera, {}, aspect), touchOverlay(), width, height);
+        View view = viewOf(camera, {}, aspect);
+        view.probe = {camera.target + 0.3 * camera.sceneRadius * camera.up(), 0.02 * camera.sceneRadius};
+        renderer.render(view, touchOverlay(), width, height);
     }
 };
 
@@ -41,8 +44,8 @@ void writePixels(const char* file) {
                static_cast<std::streamsize>(pixels.bytes.size()));
 }
 
-void bench(int frames, int width, int height) {
-    Probe probe;
+void bench(int frames, int width, int height, ScenePtr scene) {
+    Probe probe(std::move(scene));
     for (int i = 0; i < 5; ++i)
         probe.draw(width, height, 0.0);
     probe.gpu->waitIdle();
@@ -83,11 +86,13 @@ int run(const std::vector<std::string>& arguments) {
         Probe probe;
         probe.draw(number(2), number(3), 0.0);
         writePng(arguments[1], probe.renderer.readPixels());
-    } else if (arguments.size() == 4 && arguments[0] == "bench") {
-        bench(number(1), number(2), number(3));
+    } else if ((arguments.size() == 4 || arguments.size() == 5) && arguments[0] == "bench") {
+        bench(number(1), number(2), number(3),
+              arguments.size() == 5 ? loadScene(arguments[4]) : torusScene());
     } else {
-        std::fprintf(stderr,
-                     "usage: render_probe pixels FILE | png FILE WIDTH HEIGHT | bench FRAMES WIDTH HEIGHT\n");
+        std::fprintf(
+            stderr,
+            "usage: render_probe pixels FILE | png FILE WIDTH HEIGHT | bench FRAMES WIDTH HEIGHT [MODEL]\n");
         return 2;
     }
     return 0;

@@ -43,4 +43,8 @@ void drawTick(const TickRecord& record, const HapticSettings& settings, Overlay&
         overlay.spheres.push_back({tick.stictionPoint, kStictionRadius, kStictionColor});
 }
 
+ProbeShadow probeShadow(const TickRecord& record, const HapticSettings& settings) {
+    return {record.output.proxy, std::max(settings.proxyRadius, kLeastProxyRadius)};
+}
+
 } // namespace touchstone

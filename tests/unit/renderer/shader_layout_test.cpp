@@ -46,14 +46,21 @@ Layouts layoutsOf(std::span<const uint32_t> code) {
 TEST(ShaderLayout, FrameUniforms) {
     const Layouts layouts = layoutsOf(shaders::scene_frag);
     ASSERT_TRUE(layouts.count("FrameUniforms"));
-    EXPECT_EQ(layouts.at("FrameUniforms").size(), 11u) << "a member that this test does not know";
+    EXPECT_EQ(layouts.at("FrameUniforms").size(), 18u) << "a member that this test does not know";
     EXPECT_SAME_PLACE(layouts, FrameUniforms, clipFromEye);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight0);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight1);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, irradiance0);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, irradiance1);
-    EXPECT_SAME_PLACE(layouts, FrameUniforms, sky);
-    EXPECT_SAME_PLACE(layouts, FrameUniforms, floorLight);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, irradiance);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, irradianceSquares);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, horizon);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, skyRise);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, rim);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, floorFall);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, lampAxis);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, lampRadiance);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, probe);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, backgroundTop);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, backgroundBottom);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, image);
