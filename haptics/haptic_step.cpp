@@ -342,6 +342,9 @@ template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&,
 template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
                                          WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
                                          StageStopwatch&) noexcept;
+template void hapticStep<SplitStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                         WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                         SplitStopwatch&) noexcept;
 template void hapticStep<StageTracer>(const HapticScene&, const HapticSettings&, const TickInput&,
                                       WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
                                       StageTracer&) noexcept;

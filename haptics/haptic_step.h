@@ -61,8 +61,8 @@ struct HapticOutput {
 
 /// One tick: sample, contact, proxy, shading, texture, friction, force, safety (DESIGN §2). Deterministic; no
 /// clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per device of `input`.
-/// Stopwatch: StageTracer on the servo and wherever its bits are to be met again, StageStopwatch and
-/// NoStopwatch where cost is studied.
+/// Stopwatch: StageTracer on the servo and wherever its bits are to be met again, StageStopwatch,
+/// SplitStopwatch and NoStopwatch where cost is studied.
 template <class Stopwatch>
 void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                 WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,
@@ -74,6 +74,9 @@ extern template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSet
 extern template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
                                                 WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
                                                 StageStopwatch&) noexcept;
+extern template void hapticStep<SplitStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                                WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                                SplitStopwatch&) noexcept;
 extern template void hapticStep<StageTracer>(const HapticScene&, const HapticSettings&, const TickInput&,
                                              WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
                                              StageTracer&) noexcept;

@@ -5,8 +5,8 @@
 #include "study/ladder/ladder.h"
 #include "study/pareto.h"
 #include "study/timing/clock_cost.h"
-#include "study/timing/interval.h"
 #include "study/timing/rungs.h"
+#include "study/timing/step_figures.h"
 
 #include <algorithm>
 #include <future>
@@ -180,19 +180,11 @@ class Run {
     }
 
     static void addTimes(const RungTimes& times, double clock, RungResult& result) {
-        std::vector<double> medians, means;
-        std::array<std::vector<double>, kStageCount> stages;
-        for (const RoundTimes& round : times.rounds) {
-            medians.push_back(round.median - clock);
-            means.push_back(round.mean - clock);
-            for (size_t s = 0; s < kStageCount; ++s)
-                stages[s].push_back(round.stages[s] - clock);
-        }
-        result.step = medianOf(medians);
-        result.stepMean = meanOf(means);
-        for (size_t s = 0; s < kStageCount; ++s)
-            result.stages[s] = meanOf(stages[s]);
-        if (times.rounds.empty())
+        const StepFigures figures = figuresOf(times.rounds, clock);
+        result.step = figures.median;
+        result.stepMean = figures.mean;
+        result.stages = figures.stages;
+        if (times.step.empty())
             return;
         result.stepP99 = times.p99() - clock;
         result.rayFloor = times.rayMedian() - clock;

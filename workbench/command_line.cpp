@@ -323,10 +323,10 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
         ->type_name("NAME")
         ->expected(1)
         ->take_all();
-    app.add_option("--rounds", options.rounds, "Turns that every rung takes [30]")
+    app.add_option("--rounds", options.rounds, "Turns that every rung takes [100]")
         ->type_name("N")
         ->check(CLI::Range(2, 10000));
-    app.add_flag("--quick", options.quick, "A rougher answer in a third of the time");
+    app.add_flag("--quick", options.quick, "A rougher answer in less time");
     app.add_flag("--list", options.list, "Print the ladders and shapes");
     app.add_option_function<std::string>(
            "--shard", [&options](const std::string& text) { parseShard(text, options); },

@@ -8,7 +8,7 @@
 #include "haptics/servo/realtime_thread.h"
 
 #include <algorithm>
-#include <numeric>
+#include <optional>
 
 namespace touchstone {
 
@@ -18,30 +18,15 @@ constexpr double kTick = 1e-3;     // s
 constexpr double kApproach = 0.02; // m, above the stroke's depth when it begins
 constexpr double kDescent = 0.1;   // m/s
 
-constexpr size_t kFewest = 20; ///< ticks in contact that a round must have to be one
-constexpr double kKept = 0.99; ///< share of a round's ticks that its means are of
+/// Ticks in a row that are timed alike, so that the processor finds its code and its branches as it left them.
+constexpr uint64_t kAlike = 4;
 
-struct Staged {
-    int64_t whole;
-    std::array<int64_t, kStageCount> stages;
-};
-
-/// Sorts both.
-RoundTimes roundOf(std::vector<double>& plain, std::vector<Staged>& staged) {
-    RoundTimes round;
-    std::sort(plain.begin(), plain.end());
-    round.median = 0.5 * (plain[(plain.size() - 1) / 2] + plain[plain.size() / 2]);
-    round.ticks = static_cast<size_t>(kKept * static_cast<double>(plain.size()));
-    for (size_t i = 0; i < round.ticks; ++i)
-        round.mean += plain[i] / static_cast<double>(round.ticks);
-    std::sort(staged.begin(), staged.end(),
-              [](const Staged& a, const Staged& b) { return a.whole < b.whole; });
-    round.stagedTicks = static_cast<size_t>(kKept * static_cast<double>(staged.size()));
-    for (size_t i = 0; i < round.stagedTicks; ++i)
-        for (size_t s = 0; s < kStageCount; ++s)
-            round.stages[s] +=
-                static_cast<double>(staged[i].stages[s]) / static_cast<double>(round.stagedTicks);
-    return round;
+/// The stage at whose end the clock is read in a tick, or none.
+std::optional<Stage> splitOf(uint64_t tick) {
+    const uint64_t turn = tick / kAlike % (2 * kStageCount);
+    if (turn % 2 == 0)
+        return std::nullopt;
+    return static_cast<Stage>(turn / 2);
 }
 
 /// One rung with what it remembers from turn to turn.
@@ -65,27 +50,28 @@ class Turn {
         touched_.reserve(hands_.size());
         for (size_t i = 0; i < hands_.size(); ++i)
             hands_[i] = handAt(number_ + i);
-        std::vector<Staged> staged;
-        std::vector<double> plain;
-        staged.reserve(hands_.size());
-        plain.reserve(hands_.size());
+        RoundTimes round;
+        round.whole.reserve(hands_.size());
+        for (auto& split : round.upTo)
+            split.reserve(hands_.size() / kStageCount);
         Samples step;
         int64_t longest = 0;
         const RealtimeViolations before = realtime::violations();
         for (size_t i = 0; i < hands_.size(); ++i) {
-            const bool byStage = stages && i % 2 == 1;
-            const int64_t ns = byStage ? stagedTick(hands_[i], times) : tick(hands_[i], times);
+            const std::optional<Stage> split = stages ? splitOf(number_) : std::nullopt;
+            const int64_t ns = split ? splitTick(hands_[i], *split, times) : tick(hands_[i], times);
             times.pinchedTicks += has(output_.flags, TickFlag::Pinched) ? 1 : 0;
-            longest = std::max(longest, ns);
+            if (!split)
+                longest = std::max(longest, ns);
             if (output_.contacts == 0)
                 continue;
             touched_.push_back({output_.proxy, output_.hip, output_.object, touchedPose()});
-            if (byStage) {
-                staged.push_back({ns, watch_.nanoseconds});
+            if (split) {
+                round.upTo[static_cast<size_t>(*split)].push_back(static_cast<double>(ns));
                 continue;
             }
             if (stages)
-                plain.push_back(static_cast<double>(ns));
+                round.whole.push_back(static_cast<double>(ns));
             step.add(ns);
             times.step.add(ns);
             times.iterations += output_.iterations;
@@ -101,8 +87,8 @@ class Turn {
         times.contactTicks += step.count();
         times.medians.push_back(static_cast<double>(step.percentile(0.5)));
         times.longest.add(longest);
-        if (stages && plain.size() >= kFewest && staged.size() >= kFewest)
-            times.rounds.push_back(roundOf(plain, staged));
+        if (stages)
+            times.rounds.push_back(std::move(round));
         castRays(times);
     }
 
@@ -116,10 +102,11 @@ class Turn {
         NoStopwatch none;
         return tickWith(hand, times, none);
     }
-    /// The sum of the stages: reading the clock is part of each of them.
-    int64_t stagedTick(const glm::dvec3& hand, RungTimes& times) {
-        tickWith(hand, times, watch_);
-        return std::accumulate(watch_.nanoseconds.begin(), watch_.nanoseconds.end(), int64_t{0});
+    int64_t splitTick(const glm::dvec3& hand, Stage until, RungTimes& times) {
+        SplitStopwatch watch;
+        watch.until = until;
+        tickWith(hand, times, watch);
+        return watch.nanoseconds;
     }
 
     template <class Stopwatch>
@@ -183,7 +170,6 @@ class Turn {
     MovingObjects moving_;
     ObjectMotions motions_;
     std::vector<glm::dvec3> hands_;
-    StageStopwatch watch_;
     HapticOutput output_; ///< one for all ticks, as the servo has it
     std::vector<Touched> touched_;
     uint64_t number_ = 0;

@@ -23,12 +23,10 @@ struct Rung {
     double speed = 0.1; ///< m/s
 };
 
-/// One turn of a rung: its ticks in contact, ns, reading the clock left in. Means leave out the slowest 1 %:
-/// on a machine that does other things they are ticks from which the processor was taken away.
+/// One turn of a rung: its ticks in contact, ns; reading the clock twice is part of each.
 struct RoundTimes {
-    double median = 0.0, mean = 0.0;          ///< of the steps that nothing was read in
-    std::array<double, kStageCount> stages{}; ///< means over the ticks between them
-    size_t ticks = 0, stagedTicks = 0;
+    std::vector<double> whole;                           ///< the steps that nothing was read in
+    std::array<std::vector<double>, kStageCount> upTo{}; ///< others, from their start to the end of a stage
 };
 
 /// What its ticks in contact took, ns; reading the clock twice (`clockCostNs`) is part of each.
@@ -44,7 +42,7 @@ struct RungTimes {
     uint64_t flaggedTicks = 0;      ///< in contact, with a flag of the solver
     uint64_t allocations = 0;       ///< and deallocations, in all ticks
     std::vector<double> medians;    ///< ns, step, of each round
-    std::vector<RoundTimes> rounds; ///< with BenchPlan::stages: of each with enough ticks in contact
+    std::vector<RoundTimes> rounds; ///< with BenchPlan::stages
 
     [[nodiscard]] double median() const { return static_cast<double>(step.percentile(0.5)); }
     [[nodiscard]] double p99() const { return static_cast<double>(step.percentile(0.99)); }
@@ -58,7 +56,8 @@ struct RungTimes {
 struct BenchPlan {
     int rounds = 20;
     int ticksPerRound = 1000;
-    /// Every other tick is timed by stage; what is told of whole steps is of the others.
+    /// In every other four ticks the clock is read at the end of one stage, of each in turn; what is told of
+    /// whole steps is of the others.
     bool stages = false;
     /// 0: every rung comes down from above where its own stretch begins. Else all begin where the path does,
     /// and each has lived, untimed, this many ticks more than the one before when its turns begin.

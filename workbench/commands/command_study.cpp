@@ -146,7 +146,7 @@ int studyCommand(const StudyCommandOptions& options) {
     StudyOptions plan;
     plan.ladders = options.ladders;
     if (options.quick) {
-        plan.rounds = 10;
+        plan.rounds = 25;
         plan.errorTicks = 1500;
         plan.largestTriangles = 65'536;
     }
