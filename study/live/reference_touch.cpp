@@ -1,0 +1,115 @@
+#include "study/live/reference_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace touchstone::study {
+
+namespace {
+
+/// Zero to the last bit between equal vectors, which a cross product is not; neither is zero.
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 u = a / glm::length(a), v = b / glm::length(b);
+    return 2.0 * std::atan2(glm::length(u - v), glm::length(u + v));
+}
+
+TickError errorOf(const HapticOutput& felt, const HapticOutput& exact) {
+    using Contact = TickError::Contact;
+    TickError error;
+    const bool touches = felt.contacts > 0, should = exact.contacts > 0;
+    if (!touches && !should)
+        return error;
+    error.forceDifference = glm::length(felt.force - exact.force);
+    error.contact = !should ? Contact::Invented : touches ? Contact::Both : Contact::Lost;
+    if (error.contact != Contact::Both)
+        return error;
+    const double force = glm::length(felt.force), right = glm::length(exact.force);
+    error.position = glm::length(felt.proxy - exact.proxy);
+    error.force = std::abs(force - right);
+    error.forceShare = right > 0.0 ? error.force / right : 0.0;
+    error.direction = force > 0.0 && right > 0.0 ? angleBetween(felt.force, exact.force) : 0.0;
+    return error;
+}
+
+} // namespace
+
+HapticSettings referenceOf(const HapticSettings& settings) {
+    constexpr int kToTheEnd = 1000; // the most that --set takes
+    HapticSettings exact = settings;
+    exact.contact = ContactMethod::Sweep;
+    exact.proxyRadius = feltRadius(settings);
+    exact.iterationBudget = kToTheEnd;
+    exact.forceShading = ShadingMode::TwoPass;
+    return exact;
+}
+
+void ReferenceTouch::enter(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
+    scene_ = std::move(scene);
+    moving_ = scene_ != nullptr && source != nullptr ? MovingObjects(std::move(source), *scene_)
+                                                     : MovingObjects();
+    state_.forgetTouch();
+    follows_ = false;
+}
+
+void ReferenceTouch::adopt(const TickRecord& record, const HapticSettings& settings, ObjectMotions motions) {
+    const HapticOutput& felt = record.output;
+    state_.forgetTouch();
+    state_.sampled = !has(felt.flags, TickFlag::InputInvalid);
+    state_.hip = felt.hip;
+    state_.velocity = felt.hipVelocity;
+    state_.travel = glm::dvec3(0.0);
+    state_.unsampled = 0.0;
+    // Where objects move, what is touched carries the proxy from there on.
+    const int anchor = felt.object >= 0 && moving_.moving() ? felt.object : record.trace.anchor;
+    if (!state_.sampled || has(felt.flags, TickFlag::StartedInside) || anchor < 0 ||
+        static_cast<size_t>(anchor) >= motions.size())
+        return; // it is placed anew in the next tick
+    const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(anchor)].workspaceFromObject;
+    state_.anchor = anchor;
+    state_.placed = true;
+    state_.clearance = feltRadius(settings);
+    state_.proxy = workspaceFromAnchor.inversePoint(felt.proxy);
+    if (settings.contact == ContactMethod::Neighbourhood) {
+        // A walk's proxy stands on the facet itself, where the sweep has no side: a little off it, and what
+        // stuck there is let go (neighbourhood_watch.cpp, leaveWatch).
+        const HapticObject& object = *scene_->objects[static_cast<size_t>(anchor)];
+        for (uint32_t i = 0; i < felt.planeCount; ++i)
+            state_.proxy += kWeldTolerance * object.diagonal *
+                            (glm::conjugate(workspaceFromAnchor.rotation) * felt.planes[i]);
+        return;
+    }
+    state_.friction = felt.friction;
+    state_.frictionless = anchor == record.trace.anchor ? record.trace.proxy.back() : state_.proxy;
+    if (felt.friction != FrictionState::Free)
+        state_.stictionPoint = workspaceFromAnchor.inversePoint(felt.stictionPoint);
+}
+
+bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& settings, TickError& error) {
+    if (scene_ == nullptr || scene_->objects.empty())
+        return false;
+    if (follows_ && record.step != nextStep_) {
+        moving_.forget();
+        follows_ = false;
+    }
+    nextStep_ = record.step + 1;
+    const ObjectMotions moved = moving_.at(record.time);
+    if (!std::exchange(follows_, true)) {
+        adopt(record, settings, moved.empty() ? ObjectMotions(scene_->restMotions) : moved);
+        return false;
+    }
+    TickInput input;
+    input.tick = record.tick;
+    input.time = record.time;
+    input.dt = record.dt;
+    input.late = record.late;
+    input.devices = {&record.sample, 1};
+    input.objects = moved;
+    StageTrace trace;
+    StageTracer tracer(state_, trace); // the servo's instantiation: where the rungs are the same, so are the bits
+    hapticStep(*scene_, referenceOf(settings), input, world_, {&state_, 1}, {&output_, 1}, tracer);
+    error = errorOf(record.output, output_);
+    return true;
+}
+
+} // namespace touchstone::study
