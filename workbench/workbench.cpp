@@ -58,7 +58,8 @@ class Workbench {
                        .smallestScale = kSmallestScale}),
           servo_(portOf(hand_), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
-          forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)), status_(options.statusJson) {
+          liveError_(options.rateHz), forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)),
+          status_(options.statusJson) {
         state_.settings = state_.chosen = options.settings;
         state_.simulatedHand = options.simulatedHand;
         state_.device = options.device;
@@ -75,7 +76,7 @@ class Workbench {
     /// Ends what is recorded as it should.
     ~Workbench() {
         servo_.stop();
-        servoView_.drain(servo_, forces_, desk_.recorder(), secondsNow());
+        servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, secondsNow());
         desk_.finish();
     }
     Workbench(const Workbench&) = delete;
@@ -89,7 +90,7 @@ class Workbench {
         if (const auto dropped = window_.takeDropped())
             open(*dropped);
         servo_.updateSnapshot();
-        servoView_.drain(servo_, forces_, desk_.recorder(), start);
+        servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, start);
         desk_.update();
         if (target_.beginFrame())
             draw();
@@ -203,6 +204,7 @@ class Workbench {
         shown_.identity.limits = shown_.model.haptic->limits;
         offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene);
         desk_.recorder().sceneOffered(offered_, shown_.identity);
+        liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);
     }
 
     void draw() {
@@ -241,6 +243,9 @@ class Workbench {
         PanelInput input;
         if (hasModel()) {
             const Scene& scene = *shown_.model.scene;
+            input.plan = shown_.model.haptic->plan.effects;
+            for (const Material& material : scene.materials)
+                input.materialNames.push_back(material.name);
             input.legend = falseColorScale(scene, state_.view.mode);
             input.modelName = std::filesystem::path(scene.path).filename().string();
             input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
@@ -310,6 +315,7 @@ class Workbench {
     ServoLoop servo_;
     std::string notice_; // of the recorder
     RecordingDesk desk_;
+    study::LiveError liveError_;
     ModelLoader loader_;
     LoadedModel shown_;
     ViewControl view_;

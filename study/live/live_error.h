@@ -19,14 +19,14 @@ struct LiveErrorFigures {
     struct Pair {
         double p50 = 0.0, p99 = 0.0;
     };
-    Pair position;   ///< m
-    Pair force;      ///< N, of the magnitude
-    Pair forceShare; ///< of the reference's
-    Pair direction;  ///< rad
-    uint64_t inContact = 0;          ///< ticks of them in which both touch: what the figures are over
-    uint64_t lost = 0, invented = 0; ///< ticks of them in which only the reference touches; only the servo
-    double comparedShare = 0.0;      ///< of the ticks lived in them; below one the reference is too slow
-    double stepNs = 0.0;             ///< mean time of a step of the reference
+    Pair position;                      ///< m
+    Pair force;                         ///< N, of the magnitude
+    Pair forceShare;                    ///< of the reference's
+    Pair direction;                     ///< rad
+    uint64_t inContact = 0;             ///< ticks of them in which both touch: what the figures are over
+    uint64_t lost = 0, invented = 0;    ///< ticks of them in which only the reference touches; only the servo
+    double comparedShare = 0.0;         ///< of the ticks lived in them; below one the reference is too slow
+    double stepNs = 0.0;                ///< mean time of a step of the reference
     uint64_t compared = 0, dropped = 0; ///< ticks since the start; dropped found the queue full
 };
 

@@ -46,8 +46,8 @@ HapticSettings referenceOf(const HapticSettings& settings) {
 
 void ReferenceTouch::enter(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
     scene_ = std::move(scene);
-    moving_ = scene_ != nullptr && source != nullptr ? MovingObjects(std::move(source), *scene_)
-                                                     : MovingObjects();
+    moving_ =
+        scene_ != nullptr && source != nullptr ? MovingObjects(std::move(source), *scene_) : MovingObjects();
     state_.forgetTouch();
     follows_ = false;
 }
@@ -106,7 +106,8 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
     input.devices = {&record.sample, 1};
     input.objects = moved;
     StageTrace trace;
-    StageTracer tracer(state_, trace); // the servo's instantiation: where the rungs are the same, so are the bits
+    StageTracer tracer(state_,
+                       trace); // the servo's instantiation: where the rungs are the same, so are the bits
     hapticStep(*scene_, referenceOf(settings), input, world_, {&state_, 1}, {&output_, 1}, tracer);
     error = errorOf(record.output, output_);
     return true;

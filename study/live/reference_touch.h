@@ -10,9 +10,9 @@
 
 namespace touchstone::study {
 
-/// What is felt with `settings`, as exactly as it can be: every choice of method at its most exact rung, every
-/// choice of what is to be felt as it is. Method: contact (the sweep, in double), the proxy's moves (to the
-/// end), shading (two-pass wherever the material does not say off; `off` and the one-facet models are
+/// What is felt with `settings`, as exactly as it can be: every choice of method at its most exact rung,
+/// every choice of what is to be felt as it is. Method: contact (the sweep, in double), the proxy's moves (to
+/// the end), shading (two-pass wherever the material does not say off; `off` and the one-facet models are
 /// cheaper rungs of it). To be felt: stiffness, damping, friction and its law, texture and its law, tilt
 /// limits, the proxy's radius (of a point method none).
 [[nodiscard]] HapticSettings referenceOf(const HapticSettings& settings);
@@ -23,15 +23,15 @@ struct TickError {
     enum class Contact : uint8_t { None, Both, Lost, Invented };
     Contact contact = Contact::None;
     // Where both touch.
-    double position = 0.0;       ///< m, proxy from proxy
-    double force = 0.0;          ///< N, | |F| - |F_ref| |
-    double forceShare = 0.0;     ///< the same, of |F_ref|
-    double direction = 0.0;      ///< rad, between the forces
+    double position = 0.0;        ///< m, proxy from proxy
+    double force = 0.0;           ///< N, | |F| - |F_ref| |
+    double forceShare = 0.0;      ///< the same, of |F_ref|
+    double direction = 0.0;       ///< rad, between the forces
     double forceDifference = 0.0; ///< N, |F - F_ref|: where either touches
 };
 
-/// The reference's hand. It runs free, on the servo's samples: in the air both are the same again, and what it
-/// cannot know (before its first tick, behind a gap in the records) it takes from the servo. One thread;
+/// The reference's hand. It runs free, on the servo's samples: in the air both are the same again, and what
+/// it cannot know (before its first tick, behind a gap in the records) it takes from the servo. One thread;
 /// allocates.
 ///
 /// Free, and not put back where the servo is from tick to tick: an error that builds up over a contact, as

@@ -52,8 +52,7 @@ class Row {
     static std::string text(bool value) { return value ? "1" : "0"; }
     static std::string text(Truth value) { return std::string(kTruthNames[static_cast<size_t>(value)]); }
     template <class Number>
-        requires(std::integral<Number> || std::floating_point<Number>)
-    static std::string text(Number value) {
+    requires(std::integral<Number> || std::floating_point<Number>) static std::string text(Number value) {
         std::array<char, 40> digits{};
         return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
     }

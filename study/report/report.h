@@ -10,12 +10,12 @@
 
 namespace touchstone::study {
 
-/// One row a rung; the unit stands in the column's name, numbers are as exact as in memory. The rates and what
-/// the whole study has in common are in the JSON alone. Throws Error where the file cannot be written.
+/// One row a rung; the unit stands in the column's name, numbers are as exact as in memory. The rates and
+/// what the whole study has in common are in the JSON alone. Throws Error where the file cannot be written.
 void writeStudyCsv(const StudyResult& result, const std::filesystem::path& file);
 
-/// Everything. What `readStudyJson` makes of it equals `result` to the bit (but for names that are not UTF-8).
-/// Throws Error where the file cannot be written.
+/// Everything. What `readStudyJson` makes of it equals `result` to the bit (but for names that are not
+/// UTF-8). Throws Error where the file cannot be written.
 void writeStudyJson(const StudyResult& result, const std::filesystem::path& file);
 
 /// Throws Error that names the file and the place in it where it is not what `writeStudyJson` writes.

@@ -2,6 +2,8 @@
 
 #include "workbench/figures/time_histogram.h"
 #include "workbench/window/force_plot.h"
+#include "workbench/window/panels/budget_panel.h"
+#include "workbench/window/panels/error_panel.h"
 
 #include <imgui.h>
 
@@ -14,7 +16,7 @@ namespace {
 
 class Panel {
   public:
-    Panel(const PanelInput& input, PanelState& state) : in_(input), state_(state) {}
+    Panel(const PanelInput& input, PanelState& state) : in_(input), state_(state), widgets_(input.scale) {}
 
     std::map<std::string, WidgetRect> draw() {
         header();
@@ -23,11 +25,16 @@ class Panel {
         record();
         feel();
         force();
+        section("TICK");
+        drawBudget(*in_.servo, widgets_);
+        section("ERROR");
+        drawError(in_.servo->error, widgets_);
+        plan();
         servo();
         view();
         warnings();
         keys();
-        return std::move(widgets_);
+        return widgets_.take();
     }
 
   private:
@@ -170,6 +177,38 @@ class Panel {
         ImGui::PopItemWidth();
     }
 
+    /// How a smooth surface is made of facets, while it is.
+    void shadingModel() {
+        constexpr std::array kLabels{"shading: two passes (Ruspini)", "shading: projected (Ho)",
+                                     "shading: direction (Morgenbesser)", "shading: as each material says"};
+        ShadingMode& mode = state_.settings.forceShading;
+        if (mode == ShadingMode::Off)
+            return;
+        ImGui::PushItemWidth(-1.0f);
+        int model = static_cast<int>(mode) - static_cast<int>(ShadingMode::TwoPass);
+        if (ImGui::Combo("##shadingModel", &model, kLabels.data(), static_cast<int>(kLabels.size())))
+            mode = static_cast<ShadingMode>(model + static_cast<int>(ShadingMode::TwoPass));
+        mark("shadingModel");
+        ImGui::PopItemWidth();
+    }
+
+    /// The proxy's moves.
+    void budget() {
+        constexpr std::array kMoves{1, 2, 4, 8, 16, 64};
+        char shown[48];
+        std::snprintf(shown, sizeof shown, "at most %d moves a tick", state_.settings.iterationBudget);
+        ImGui::PushItemWidth(-1.0f);
+        if (ImGui::BeginCombo("##iterationBudget", shown)) {
+            for (const int moves : kMoves)
+                if (ImGui::Selectable(std::to_string(moves).c_str(),
+                                      moves == state_.settings.iterationBudget))
+                    state_.settings.iterationBudget = moves;
+            ImGui::EndCombo();
+        }
+        mark("iterationBudget");
+        ImGui::PopItemWidth();
+    }
+
     /// How the maps become force, while they do.
     void textureLaw() {
         constexpr std::array kLabels{"texture: displacement law", "texture: Blinn's normal",
@@ -206,11 +245,13 @@ class Panel {
         contact();
         toggle("Force shading", "forceShading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
                ShadingMode::Material);
+        shadingModel();
         toggle("Texture", "texture", settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
         textureLaw();
         toggle("Friction", "friction", settings.friction, chosen.friction, FrictionMode::Off,
                FrictionMode::Zilles);
         frictionLaw();
+        budget();
         ImGui::PushItemWidth(-1.0f);
         auto stiffness = static_cast<float>(settings.stiffness);
         const char* shown = stiffness <= 0.0f ? "stiffness: the material's" : "stiffness %.0f N/m";
@@ -247,6 +288,24 @@ class Panel {
         ImGui::SameLine();
         if (passivity != PassivityMode::Off)
             ImGui::TextDisabled("%+.2f mJ", 1e3 * tick.energyBalance);
+    }
+
+    /// What the scene calls for, and why.
+    void plan() {
+        if (in_.plan.empty() || !ImGui::TreeNode("effects of this scene"))
+            return;
+        for (const PlannedEffect& effect : in_.plan) {
+            const auto material = static_cast<size_t>(effect.material);
+            const bool named = effect.material >= 0 && material < in_.materialNames.size();
+            ImGui::TextColored(effect.on ? ImVec4(0.45f, 0.82f, 0.55f, 1.0f)
+                                         : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled),
+                               "%s %s", effect.on ? "on" : "off", effectName(effect.effect));
+            ImGui::PushTextWrapPos(0.0f);
+            ImGui::TextDisabled("%s: %s", named ? in_.materialNames[material].c_str() : "default material",
+                                effect.reason.c_str());
+            ImGui::PopTextWrapPos();
+        }
+        ImGui::TreePop();
     }
 
     void row(const char* label, const char* format, double a, double b = 0.0) {
@@ -350,15 +409,11 @@ class Panel {
         ImGui::EndTooltip();
     }
 
-    /// Notes where the last widget is.
-    void mark(const char* name) {
-        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-        widgets_[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
-    }
+    void mark(const char* name) { widgets_.mark(name); }
 
     const PanelInput& in_;
     PanelState& state_;
-    std::map<std::string, WidgetRect> widgets_;
+    Widgets widgets_;
 };
 
 } // namespace

@@ -1,22 +1,20 @@
 #pragma once
 
 #include "devices/device_choice.h"
+#include "haptics/effect_plan.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/false_color.h"
 #include "workbench/window/force_history.h"
+#include "workbench/window/panels/widgets.h"
 #include "workbench/window/servo_view.h"
 #include "workbench/window/view_options.h"
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace touchstone {
-
-/// Where a widget is on the window, in its coordinates from the upper left corner.
-struct WidgetRect {
-    float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
-};
 
 /// What the panel shows.
 struct PanelInput {
@@ -34,6 +32,8 @@ struct PanelInput {
     std::vector<DeviceOffer> devices;
     std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
     const ServoView* servo = nullptr;
+    std::span<const PlannedEffect> plan; ///< of the scene
+    std::vector<std::string> materialNames;
     const ForceHistory* forces = nullptr;
     FalseColorScale legend; ///< of the view that is shown
     double framesPerSecond = 0.0;

@@ -2,14 +2,17 @@
 
 namespace touchstone {
 
-void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, double now) {
+void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder,
+                      study::LiveError& liveError, double now) {
     TickRecord record;
     while (servo.popRecord(record)) {
         statistics_.addLive(record);
         recorder.take(record);
         forces.add(record.output);
+        liveError.take(record, servo.settingsOf(record.settings));
         last = record;
     }
+    liveError.flush();
     counters = servo.counters();
     if (lastRenewal_ >= 0.0 && now - lastRenewal_ < kRenewal)
         return;
@@ -28,6 +31,13 @@ void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& rec
     wakeP99Us = us(statistics_.wake().percentile(0.99));
     stepP50Us = us(statistics_.step().percentile(0.5));
     stepP99Us = us(statistics_.step().percentile(0.99));
+    for (size_t i = 0; i < kStageCount; ++i) {
+        stageP50Us[i] = us(statistics_.stages()[i].percentile(0.5));
+        stageP99Us[i] = us(statistics_.stages()[i].percentile(0.99));
+    }
+    contactP50Us = us(statistics_.stepInContact().percentile(0.5));
+    contactP99Us = us(statistics_.stepInContact().percentile(0.99));
+    error = liveError.figures();
     wakeHistogram = histogramOf(statistics_.wake());
     stepHistogram = histogramOf(statistics_.step());
 }

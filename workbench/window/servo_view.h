@@ -2,10 +2,12 @@
 
 #include "haptics/recording/servo_recorder.h"
 #include "haptics/servo/servo_loop.h"
+#include "study/live/live_error.h"
 #include "workbench/figures/stolen_time.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/window/force_history.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +19,8 @@ namespace touchstone {
 class ServoView {
   public:
     /// Takes the ticks made since the last call. `now`: s, any steady clock.
-    void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, double now);
+    void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, study::LiveError& liveError,
+               double now);
 
     ServoLoop::Counters counters;
     TickRecord last;
@@ -26,6 +29,9 @@ class ServoView {
     double ticksPerSecond = 0.0;
     double wakeP50Us = 0.0, wakeP99Us = 0.0;
     double stepP50Us = 0.0, stepP99Us = 0.0;
+    std::array<double, kStageCount> stageP50Us{}, stageP99Us{}; ///< over the ticks in contact
+    double contactP50Us = 0.0, contactP99Us = 0.0;              ///< of their whole step
+    study::LiveErrorFigures error;
     std::vector<uint64_t> wakeHistogram, stepHistogram; ///< by kHistogramEndsUs
     /// Share of one processor that the host took away since the last renewal; nothing where it does not tell.
     std::optional<double> stolenShare;

@@ -3,8 +3,39 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "workbench/figures/settings_json.h"
+#include "workbench/window/panels/error_panel.h"
 
 namespace touchstone {
+
+namespace {
+
+nlohmann::ordered_json stagesJson(const ServoView& servo) {
+    nlohmann::ordered_json json;
+    for (size_t i = 0; i < kStageCount; ++i)
+        json[std::string(kStageNames[i])] = {{"p50_us", servo.stageP50Us[i]},
+                                             {"p99_us", servo.stageP99Us[i]}};
+    json["step"] = {{"p50_us", servo.contactP50Us}, {"p99_us", servo.contactP99Us}};
+    return json;
+}
+
+nlohmann::ordered_json errorJson(const study::LiveErrorFigures& error) {
+    const auto pair = [](const study::LiveErrorFigures::Pair& p) {
+        return nlohmann::ordered_json{{"p50", p.p50}, {"p99", p.p99}};
+    };
+    return {{"position_m", pair(error.position)},
+            {"force_n", pair(error.force)},
+            {"force_share", pair(error.forceShare)},
+            {"direction_rad", pair(error.direction)},
+            {"ticks_in_contact", error.inContact},
+            {"contact_lost", error.lost},
+            {"contact_invented", error.invented},
+            {"compared_share", error.comparedShare},
+            {"dropped", error.dropped},
+            {"reference_step_ns", error.stepNs},
+            {"below_perception", belowPerception(error)}};
+}
+
+} // namespace
 
 void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
                         const std::map<std::string, WidgetRect>& widgets, size_t validationMessages) {
@@ -45,6 +76,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"missed", servo.counters.missed},
           {"ticks_per_second", servo.ticksPerSecond},
           {"scheduling", servo.scheduling}}},
+        {"stages", stagesJson(servo)},
+        {"error", errorJson(servo.error)},
         {"allocations_in_tick", realtime::violations().allocations},
         {"view",
          {{"mode", viewModeName(state.view.mode)},
