@@ -1,5 +1,7 @@
 #include "study/pareto.h"
 
+#include "study/timing/interval.h"
+
 #include <algorithm>
 
 namespace touchstone::study {
@@ -15,9 +17,16 @@ bool measured(const RungResult& rung) {
     return rung.errors.compared > 0 && rung.step.value > 0.0;
 }
 
+/// Cheaper beyond doubt.
+bool cheaper(const RungResult& a, const RungResult& b) {
+    return a.step.value < b.step.value && apart(a.step, b.step);
+}
+
+/// No cycles: nearness would have to be the same all the way around, and who is cheaper beyond doubt is
+/// ordered.
 bool beats(const RungResult& a, const RungResult& b) {
-    const double cost = a.step.value - b.step.value, error = felt(a.errors) - felt(b.errors);
-    return cost <= 0.0 && error <= 0.0 && (cost < 0.0 || error < 0.0);
+    const double nearness = felt(a.errors) - felt(b.errors);
+    return nearness <= 0.0 && !cheaper(b, a) && (nearness < 0.0 || cheaper(a, b));
 }
 
 } // namespace

@@ -6,9 +6,11 @@
 
 namespace touchstone::study {
 
-/// Marks the rungs that no other one of the same scene, path and ladder is both as cheap as and as near the
-/// truth as, and better in one of the two: cost is the median of the step, nearness `felt(errors)`. Rungs of
-/// different ladders have different things switched off. Those without ticks to compare are not marked.
+/// Marks the rungs that no other one of the same scene, path and ladder beats: is nearer the truth, by
+/// `felt(errors)`, without being dearer, or is cheaper without being farther. Costs are medians of the step,
+/// and they differ where their intervals have no value in common, so that a second run finds the same front.
+/// Rungs of different ladders have different things switched off. Those without ticks to compare are not
+/// marked.
 void markPareto(std::span<RungResult> rungs);
 
 } // namespace touchstone::study

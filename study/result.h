@@ -71,7 +71,7 @@ struct RungResult {
     std::array<Estimate, kStageCount> stages;
     double rayFloor = 0.0; ///< ns, median of one Embree ray from proxy to HIP in the same ticks
     Errors errors;
-    bool pareto = false; ///< no other rung of this scene and path is both cheaper and nearer the truth
+    bool pareto = false; ///< no other rung of this scene, path and ladder beats it (study/pareto.h)
     bool operator==(const RungResult&) const = default;
 };
 

@@ -18,7 +18,8 @@ constexpr double kTick = 1e-3;     // s
 constexpr double kApproach = 0.02; // m, above the stroke's depth when it begins
 constexpr double kDescent = 0.1;   // m/s
 
-/// Ticks in a row that are timed alike, so that the processor finds its code and its branches as it left them.
+/// Ticks in a row that are timed alike, so that the processor finds its code and its branches as it left
+/// them.
 constexpr uint64_t kAlike = 4;
 
 /// The stage at whose end the clock is read in a tick, or none.

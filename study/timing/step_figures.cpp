@@ -45,9 +45,8 @@ double medianIn(std::vector<double> ticks) {
 }
 
 /// What each stage took in one round; nothing where one of them was not met often enough.
-std::optional<std::array<double, kStageCount>> stagesOf(const RoundTimes& round,
-                                                        const std::array<double, kStageCount>& slowest,
-                                                        double clock) {
+std::optional<std::array<double, kStageCount>>
+stagesOf(const RoundTimes& round, const std::array<double, kStageCount>& slowest, double clock) {
     std::array<double, kStageCount> stages{};
     double before = clock;
     for (size_t s = 0; s < kStageCount; ++s) {
@@ -63,12 +62,12 @@ std::optional<std::array<double, kStageCount>> stagesOf(const RoundTimes& round,
 } // namespace
 
 StepFigures figuresOf(std::span<const RoundTimes> rounds, double clock) {
-    const double slowestWhole =
-        slowestKept(rounds, [](const RoundTimes& round) -> const auto& { return round.whole; });
+    const double slowestWhole = slowestKept(
+        rounds, [](const RoundTimes& round) -> const auto& { return round.whole; });
     std::array<double, kStageCount> slowest{};
     for (size_t s = 0; s < kStageCount; ++s)
-        slowest[s] =
-            slowestKept(rounds, [s](const RoundTimes& round) -> const auto& { return round.upTo[s]; });
+        slowest[s] = slowestKept(
+            rounds, [s](const RoundTimes& round) -> const auto& { return round.upTo[s]; });
     std::vector<double> medians, means;
     std::array<std::vector<double>, kStageCount> stages;
     for (const RoundTimes& round : rounds) {
@@ -81,8 +80,8 @@ StepFigures figuresOf(std::span<const RoundTimes> rounds, double clock) {
                 stages[s].push_back((*ofRound)[s]);
     }
     StepFigures figures;
-    figures.median = medianOf(medians);
-    figures.mean = meanOf(means);
+    figures.median = acrossRuns(medianOf(medians));
+    figures.mean = acrossRuns(meanOf(means));
     for (size_t s = 0; s < kStageCount; ++s)
         figures.stages[s] = meanOf(stages[s]);
     return figures;
