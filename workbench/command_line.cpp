@@ -318,7 +318,7 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
                    "Shapes (plane, sphere, cylinder, torus, waves, wedge) and glTF files; without any, every "
                    "shape")
         ->type_name("");
-    app.add_option("--out", options.out, "Folder for study.csv and study.json")->type_name("DIR");
+    app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
     app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")
         ->type_name("NAME")
         ->expected(1)
@@ -330,13 +330,23 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
     app.add_flag("--list", options.list, "Print the ladders and shapes");
     app.add_option_function<std::string>(
            "--shard", [&options](const std::string& text) { parseShard(text, options); },
-           "Study every N-th of what is asked for only, from the I-th: for GNU parallel and job arrays")
+           "Study every N-th of what is asked for only, from the I-th, and leave plots to `study merge`: for "
+           "GNU parallel and job arrays")
         ->type_name("I/N");
 }
 
 void defineCompare(CLI::App& app, StudyCompareOptions& options) {
     app.add_option("A", options.first, "study.json of one run")->type_name("")->required();
     app.add_option("B", options.second, "study.json of another")->type_name("")->required();
+}
+
+void defineMerge(CLI::App& app, StudyMergeOptions& options) {
+    app.add_option("PART", options.parts, "Folders that `study --shard` wrote (or study.json files)")
+        ->type_name("")
+        ->required();
+    app.add_option("--out", options.out, "Folder for the whole study and its plots")
+        ->type_name("DIR")
+        ->required();
 }
 
 std::string asTyped(int argc, char** argv) {
@@ -364,6 +374,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     BenchOptions bench;
     StudyCommandOptions study;
     StudyCompareOptions compare;
+    StudyMergeOptions merge;
     DevicesOptions devices;
     bool headless = false;
     defineWindow(app, window);
@@ -388,6 +399,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     CLI::App* compareApp = studyApp->add_subcommand(
         "compare", "Whether rungs that one run tells apart keep their order in another");
     defineCompare(*compareApp, compare);
+    CLI::App* mergeApp = studyApp->add_subcommand("merge", "One study of the parts that --shard made");
+    defineMerge(*mergeApp, merge);
     CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in, and a trial of one device");
     defineDevices(*devicesApp, devices);
 
@@ -395,8 +408,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        for (CLI::App* command :
-             {runApp, touchApp, replayApp, renderApp, inspectApp, benchApp, compareApp, studyApp, devicesApp})
+        for (CLI::App* command : {runApp, touchApp, replayApp, renderApp, inspectApp, benchApp, compareApp,
+                                  mergeApp, studyApp, devicesApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
                 command->footer(command == runApp || command == touchApp ? settingsHelp() + "\n" + plantHelp()
@@ -428,6 +441,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         return bench;
     if (compareApp->parsed())
         return compare;
+    if (mergeApp->parsed())
+        return merge;
     if (studyApp->parsed()) {
         study.commandLine = asTyped(argc, argv);
         return study;

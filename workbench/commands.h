@@ -121,6 +121,14 @@ struct StudyCompareOptions {
 /// second.
 int studyCompare(const StudyCompareOptions& options);
 
+/// touchstone study merge DIR... --out DIR
+struct StudyMergeOptions {
+    std::vector<std::filesystem::path> parts; ///< folders with a study.json, or such files
+    std::filesystem::path out;                ///< a folder
+};
+/// Makes one study of its shards, and draws it.
+int studyMerge(const StudyMergeOptions& options);
+
 /// touchstone devices
 struct DevicesOptions {
     std::string test; ///< the device to try, as --device names it; empty: list what there is

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
                                      [](const BenchOptions& options) { return benchCommand(options); },
                                      [](const StudyCommandOptions& options) { return studyCommand(options); },
                                      [](const StudyCompareOptions& options) { return studyCompare(options); },
+                                     [](const StudyMergeOptions& options) { return studyMerge(options); },
                                      [](const DevicesOptions& options) { return devicesCommand(options); }},
                           *command);
     } catch (const Error& error) {

@@ -26,4 +26,14 @@ void writeStudyJson(const StudyResult& result, const std::filesystem::path& file
 /// counts).
 [[nodiscard]] StudyResult mergeStudies(std::span<const StudyResult> shards);
 
+struct PlotsWritten {
+    std::vector<std::filesystem::path> files; ///< SVG
+    std::vector<std::string> problems;        ///< with a remedy each
+};
+/// Pictures of a study, in DIR/plots: for each NAME.svg, and NAME.gp and NAME.dat out of which `gnuplot
+/// NAME.gp` makes it again. What cannot be drawn is a problem told, a missing gnuplot too. Throws Error where
+/// the folder cannot be written. `gnuplot`: the program to run.
+PlotsWritten writeStudyPlots(const StudyResult& result, const std::filesystem::path& dir,
+                             const std::string& gnuplot = "gnuplot");
+
 } // namespace touchstone::study

@@ -134,6 +134,24 @@ void printTable(const StudyResult& result) {
         "the sum of the stages differs from the whole step.\n");
 }
 
+/// Into the folder `out`, and what there is to say about it. Without `plots` where a part is to be merged.
+void publish(const StudyResult& result, const std::filesystem::path& out, bool plots) {
+    std::filesystem::create_directories(out);
+    writeStudyCsv(result, out / "study.csv");
+    writeStudyJson(result, out / "study.json");
+    PlotsWritten drawn;
+    if (plots)
+        drawn = writeStudyPlots(result, out);
+    for (const std::string& note : result.notes)
+        std::printf("note: %s\n", note.c_str());
+    for (const std::string& problem : result.problems)
+        std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
+    for (const std::string& problem : drawn.problems)
+        std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
+    std::printf("%s: %zu rungs, %zu problems, %zu plots\n", (out / "study.json").c_str(), result.rungs.size(),
+                result.problems.size(), drawn.files.size());
+}
+
 } // namespace
 
 int studyCommand(const StudyCommandOptions& options) {
@@ -173,16 +191,16 @@ int studyCommand(const StudyCommandOptions& options) {
             }
         }
     }
-    std::filesystem::create_directories(options.out);
-    writeStudyCsv(result, options.out / "study.csv");
-    writeStudyJson(result, options.out / "study.json");
     printTable(result);
-    for (const std::string& note : result.notes)
-        std::printf("note: %s\n", note.c_str());
-    for (const std::string& problem : result.problems)
-        std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
-    std::printf("%s: %zu rungs, %zu problems\n", (options.out / "study.json").c_str(), result.rungs.size(),
-                result.problems.size());
+    publish(result, options.out, options.shards == 1);
+    return 0;
+}
+
+int studyMerge(const StudyMergeOptions& options) {
+    std::vector<StudyResult> parts;
+    for (const std::filesystem::path& part : options.parts)
+        parts.push_back(readStudyJson(std::filesystem::is_directory(part) ? part / "study.json" : part));
+    publish(mergeStudies(parts), options.out, true);
     return 0;
 }
 

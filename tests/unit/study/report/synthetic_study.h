@@ -10,6 +10,10 @@ namespace touchstone::study::test {
 /// One of each, no two figures alike, with figures that print badly.
 [[nodiscard]] StudyResult everyField();
 
+/// As a study of two shapes and a servo would look: five ladders, one of them of 24 rungs, an exact rung,
+/// tessellations, rates, what people notice. Names hold what a shell, gnuplot and SVG read something into.
+[[nodiscard]] StudyResult likeMeasured();
+
 /// A folder for the life of a test.
 class Folder {
   public:

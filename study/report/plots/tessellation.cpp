@@ -1,0 +1,60 @@
+#include "study/report/plots/figures.h"
+#include "study/report/plots/series_plot.h"
+
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace touchstone::study {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::string_view kFacetAngle = "facet angle";
+
+/// "[004 Table 2], …, force only (C1)" and "facet angle, no shading": what stands behind the first comma.
+std::string words(const JustNoticeable& j) {
+    const size_t comma = j.quantity.find(", ");
+    const size_t open = j.source.rfind('('), close = j.source.rfind(')');
+    const std::string what = comma == std::string::npos ? j.quantity : j.quantity.substr(comma + 2);
+    const bool named = open != std::string::npos && close != std::string::npos && close - open == 3;
+    return brief(kDegrees * j.value) + "° " + (named ? j.source.substr(open + 1, 2) + ": " : "") + what;
+}
+
+} // namespace
+
+std::vector<Figure> errorOverTessellation(const StudyResult& result) {
+    SeriesPlot plot;
+    plot.name = "error_over_tessellation";
+    plot.paper.title = "How far the force points aside, over how coarsely a shape is cut";
+    plot.paper.subtitle =
+        "Against the smooth shape. Left of a dashed line people feel a smooth curve where the "
+        "force turns by the whole facet angle.";
+    plot.paper.notes = {"Dashed: just noticeable angle between facets, [004 Table 2]"};
+    plot.xWords = "angle between adjacent facets under the path, degrees (mean)";
+    plot.yWords = "error of the force's direction, degrees (99 % of ticks are nearer)";
+    plot.colourTitle = "rung";
+    plot.markTitle = "shape";
+    plot.leastY = 1e-5;
+    plot.leastText = "below 0.00001°";
+    std::map<std::pair<std::string, std::string>, size_t> at;
+    std::set<double> angles;
+    for (const RungResult& r : result.rungs) {
+        if (r.ladder != kTessellationLadder || !(r.facetAngle > 0.0) || r.errors.compared == 0)
+            continue;
+        const auto [place, fresh] = at.try_emplace({r.shape, r.rung}, plot.series.size());
+        if (fresh)
+            plot.series.push_back({r.rung, r.shape, {}});
+        const double error = kDegrees * r.errors.forceDirection.p99;
+        plot.series[place->second].points.push_back({kDegrees * r.facetAngle, error, error, error});
+        angles.insert(r.facetAngle);
+    }
+    if (angles.size() < 2)
+        return {};
+    for (const JustNoticeable& j : result.noticeable)
+        if (j.quantity.starts_with(kFacetAngle) && j.value > 0.0)
+            plot.thresholds.push_back({kDegrees * j.value, words(j)});
+    return {figureOf(std::move(plot), result.provenance)};
+}
+
+} // namespace touchstone::study

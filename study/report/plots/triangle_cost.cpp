@@ -1,0 +1,107 @@
+#include "study/report/plots/figures.h"
+#include "study/report/plots/series_plot.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace touchstone::study {
+
+namespace {
+
+constexpr const char* kRayFloor = "one Embree ray, the floor";
+constexpr const char* kTriangles = "triangles";
+constexpr const char* kTime = "time per tick in contact, µs (median; bar: 95 % interval)";
+
+SeriesPoint timeOf(const RungResult& r) {
+    return {static_cast<double>(r.triangles), 1e-3 * r.step.value, 1e-3 * r.step.low, 1e-3 * r.step.high};
+}
+
+/// The middle of the floors that the rungs of a scene found.
+void addFloors(SeriesPlot& plot, const std::vector<const RungResult*>& rungs) {
+    std::map<std::pair<std::string, size_t>, std::vector<double>> floors;
+    for (const RungResult* r : rungs)
+        if (r->rayFloor > 0.0)
+            floors[{r->shape, r->triangles}].push_back(1e-3 * r->rayFloor);
+    std::map<std::string, Series> byShape;
+    for (auto& [where, values] : floors) {
+        std::sort(values.begin(), values.end());
+        const double middle = values[values.size() / 2];
+        Series& series = byShape[where.first];
+        series.colourName = kRayFloor;
+        series.markName = where.first;
+        series.floor = true;
+        series.points.push_back({static_cast<double>(where.second), middle, middle, middle});
+    }
+    for (auto& [shape, series] : byShape)
+        plot.series.push_back(std::move(series));
+}
+
+/// Rungs of the tessellation ladder, of shapes that have more than one.
+std::vector<const RungResult*> tessellated(const StudyResult& result) {
+    std::map<std::string, std::set<size_t>> sizes;
+    for (const RungResult& r : result.rungs)
+        if (r.ladder == kTessellationLadder)
+            sizes[r.shape].insert(r.triangles);
+    std::vector<const RungResult*> rungs;
+    for (const RungResult& r : result.rungs)
+        if (r.ladder == kTessellationLadder && sizes[r.shape].size() > 1 && r.step.value > 0.0)
+            rungs.push_back(&r);
+    return rungs;
+}
+
+Figure ofShapes(const StudyResult& result) {
+    const std::vector<const RungResult*> rungs = tessellated(result);
+    SeriesPlot plot;
+    plot.name = "cost_over_triangles";
+    plot.paper.title = "Time per tick over the number of triangles";
+    plot.paper.subtitle = "The same shapes cut finer and finer. Flat curves are what one hopes for.";
+    plot.xWords = kTriangles;
+    plot.yWords = kTime;
+    plot.colourTitle = "rung";
+    plot.markTitle = "shape";
+    std::map<std::pair<std::string, std::string>, size_t> at;
+    for (const RungResult* r : rungs) {
+        const auto [place, fresh] = at.try_emplace({r->shape, r->rung}, plot.series.size());
+        if (fresh)
+            plot.series.push_back({r->rung, r->shape, {}});
+        plot.series[place->second].points.push_back(timeOf(*r));
+    }
+    addFloors(plot, rungs);
+    return figureOf(std::move(plot), result.provenance);
+}
+
+/// What the program does by itself on each scene, a point a scene.
+Figure ofScenes(const StudyResult& result) {
+    std::vector<const RungResult*> rungs;
+    std::set<std::string> scenes;
+    for (const RungResult& r : result.rungs)
+        if (r.isDefault && r.ladder != kTessellationLadder && r.step.value > 0.0 && r.triangles > 0 &&
+            scenes.insert(r.scene + "\n" + r.path).second)
+            rungs.push_back(&r);
+    if (rungs.size() < 2)
+        return {};
+    SeriesPlot plot;
+    plot.name = "cost_of_scenes";
+    plot.paper.title = "Time per tick of each scene, as the program touches it by itself";
+    plot.paper.subtitle = "Over the number of triangles.";
+    plot.xWords = kTriangles;
+    plot.yWords = kTime;
+    plot.colourTitle = "scene";
+    constexpr size_t kMostNames = 24;
+    for (const RungResult* r : rungs)
+        plot.series.push_back({rungs.size() <= kMostNames ? r->scene : "a scene",
+                               rungs.size() <= kMostNames ? r->scene : "a scene",
+                               {timeOf(*r)}});
+    return figureOf(std::move(plot), result.provenance);
+}
+
+} // namespace
+
+std::vector<Figure> costOverTriangles(const StudyResult& result) {
+    std::vector<Figure> figures{ofShapes(result), ofScenes(result)};
+    std::erase_if(figures, [](const Figure& f) { return f.name.empty(); });
+    return figures;
+}
+
+} // namespace touchstone::study
