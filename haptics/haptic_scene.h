@@ -19,6 +19,28 @@
 
 namespace touchstone {
 
+/// What is built when somebody first asks for it, and once; a servo may be touching meanwhile.
+template <class T>
+class BuiltOnce {
+  public:
+    /// Null until it is built. Wait-free.
+    [[nodiscard]] const T* get() const noexcept { return there_.load(std::memory_order_acquire); }
+    /// Any thread but the servo.
+    template <class Make>
+    void build(const Make& make) const {
+        const std::lock_guard lock(building_);
+        if (built_ != nullptr)
+            return;
+        built_ = std::make_unique<const T>(make());
+        there_.store(built_.get(), std::memory_order_release);
+    }
+
+  private:
+    mutable std::mutex building_;
+    mutable std::unique_ptr<const T> built_;
+    mutable std::atomic<const T*> there_{nullptr};
+};
+
 class HapticScene {
   public:
     HapticScene() = default;
@@ -37,21 +59,27 @@ class HapticScene {
 
     /// What contact=neighbourhood walks on, one per object; null until somebody asked for it. Wait-free.
     [[nodiscard]] const std::vector<MeshAdjacency>* neighbourhoods() const noexcept {
-        return neighbourhoods_.load(std::memory_order_acquire);
+        return neighbourhoods_.get();
     }
-    /// Builds that, once; the servo may be touching meanwhile. Any thread but the servo.
+    /// Any thread but the servo.
     void buildNeighbourhoods() const;
 
+    /// What textureGradient=precomputed reads, one per material (empty without a height map); null until
+    /// somebody asked for it, and until then a tick works out the same from the texels. Wait-free.
+    [[nodiscard]] const std::vector<HapticMap::Slopes>* slopes() const noexcept { return slopes_.get(); }
+    /// Any thread but the servo.
+    void buildSlopes() const;
+
   private:
-    mutable std::mutex building_;
-    mutable std::unique_ptr<const std::vector<MeshAdjacency>> built_;
-    mutable std::atomic<const std::vector<MeshAdjacency>*> neighbourhoods_{nullptr};
+    BuiltOnce<std::vector<MeshAdjacency>> neighbourhoods_;
+    BuiltOnce<std::vector<HapticMap::Slopes>> slopes_;
 };
 
 /// Says anew which stages the scene's materials call for. Before the scene is handed to a servo.
 void settlePlan(HapticScene& scene);
 
-/// A scene of its own on the same geometry, without neighbourhoods and warnings: to be changed and tried out.
+/// A scene of its own on the same geometry, without neighbourhoods, slopes and warnings: to be changed and
+/// tried out.
 [[nodiscard]] std::shared_ptr<HapticScene> copyOf(const HapticScene& scene);
 
 /// Takes one effect off a material and its objects, and settles the plan. Only on a copy.

@@ -29,6 +29,12 @@ constexpr std::array kInfos{
     SettingInfo{"shadingTiltLimit", "deg", "0 .. 90", "most that shading tilts the true normal"},
     SettingInfo{"textureTiltLimit", "deg", "0 .. 90", "felt normals are compressed below it; 90: no limit"},
     SettingInfo{"textureStrength", "", "0 .. 1", "scales heights and the normal map's tilt"},
+    SettingInfo{"textureFilter", "", "nearest, bilinear, bicubic, mip",
+                "how maps are read between texels; mip: bilinear, coarser the faster the stroke; the others "
+                "let fine relief buzz"},
+    SettingInfo{"textureGradient", "", "central, precomputed, analytic",
+                "slope of height maps: differences over a texel, kept for each texel, or the filter's own "
+                "derivative"},
     SettingInfo{"iterationBudget", "", "1 .. 1000", "proxy moves a tick; fewer feels sticky"},
     SettingInfo{"passivity", "", "off, observe, control",
                 "energy given to the hand: counted, or also damped away where it is more than was taken"},
@@ -60,6 +66,8 @@ constexpr std::array<std::string_view, 2> kContactNames{"sweep", "neighbourhood"
 constexpr std::array<std::string_view, 5> kShadingNames{"off", "twoPass", "projected", "direction",
                                                         "material"};
 constexpr std::array<std::string_view, 4> kTextureNames{"off", "law", "blinn", "minsky"};
+constexpr std::array<std::string_view, 4> kFilterNames{"nearest", "bilinear", "bicubic", "mip"};
+constexpr std::array<std::string_view, 3> kGradientNames{"central", "precomputed", "analytic"};
 constexpr std::array<std::string_view, 4> kFrictionNames{"off", "zilles", "ho", "elastoplastic"};
 constexpr std::array<std::string_view, 3> kPassivityNames{"off", "observe", "control"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
@@ -91,6 +99,10 @@ bool assign(HapticSettings& s, std::string_view name, std::string_view value) {
         return setNumber(s.textureTiltLimit, value, 0.0, 90.0, kDegree);
     if (name == "textureStrength")
         return setNumber(s.textureStrength, value, 0.0, 1.0);
+    if (name == "textureFilter")
+        return setChoice(s.textureFilter, value, kFilterNames);
+    if (name == "textureGradient")
+        return setChoice(s.textureGradient, value, kGradientNames);
     if (name == "iterationBudget") {
         double number = 0.0;
         if (!setNumber(number, value, 1.0, 1000.0) || number != std::floor(number))
@@ -153,6 +165,10 @@ std::vector<std::string> settingWarnings(const HapticSettings& settings) {
     std::vector<std::string> warnings;
     if (settings.contact == ContactMethod::Neighbourhood && settings.proxyRadius > 0.0)
         warnings.emplace_back("contact=neighbourhood is a point method: proxyRadius is ignored");
+    if (settings.textureFilter == TextureFilter::Nearest &&
+        settings.textureGradient == TextureGradient::Analytic)
+        warnings.emplace_back("textureFilter=nearest makes a staircase, whose textureGradient=analytic is "
+                              "zero: height maps tilt nothing");
     if (settings.staticFriction >= 0.0 && settings.dynamicFriction > settings.staticFriction)
         warnings.emplace_back("dynamicFriction above staticFriction; clamped to it");
     return warnings;
@@ -188,6 +204,10 @@ std::string settingValue(const HapticSettings& s, std::string_view name) {
         return degrees(s.textureTiltLimit);
     if (name == "textureStrength")
         return text(s.textureStrength);
+    if (name == "textureFilter")
+        return choice(kFilterNames, s.textureFilter);
+    if (name == "textureGradient")
+        return choice(kGradientNames, s.textureGradient);
     if (name == "iterationBudget")
         return text(s.iterationBudget);
     if (name == "forceEnabled")

@@ -16,6 +16,13 @@ enum class ContactMethod : uint8_t { Sweep, Neighbourhood };
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
 /// How the relief of the maps becomes force (force/spring_damper.h).
 enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
+/// How a place between texels is read. Mip: bilinear in the level whose texel is two strokes long, which
+/// leaves out what would alias at the servo rate; the others read the finest level, whatever the stroke.
+enum class TextureFilter : uint8_t { Nearest, Bilinear, Bicubic, Mip };
+/// Where the slope of a height map comes from. Central: differences over half a texel to either side of the
+/// place. Precomputed: differences that are kept for each texel, read as the heights are. Analytic: the
+/// derivative of what the filter makes.
+enum class TextureGradient : uint8_t { Central, Precomputed, Analytic };
 enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic };
 /// What safety does about the energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
@@ -41,6 +48,8 @@ struct HapticSettings {
     double textureTiltLimit = 0.4363323129985824;
     /// 0..1, scales height and the normal map's tilt.
     double textureStrength = 1.0;
+    TextureFilter textureFilter = TextureFilter::Mip;
+    TextureGradient textureGradient = TextureGradient::Central;
     /// Proxy moves a tick; fewer is safe and merely feels sticky [000 §7].
     int iterationBudget = 64;
     PassivityMode passivity = PassivityMode::Observe;

@@ -86,7 +86,7 @@ class Workbench {
     void frame() {
         const double start = secondsNow();
         takeModel();
-        prepareContact();
+        prepareSettings();
         if (const auto dropped = window_.takeDropped())
             open(*dropped);
         servo_.updateSnapshot();
@@ -137,25 +137,36 @@ class Workbench {
         window_.setTitle(shown_.model.scene->path + " – Touchstone");
     }
 
-    /// What contact=neighbourhood walks on is built on a worker when it is first asked for; the servo sweeps
-    /// until it is there.
-    void prepareContact() {
-        const bool wanted = hasModel() && state_.settings.contact == ContactMethod::Neighbourhood &&
-                            shown_.model.haptic->neighbourhoods() == nullptr;
+    /// What contact=neighbourhood walks on and the slopes of textureGradient=precomputed are built on a
+    /// worker when they are first asked for. Until they are there the servo sweeps, or works the slopes out.
+    void prepareSettings() {
+        if (!hasModel())
+            return;
+        const std::shared_ptr<const HapticScene>& haptic = shown_.model.haptic;
         const bool busy =
             building_.valid() && building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
         if (building_.valid() && !busy) {
             try {
                 building_.get();
             } catch (const std::exception& error) {
-                problem_ = std::string("contact=neighbourhood could not be prepared: ") + error.what();
+                problem_ = std::string("the settings could not be prepared: ") + error.what();
                 state_.settings.contact = ContactMethod::Sweep;
+                state_.settings.textureGradient = TextureGradient::Central;
+                servo_.setSettings(state_.settings);
                 return;
             }
         }
-        if (wanted && !busy && shown_.model.haptic->neighbourhoods() == nullptr)
-            building_ = std::async(std::launch::async,
-                                   [haptic = shown_.model.haptic] { haptic->buildNeighbourhoods(); });
+        const bool walk = state_.settings.contact == ContactMethod::Neighbourhood &&
+                          haptic->neighbourhoods() == nullptr,
+                   slopes = state_.settings.textureGradient == TextureGradient::Precomputed &&
+                            haptic->slopes() == nullptr;
+        if (!busy && (walk || slopes))
+            building_ = std::async(std::launch::async, [haptic, walk, slopes] {
+                if (walk)
+                    haptic->buildNeighbourhoods();
+                if (slopes)
+                    haptic->buildSlopes();
+            });
     }
 
     /// Holds what was chosen. A device is driven only by a scene with its own limits: it waits until the

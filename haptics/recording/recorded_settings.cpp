@@ -22,6 +22,8 @@ void eachSetting(Settings& s, const Visit& visit) {
     visit("shadingTiltLimit", s.shadingTiltLimit, 0);
     visit("textureTiltLimit", s.textureTiltLimit, 0);
     visit("textureStrength", s.textureStrength, 0);
+    visit("textureFilter", s.textureFilter, 4);
+    visit("textureGradient", s.textureGradient, 3);
     visit("iterationBudget", s.iterationBudget, 0);
     visit("passivity", s.passivity, 3);
     visit("forceEnabled", s.forceEnabled, 2);

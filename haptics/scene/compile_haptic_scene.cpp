@@ -35,15 +35,23 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
 }
 
 void HapticScene::buildNeighbourhoods() const {
-    const std::lock_guard lock(building_);
-    if (built_ != nullptr)
-        return;
-    std::vector<MeshAdjacency> all;
-    all.reserve(objects.size());
-    for (const auto& object : objects)
-        all.emplace_back(object->vertices, object->indices);
-    built_ = std::make_unique<const std::vector<MeshAdjacency>>(std::move(all));
-    neighbourhoods_.store(built_.get(), std::memory_order_release);
+    neighbourhoods_.build([&] {
+        std::vector<MeshAdjacency> all;
+        all.reserve(objects.size());
+        for (const auto& object : objects)
+            all.emplace_back(object->vertices, object->indices);
+        return all;
+    });
+}
+
+void HapticScene::buildSlopes() const {
+    slopes_.build([&] {
+        std::vector<HapticMap::Slopes> all;
+        all.reserve(materials.size());
+        for (const HapticMaterialData& material : materials)
+            all.push_back(material.height.texelSlopes());
+        return all;
+    });
 }
 
 std::shared_ptr<const HapticScene>

@@ -1,5 +1,7 @@
 #include "haptics/texture/haptic_map.h"
 
+#include "haptics/texture/wrap_index.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,29 +10,6 @@
 namespace touchstone {
 
 namespace {
-
-int wrapIndex(int i, int size, Wrap wrap) {
-    if (i >= 0 && i < size)
-        return i; // in most ticks, and a division is a quarter of a texel's cost
-    switch (wrap) {
-    case Wrap::ClampToEdge:
-        return std::clamp(i, 0, size - 1);
-    case Wrap::MirroredRepeat: {
-        const int period = 2 * size;
-        const int m = ((i % period) + period) % period;
-        return m < size ? m : period - 1 - m;
-    }
-    case Wrap::Repeat:
-        break;
-    }
-    return ((i % size) + size) % size;
-}
-
-/// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must not
-/// harm.
-double bounded(double x) {
-    return std::max(-1e9, std::min(1e9, x)); // in this order, what is no number becomes one
-}
 
 /// Float maps may hold anything; beyond this sums of texels would overflow.
 constexpr float kLargestTexel = 1e12f;
@@ -150,7 +129,7 @@ glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
 
 void HapticMap::findCell(const Level& level, const glm::dvec2& uv, Footprint::Cell& cell) const {
     // Texel centres lie at half-integers (glTF and every GPU agree).
-    const double x = bounded(uv.x * level.width - 0.5), y = bounded(uv.y * level.height - 0.5);
+    const double x = boundedTexel(uv.x * level.width - 0.5), y = boundedTexel(uv.y * level.height - 0.5);
     const double fx = std::floor(x), fy = std::floor(y);
     const int x0 = wrapIndex(static_cast<int>(fx), level.width, layout_->wrapS);
     const int x1 = wrapIndex(static_cast<int>(fx) + 1, level.width, layout_->wrapS);
@@ -207,7 +186,7 @@ glm::dvec3 HapticMap::vector(const Footprint& at) const {
 /// for the value; the slope is 1 - w of the first step and w of the second, exactly zero where texels are
 /// equal.
 glm::dvec3 HapticMap::valueAndSlope(const Level& level, const glm::dvec2& uv) const {
-    const double x = bounded(uv.x * level.width - 1.0), y = bounded(uv.y * level.height - 1.0);
+    const double x = boundedTexel(uv.x * level.width - 1.0), y = boundedTexel(uv.y * level.height - 1.0);
     const double fx = std::floor(x), fy = std::floor(y);
     const double wx = x - fx, wy = y - fy;
     const auto weights = [](double w) {

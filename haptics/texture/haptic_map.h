@@ -3,6 +3,7 @@
 #include "engine/core/checksum.h"
 #include "engine/scene/image.h"
 #include "engine/scene/material.h"
+#include "haptics/haptic_settings.h"
 
 #include <glm/glm.hpp>
 
@@ -78,6 +79,28 @@ class HapticMap {
     /// of the bilinear surface averaged over one texel; linear between levels.
     [[nodiscard]] Slope slope(const glm::dvec2& uv, double level) const;
 
+    // The rungs beside those: in texture/map_filters.cpp, so that they cost the others nothing.
+
+    /// The texels around a place in the finest level and their shares, by the filters that know no levels.
+    struct Patch {
+        int count = 0;                   ///< columns, and rows
+        std::array<int32_t, 4> column{}; ///< texels
+        std::array<int32_t, 4> row{};    ///< times the width
+        std::array<double, 4> across{}, down{};
+    };
+    /// `filter` is not Mip. Good for every map of the same layout.
+    void patch(const glm::dvec2& uv, TextureFilter filter, Patch& at) const;
+    [[nodiscard]] double scalar(const Patch& at) const;
+    [[nodiscard]] glm::dvec3 vector(const Patch& at) const;
+
+    /// Slopes kept for every texel of every level, per texel: central differences over two texels.
+    using Slopes = std::vector<std::vector<std::array<float, 2>>>;
+    [[nodiscard]] Slopes texelSlopes() const;
+    /// As `slope`, by any filter and gradient. `level` is Mip's. `kept`, where not null, is what texelSlopes
+    /// gave; without it Precomputed works out the same numbers from the texels.
+    [[nodiscard]] Slope slopeBy(TextureFilter filter, TextureGradient gradient, const glm::dvec2& uv,
+                                double level, const Slopes* kept) const;
+
   private:
     static inline const std::shared_ptr<const Layout> kNoLayout = std::make_shared<const Layout>();
 
@@ -92,6 +115,13 @@ class HapticMap {
     template <class Value>
     [[nodiscard]] Value read(const Footprint& at) const;
     [[nodiscard]] glm::dvec3 valueAndSlope(const Level& level, const glm::dvec2& uv) const;
+    [[nodiscard]] std::array<float, 2> texelSlope(const Level& level, int column, int row) const;
+    template <class Rule>
+    [[nodiscard]] glm::dvec3 derived(const Level& level, const glm::dvec2& uv) const;
+    template <class Rule>
+    [[nodiscard]] glm::dvec3 precomputed(size_t level, const glm::dvec2& uv, const Slopes* kept) const;
+    [[nodiscard]] glm::dvec3 slopeAt(size_t level, TextureFilter filter, TextureGradient gradient,
+                                     const glm::dvec2& uv, const Slopes* kept) const;
 
     std::vector<Level> levels_;
     std::shared_ptr<const Layout> layout_ = kNoLayout;

@@ -13,7 +13,7 @@ glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
     const HapticMap& map = spot.material.normal;
     if (!spot.hasUv(map.layout().texCoord))
         return spot.normal;
-    glm::dvec3 local = 2.0 * map.vector(maps.footprint(map)) - 1.0;
+    glm::dvec3 local = 2.0 * maps.vector(map) - 1.0;
     local.x *= spot.material.normalScale;
     local.y *= spot.material.normalScale;
     local.z = std::max(local.z, 0.0); // a normal that points into the surface would pull the hand in
@@ -60,7 +60,7 @@ Heights heightsFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
     const double scale = spot.material.heightScale;
     if (map.empty() || scale == 0.0 || !spot.hasUv(map.layout().texCoord))
         return {};
-    const HapticMap::Slope read = map.slope(maps.place(map), maps.level(map));
+    const HapticMap::Slope read = maps.slope(map, spot.slopes);
     const double black = scale * static_cast<double>(map.least()),
                  white = scale * static_cast<double>(map.greatest());
     const glm::dvec2 overMap = scale * read.gradient;

@@ -17,8 +17,7 @@ struct Relief {
 
 /// What the material's maps and the mesh's vertex heights say at the spot. With texture=law the
 /// normal map supplies m where there is one; else the heights do: m = normalize(n - grad H + (grad H . n) n)
-/// [000], with texture=blinn Blinn's bump normal [001 4.11]. At the mip level of the stroke: what would alias
-/// at the servo rate is left out.
+/// [000], with texture=blinn Blinn's bump normal [001 4.11].
 [[nodiscard]] Relief readRelief(const SurfaceSpot& spot, SpotMaps& maps,
                                 const HapticSettings& settings) noexcept;
 

@@ -26,6 +26,8 @@ void SpotMaps::settle(const HapticMap& map) noexcept {
     const SurfaceGradients& uv = gradients(map.layout().texCoord);
     const glm::dmat2& j = map.layout().jacobian;
     over_ = {j[0][0] * uv.first + j[1][0] * uv.second, j[0][1] * uv.first + j[1][1] * uv.second};
+    if (filter_ != TextureFilter::Mip)
+        return;
     const glm::dvec2 size(map.layout().width, map.layout().height);
     const double texelsPerObject =
         std::sqrt(std::max(size.x * size.x * glm::dot(over_.first, over_.first),
@@ -40,6 +42,14 @@ const HapticMap::Footprint& SpotMaps::footprint(const HapticMap& map) noexcept {
         map.footprint(place_, level_, footprint_);
     printed_ = true;
     return footprint_;
+}
+
+const HapticMap::Patch& SpotMaps::patch(const HapticMap& map) noexcept {
+    settle(map);
+    if (!printed_)
+        map.patch(place_, filter_, patch_);
+    printed_ = true;
+    return patch_;
 }
 
 } // namespace touchstone

@@ -36,11 +36,12 @@ template <class Facet>
 }
 
 /// What maps share at one spot, each part found when it is first asked for: gradients of the texture
-/// coordinates, mip level and footprint. Maps of one material mostly lie the same way.
+/// coordinates, mip level and texels. Maps of one material mostly lie the same way.
 class SpotMaps {
   public:
     /// `stroke`: m in the workspace that the hand goes along the surface in this tick; chooses mip levels.
-    SpotMaps(const SurfaceSpot& spot, double stroke) : spot_(spot), stroke_(stroke) {}
+    SpotMaps(const SurfaceSpot& spot, TextureFilter filter, TextureGradient gradient, double stroke)
+        : spot_(spot), filter_(filter), gradient_(gradient), stroke_(stroke) {}
 
     [[nodiscard]] const SurfaceGradients& gradients(int set) noexcept;
     // What follows is for maps whose coordinates the mesh has (SurfaceSpot::hasUv).
@@ -49,8 +50,8 @@ class SpotMaps {
         settle(map);
         return over_;
     }
-    /// Mip level whose texel is at least two strokes long: at that spacing the servo still samples every
-    /// feature twice (Nyquist).
+    /// With textureFilter=mip: the level whose texel is at least two strokes long: at that spacing the servo
+    /// still samples every feature twice (Nyquist).
     [[nodiscard]] double level(const HapticMap& map) noexcept {
         settle(map);
         return level_;
@@ -60,12 +61,27 @@ class SpotMaps {
         settle(map);
         return place_;
     }
-    [[nodiscard]] const HapticMap::Footprint& footprint(const HapticMap& map) noexcept;
+    [[nodiscard]] double scalar(const HapticMap& map) noexcept {
+        return filter_ == TextureFilter::Mip ? map.scalar(footprint(map)) : map.scalar(patch(map));
+    }
+    [[nodiscard]] glm::dvec3 vector(const HapticMap& map) noexcept {
+        return filter_ == TextureFilter::Mip ? map.vector(footprint(map)) : map.vector(patch(map));
+    }
+    /// `kept`: HapticScene::slopes of the map, if they are there.
+    [[nodiscard]] HapticMap::Slope slope(const HapticMap& map, const HapticMap::Slopes* kept) noexcept {
+        if (filter_ == TextureFilter::Mip && gradient_ == TextureGradient::Central)
+            return map.slope(place(map), level(map));
+        return map.slopeBy(filter_, gradient_, place(map), level(map), kept);
+    }
 
   private:
     void settle(const HapticMap& map) noexcept;
+    [[nodiscard]] const HapticMap::Footprint& footprint(const HapticMap& map) noexcept;
+    [[nodiscard]] const HapticMap::Patch& patch(const HapticMap& map) noexcept;
 
     const SurfaceSpot& spot_;
+    TextureFilter filter_;
+    TextureGradient gradient_;
     double stroke_;
     std::array<SurfaceGradients, 2> gradients_;
     std::array<bool, 2> known_{};
@@ -75,7 +91,8 @@ class SpotMaps {
     double level_ = 0.0;
     glm::dvec2 place_{0.0};
     bool printed_ = false;
-    HapticMap::Footprint footprint_;
+    HapticMap::Footprint footprint_; // of Mip
+    HapticMap::Patch patch_;         // of the others
 };
 
 } // namespace touchstone

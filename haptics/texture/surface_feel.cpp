@@ -66,13 +66,15 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
     SurfaceSpot spot = spotOf(object, material, contact.triangle, point, towardsProxy);
     spot.smooth = shadingMode(settings, material) != ShadingMode::Off;
     spot.workspacePerObject = workspaceFromObject.scale;
+    if (settings.textureGradient == TextureGradient::Precomputed && scene.slopes() != nullptr)
+        spot.slopes = &(*scene.slopes())[static_cast<size_t>(object.material)];
     spot.modelPerObject = workspaceFromObject.scale / scene.workspaceFromScene.scale;
 
-    SpotMaps maps(spot, speed * dt);
+    SpotMaps maps(spot, settings.textureFilter, settings.textureGradient, speed * dt);
     const auto factor = [&](const HapticFactor& f) {
         if (f.map.empty() || !spot.hasUv(f.map.layout().texCoord))
             return 1.0;
-        return f.min + (f.max - f.min) * f.map.scalar(maps.footprint(f.map));
+        return f.min + (f.max - f.min) * maps.scalar(f.map);
     };
     const double given = settings.stiffness > 0.0         ? settings.stiffness
                          : std::isnan(material.stiffness) ? scene.limits.recommendedStiffness

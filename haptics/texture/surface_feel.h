@@ -28,8 +28,8 @@ struct SurfaceFeel {
 };
 
 /// Picks the contact that carries most of the load and reads material, vertex attributes and maps there.
-/// `normal` and `depth` are those of the shaded rest. `speed` (m/s along the surface) and `dt` choose the mip
-/// level: what would alias at the servo rate is left out.
+/// `normal` and `depth` are those of the shaded rest. With textureFilter=mip `speed` (m/s along the surface)
+/// and `dt` choose the level: what would alias at the servo rate is left out.
 [[nodiscard]] SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions,
                                       const HapticSettings& settings, int anchor, const ProxyRest& rest,
                                       const glm::dvec3& normal, double depth, double speed,

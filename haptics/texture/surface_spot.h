@@ -26,7 +26,8 @@ struct SurfaceSpot {
     bool smooth = false;            ///< gradients are interpolated between vertices, as normals are
     std::array<glm::dvec2, 2> uv{}; ///< texture coordinates of both sets, where there are such
     double workspacePerObject = 1.0;
-    double modelPerObject = 1.0; ///< metres of the model in one object unit
+    double modelPerObject = 1.0;               ///< metres of the model in one object unit
+    const HapticMap::Slopes* slopes = nullptr; ///< kept for the height map, where they are wanted and there
 
     [[nodiscard]] uint32_t source(size_t corner) const { return object.sourceIndices[first + corner]; }
     [[nodiscard]] double attribute(const std::vector<float>& values, double otherwise) const {

@@ -211,6 +211,18 @@ Json neighbourhoodJson(const Model& model) {
             {"non_manifold_edges", nonManifold}};
 }
 
+/// The same for textureGradient=precomputed.
+Json slopesJson(const Model& model) {
+    const long long begin = monotonicNs();
+    model.haptic->buildSlopes();
+    const double seconds = 1e-9 * static_cast<double>(monotonicNs() - begin);
+    uint64_t bytes = 0;
+    for (const HapticMap::Slopes& map : *model.haptic->slopes())
+        for (const auto& level : map)
+            bytes += sizeof(level[0]) * level.size();
+    return {{"memory_bytes", bytes}, {"build_s", seconds}};
+}
+
 Json inspectionJson(const InspectOptions& options, const Model& model) {
     const Scene& scene = *model.scene;
     Json animations = Json::array();
@@ -236,6 +248,7 @@ Json inspectionJson(const InspectOptions& options, const Model& model) {
             {"objects", objectsJson(model)},
             {"tick_p50_ns", tickCostJson(model)},
             {"neighbourhood", neighbourhoodJson(model)},
+            {"slopes", slopesJson(model)},
             {"warnings", warningsJson(model)}};
 }
 
@@ -300,6 +313,9 @@ void printInspection(const Json& json) {
         "triangles\n",
         text(walk["memory_bytes"]).c_str(), walk["build_s"].get<double>(), text(walk["border_edges"]).c_str(),
         text(walk["non_manifold_edges"]).c_str());
+    if (const Json& slopes = json["slopes"]; slopes["memory_bytes"] > 0)
+        std::printf("  textureGradient=precomputed would take %s bytes and %.3f s\n",
+                    text(slopes["memory_bytes"]).c_str(), slopes["build_s"].get<double>());
     for (const Json& warning : json["warnings"])
         print("  warning: %s: %s\n", text(warning["place"]), text(warning["message"]));
 }

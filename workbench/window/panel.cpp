@@ -223,6 +223,26 @@ class Panel {
         ImGui::PopItemWidth();
     }
 
+    /// How maps are read, while they are.
+    void textureReading() {
+        constexpr std::array kFilters{"filter: nearest", "filter: bilinear", "filter: bicubic",
+                                      "filter: mip, by speed"};
+        constexpr std::array kGradients{"gradient: central", "gradient: precomputed", "gradient: analytic"};
+        if (state_.settings.texture == TextureMode::Off)
+            return;
+        ImGui::PushItemWidth(-1.0f);
+        int filter = static_cast<int>(state_.settings.textureFilter);
+        if (ImGui::Combo("##textureFilter", &filter, kFilters.data(), static_cast<int>(kFilters.size())))
+            state_.settings.textureFilter = static_cast<TextureFilter>(filter);
+        mark("textureFilter");
+        int gradient = static_cast<int>(state_.settings.textureGradient);
+        if (ImGui::Combo("##textureGradient", &gradient, kGradients.data(),
+                         static_cast<int>(kGradients.size())))
+            state_.settings.textureGradient = static_cast<TextureGradient>(gradient);
+        mark("textureGradient");
+        ImGui::PopItemWidth();
+    }
+
     /// Which law holds the proxy back, while one does.
     void frictionLaw() {
         constexpr std::array kLabels{"friction: sawtooth (Zilles)", "friction: two states (Ho)",
@@ -248,6 +268,7 @@ class Panel {
         shadingModel();
         toggle("Texture", "texture", settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
         textureLaw();
+        textureReading();
         toggle("Friction", "friction", settings.friction, chosen.friction, FrictionMode::Off,
                FrictionMode::Zilles);
         frictionLaw();

@@ -235,9 +235,9 @@ struct Errors {
     int deep = 0, shallow = 0;                   ///< samples with d >= H and below it
 };
 
-Errors press(const Body& body, TextureMode mode) {
+Errors press(const Body& body, TouchBench& bench) {
     constexpr int kSamples = 24;
-    TouchBench bench(sceneWith(body), settingsFor(mode));
+    const TextureMode mode = bench.settings.texture;
     Errors errors;
     for (int i = 0; i < kSamples; ++i) {
         const Real golden = 0.6180339887498949L, a = (i + 0.5L) / kSamples, b = std::fmod(i * golden, 1.0L);
@@ -278,7 +278,8 @@ TEST_P(TextureLaw, OnAMeshAndOnTheShapeThatItStandsFor) {
                 const Body body = make(cells, size);
                 SCOPED_TRACE(std::string(body.name) + ", " + std::to_string(cells) + " cells, size " +
                              std::to_string(size));
-                const Errors errors = press(body, GetParam());
+                TouchBench bench(sceneWith(body), settingsFor(GetParam()));
+                const Errors errors = press(body, bench);
                 EXPECT_LT(errors.worstOnMesh, 0.01);
                 EXPECT_GT(errors.deep, 0);
                 EXPECT_GT(errors.shallow, 0);
@@ -294,6 +295,32 @@ TEST_P(TextureLaw, OnAMeshAndOnTheShapeThatItStandsFor) {
                 last = errors;
             }
         }
+}
+
+TEST(TextureLawByRung, EveryFilterAndGradientComesToTheSameLaw) {
+    // 340 texels a wave. The nearest one's height is off by half a texel, and its slope, as a bilinear
+    // patch's own, by half a texel's turn.
+    for (const auto make : {planeBody, torusBody}) {
+        const Body body = make(48, 1.0);
+        TouchBench bench(sceneWith(body), settingsFor(TextureMode::Law));
+        for (const TextureFilter filter :
+             {TextureFilter::Nearest, TextureFilter::Bilinear, TextureFilter::Bicubic, TextureFilter::Mip})
+            for (const TextureGradient gradient :
+                 {TextureGradient::Central, TextureGradient::Precomputed, TextureGradient::Analytic}) {
+                const bool patch = filter != TextureFilter::Bicubic && gradient == TextureGradient::Analytic;
+                if (filter == TextureFilter::Nearest && patch)
+                    continue; // has no slope
+                bench.settings.textureFilter = filter;
+                bench.settings.textureGradient = gradient;
+                const Errors errors = press(body, bench);
+                const std::string name = settingValue(bench.settings, "textureFilter") + ", " +
+                                         settingValue(bench.settings, "textureGradient");
+                EXPECT_LT(errors.worstOnMesh, filter == TextureFilter::Nearest || patch ? 2e-3 : 2e-5)
+                    << body.name << ", " << name;
+                if (std::getenv("TEXTURE_FIGURES") != nullptr)
+                    std::printf("%s, %s: on the mesh %.1e\n", body.name, name.c_str(), errors.worstOnMesh);
+            }
+    }
 }
 
 std::string nameOf(const ::testing::TestParamInfo<TextureMode>& rung) {
