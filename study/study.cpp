@@ -118,6 +118,8 @@ class Run {
         const HapticSettings felt = inEffect(settings, *bench.haptic);
         if (felt.contact == ContactMethod::Neighbourhood)
             bench.haptic->buildNeighbourhoods();
+        if (felt.textureGradient == TextureGradient::Precomputed)
+            bench.haptic->buildSlopes();
         for (size_t i = 0; i < configurations_.size(); ++i)
             if (configurations_[i].bench->haptic == bench.haptic && configurations_[i].settings == felt)
                 return i;

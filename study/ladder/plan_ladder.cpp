@@ -30,6 +30,12 @@ bool has(const HapticScene& scene, Need need) {
     return true;
 }
 
+bool hasFactorMaps(const HapticScene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const HapticMaterialData& m) {
+        return !m.friction.map.empty() || !m.stiffnessMap.map.empty() || !m.dampingMap.map.empty();
+    });
+}
+
 const char* wordFor(Need need) {
     switch (need) {
     case Need::SmoothNormals:
@@ -126,6 +132,10 @@ HapticSettings inEffect(HapticSettings settings, const HapticScene& scene) {
         settings.textureTiltLimit = defaults.textureTiltLimit;
         settings.textureStrength = defaults.textureStrength;
     }
+    if (settings.texture == TextureMode::Off || !has(scene, Need::HeightMap))
+        settings.textureGradient = defaults.textureGradient;
+    if (settings.texture == TextureMode::Off && !hasFactorMaps(scene))
+        settings.textureFilter = defaults.textureFilter;
     const bool rough = settings.staticFriction > 0.0 ||
                        (settings.staticFriction < 0.0 &&
                         (isOn(scene, Effect::Friction) || isOn(scene, Effect::ViscousFriction)));
