@@ -6,6 +6,10 @@
 
 namespace touchstone::study {
 
+/// Nearer the truth without being dearer, or cheaper without being farther, where costs differ if their
+/// intervals have no value in common.
+[[nodiscard]] bool beats(const Estimate& cost, double error, const Estimate& otherCost, double otherError);
+
 /// Marks the rungs that no other one of the same scene, path and ladder beats: is nearer the truth, by
 /// `felt(errors)`, without being dearer, or is cheaper without being farther. Costs are medians of the step,
 /// and they differ where their intervals have no value in common, so that a second run finds the same front.

@@ -1,3 +1,4 @@
+#include "study/pareto.h"
 #include "study/report/plots/figures.h"
 #include "study/report/plots/label_places.h"
 
@@ -37,14 +38,13 @@ struct Point {
     int number = 0; ///< in the key; 0: none
 };
 
-/// No other rung of the ladder is as cheap and as near the truth, and better in one of the two.
+/// By this quantity: study/pareto marks the fronts of the force.
 void markFront(std::vector<Point>& points) {
     for (Point& p : points)
         p.front = std::none_of(points.begin(), points.end(), [&](const Point& other) {
-            const double cost = other.rung->step.value - p.rung->step.value, error = other.error - p.error;
             return other.ladder == p.ladder && other.rung->truth == p.rung->truth &&
-                   other.rung->rateHz == p.rung->rateHz && cost <= 0.0 && error <= 0.0 &&
-                   (cost < 0.0 || error < 0.0);
+                   other.rung->rateHz == p.rung->rateHz &&
+                   beats(other.rung->step, other.error, p.rung->step, p.error);
         });
 }
 
@@ -174,6 +174,8 @@ class ErrorPlot {
         std::vector<const Point*> owners;
         for (const Point& p : points_) {
             marks.push_back(pixel(p));
+            if (p.rung->isDefault) // its ring
+                marks.back().halfWidth = marks.back().halfHeight = 5.5;
             const double low = x_.fraction(1e-3 * p.rung->step.low),
                          high = x_.fraction(1e-3 * p.rung->step.high);
             if (high > low) // its interval
@@ -236,10 +238,10 @@ class ErrorPlot {
                 }
             down(7.0);
         }
-        script += "set arrow from screen " + at(left - 3.0, y) + " to screen " + at(left + 14.0, y) +
-                  " nohead lw 2 lc rgb '#666666' front\n" +
-                  labelAt(paper_, left + 20.0, y, "Pareto front: no rung of the ladder is faster and nearer",
-                          "", 11.5);
+        script +=
+            "set arrow from screen " + at(left - 3.0, y) + " to screen " + at(left + 14.0, y) +
+            " nohead lw 2 lc rgb '#666666' front\n" +
+            labelAt(paper_, left + 20.0, y, "Pareto front: no rung of the ladder beats these", "", 11.5);
         down(19.0);
         script += "set label '' at screen " + at(left + 5.0, y) +
                   " point pt 6 ps 1.9 lw 1.6 lc rgb '#000000' front\n" +

@@ -16,6 +16,17 @@ std::string number(double value) {
     return text.data();
 }
 
+/// As an axis has it: 10,000 and 0.00001.
+std::string ticText(double value) {
+    if (value >= 1e4)
+        return grouped(static_cast<size_t>(std::lround(value)));
+    std::array<char, 40> text{};
+    if (value < 1e-4 && value > 1e-12)
+        std::snprintf(text.data(), text.size(), "%.*f",
+                      static_cast<int>(std::ceil(-std::log10(value) - 1e-9)), value);
+    return text[0] != '\0' ? text.data() : number(value);
+}
+
 /// The largest of 1, 2, 5 times a power of ten that is no more than `value`.
 double stepBelow(double value) {
     const double decade = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
@@ -185,8 +196,7 @@ std::string LogAxis::script(char axis) const {
         for (const double step : steps) {
             const double at = step * std::pow(10.0, decade);
             if (at >= low * (1.0 - 1e-9) && at <= high * (1.0 + 1e-9))
-                tics += inQuotes(at >= 1e4 ? grouped(static_cast<size_t>(std::lround(at))) : number(at)) +
-                        " " + number(at) + ", ";
+                tics += inQuotes(ticText(at)) + " " + number(at) + ", ";
         }
     if (tics.ends_with(", "))
         tics.resize(tics.size() - 2);

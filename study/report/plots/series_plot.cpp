@@ -27,6 +27,10 @@ class Drawing {
                 (void)indexOf(colours_, s.colourName);
             (void)indexOf(marks_, s.markName);
         }
+        oneKey_ = std::all_of(plot_.series.begin(), plot_.series.end(),
+                              [](const Series& s) { return s.floor || s.colourName == s.markName; });
+        std::sort(plot_.thresholds.begin(), plot_.thresholds.end(),
+                  [](const Threshold& a, const Threshold& b) { return a.at < b.at; });
         chooseAxes();
     }
 
@@ -81,16 +85,20 @@ class Drawing {
                labelAt(plot_.paper, plot_.paper.area.right - 6.0, plot_.paper.area.bottom + 10.0,
                        plot_.leastText, "right tc rgb '#777777'", 10.5);
     }
-    /// Words along each line, from the top downwards.
+    /// A name above each, in a second row where two are near each other.
     [[nodiscard]] std::string thresholds() const {
         std::string script;
         const Area& a = plot_.paper.area;
+        double end[2]{-1.0, -1.0}; // of the names in each row
         for (const Threshold& t : plot_.thresholds) {
             const double x = a.left + x_.fraction(t.at) * (a.right - a.left);
-            script += "set arrow from screen " + at(x, a.bottom) + " to screen " + at(x, a.top) +
-                      " nohead dt (8,5) lw 1.4 lc rgb '#a00000' back\n";
+            const double half = 0.5 * textWidth(t.name, 11.0);
+            const int row = x - half > end[0] ? 0 : 1;
+            end[row] = x + half + 4.0;
+            script += "set arrow from screen " + at(x, a.bottom) + " to screen " +
+                      at(x, a.top + 4.0 + 14.0 * row) + " nohead dt (8,5) lw 1.4 lc rgb '#a00000' back\n";
             script +=
-                labelAt(plot_.paper, x - 8.0, a.top, t.text, "right rotate by 90 tc rgb '#a00000'", 11.0);
+                labelAt(plot_.paper, x, a.top + 11.0 + 14.0 * row, t.name, "center tc rgb '#a00000'", 11.0);
         }
         return script;
     }
@@ -112,16 +120,35 @@ class Drawing {
         };
         title(plot_.colourTitle);
         for (size_t i = 0; i < colours_.size(); ++i)
-            line(std::string(markOf(i).colour), "", colours_[i]);
+            if (oneKey_) {
+                script += markAt(plot_.paper, left + 7.0, y, markOf(i)) +
+                          labelAt(plot_.paper, left + 26.0, y, cut(colours_[i], 44), "", 12.0);
+                y -= 19.0;
+            } else {
+                line(std::string(markOf(i).colour), "", colours_[i]);
+            }
         for (const Series& s : plot_.series)
             if (s.floor) {
                 line(std::string(kFloorColour), "dt (4,4)", s.colourName);
                 break;
             }
         y -= 8.0;
-        if (marks_.size() < 2)
+        if (marks_.size() > 1 && !oneKey_) {
+            title(plot_.markTitle);
+            keyOfMarks(script, left, y);
+        }
+        if (plot_.thresholds.empty())
             return script;
-        title(plot_.markTitle);
+        y -= 8.0;
+        title(plot_.thresholdTitle);
+        for (const Threshold& t : plot_.thresholds) {
+            script += labelAt(plot_.paper, left - 4.0, y, t.name, "tc rgb '#a00000'", 12.0) +
+                      labelAt(plot_.paper, left + 58.0, y, cut(t.text, 48), "", 12.0);
+            y -= 19.0;
+        }
+        return script;
+    }
+    void keyOfMarks(std::string& script, double left, double& y) const {
         for (size_t i = 0; i < marks_.size(); ++i) {
             Mark mark = markOf(i);
             mark.colour = "#333333";
@@ -129,7 +156,6 @@ class Drawing {
                       labelAt(plot_.paper, left + 26.0, y, cut(marks_[i], 44), "", 12.0);
             y -= 19.0;
         }
-        return script;
     }
     [[nodiscard]] std::string curves() const {
         std::string script = "plot ";
@@ -164,6 +190,7 @@ class Drawing {
     const Provenance& where_;
     std::vector<std::string> colours_, marks_;
     LogAxis x_, y_;
+    bool oneKey_ = false;
 };
 
 } // namespace

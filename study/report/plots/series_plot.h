@@ -10,7 +10,7 @@ struct SeriesPoint {
 };
 
 struct Series {
-    std::string colourName, markName; ///< series of one name share a colour, or a mark
+    std::string colourName, markName; ///< series of one name share a colour, or a mark; all alike: one key
     std::vector<SeriesPoint> points;  ///< sorted by x here
     bool floor = false;               ///< drawn dashed and grey, one for all: what it is measured against
 };
@@ -18,7 +18,7 @@ struct Series {
 /// A line across the plot at `at` on the axis of x.
 struct Threshold {
     double at;
-    std::string text;
+    std::string name, text; ///< above the line; in the key
 };
 
 struct SeriesPlot {
@@ -28,6 +28,7 @@ struct SeriesPlot {
     std::string colourTitle, markTitle; ///< of the key's parts
     std::vector<Series> series;
     std::vector<Threshold> thresholds;
+    std::string thresholdTitle;
     double leastY = 0.0; ///< what is less is drawn as exact
     std::string leastText;
 };

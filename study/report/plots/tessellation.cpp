@@ -12,13 +12,14 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::string_view kFacetAngle = "facet angle";
 
-/// "[004 Table 2], …, force only (C1)" and "facet angle, no shading": what stands behind the first comma.
-std::string words(const JustNoticeable& j) {
+/// Of "facet angle, no shading", "[004 Table 2], …, force only (C1)": "C1 0.5°" and "no shading".
+Threshold thresholdOf(const JustNoticeable& j) {
     const size_t comma = j.quantity.find(", ");
     const size_t open = j.source.rfind('('), close = j.source.rfind(')');
-    const std::string what = comma == std::string::npos ? j.quantity : j.quantity.substr(comma + 2);
     const bool named = open != std::string::npos && close != std::string::npos && close - open == 3;
-    return brief(kDegrees * j.value) + "° " + (named ? j.source.substr(open + 1, 2) + ": " : "") + what;
+    return {kDegrees * j.value,
+            (named ? j.source.substr(open + 1, 2) + " " : "") + brief(kDegrees * j.value) + "°",
+            comma == std::string::npos ? j.quantity : j.quantity.substr(comma + 2)};
 }
 
 } // namespace
@@ -27,10 +28,10 @@ std::vector<Figure> errorOverTessellation(const StudyResult& result) {
     SeriesPlot plot;
     plot.name = "error_over_tessellation";
     plot.paper.title = "How far the force points aside, over how coarsely a shape is cut";
-    plot.paper.subtitle =
-        "Against the smooth shape. Left of a dashed line people feel a smooth curve where the "
-        "force turns by the whole facet angle.";
-    plot.paper.notes = {"Dashed: just noticeable angle between facets, [004 Table 2]"};
+    plot.paper.subtitle = "Error against the smooth shape. Left of a dashed line people feel a smooth curve.";
+    plot.paper.area.left = 112.0;
+    plot.paper.area.top = 622.0;
+    plot.thresholdTitle = "just noticeable facet angle, [004 Table 2]";
     plot.xWords = "angle between adjacent facets under the path, degrees (mean)";
     plot.yWords = "error of the force's direction, degrees (99 % of ticks are nearer)";
     plot.colourTitle = "rung";
@@ -53,7 +54,7 @@ std::vector<Figure> errorOverTessellation(const StudyResult& result) {
         return {};
     for (const JustNoticeable& j : result.noticeable)
         if (j.quantity.starts_with(kFacetAngle) && j.value > 0.0)
-            plot.thresholds.push_back({kDegrees * j.value, words(j)});
+            plot.thresholds.push_back(thresholdOf(j));
     return {figureOf(std::move(plot), result.provenance)};
 }
 

@@ -71,14 +71,25 @@ Figure ofShapes(const StudyResult& result) {
     return figureOf(std::move(plot), result.provenance);
 }
 
+/// Of the ladder with the most rungs, the one that the program climbs by itself; null where there is none.
+const RungResult* defaultOf(const SceneRungs& scene) {
+    std::map<std::string, size_t> sizes;
+    for (const RungResult* r : scene.rungs)
+        ++sizes[r->ladder];
+    const RungResult* found = nullptr;
+    for (const RungResult* r : scene.rungs)
+        if (r->isDefault && r->step.value > 0.0 && r->triangles > 0 &&
+            (found == nullptr || sizes[r->ladder] > sizes[found->ladder]))
+            found = r;
+    return found;
+}
+
 /// What the program does by itself on each scene, a point a scene.
 Figure ofScenes(const StudyResult& result) {
     std::vector<const RungResult*> rungs;
-    std::set<std::string> scenes;
-    for (const RungResult& r : result.rungs)
-        if (r.isDefault && r.ladder != kTessellationLadder && r.step.value > 0.0 && r.triangles > 0 &&
-            scenes.insert(r.scene + "\n" + r.path).second)
-            rungs.push_back(&r);
+    for (const SceneRungs& scene : byScene(result, false))
+        if (const RungResult* r = defaultOf(scene))
+            rungs.push_back(r);
     if (rungs.size() < 2)
         return {};
     SeriesPlot plot;
@@ -93,6 +104,12 @@ Figure ofScenes(const StudyResult& result) {
         plot.series.push_back({rungs.size() <= kMostNames ? r->scene : "a scene",
                                rungs.size() <= kMostNames ? r->scene : "a scene",
                                {timeOf(*r)}});
+    Series floor{kRayFloor, kRayFloor, {}, true};
+    for (const RungResult* r : rungs)
+        if (r->rayFloor > 0.0)
+            floor.points.push_back({static_cast<double>(r->triangles), 1e-3 * r->rayFloor, 1e-3 * r->rayFloor,
+                                    1e-3 * r->rayFloor});
+    plot.series.push_back(std::move(floor));
     return figureOf(std::move(plot), result.provenance);
 }
 

@@ -54,7 +54,7 @@ TEST(StudyPlots, NameTheirUnitsAndSeries) {
         {"error_direction_torus", {"degrees", "just noticeable: 28.6 degrees"}},
         {"stages_torus", {"ns", "safety", "whole tick", "rung 0"}},
         {"cost_over_triangles", {"triangles", "µs", "one Embree ray", "flat", "two-pass"}},
-        {"error_over_tessellation", {"degrees", "0.498° C1: no shading", "3.38° C2", "shape"}},
+        {"error_over_tessellation", {"degrees", "C1 0.498°", "no shading", "C2 3.38°", "shape"}},
         {"servo_rate", {"kHz", "N/mm", "%", "theory", "measured"}},
     };
     for (const auto& [name, words] : expected) {
