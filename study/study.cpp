@@ -20,9 +20,8 @@ constexpr double kTick = 1e-3; // s
 /// What kUntextured of the ladders says, and Coulomb's ladder of friction.
 constexpr double kStiffness = 600.0, kSliding = 0.3; // N/m, 1
 
-/// Settings on a scene as they are felt: rungs that say the same are measured once.
+/// Settings as they are felt: rungs that say the same are measured once.
 struct Configuration {
-    const BenchScene* bench = nullptr;
     HapticSettings settings; ///< in effect
     FeltPath felt;
     RungTimes times;
@@ -52,9 +51,8 @@ class Run {
                                     options_.ladders.end();
             if (!wanted || (ladder.name == "tessellation") != tessellation)
                 continue;
-            const BenchScene& bench = ladder.against == Against::MostExact ? subject_.bench : bare_;
-            for (PlannedRung& rung : planLadder(ladder, *bench.haptic, notes)) {
-                const size_t at = configurationOf(bench, rung.settings);
+            for (PlannedRung& rung : planLadder(ladder, *bare_.haptic, notes)) {
+                const size_t at = configurationOf(rung.settings);
                 entries_.push_back({std::move(rung), at, truthOf(ladder)});
             }
         }
@@ -66,14 +64,14 @@ class Run {
             progress_("errors",
                       0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(configurations_.size()));
             Configuration& c = configurations_[i];
-            c.felt = feel(*c.bench->haptic, c.settings, hips_);
+            c.felt = feel(*bare_.haptic, c.settings, hips_);
         }
     }
 
     void time() {
         std::vector<Rung> rungs;
         for (const Configuration& c : configurations_)
-            rungs.push_back({subject_.bench.name, c.bench, c.settings, subject_.speed});
+            rungs.push_back({subject_.bench.name, &bare_, c.settings, subject_.speed});
         const BenchPlan plan{.rounds = options_.rounds,
                              .ticksPerRound = options_.ticksPerRound,
                              .stages = true,
@@ -108,38 +106,37 @@ class Run {
     }
 
     [[nodiscard]] Truth truthOf(const Ladder& ladder) const {
-        if (ladder.against == Against::MostExact ||
-            (ladder.against == Against::Smooth && subject_.smooth == nullptr))
+        if ((ladder.against == Against::Smooth && subject_.smooth == nullptr) ||
+            (ladder.against == Against::Relief && !subject_.relief))
             return Truth::Reference;
         return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;
     }
 
-    size_t configurationOf(const BenchScene& bench, const HapticSettings& settings) {
-        const HapticSettings felt = inEffect(settings, *bench.haptic);
+    size_t configurationOf(const HapticSettings& settings) {
+        const HapticSettings felt = inEffect(settings, *bare_.haptic);
         if (felt.contact == ContactMethod::Neighbourhood)
-            bench.haptic->buildNeighbourhoods();
+            bare_.haptic->buildNeighbourhoods();
         if (felt.textureGradient == TextureGradient::Precomputed)
-            bench.haptic->buildSlopes();
+            bare_.haptic->buildSlopes();
         for (size_t i = 0; i < configurations_.size(); ++i)
-            if (configurations_[i].bench->haptic == bench.haptic && configurations_[i].settings == felt)
+            if (configurations_[i].settings == felt)
                 return i;
-        Configuration& made = configurations_.emplace_back();
-        made.bench = &bench;
-        made.settings = felt;
+        configurations_.emplace_back().settings = felt;
         return configurations_.size() - 1;
     }
 
     /// One path of rests for each radius; those of the oracle side by side.
     void findRests() {
         std::map<double, std::future<truth::RestPath>> pending;
+        const int frame = bare_.haptic->objects.size() > 1 ? feel(*bare_.haptic, {}, hips_).object : 0;
         for (const Entry& entry : entries_) {
             const double radius = feltRadius(entry.rung.settings);
             if (entry.truth == Truth::Reference || pending.contains(radius))
                 continue;
-            pending[radius] = std::async(std::launch::async, [this, radius] {
+            pending[radius] = std::async(std::launch::async, [this, radius, frame] {
                 return subject_.smooth != nullptr
                            ? truth::smoothPath(*subject_.smooth, hips_, radius)
-                           : truth::oraclePath(*bare_.haptic, hips_, radius, options_.oracleMoves);
+                           : truth::oraclePath(*bare_.haptic, frame, hips_, radius, options_.oracleMoves);
             });
         }
         size_t done = 0;
@@ -150,15 +147,22 @@ class Run {
     }
 
     std::vector<truth::FeltTick> truthFor(const Entry& entry) {
-        if (entry.truth != Truth::Reference)
-            return truth::springForces(rests_.at(feltRadius(entry.rung.settings)), hips_, kStiffness,
-                                       entry.rung.ladder->against == Against::Coulomb ? kSliding : 0.0);
-        const BenchScene& bench = *configurations_[entry.configuration].bench;
-        const HapticSettings exact = inEffect(entry.rung.exact, *bench.haptic);
-        for (const auto& [settings, ticks] : references_)
-            if (settings == exact)
+        const Against against = entry.rung.ladder->against;
+        if (entry.truth == Truth::Reference)
+            return referenceFor(entry.rung.exact);
+        const double radius = feltRadius(entry.rung.settings);
+        if (against == Against::Relief)
+            return truth::reliefForces(rests_.at(radius), hips_, radius, kStiffness, subject_.relief);
+        return truth::springForces(rests_.at(radius), hips_, kStiffness,
+                                   against == Against::Coulomb ? kSliding : 0.0);
+    }
+
+    const std::vector<truth::FeltTick>& referenceFor(const HapticSettings& settings) {
+        const HapticSettings exact = inEffect(settings, *bare_.haptic);
+        for (const auto& [known, ticks] : references_)
+            if (known == exact)
                 return ticks;
-        references_.emplace_back(exact, feel(*bench.haptic, exact, hips_).ticks);
+        references_.emplace_back(exact, feel(*bare_.haptic, exact, hips_).ticks);
         return references_.back().second;
     }
 

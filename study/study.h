@@ -16,7 +16,7 @@ struct StudyOptions {
     size_t errorTicks = 4000;         ///< of the path, from where the hand comes down
     /// Of the oracle over a path, for each radius: a bound on its time, about 10 µs each.
     size_t oracleMoves = 400'000;
-    int rounds = 100, ticksPerRound = 400;
+    int rounds = 150, ticksPerRound = 480;
     /// Of a closed form's tessellation ladder: 2^10, 2^12, … up to this.
     size_t largestTriangles = 1'048'576;
 };

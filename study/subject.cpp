@@ -79,6 +79,30 @@ Subject planeSubject(size_t triangles) {
         truth::smoothPlane());
 }
 
+/// The plane with a height map of two crossed waves, 32 texels long: what filters and gradients make of it is
+/// compared with the waves themselves.
+Subject reliefSubject(size_t triangles) {
+    constexpr int kTexels = 256, kWaves = 8;
+    constexpr double kScale = 0.5e-3; // m, from the lowest place to the highest
+    // A texel's middle lies on every crest and in every trough, so that the map knows the lowest place.
+    const auto phase = [](double u) { return 2.0 * kPi * kWaves * (u - 0.5 / kTexels); };
+    const uint32_t side = triangles <= 2 ? 1 : sideFor(triangles);
+    Subject subject = planeSubject(triangles);
+    subject.shape = "relief";
+    assets::Shape sheetOfWaves = assets::plane(kSheet, kSheet, side, side);
+    const std::string name = "relief " + grouped(sheetOfWaves.triangleCount());
+    subject.bench = reliefScene(
+        name, std::move(sheetOfWaves), subject.bench.stroke, kTexels, kScale,
+        [phase](double u, double v) { return 0.5 + 0.25 * (std::cos(phase(u)) + std::cos(phase(v))); });
+    subject.relief = [phase](const glm::dvec3& place) {
+        const double a = phase(place.x / kSheet + 0.5), b = phase(place.z / kSheet + 0.5);
+        const double rise = 0.25 * kScale * 2.0 * kPi * kWaves / kSheet;
+        return truth::ReliefAt{kScale * (0.5 + 0.25 * (std::cos(a) + std::cos(b))),
+                               glm::dvec3(-rise * std::sin(a), 0.0, -rise * std::sin(b))};
+    };
+    return subject;
+}
+
 /// Around the ball, slowly up and down between the 34th degrees of latitude.
 Subject sphereSubject(size_t triangles) {
     const uint32_t side = sideFor(triangles);
@@ -160,6 +184,7 @@ constexpr std::array kKinds{
     ShapeKind{"cylinder", "radius 25 mm", 2048, cylinderSubject},
     ShapeKind{"torus", "ring 60 mm, tube 25 mm", 64800, torusSubject},
     ShapeKind{"waves", "a cosine of 1 mm every 20 mm", 12800, wavesSubject},
+    ShapeKind{"relief", "the sheet with a height map of waves, 0.5 mm every 25 mm", 2, reliefSubject},
     ShapeKind{"wedge", "a ridge of 120 degrees", 512, wedgeSubject},
 };
 

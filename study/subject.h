@@ -2,7 +2,7 @@
 // What is studied: a scene, a path of the hand over it and, where there is one, its shape in closed form.
 
 #include "study/timing/bench_scene.h"
-#include "study/truth/smooth_shape.h"
+#include "study/truth/truth_path.h"
 
 #include <filesystem>
 #include <span>
@@ -17,6 +17,7 @@ struct Subject {
     std::string shape, path;
     double speed = 0.1;           ///< m/s, with which bench.stroke is taken
     truth::SmoothShapePtr smooth; ///< null: the mesh is all there is
+    truth::Relief relief;         ///< what its height map means; empty: none, or no more than its texels say
     std::vector<std::string> notes;
 
     /// Where the hand is at `time`, s: it comes down from above.

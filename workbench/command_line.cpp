@@ -314,16 +314,17 @@ void parseShard(const std::string& text, StudyCommandOptions& options) {
 }
 
 void defineStudy(CLI::App& app, StudyCommandOptions& options) {
-    app.add_option("WHAT", options.what,
-                   "Shapes (plane, sphere, cylinder, torus, waves, wedge) and glTF files; without any, every "
-                   "shape")
+    app.add_option(
+           "WHAT", options.what,
+           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge) and glTF files; without any, every "
+           "shape")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
     app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")
         ->type_name("NAME")
         ->expected(1)
         ->take_all();
-    app.add_option("--rounds", options.rounds, "Turns that every rung takes [100]")
+    app.add_option("--rounds", options.rounds, "Turns that every rung takes [150]")
         ->type_name("N")
         ->check(CLI::Range(2, 10000));
     app.add_flag("--quick", options.quick, "A rougher answer in less time");

@@ -4,6 +4,7 @@
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace touchstone::study {
@@ -57,6 +58,7 @@ FeltPath feel(const HapticScene& scene, const HapticSettings& settings, std::spa
     WorldState world;
     HapticOutput output;
     StageTrace trace;
+    std::vector<size_t> touched(scene.objects.size());
     for (size_t i = 0; i < hips.size(); ++i) {
         DeviceSample sample;
         sample.position = hips[i];
@@ -70,7 +72,10 @@ FeltPath feel(const HapticScene& scene, const HapticSettings& settings, std::spa
         hapticStep(scene, settings, input, world, {&state, 1}, {&output, 1}, tracer);
         path.ticks.push_back({output.proxy, output.force, output.contacts > 0, false});
         angles.meet(scene, output);
+        if (output.contacts > 0 && output.object >= 0)
+            ++touched[static_cast<size_t>(output.object)];
     }
+    path.object = static_cast<int>(std::max_element(touched.begin(), touched.end()) - touched.begin());
     path.facetAngle = angles.mean();
     return path;
 }

@@ -10,6 +10,7 @@ namespace touchstone::study {
 
 struct FeltPath {
     std::vector<truth::FeltTick> ticks;
+    int object = 0; ///< HapticScene::objects, touched in most ticks
     double facetAngle =
         0.0; ///< rad, mean over the changes from one facet to another that is not level with it
 };

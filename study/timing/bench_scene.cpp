@@ -3,6 +3,8 @@
 #include "assets/shapes.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -223,6 +225,27 @@ BenchScene torusScene(size_t triangles) {
 
 BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke) {
     return {std::move(name), compile(std::move(shape), {glm::dvec3(0.0)}), std::move(stroke), nullptr};
+}
+
+BenchScene reliefScene(std::string name, assets::Shape shape, BenchStroke stroke, int side, double scale,
+                       const BenchHeight& height) {
+    Image image;
+    image.decoded = true;
+    image.pixels = {side, side, 1, ComponentType::F32, {}};
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto bytes = std::bit_cast<std::array<std::byte, 4>>(
+                static_cast<float>(height((x + 0.5) / side, (y + 0.5) / side)));
+            image.pixels.bytes.insert(image.pixels.bytes.end(), bytes.begin(), bytes.end());
+        }
+    Scene scene = plainScene();
+    scene.images.push_back(std::move(image));
+    HeightMap map;
+    map.texture.image = 0;
+    map.scale = static_cast<float>(scale);
+    scene.materials[0].haptic.height = HapticMaterial::Field<HeightMap>{map, HapticSource::Touchstone};
+    return {std::move(name), compile(std::move(shape), {glm::dvec3(0.0)}, std::move(scene)),
+            std::move(stroke), nullptr};
 }
 
 BenchScene torusWithAllEffects(size_t triangles) {

@@ -42,6 +42,13 @@ struct BenchScene {
 /// Any shape, as large as it is, with a stroke of one's own.
 [[nodiscard]] BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke);
 
+/// A height over texture coordinates of 0..1, 0..1 of `scale`.
+using BenchHeight = std::function<double(double u, double v)>;
+
+/// The same with a height map of `side` x `side` float texels, white `scale` m above black.
+[[nodiscard]] BenchScene reliefScene(std::string name, assets::Shape shape, BenchStroke stroke, int side,
+                                     double scale, const BenchHeight& height);
+
 /// The same torus with every effect that a material can ask for: smooth normals, a normal map, a height map,
 /// friction and viscous friction with a friction map, damping with a map and a stiffness map.
 [[nodiscard]] BenchScene torusWithAllEffects(size_t triangles);

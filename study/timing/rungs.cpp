@@ -22,12 +22,12 @@ constexpr double kDescent = 0.1;   // m/s
 /// them.
 constexpr uint64_t kAlike = 4;
 
-/// The stage at whose end the clock is read in a tick, or none.
+/// The stage at whose end the clock is read in a tick, or none: in every third four.
 std::optional<Stage> splitOf(uint64_t tick) {
-    const uint64_t turn = tick / kAlike % (2 * kStageCount);
-    if (turn % 2 == 0)
+    const uint64_t turn = tick / kAlike % (3 * kStageCount / 2);
+    if (turn % 3 == 0)
         return std::nullopt;
-    return static_cast<Stage>(turn / 2);
+    return static_cast<Stage>(2 * (turn / 3) + turn % 3 - 1);
 }
 
 /// One rung with what it remembers from turn to turn.

@@ -56,7 +56,7 @@ struct RungTimes {
 struct BenchPlan {
     int rounds = 20;
     int ticksPerRound = 1000;
-    /// In every other four ticks the clock is read at the end of one stage, of each in turn; what is told of
+    /// In eight ticks of twelve the clock is read at the end of one stage, of each in turn; what is told of
     /// whole steps is of the others.
     bool stages = false;
     /// 0: every rung comes down from above where its own stretch begins. Else all begin where the path does,

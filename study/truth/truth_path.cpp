@@ -20,10 +20,11 @@ RestPath smoothPath(const SmoothShape& shape, std::span<const glm::dvec3> hips, 
     return path;
 }
 
-RestPath oraclePath(const HapticScene& scene, std::span<const glm::dvec3> hips, double radius, size_t moves) {
+RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dvec3> hips, double radius,
+                    size_t moves) {
     RestPath path;
-    const Soup soup(scene, 0);
-    const HapticObject& object = *scene.objects[0];
+    const Soup soup(scene, frame);
+    const HapticObject& object = *scene.objects[static_cast<size_t>(frame)];
     const LSimilarity workspaceFromObject(object.workspaceFromObject);
     // What is thinner than what was welded is no thinner: so is the solver's point.
     const long double reach = std::max(static_cast<long double>(radius) / workspaceFromObject.scale,
@@ -73,6 +74,22 @@ std::vector<FeltTick> springForces(const RestPath& path, std::span<const glm::dv
         }
         tick.proxy += held;
         tick.force = stiffness * (pull + held);
+    }
+    return ticks;
+}
+
+std::vector<FeltTick> reliefForces(const RestPath& path, std::span<const glm::dvec3> hips, double radius,
+                                   double stiffness, const Relief& relief) {
+    std::vector<FeltTick> ticks = springForces(path, hips, stiffness, 0.0);
+    for (size_t i = 0; i < hips.size(); ++i) {
+        if (!ticks[i].contact)
+            continue;
+        const glm::dvec3& n = path.normals[i];
+        const ReliefAt at = relief(path.proxies[i] - radius * n);
+        const glm::dvec3 m = glm::normalize(n - at.slope + glm::dot(at.slope, n) * n);
+        const double depth = glm::length(path.proxies[i] - hips[i]);
+        ticks[i].force =
+            stiffness * (depth >= at.height ? (depth - at.height) * n + at.height * m : depth * m);
     }
     return ticks;
 }

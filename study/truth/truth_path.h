@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -31,15 +32,28 @@ struct RestPath {
 /// On the smooth shape.
 [[nodiscard]] RestPath smoothPath(const SmoothShape& shape, std::span<const glm::dvec3> hips, double radius);
 
-/// On the mesh, by the oracle: it goes on from its own last rest, sees every triangle of the scene at rest
-/// and has no budget but `moves` over the whole path; ticks beyond are failed. Any thread.
-[[nodiscard]] RestPath oraclePath(const HapticScene& scene, std::span<const glm::dvec3> hips, double radius,
-                                  size_t moves);
+/// On the mesh, by the oracle, in the frame of one of the scene's objects: the one that is touched most. It
+/// goes on from its own last rest, sees every triangle of the scene at rest and has no budget but `moves`
+/// over the whole path; ticks beyond are failed. Any thread.
+[[nodiscard]] RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dvec3> hips,
+                                  double radius, size_t moves);
 
 /// The force of a spring of `stiffness`, N/m, from the HIP to the proxy, and Coulomb's friction at
 /// `friction` times the load against the way that the proxy takes: rigid, so that a sliding hand feels it in
 /// full from its first tick. 0: none.
 [[nodiscard]] std::vector<FeltTick> springForces(const RestPath& path, std::span<const glm::dvec3> hips,
                                                  double stiffness, double friction);
+
+/// A relief over a smooth shape: its height over the lowest place, m, and the slope of that.
+struct ReliefAt {
+    double height = 0.0;
+    glm::dvec3 slope{0.0};
+};
+using Relief = std::function<ReliefAt(const glm::dvec3& place)>;
+
+/// The same without friction, for a relief that displaces the surface by [000]'s law: with depth d, height H
+/// and m the normal that the slope leaves of n, k [(d - H) n + H m] where d >= H, else k d m.
+[[nodiscard]] std::vector<FeltTick> reliefForces(const RestPath& path, std::span<const glm::dvec3> hips,
+                                                 double radius, double stiffness, const Relief& relief);
 
 } // namespace touchstone::truth

@@ -142,7 +142,7 @@ TEST(SmoothShape, OfFlatFacesIsWhereTheOracleRestsOnThem) {
         const std::vector<glm::dvec3> hips = hipsOf(subject, 1500);
         for (const double radius : {0.0, 0.5e-3}) {
             const truth::RestPath smooth = truth::smoothPath(*subject.smooth, hips, radius);
-            const truth::RestPath oracle = truth::oraclePath(*subject.bench.haptic, hips, radius, kMoves);
+            const truth::RestPath oracle = truth::oraclePath(*subject.bench.haptic, 0, hips, radius, kMoves);
             // A point is as thick as half of what was welded, and vertices are floats.
             EXPECT_LT(furthestApart(smooth, oracle), 2e-7) << name << ", radius " << radius;
             EXPECT_EQ(std::count(oracle.failed.begin(), oracle.failed.end(), true), 0) << name;
@@ -160,7 +160,7 @@ TEST(SmoothShape, OfWhatIsRoundIsWhereTheOraclesOnFinerMeshesTend) {
             const Subject subject = kind.make(triangles);
             const std::vector<glm::dvec3> hips = hipsOf(subject, 600);
             const truth::RestPath smooth = truth::smoothPath(*subject.smooth, hips, 0.5e-3);
-            const truth::RestPath oracle = truth::oraclePath(*subject.bench.haptic, hips, 0.5e-3, kMoves);
+            const truth::RestPath oracle = truth::oraclePath(*subject.bench.haptic, 0, hips, 0.5e-3, kMoves);
             double depth = 0.0;
             for (size_t i = 0; i < hips.size(); ++i)
                 depth = std::max(depth, std::fabs(glm::length(smooth.proxies[i] - hips[i]) -
@@ -193,10 +193,22 @@ TEST(SpringForces, PullToTheProxyAndRubAgainstItsWay) {
     EXPECT_NEAR(truth::springForces(rests, hips, 600.0, 0.0)[5].force.x, 0.0, 1e-18);
 }
 
+TEST(ReliefForces, PushAsALiftedSurfaceWould) {
+    const SmoothShapePtr plane = truth::smoothPlane();
+    std::vector<glm::dvec3> hips{{0.0, 1e-3, 0.0}, {0.0, -1e-3, 0.0}, {0.0, -1e-4, 0.0}};
+    const truth::RestPath rests = truth::smoothPath(*plane, hips, 0.0);
+    const auto slope = [](const glm::dvec3&) { return truth::ReliefAt{2e-4, glm::dvec3(0.75, 0.0, 0.0)}; };
+    const std::vector<truth::FeltTick> ticks = truth::reliefForces(rests, hips, 0.0, 1000.0, slope);
+    EXPECT_EQ(ticks[0].force, glm::dvec3(0.0));
+    // m is (-0.6, 0.8, 0): 0.8 N along n and 0.2 N along m; above the relief all of it along m.
+    EXPECT_NEAR(glm::length(ticks[1].force - glm::dvec3(-0.12, 0.96, 0.0)), 0.0, 1e-15);
+    EXPECT_NEAR(glm::length(ticks[2].force - glm::dvec3(-0.06, 0.08, 0.0)), 0.0, 1e-15);
+}
+
 TEST(OraclePath, SaysWhereItsMovesRanOut) {
     const Subject subject = kindNamed("plane").make(2);
     const std::vector<glm::dvec3> hips = hipsOf(subject, 400);
-    const truth::RestPath path = truth::oraclePath(*subject.bench.haptic, hips, 0.0, 250);
+    const truth::RestPath path = truth::oraclePath(*subject.bench.haptic, 0, hips, 0.0, 250);
     EXPECT_FALSE(path.failed.front());
     EXPECT_TRUE(path.failed.back());
 }

@@ -169,6 +169,17 @@ TEST(Study, TextureIsComparedWithTheLadder) {
         << "material and maps have no part in what is compared with the oracle";
 }
 
+/// Height maps mean a shape of their own: the law comes within the texels' bend of it.
+TEST(Study, ReliefIsComparedWithWhatItsMapMeans) {
+    const StudyResult study = studyShape("relief");
+    const Errors law = rungOf(study, "texture", "law").errors, off = rungOf(study, "texture", "off").errors;
+    EXPECT_EQ(rungOf(study, "texture", "law").truth, Truth::Analytic);
+    EXPECT_GT(off.force.median, 0.005);
+    EXPECT_LT(law.force.median, 0.05 * off.force.median);
+    EXPECT_LT(law.force.max, 0.05 * off.force.max + 1e-4);
+    EXPECT_GT(rungOf(study, "texture", "Minsky").errors.force.median, law.force.median);
+}
+
 TEST(Study, SaysWhatCannotBeStudied) {
     EXPECT_THROW(static_cast<void>(loadSubject("no such file.glb")), Error);
 }
