@@ -3,7 +3,10 @@
 #include "renderer/haptic_quantity.h"
 #include "shaders/shared/false_color.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace touchstone {
 
@@ -46,12 +49,66 @@ HapticQuantity hapticQuantity(const Material& material, ViewMode mode) {
             quantity = {1.0f, height.texture, -height.midLevel * height.scale, height.scale};
         }
         break;
+    case ViewMode::Tilt:
+        // What the hand is told by: the normal map, else the height map.
+        if (material.normalTexture) {
+            quantity.texture = material.normalTexture;
+            quantity.offset = material.normalScale * haptic.normalTextureInfluence.value.value_or(1.0f);
+        } else if (haptic.height.value && haptic.height.value->texture) {
+            quantity.texture = haptic.height.value->texture;
+            quantity.gain = haptic.height.value->scale;
+        }
+        break;
     case ViewMode::Shaded:
     case ViewMode::Normals:
     case ViewMode::Uv:
+    case ViewMode::Dihedral:
+    case ViewMode::Effects:
         break;
     }
     return quantity;
+}
+
+std::vector<float> dihedralAngles(const Mesh& mesh) {
+    const size_t corners = mesh.indices.size();
+    std::vector<float> angles(mesh.positions.size(), 0.0f);
+    if (corners == 0)
+        return angles;
+    // Three corners, and after each the vertex across the edge to the next one; a border names the corner
+    // itself.
+    std::vector<uint32_t> around(2 * corners);
+    meshopt_generateAdjacencyIndexBuffer(around.data(), mesh.indices.data(), corners, &mesh.positions[0].x,
+                                         mesh.positions.size(), sizeof(glm::vec3));
+    const auto normal = [&](uint32_t a, uint32_t b, uint32_t c) {
+        const glm::dvec3 origin(mesh.positions[a]);
+        return glm::cross(glm::dvec3(mesh.positions[b]) - origin, glm::dvec3(mesh.positions[c]) - origin);
+    };
+    for (size_t t = 0; t < 2 * corners; t += 6) {
+        const glm::dvec3 own = normal(around[t], around[t + 2], around[t + 4]);
+        for (size_t edge = 0; edge < 3; ++edge) {
+            const uint32_t a = around[t + 2 * edge], b = around[t + (2 * edge + 2) % 6],
+                           across = around[t + 2 * edge + 1];
+            if (across == a || across == b)
+                continue;
+            const glm::dvec3 other = normal(b, a, across);
+            const auto angle = static_cast<float>(
+                glm::degrees(std::atan2(glm::length(glm::cross(own, other)), glm::dot(own, other))));
+            angles[a] = std::max(angles[a], angle);
+            angles[b] = std::max(angles[b], angle);
+        }
+    }
+    // Vertices at one place were told apart by normals or texture coordinates; an edge knows its own ones
+    // only.
+    std::vector<uint32_t> place(mesh.positions.size());
+    const size_t places =
+        meshopt_generateVertexRemap(place.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
+                                    mesh.positions.size(), sizeof(glm::vec3));
+    std::vector<float> most(places, 0.0f);
+    for (size_t v = 0; v < angles.size(); ++v)
+        most[place[v]] = std::max(most[place[v]], angles[v]);
+    for (size_t v = 0; v < angles.size(); ++v)
+        angles[v] = most[place[v]];
+    return angles;
 }
 
 FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
@@ -69,9 +126,19 @@ FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
     case ViewMode::Damping:
         scale.unit = "N·s/m";
         break;
+    case ViewMode::Tilt:
+        return {0.0, kMostTilt, "°", true};
+    case ViewMode::Dihedral: {
+        float most = 0.0f;
+        for (const Mesh& mesh : scene.meshes)
+            for (const float angle : dihedralAngles(mesh))
+                most = std::max(most, angle);
+        return {0.0, most > 0.0f ? static_cast<double>(most) : 1.0, "°", true};
+    }
     case ViewMode::Shaded:
     case ViewMode::Normals:
     case ViewMode::Uv:
+    case ViewMode::Effects:
         return scale;
     }
     double low = 1e300, high = -1e300;

@@ -331,6 +331,10 @@ void GpuScene::uploadScalars(Uploader& uploader, FalseColor& target) const {
     for (size_t m = 0; m < scene_->meshes.size(); ++m) {
         const Mesh& mesh = scene_->meshes[m];
         const vk::DeviceSize place = static_cast<vk::DeviceSize>(meshes_[m].firstVertex) * sizeof(float);
+        if (target.mode == ViewMode::Dihedral) {
+            uploader.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));
+            continue;
+        }
         if (const std::vector<float>* values = vertexValues(mesh, target.mode)) {
             uploader.buffer(target.scalars, place, bytesOf(*values));
             continue;
@@ -343,7 +347,7 @@ void GpuScene::uploadScalars(Uploader& uploader, FalseColor& target) const {
     }
 }
 
-void GpuScene::prepareFalseColor(ViewMode mode) {
+void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& materialColors) {
     if (falseColorReady(mode))
         return;
     Uploader uploader(gpu_);
@@ -357,7 +361,8 @@ void GpuScene::prepareFalseColor(ViewMode mode) {
         createBuffer(gpu_, stride * count, vk::BufferUsageFlagBits::eUniformBuffer, MemoryUse::Upload);
     fresh.pool = makePool(gpu_, std::max<size_t>(count, 1), 1);
     fresh.sets = allocateSets(gpu_, fresh.pool, pipelines_.falseColorSet(), count);
-    const FalseColorScale scale = falseColorScale(*scene_, mode);
+    fresh.scale = falseColorScale(*scene_, mode);
+    const FalseColorScale& scale = fresh.scale;
     const double range = scale.high - scale.low;
     for (size_t m = 0; m < count; ++m) {
         const Material& material = scene_->materials[m];
@@ -368,9 +373,12 @@ void GpuScene::prepareFalseColor(ViewMode mode) {
                         static_cast<float>(-scale.low / range)};
         if (mode == ViewMode::Normals)
             uniforms.map.x = material.normalScale;
+        if (mode == ViewMode::Effects)
+            uniforms.map = glm::vec4(m < materialColors.size() ? materialColors[m] : glm::vec3(0.5f), 1.0f);
         setUv(reference, uniforms.uvLinear, uniforms.uvOffset);
         std::memcpy(fresh.uniforms.mapped + m * stride, &uniforms, sizeof uniforms);
-        const Neutral neutral = mode == ViewMode::Normals ? Neutral::FlatNormal : Neutral::Black;
+        const bool normals = mode == ViewMode::Normals || (mode == ViewMode::Tilt && material.normalTexture);
+        const Neutral neutral = normals ? Neutral::FlatNormal : Neutral::Black;
         writeSet(gpu_, fresh.sets[m], {*fresh.uniforms.buffer, m * stride, sizeof uniforms},
                  {{sampler(reference), texture(uploader, reference, TextureRole::Data, neutral),
                    vk::ImageLayout::eShaderReadOnlyOptimal}});

@@ -2,6 +2,7 @@
 // A Scene in device memory. Main thread only, private to renderer/.
 
 #include "engine/scene/scene.h"
+#include "renderer/false_color.h"
 #include "renderer/gpu_memory.h"
 #include "renderer/pipelines.h"
 #include "renderer/texture_levels.h"
@@ -35,7 +36,9 @@ class GpuScene {
 
     /// Makes `falseColorMaterial` and `scalars` those of `mode`. The device must be idle when the mode
     /// changes.
-    void prepareFalseColor(ViewMode mode);
+    void prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& materialColors);
+    void forgetFalseColor() { falseColor_.reset(); }
+    [[nodiscard]] const FalseColorScale* scale() const { return falseColor_ ? &falseColor_->scale : nullptr; }
     [[nodiscard]] bool falseColorReady(ViewMode mode) const {
         return falseColor_ && falseColor_->mode == mode;
     }
@@ -47,6 +50,7 @@ class GpuScene {
   private:
     struct FalseColor {
         ViewMode mode = ViewMode::Shaded;
+        FalseColorScale scale;
         GpuBuffer scalars, uniforms;
         vk::raii::DescriptorPool pool{nullptr};
         std::vector<vk::DescriptorSet> sets;

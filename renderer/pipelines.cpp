@@ -1,5 +1,6 @@
 #include "renderer/pipelines.h"
 
+#include "renderer/graphics_pipeline.h"
 #include "renderer/overlay_geometry.h"
 #include "renderer/shader_code.h"
 #include "shaders/shared/scene_types.h"
@@ -37,84 +38,6 @@ vk::raii::PipelineLayout makeLayout(const Gpu::Impl& gpu, std::initializer_list<
                                                      .pPushConstantRanges = &object}};
 }
 
-/// What differs between our pipelines.
-struct PipelineRecipe {
-    std::span<const uint32_t> vertexCode, fragmentCode;
-    std::vector<uint32_t> constants; ///< specialization constants 0, 1, ... of both stages
-    std::vector<vk::VertexInputBindingDescription> bindings;
-    std::vector<vk::VertexInputAttributeDescription> attributes;
-    vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
-    bool depthTest = true, depthWrite = true, blend = false;
-    vk::CompareOp depthCompare = vk::CompareOp::eLessOrEqual;
-    vk::PipelineLayout layout;
-};
-
-vk::PipelineColorBlendAttachmentState blendState(bool blend) {
-    using Mask = vk::ColorComponentFlagBits;
-    // The image stays opaque whatever is blended into it.
-    return {.blendEnable = blend,
-            .srcColorBlendFactor = vk::BlendFactor::eSrcAlpha,
-            .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
-            .colorBlendOp = vk::BlendOp::eAdd,
-            .srcAlphaBlendFactor = vk::BlendFactor::eZero,
-            .dstAlphaBlendFactor = vk::BlendFactor::eOne,
-            .alphaBlendOp = vk::BlendOp::eAdd,
-            .colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA};
-}
-
-vk::raii::Pipeline makePipeline(const Gpu::Impl& gpu, const vk::raii::PipelineCache& cache,
-                                const PipelineRecipe& recipe) {
-    const vk::raii::ShaderModule vertex = shaderModule(gpu, recipe.vertexCode);
-    const vk::raii::ShaderModule fragment = shaderModule(gpu, recipe.fragmentCode);
-    std::vector<vk::SpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < recipe.constants.size(); ++i)
-        entries.push_back({i, i * 4, 4});
-    const vk::SpecializationInfo constants{.mapEntryCount = static_cast<uint32_t>(entries.size()),
-                                           .pMapEntries = entries.data(),
-                                           .dataSize = recipe.constants.size() * 4,
-                                           .pData = recipe.constants.data()};
-    const auto stage = [&](vk::ShaderStageFlagBits which, const vk::raii::ShaderModule& code) {
-        return vk::PipelineShaderStageCreateInfo{
-            .stage = which, .module = *code, .pName = "main", .pSpecializationInfo = &constants};
-    };
-    const std::array stages{stage(vk::ShaderStageFlagBits::eVertex, vertex),
-                            stage(vk::ShaderStageFlagBits::eFragment, fragment)};
-    const vk::PipelineVertexInputStateCreateInfo input{
-        .vertexBindingDescriptionCount = static_cast<uint32_t>(recipe.bindings.size()),
-        .pVertexBindingDescriptions = recipe.bindings.data(),
-        .vertexAttributeDescriptionCount = static_cast<uint32_t>(recipe.attributes.size()),
-        .pVertexAttributeDescriptions = recipe.attributes.data()};
-    const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = recipe.topology};
-    const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo rasterization{.lineWidth = 1.0f};
-    const vk::PipelineMultisampleStateCreateInfo samples;
-    const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = recipe.depthTest,
-                                                        .depthWriteEnable = recipe.depthWrite,
-                                                        .depthCompareOp = recipe.depthCompare};
-    const vk::PipelineColorBlendAttachmentState attachment = blendState(recipe.blend);
-    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &attachment};
-    const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
-                             vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
-    const vk::PipelineDynamicStateCreateInfo dynamics{.dynamicStateCount = dynamic.size(),
-                                                      .pDynamicStates = dynamic.data()};
-    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = 1,
-                                                    .pColorAttachmentFormats = &kSceneFormat,
-                                                    .depthAttachmentFormat = kDepthFormat};
-    return {gpu.device, cache,
-            vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
-                                           .stageCount = stages.size(),
-                                           .pStages = stages.data(),
-                                           .pVertexInputState = &input,
-                                           .pInputAssemblyState = &assembly,
-                                           .pViewportState = &viewport,
-                                           .pRasterizationState = &rasterization,
-                                           .pMultisampleState = &samples,
-                                           .pDepthStencilState = &depth,
-                                           .pColorBlendState = &blend,
-                                           .pDynamicState = &dynamics,
-                                           .layout = recipe.layout}};
-}
-
 void describeSceneVertices(PipelineRecipe& recipe) {
     recipe.bindings = {{0, sizeof(SceneVertex), vk::VertexInputRate::eVertex}};
     recipe.attributes = {{0, 0, Format::eR32G32B32Sfloat, offsetof(SceneVertex, position)},
@@ -134,10 +57,6 @@ void applyPass(PipelineRecipe& recipe, OverlayPass pass) {
 }
 
 } // namespace
-
-vk::raii::ShaderModule shaderModule(const Gpu::Impl& gpu, std::span<const uint32_t> words) {
-    return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()}};
-}
 
 Pipelines::Pipelines(const Gpu::Impl& gpu)
     : gpu_(gpu),
@@ -173,11 +92,13 @@ vk::Pipeline Pipelines::scene(uint32_t features) {
 }
 
 vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
-    const uint32_t view = mode == ViewMode::Normals ? shared::kShowsNormals
-                          : mode == ViewMode::Uv    ? shared::kShowsUv
-                                                    : shared::kShowsMap;
+    const uint32_t view = mode == ViewMode::Normals   ? shared::kShowsNormals
+                          : mode == ViewMode::Uv      ? shared::kShowsUv
+                          : mode == ViewMode::Tilt    ? shared::kShowsTilt
+                          : mode == ViewMode::Effects ? shared::kShowsFlat
+                                                      : shared::kShowsMap;
     // The UV transform stands for the second UV set here: the shader reads both.
-    features &= shared::kHasNormalTexture | shared::kHasTangents;
+    features &= shared::kHasNormalTexture | shared::kHasTangents; // false colour needs no more
     features |= shared::kHasUvTransform;
     return cached({Kind::FalseColor, features, view}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::false_color_vert;

@@ -1,19 +1,13 @@
 #pragma once
 // Descriptor layouts and the pipelines, made on first use and kept. Main thread only, private to renderer/.
 
-#include "renderer/gpu_impl.h"
+#include "renderer/graphics_pipeline.h"
 #include "renderer/view.h"
 
 #include <map>
-#include <span>
 #include <tuple>
 
 namespace touchstone {
-
-inline constexpr vk::Format kSceneFormat = vk::Format::eR8G8B8A8Srgb; ///< what shaders write: linear, encoded
-inline constexpr vk::Format kSceneByteFormat =
-    vk::Format::eR8G8B8A8Unorm; ///< the same bytes, for copies and the window
-inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 
 /// Which of the overlay's three passes.
 enum class OverlayPass : uint8_t { Hidden, Opaque, Translucent };
@@ -60,7 +54,5 @@ class Pipelines {
     vk::raii::PipelineCache cache_;
     std::map<Key, vk::raii::Pipeline> pipelines_;
 };
-
-[[nodiscard]] vk::raii::ShaderModule shaderModule(const Gpu::Impl& gpu, std::span<const uint32_t> words);
 
 } // namespace touchstone

@@ -2,6 +2,7 @@
 // Draws a Scene and an Overlay into an image of its own. Headless and window share it.
 
 #include "engine/scene/scene.h"
+#include "renderer/false_color.h"
 #include "renderer/gpu.h"
 #include "renderer/overlay.h"
 #include "renderer/view.h"
@@ -13,8 +14,11 @@
 
 namespace touchstone {
 
-/// Main thread only. Two frames are in flight; `render` waits only when the one before the last is
-/// unfinished.
+/// Two pictures of the same scene, each with its own size: the window's, and a small one over it.
+enum class Eye : uint8_t { Main, Magnifier };
+
+/// Main thread only. Two frames of each eye are in flight; `render` waits only when the one before the last
+/// is unfinished.
 class SceneRenderer {
   public:
     /// Compiles nothing that the scene does not call for: pipelines are made on first use.
@@ -32,13 +36,20 @@ class SceneRenderer {
     /// call. Throws std::invalid_argument on another count.
     void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
 
+    /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Holds
+    /// until the next call.
+    void setMaterialColors(std::vector<glm::vec3> colors);
+
     /// Records and submits one frame; returns without waiting for it. width, height: pixels, 1..16384
     /// (bounded by the device). Throws Error when the device is lost or out of memory.
-    void render(const View& view, const Overlay& overlay, int width, int height);
+    void render(const View& view, const Overlay& overlay, int width, int height, Eye eye = Eye::Main);
 
-    /// Waits for the last frame and reads it: RGBA8, sRGB, rows from the top, alpha 255. Empty before the
-    /// first.
+    /// Waits for the last frame of the main eye and reads it: RGBA8, sRGB, rows from the top, alpha 255.
+    /// Empty before the first.
     [[nodiscard]] PixelData readPixels();
+
+    /// Of the false-colour view that was drawn last: what its colours stand for.
+    [[nodiscard]] FalseColorScale falseColorScale() const;
 
     struct Statistics {
         uint64_t triangles = 0;   ///< of the scene, over the instances

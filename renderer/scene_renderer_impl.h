@@ -1,6 +1,7 @@
 #pragma once
 // What is behind SceneRenderer; for renderer/ only.
 
+#include "renderer/frame_slot.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/overlay_geometry.h"
 #include "renderer/pipelines.h"
@@ -12,19 +13,6 @@
 #include <vector>
 
 namespace touchstone {
-
-/// One of the frames in flight, with everything that the device may still be reading or writing.
-struct FrameSlot {
-    vk::raii::CommandBuffer commands{nullptr};
-    vk::raii::Fence done{nullptr};
-    vk::raii::QueryPool timestamps{nullptr};
-    GpuBuffer uniforms, overlay;
-    vk::raii::DescriptorPool pool{nullptr};
-    vk::DescriptorSet frameSet;
-    GpuImage color, depth;
-    vk::raii::ImageView colorBytes{nullptr}; ///< the colour image without sRGB decoding
-    bool timed = false;
-};
 
 /// One instance in one frame.
 struct DrawItem {
@@ -39,12 +27,16 @@ struct SceneRenderer::Impl {
     explicit Impl(Gpu& owner);
     ~Impl();
 
-    /// The image of the last frame, for the window; valid until the next render.
-    [[nodiscard]] const FrameSlot* lastFrame() const { return last_; }
+    /// The image of an eye's last frame, for the window; valid until its next render.
+    [[nodiscard]] const FrameSlot* lastFrame(Eye eye) const { return rings_[static_cast<size_t>(eye)].last; }
 
     void setScene(ScenePtr scene);
-    void render(const View& view, const Overlay& overlay, int width, int height);
+    void render(const View& view, const Overlay& overlay, int width, int height, Eye eye);
+    void setMaterialColors(std::vector<glm::vec3> colors);
     [[nodiscard]] PixelData readPixels();
+    [[nodiscard]] FalseColorScale falseColorScale() const {
+        return scene_ && scene_->scale() != nullptr ? *scene_->scale() : FalseColorScale{};
+    }
 
     Gpu::Impl& gpu;
     std::vector<glm::dmat4> poses;
@@ -53,9 +45,6 @@ struct SceneRenderer::Impl {
     [[nodiscard]] const Scene* scene() const { return scene_ ? &scene_->scene() : nullptr; }
 
   private:
-    void createSlot(FrameSlot& slot);
-    void resize(FrameSlot& slot, vk::Extent2D extent);
-    void waitFor(FrameSlot& slot);
     void collectDraws(const View& view, const glm::dvec3& eye);
     void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
                        vk::Extent2D extent);
@@ -71,9 +60,8 @@ struct SceneRenderer::Impl {
     std::unique_ptr<GpuScene> scene_;
     GpuBuffer shapeVertices_, shapeIndices_;
     ShapeMeshes shapes_;
-    std::array<FrameSlot, 2> slots_;
-    size_t next_ = 0;
-    FrameSlot* last_ = nullptr;
+    std::array<FrameRing, 2> rings_; ///< of each Eye
+    std::vector<glm::vec3> materialColors_;
     std::vector<DrawItem> draws_; ///< kept between frames for its memory
 };
 

@@ -13,10 +13,23 @@
 
 namespace touchstone {
 
-/// Shaded is what the eye would see; the others are false-colour views of what the hand would feel.
-enum class ViewMode : uint8_t { Shaded, Height, Friction, Stiffness, Damping, Normals, Uv };
-inline constexpr std::array<std::string_view, 7> kViewModeNames{"shaded",  "height",  "friction", "stiffness",
-                                                                "damping", "normals", "uv"};
+/// Shaded is what the eye would see; the others are false-colour views of what the hand would feel. Tilt:
+/// between the facet and the normal that is felt, with its maps. Dihedral: the largest angle between the
+/// facets at an edge of the vertex. Effects: SceneRenderer::setMaterialColors.
+enum class ViewMode : uint8_t {
+    Shaded,
+    Height,
+    Friction,
+    Stiffness,
+    Damping,
+    Normals,
+    Uv,
+    Tilt,
+    Dihedral,
+    Effects
+};
+inline constexpr std::array<std::string_view, 10> kViewModeNames{
+    "shaded", "height", "friction", "stiffness", "damping", "normals", "uv", "tilt", "dihedral", "effects"};
 [[nodiscard]] constexpr std::string_view viewModeName(ViewMode mode) {
     return kViewModeNames[static_cast<size_t>(mode)];
 }

@@ -7,6 +7,7 @@
 #define GLFW_INCLUDE_NONE
 #include "engine/core/error.h"
 #include "renderer/gpu_memory.h"
+#include "renderer/graphics_pipeline.h"
 #include "renderer/scene_renderer_impl.h"
 #include "renderer/shader_code.h"
 #include "renderer/swapchain.h"
@@ -32,7 +33,7 @@ struct WindowFrame {
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence done{nullptr};
     vk::raii::Semaphore acquired{nullptr};
-    vk::DescriptorSet sceneSet;
+    std::array<vk::DescriptorSet, 2> sceneSets; ///< of each Eye
 };
 
 void checkImGui(VkResult result) {
@@ -71,9 +72,10 @@ struct WindowTarget::Impl {
     void createFrames();
     [[nodiscard]] vk::Extent2D framebufferSize() const;
     bool followWindow();
-    void present(SceneRenderer* scene, const PixelRect& where);
-    void record(const WindowFrame& frame, uint32_t image, const FrameSlot* scene, const PixelRect& where);
-    void drawScene(const WindowFrame& frame, const FrameSlot& scene, const PixelRect& where);
+    void present(SceneRenderer* scene, const EyePlaces& where);
+    void record(const WindowFrame& frame, uint32_t image, const SceneRenderer* scene, const EyePlaces& where);
+    void drawScene(const WindowFrame& frame, vk::DescriptorSet set, const FrameSlot& scene,
+                   const PixelRect& where);
     void recordCapture(const WindowFrame& frame, uint32_t image);
 
     Gpu::Impl& gpu;
@@ -129,46 +131,23 @@ void WindowTarget::Impl::createScenePipeline() {
     const vk::DescriptorSetLayout set = *sceneSetLayout;
     sceneLayout = vk::raii::PipelineLayout(
         gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &set});
-    const vk::raii::ShaderModule vertex = shaderModule(gpu, shaders::full_screen_vert);
-    const vk::raii::ShaderModule fragment = shaderModule(gpu, shaders::window_frag);
-    const std::array stages{
-        vk::PipelineShaderStageCreateInfo{
-            .stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
-        vk::PipelineShaderStageCreateInfo{
-            .stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main"}};
-    const vk::PipelineVertexInputStateCreateInfo input;
-    const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
-    const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo rasterization{.lineWidth = 1.0f};
-    const vk::PipelineMultisampleStateCreateInfo samples;
-    using Mask = vk::ColorComponentFlagBits;
-    const vk::PipelineColorBlendAttachmentState attachment{.colorWriteMask =
-                                                               Mask::eR | Mask::eG | Mask::eB | Mask::eA};
-    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &attachment};
-    const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
-    const vk::PipelineDynamicStateCreateInfo dynamics{.dynamicStateCount = dynamic.size(),
-                                                      .pDynamicStates = dynamic.data()};
-    scenePipeline = vk::raii::Pipeline(gpu.device, nullptr,
-                                       vk::GraphicsPipelineCreateInfo{.stageCount = stages.size(),
-                                                                      .pStages = stages.data(),
-                                                                      .pVertexInputState = &input,
-                                                                      .pInputAssemblyState = &assembly,
-                                                                      .pViewportState = &viewport,
-                                                                      .pRasterizationState = &rasterization,
-                                                                      .pMultisampleState = &samples,
-                                                                      .pColorBlendState = &blend,
-                                                                      .pDynamicState = &dynamics,
-                                                                      .layout = *sceneLayout,
-                                                                      .renderPass = swapchain.renderPass()});
+    PipelineRecipe recipe;
+    recipe.vertexCode = shaders::full_screen_vert;
+    recipe.fragmentCode = shaders::window_frag;
+    recipe.depthTest = recipe.depthWrite = false;
+    recipe.layout = *sceneLayout;
+    recipe.renderPass = swapchain.renderPass();
+    scenePipeline =
+        makePipeline(gpu, vk::raii::PipelineCache(gpu.device, vk::PipelineCacheCreateInfo{}), recipe);
 }
 
 void WindowTarget::Impl::createFrames() {
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, kFramesInFlight + 8};
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, 2 * kFramesInFlight + 8};
     // ImGui frees its own set.
     pool = vk::raii::DescriptorPool(
         gpu.device,
         vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                     .maxSets = kFramesInFlight + 8,
+                                     .maxSets = 2 * kFramesInFlight + 8,
                                      .poolSizeCount = 1,
                                      .pPoolSizes = &size});
     for (WindowFrame& frame : frames) {
@@ -180,12 +159,13 @@ void WindowTarget::Impl::createFrames() {
             vk::raii::Fence(gpu.device, vk::FenceCreateInfo{.flags = vk::FenceCreateFlagBits::eSignaled});
         frame.acquired = vk::raii::Semaphore(gpu.device, vk::SemaphoreCreateInfo{});
         const vk::DescriptorSetLayout layout = *sceneSetLayout;
-        frame.sceneSet = (*gpu.device)
-                             .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{.descriptorPool = *pool,
-                                                                                   .descriptorSetCount = 1,
-                                                                                   .pSetLayouts = &layout},
-                                                     *gpu.device.getDispatcher())
-                             .front();
+        for (vk::DescriptorSet& set : frame.sceneSets)
+            set = (*gpu.device)
+                      .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{.descriptorPool = *pool,
+                                                                            .descriptorSetCount = 1,
+                                                                            .pSetLayouts = &layout},
+                                              *gpu.device.getDispatcher())
+                      .front();
     }
 }
 
@@ -233,10 +213,11 @@ bool WindowTarget::Impl::followWindow() {
     return true;
 }
 
-void WindowTarget::Impl::drawScene(const WindowFrame& frame, const FrameSlot& scene, const PixelRect& where) {
+void WindowTarget::Impl::drawScene(const WindowFrame& frame, vk::DescriptorSet set, const FrameSlot& scene,
+                                   const PixelRect& where) {
     const vk::DescriptorImageInfo image{*sampler, *scene.colorBytes, vk::ImageLayout::eShaderReadOnlyOptimal};
     gpu.device.updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = frame.sceneSet,
+        vk::WriteDescriptorSet{.dstSet = set,
                                .descriptorCount = 1,
                                .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                .pImageInfo = &image},
@@ -251,7 +232,9 @@ void WindowTarget::Impl::drawScene(const WindowFrame& frame, const FrameSlot& sc
         return;
     const vk::raii::CommandBuffer& commands = frame.commands;
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *scenePipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *sceneLayout, 0, frame.sceneSet, {});
+    commands.setCullMode(vk::CullModeFlagBits::eNone);
+    commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *sceneLayout, 0, set, {});
     commands.setViewport(0, vk::Viewport{.x = static_cast<float>(where.x),
                                          .y = static_cast<float>(where.y),
                                          .width = static_cast<float>(where.width),
@@ -289,8 +272,8 @@ void WindowTarget::Impl::recordCapture(const WindowFrame& frame, uint32_t image)
     captureWanted = false;
 }
 
-void WindowTarget::Impl::record(const WindowFrame& frame, uint32_t image, const FrameSlot* scene,
-                                const PixelRect& where) {
+void WindowTarget::Impl::record(const WindowFrame& frame, uint32_t image, const SceneRenderer* scene,
+                                const EyePlaces& where) {
     const vk::raii::CommandBuffer& commands = frame.commands;
     commands.reset();
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -301,8 +284,12 @@ void WindowTarget::Impl::record(const WindowFrame& frame, uint32_t image, const 
                                                      .clearValueCount = 1,
                                                      .pClearValues = &clear},
                              vk::SubpassContents::eInline);
-    if (scene != nullptr && where.width > 0 && where.height > 0)
-        drawScene(frame, *scene, where);
+    const std::array places{where.main, where.magnifier};
+    for (size_t eye = 0; scene != nullptr && eye < places.size(); ++eye) {
+        const FrameSlot* slot = scene->impl().lastFrame(static_cast<Eye>(eye));
+        if (slot != nullptr && places[eye].width > 0 && places[eye].height > 0)
+            drawScene(frame, frame.sceneSets[eye], *slot, places[eye]);
+    }
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), *commands);
     commands.endRenderPass();
     if (captureWanted && swapchain.copyable())
@@ -310,7 +297,7 @@ void WindowTarget::Impl::record(const WindowFrame& frame, uint32_t image, const 
     commands.end();
 }
 
-void WindowTarget::Impl::present(SceneRenderer* scene, const PixelRect& where) {
+void WindowTarget::Impl::present(SceneRenderer* scene, const EyePlaces& where) {
     const auto start = std::chrono::steady_clock::now();
     WindowFrame& frame = frames[nextFrame];
     while (gpu.device.waitForFences(*frame.done, true, UINT64_MAX) == vk::Result::eTimeout) {
@@ -326,7 +313,7 @@ void WindowTarget::Impl::present(SceneRenderer* scene, const PixelRect& where) {
     }
     if (acquired != VK_SUCCESS && acquired != VK_SUBOPTIMAL_KHR)
         vk::throwResultException(static_cast<vk::Result>(acquired), "vkAcquireNextImageKHR");
-    record(frame, image, scene != nullptr ? scene->impl().lastFrame() : nullptr, where);
+    record(frame, image, scene, where);
 
     gpu.device.resetFences(*frame.done);
     const vk::SemaphoreSubmitInfo waits{.semaphore = *frame.acquired,
@@ -395,7 +382,7 @@ bool WindowTarget::beginFrame() {
     });
 }
 
-void WindowTarget::endFrame(SceneRenderer* scene, const PixelRect& where) {
+void WindowTarget::endFrame(SceneRenderer* scene, const EyePlaces& where) {
     if (!impl_->frameBegun)
         return;
     impl_->frameBegun = false;

@@ -24,6 +24,11 @@ struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// Where the pictures of each Eye go; without area it is not shown. The magnifier lies over the main one.
+struct EyePlaces {
+    PixelRect main, magnifier;
+};
+
 /// Owns the swapchain and the Dear ImGui context with its GLFW and Vulkan backends. Install own GLFW
 /// callbacks before construction: ImGui's backend chains to them. Main thread only. The window outlives it.
 class WindowTarget {
@@ -43,9 +48,9 @@ class WindowTarget {
     /// report resizes).
     [[nodiscard]] bool beginFrame();
 
-    /// Ends the ImGui frame, draws the last image of `scene` (may be null) bilinearly into `where`, the ImGui
-    /// windows over it, and presents. After every beginFrame that returned true.
-    void endFrame(SceneRenderer* scene, const PixelRect& where);
+    /// Ends the ImGui frame, draws the last images of `scene` (may be null) bilinearly into their places, the
+    /// ImGui windows over them, and presents. After every beginFrame that returned true.
+    void endFrame(SceneRenderer* scene, const EyePlaces& where);
 
     /// Ends the ImGui frame that was begun without drawing it; instead of endFrame, on errors.
     void cancelFrame();

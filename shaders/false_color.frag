@@ -24,6 +24,26 @@ vec3 linearFromSrgb(vec3 c) {
     return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
+/// Degrees between the facet and the normal that is felt there.
+float tilt(vec3 n, vec2 uv) {
+    const vec3 dx = dFdx(eyePosition), dy = dFdy(eyePosition);
+    vec3 facet = normalize(cross(dx, dy));
+    facet = dot(facet, n) < 0.0 ? -facet : facet;
+    vec3 felt = n;
+    if ((kFeatures & kHasNormalTexture) != 0u) {
+        const vec3 m = decodeNormal(texture(map, uv).xyz, parameters.map.x);
+        felt = (kFeatures & kHasTangents) != 0u ? bendWithTangent(n, eyeTangent, m)
+                                                : bendWithDerivatives(n, eyePosition, uv, m);
+    } else if (parameters.map.y != 0.0) {
+        // The height's gradient along the surface from its change across the pixel (Mikkelsen 2010): n - grad H.
+        const float height = parameters.map.y * frame.image.w * texture(map, uv).r;
+        const vec3 dyPerp = cross(dy, n), dxPerp = cross(n, dx);
+        const float area = dot(dx, dyPerp);
+        if (abs(area) > 0.0) felt = normalize(n - (dyPerp * dFdx(height) + dxPerp * dFdy(height)) / area);
+    }
+    return degrees(acos(clamp(dot(facet, felt), -1.0, 1.0)));
+}
+
 void main() {
     const vec2 set = parameters.uvOffset.z > 0.5 ? uvs.zw : uvs.xy;
     const vec2 uv = vec2(dot(parameters.uvLinear.xy, set), dot(parameters.uvLinear.zw, set)) + parameters.uvOffset.xy;
@@ -41,6 +61,10 @@ void main() {
         }
         outColor = vec4(linearFromSrgb(0.5 + 0.5 * (gl_FrontFacing ? n : -n)), 1.0);
         return;
+    } else if (kView == kShowsTilt) {
+        color = falseColorAt(tilt(gl_FrontFacing ? n : -n, uv) * parameters.map.z + parameters.map.w);
+    } else if (kView == kShowsFlat) {
+        color = parameters.map.rgb;
     } else {
         // A tenth of a UV unit is one cell; red runs with U, green with V.
         const vec2 cell = floor(uvs.xy * 10.0);

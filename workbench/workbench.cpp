@@ -15,7 +15,8 @@
 #include "workbench/model/animate.h"
 #include "workbench/model/default_scene.h"
 #include "workbench/model/model_loader.h"
-#include "workbench/window/overlays.h"
+#include "workbench/state_folder.h"
+#include "workbench/window/model_picture.h"
 #include "workbench/window/panel.h"
 #include "workbench/window/recording_desk.h"
 #include "workbench/window/status_file.h"
@@ -236,17 +237,21 @@ class Workbench {
         if (!(state_.settings == before))
             servo_.setSettings(state_.settings);
 
-        overlay_.clear();
-        if (hasModel()) {
-            drawTick(servo_.snapshot(), state_.settings, overlay_);
-            poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
-        }
-        View view = viewOf(view_.camera(), shown_.model.workspaceFromScene, aspect());
-        view.mode = state_.view.mode;
         if (hasModel())
-            view.probe = probeShadow(servo_.snapshot(), state_.settings);
-        renderer_.render(view, overlay_, input.sceneSize.x, input.sceneSize.y);
-        target_.endFrame(&renderer_, {0, 0, area.x, area.y});
+            poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
+        const ModelPicture::Frame frame{.model = shown_.model,
+                                        .tick = servo_.snapshot(),
+                                        .settings = state_.settings,
+                                        .camera = view_.camera(),
+                                        .options = state_.view,
+                                        .place = {0, 0, area.x, area.y},
+                                        .sceneSize = input.sceneSize,
+                                        .pixelsPerPoint = static_cast<float>(points),
+                                        .scale = window_.layoutScale(),
+                                        .software = gpu_->isSoftware()};
+        target_.endFrame(&renderer_, picture_.draw(frame));
+        if (picture_.save(target_, frame))
+            notice_ = picture_.message();
         status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
     }
 
@@ -257,7 +262,6 @@ class Workbench {
             input.plan = shown_.model.haptic->plan.effects;
             for (const Material& material : scene.materials)
                 input.materialNames.push_back(material.name);
-            input.legend = falseColorScale(scene, state_.view.mode);
             input.modelName = std::filesystem::path(scene.path).filename().string();
             input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
                                (scene.touchable() ? "" : ": nothing to touch");
@@ -284,6 +288,7 @@ class Workbench {
         input.forces = &forces_;
         input.framesPerSecond = framesPerSecond_;
         input.camera = view_.camera();
+        input.picture = picture_.message();
         input.sceneSize = sceneSize;
         input.gpuName = gpu_->name();
         input.scale = window_.layoutScale();
@@ -333,7 +338,7 @@ class Workbench {
     PanelState state_;
     ServoView servoView_;
     ForceHistory forces_;
-    Overlay overlay_;
+    ModelPicture picture_{renderer_, stateFolder() / "pictures"};
     StatusFile status_;
     std::string problem_;
     std::future<void> building_;

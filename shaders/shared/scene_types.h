@@ -37,7 +37,7 @@ struct FrameUniforms {
     vec4 probe;            ///< xyz centre in the eye frame, w 1 / radius: what casts the probe's shadow
     vec4 backgroundTop;    ///< rgb
     vec4 backgroundBottom;
-    vec4 image;            ///< width, height in pixels; alpha factor of hidden overlays
+    vec4 image;            ///< width, height in pixels; alpha factor of hidden overlays; workspace metres in a model metre
     vec4 toViewer;         ///< xyz unit, workspace axes: opposite of the viewing direction
 };
 
@@ -59,7 +59,8 @@ struct MaterialUniforms {
 };
 
 /// Once a material and false-colour view. The map's red channel R and the vertex' scalar s give the position on the
-/// colour scale t = (s * (offset + gain * R)) * scale + shift.
+/// colour scale t = (s * (offset + gain * R)) * scale + shift. Where the tilt is shown, gain is the height map's in model
+/// metres and offset the normal map's scale; where one colour is, it is offset, gain, scale.
 struct FalseColorUniforms {
     vec4 map;              ///< offset, gain, scale, shift
     vec4 uvLinear;
@@ -93,6 +94,8 @@ TOUCHSTONE_CONST uint kHasProbeShadow = 8192u;
 TOUCHSTONE_CONST uint kShowsMap = 0u;
 TOUCHSTONE_CONST uint kShowsNormals = 1u;
 TOUCHSTONE_CONST uint kShowsUv = 2u;
+TOUCHSTONE_CONST uint kShowsTilt = 3u;
+TOUCHSTONE_CONST uint kShowsFlat = 4u;
 
 #ifdef __cplusplus
 } // namespace touchstone::shared

@@ -92,5 +92,31 @@ TEST_F(Golden, NormalsAndUv) {
     expectMutationIsSeen("uv", "U and V swapped", draw(turned, view));
 }
 
+TEST_F(Golden, TiltDihedralAndEffects) {
+    View view = viewFor(*torusScene());
+    view.mode = ViewMode::Tilt;
+    expectMatchesGolden("tilt", draw(torusScene(), view));
+    const auto smooth = torusScene();
+    smooth->materials[0].normalScale = 0.0f;
+    expectMutationIsSeen("tilt", "normal map off", draw(smooth, view));
+    const auto raised = torusScene();
+    raised->materials[0].normalTexture = {};
+    expectMatchesGolden("tilt_of_height", draw(raised, view));
+    expectMutationIsSeen("tilt_of_height", "normal map instead", draw(torusScene(), view));
+
+    view.mode = ViewMode::Dihedral;
+    expectMatchesGolden("dihedral", draw(torusScene(24, 12), view));
+    expectMutationIsSeen("dihedral", "finer triangles", draw(torusScene(96, 12), view));
+
+    const auto board = hapticBoard();
+    View front = frontViewOf(*board);
+    front.mode = ViewMode::Effects;
+    renderer_->setMaterialColors({{0.9f, 0.6f, 0.0f}, {0.3f, 0.7f, 0.9f}, {0.0f, 0.6f, 0.4f}});
+    expectMatchesGolden("effects", draw(board, front));
+    renderer_->setMaterialColors({{0.9f, 0.6f, 0.0f}, {0.3f, 0.7f, 0.9f}});
+    expectMutationIsSeen("effects", "a colour missing", draw(board, front));
+    renderer_->setMaterialColors({});
+}
+
 } // namespace
 } // namespace touchstone::test

@@ -146,6 +146,39 @@ TEST_F(Picture, BackFacesShowOnlyWhereTheMaterialIsTwoSided) {
     EXPECT_FALSE(seen(turned * mirrored, false));
 }
 
+TEST_F(Picture, EveryViewFillsThePictureAndClipsNothing) {
+    const auto torus = torusScene();
+    View view = viewFor(*torus);
+    const PixelData background = draw(nullptr, view);
+    for (size_t mode = 0; mode < kViewModeNames.size(); ++mode) {
+        view.mode = static_cast<ViewMode>(mode);
+        const PixelData pixels = draw(torus, view);
+        int covered = 0, white = 0, onTheRim = 0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const glm::ivec3 difference = glm::abs(at(pixels, x, y) - at(background, x, y));
+                const bool model = difference.x + difference.y + difference.z > 12;
+                covered += model;
+                white += at(pixels, x, y) == glm::ivec3(255);
+                onTheRim += model && (x == 0 || y == 0 || x == kWidth - 1 || y == kHeight - 1);
+            }
+        EXPECT_GT(covered, kWidth * kHeight / 6) << kViewModeNames[mode];
+        EXPECT_LT(covered, kWidth * kHeight * 2 / 3) << kViewModeNames[mode];
+        EXPECT_LT(white, kWidth * kHeight / 200) << kViewModeNames[mode];
+        EXPECT_EQ(onTheRim, 0) << kViewModeNames[mode];
+    }
+}
+
+TEST_F(Picture, TheMagnifiersImageIsItsOwn) {
+    const auto scene = torusScene(48, 16);
+    const View view = viewFor(*scene);
+    const PixelData reference = draw(scene, view);
+    View near = view;
+    near.mode = ViewMode::Uv;
+    renderer_->render(near, touchOverlay(), 64, 64, Eye::Magnifier);
+    EXPECT_EQ(failingShare(renderer_->readPixels(), reference), 0.0) << "the main eye keeps its picture";
+}
+
 TEST_F(Picture, TheProbesShadowTellsItsHeight) {
     View view = squareView();
     view.lights[0] = {{0.0, 0.0, 1.0}, glm::vec3(2.0f)};

@@ -62,7 +62,7 @@ class WindowTargetTest : public ::testing::Test {
         const double aspect = static_cast<double>(size.x - 100) / size.y;
         renderer_->render(viewOf(cameraFor(*scene_, aspect), {}, aspect), Overlay{}, sceneSize.x,
                           sceneSize.y);
-        target_->endFrame(renderer_.get(), {100, 0, size.x - 100, size.y});
+        target_->endFrame(renderer_.get(), {.main = {100, 0, size.x - 100, size.y}, .magnifier = {}});
         return true;
     }
 

@@ -4,6 +4,7 @@
 #include "workbench/commands.h"
 #include "workbench/gpu_options.h"
 #include "workbench/model/model.h"
+#include "workbench/window/effect_colors.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -28,17 +29,22 @@ ViewMode viewModeOf(const std::string& name) {
 } // namespace
 
 int renderCommand(const RenderOptions& options) {
-    const Model model =
-        loadModelToSee(options.scene, Fit::Workspace, viewModeOf(options.view) != ViewMode::Shaded);
+    const ViewMode mode = viewModeOf(options.view);
+    // The plan is the hand's half of the model.
+    const Model model = mode == ViewMode::Effects
+                            ? loadModel(options.scene, Fit::Workspace, DeviceLimits{})
+                            : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded);
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
     SceneRenderer renderer(*gpu);
     renderer.setScene(model.scene);
+    if (mode == ViewMode::Effects)
+        renderer.setMaterialColors(effectColors(model.haptic->plan, model.scene->materials.size()).materials);
 
     const double aspect = static_cast<double>(options.size.x) / options.size.y;
     const OrbitCamera camera = OrbitCamera::threeQuarter(workspaceBounds(model), aspect);
     View view = viewOf(camera, model.workspaceFromScene, aspect);
-    view.mode = viewModeOf(options.view);
+    view.mode = mode;
     writePng(options.out, renderStill(renderer, view, Overlay{}, options.size.x, options.size.y));
     std::printf("%d x %d pixels, written to %s\n", options.size.x, options.size.y, options.out.c_str());
     return 0;

@@ -101,10 +101,15 @@ struct Frames {
     glm::ivec2 smallest{0}; ///< pixels: the picture shrinks while frames are late
 };
 
+TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Model& model) {
+    return {.shown = {},
+            .frictionCoefficient = frictionCoefficientAt(tick, settings, *model.scene, *model.haptic)};
+}
+
 /// Draws at the frame rate until the time is over; the servo ticks beside it.
 Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
                   TickReader& reader, RecordingDesk& desk) {
-    const View view = frontView(model, options.size);
+    View view = frontView(model, options.size);
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
     const auto length =
@@ -119,7 +124,9 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
         servo.updateSnapshot();
         reader.drain(servo, desk);
         overlay.clear();
-        drawTick(servo.snapshot(), options.settings, overlay);
+        drawTick(servo.snapshot(), options.settings, lookOf(servo.snapshot(), options.settings, model),
+                 overlay);
+        view.probe = probeShadow(servo.snapshot(), options.settings);
         poseAt(servo.snapshot().time, *model.scene, renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);
         frames.smallest = glm::min(frames.smallest, size);
@@ -198,10 +205,11 @@ int runCommand(const RunOptions& options) {
     if (!options.screenshot.empty()) {
         Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
         const TickRecord& shown = reader.lastContact.value_or(reader.last);
-        drawTick(shown, options.settings, overlay);
+        drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
+        View view = frontView(model, options.size);
+        view.probe = probeShadow(shown, options.settings);
         poseAt(shown.time, *model.scene, renderer);
-        writePng(options.screenshot, renderStill(renderer, frontView(model, options.size), overlay,
-                                                 options.size.x, options.size.y));
+        writePng(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
     }
     for (const std::string& message : gpu->validationMessages())
         std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());

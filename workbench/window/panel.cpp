@@ -4,6 +4,7 @@
 #include "workbench/window/force_plot.h"
 #include "workbench/window/panels/budget_panel.h"
 #include "workbench/window/panels/error_panel.h"
+#include "workbench/window/view_menu.h"
 
 #include <imgui.h>
 
@@ -358,44 +359,7 @@ class Panel {
 
     void view() {
         section("VIEW");
-        constexpr std::array kLabels{"as it looks", "height map", "friction map",       "stiffness map",
-                                     "damping map", "normals",    "texture coordinates"};
-        static_assert(kLabels.size() == kViewModeNames.size());
-        ImGui::PushItemWidth(-1.0f);
-        int mode = static_cast<int>(state_.view.mode);
-        if (ImGui::Combo("##view", &mode, kLabels.data(), static_cast<int>(kLabels.size())))
-            state_.view.mode = static_cast<ViewMode>(mode);
-        mark("view");
-        ImGui::PopItemWidth();
-        const ViewMode shown = state_.view.mode;
-        const bool map = shown == ViewMode::Height || shown == ViewMode::Friction ||
-                         shown == ViewMode::Stiffness || shown == ViewMode::Damping;
-        if (in_.legend.meaningful)
-            legend();
-        else if (map)
-            ImGui::TextDisabled("No material states it: grey.");
-    }
-
-    /// The colours of a map and the numbers they stand for.
-    void legend() {
-        constexpr int kSteps = 24;
-        const ImVec2 corner = ImGui::GetCursorScreenPos();
-        const ImVec2 size(ImGui::GetContentRegionAvail().x, 10.0f * in_.scale);
-        for (int i = 0; i < kSteps; ++i) {
-            const glm::vec3 color = falseColor((i + 0.5) / kSteps);
-            const float x = corner.x + size.x * static_cast<float>(i) / kSteps;
-            ImGui::GetWindowDrawList()->AddRectFilled(
-                ImVec2(x, corner.y), ImVec2(x + size.x / kSteps + 1.0f, corner.y + size.y),
-                ImGui::GetColorU32(ImVec4(color.x, color.y, color.z, 1.0f)));
-        }
-        ImGui::Dummy(size);
-        char low[48], high[48];
-        const std::string unit(in_.legend.unit == "1" ? "" : in_.legend.unit);
-        std::snprintf(low, sizeof low, "%.3g %s", in_.legend.low, unit.c_str());
-        std::snprintf(high, sizeof high, "%.3g %s", in_.legend.high, unit.c_str());
-        ImGui::TextDisabled("%s", low);
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(high).x);
-        ImGui::TextDisabled("%s", high);
+        drawViewMenu(state_.view, [this](const char* name) { mark(name); });
     }
 
     void warnings() {
@@ -425,6 +389,10 @@ class Panel {
                                "1, 3, 7        from the front, the right, above; Ctrl: the other side\n"
                                ".              goes near the probe\n"
                                "T              turntable\n"
+                               "V              the next view, Shift: the one before\n"
+                               "M              magnifier\n"
+                               "O              overlays\n"
+                               "F12            saves the picture\n"
                                "Space          switches the force off and on\n"
                                "A .glb or .gltf dropped here is opened");
         ImGui::EndTooltip();

@@ -3,7 +3,7 @@
 #include "devices/device_choice.h"
 #include "haptics/effect_plan.h"
 #include "haptics/haptic_settings.h"
-#include "renderer/false_color.h"
+#include "renderer/camera.h"
 #include "workbench/window/force_history.h"
 #include "workbench/window/panels/widgets.h"
 #include "workbench/window/servo_view.h"
@@ -35,7 +35,7 @@ struct PanelInput {
     std::span<const PlannedEffect> plan; ///< of the scene
     std::vector<std::string> materialNames;
     const ForceHistory* forces = nullptr;
-    FalseColorScale legend; ///< of the view that is shown
+    std::string picture; ///< what became of the last picture that was to be saved; empty: none yet
     double framesPerSecond = 0.0;
     OrbitCamera camera;
     glm::ivec2 sceneSize{0};

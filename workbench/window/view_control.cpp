@@ -96,6 +96,19 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
             options.move = move;
         if (pressed({GLFW_KEY_T}))
             options.turntable = !options.turntable;
+        if (pressed({GLFW_KEY_V})) {
+            const size_t step = ImGui::GetIO().KeyShift ? kViewModeNames.size() - 1 : 1;
+            options.mode =
+                static_cast<ViewMode>((static_cast<size_t>(options.mode) + step) % kViewModeNames.size());
+        }
+        if (pressed({GLFW_KEY_M}))
+            options.magnifier = !options.magnifier;
+        if (pressed({GLFW_KEY_O}))
+            options.overlays = options.overlays.probe
+                                   ? ShownOverlays{false, false, false, false, false, false}
+                                   : ShownOverlays{};
+        if (pressed({GLFW_KEY_F12}))
+            options.savePicture = true;
         turnWithKeys(now);
     }
     if (options.move)

@@ -174,12 +174,15 @@ TEST(OrbitCamera, ZoomIsBounded) {
 TEST(View, LightsMoveWithTheCameraAndComeFromItsSide) {
     const OrbitCamera camera = tilted();
     const View view = viewOf(camera, {}, 1.0);
-    for (const DirectionalLight& light : view.lights) {
-        EXPECT_GT(glm::dot(light.toLight, -camera.forward()), 0.0);
-        EXPECT_GT(glm::dot(light.toLight, camera.up()), 0.0);
+    const std::array<Lamp, 2>& lamps = view.surroundings.lamps;
+    for (const glm::dvec3& towards : {view.lights[0].toLight, lamps[0].towards, lamps[1].towards}) {
+        EXPECT_GT(glm::dot(towards, -camera.forward()), 0.0);
+        EXPECT_GT(glm::dot(towards, camera.up()), 0.0);
     }
     EXPECT_LT(glm::dot(view.lights[0].toLight, camera.right()), 0.0);
-    EXPECT_GT(glm::dot(view.lights[1].toLight, camera.right()), 0.0);
+    EXPECT_LT(glm::dot(lamps[0].towards, camera.right()), 0.0);
+    EXPECT_GT(glm::dot(lamps[1].towards, camera.right()), 0.0);
+    EXPECT_EQ(view.lights[1].irradiance, glm::vec3(0.0f)) << "a light that is off costs nothing";
 }
 
 } // namespace

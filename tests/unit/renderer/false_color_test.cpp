@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace touchstone {
 namespace {
 
@@ -66,6 +69,40 @@ TEST(FalseColor, LightnessRisesAndValuesStayInRange) {
     }
     EXPECT_EQ(falseColor(-5.0), falseColor(0.0));
     EXPECT_EQ(falseColor(7.0), falseColor(1.0));
+}
+
+TEST(DihedralAngles, AreTheAnglesBetweenFacets) {
+    Mesh flat = test::quadMesh(0.1, 4);
+    for (const float angle : dihedralAngles(flat))
+        EXPECT_NEAR(angle, 0.0f, 1e-4f);
+    // A roof: two triangles on the z axis, each 35 degrees from level; vertices of their own.
+    const auto c = static_cast<float>(std::cos(glm::radians(35.0))),
+               d = static_cast<float>(std::sin(glm::radians(35.0)));
+    Mesh roof;
+    roof.positions = {{0, 0, 0}, {0, 0, 1}, {c, -d, 0}, {0, 0, 1}, {0, 0, 0}, {-c, -d, 0}};
+    roof.indices = {0, 1, 2, 3, 4, 5};
+    const std::vector<float> angles = dihedralAngles(roof);
+    for (const size_t ridge : {0u, 1u, 3u, 4u})
+        EXPECT_NEAR(angles[ridge], 70.0f, 1e-3f);
+    EXPECT_EQ(angles[2], 0.0f) << "all its edges are borders";
+    EXPECT_EQ(angles[5], 0.0f);
+}
+
+TEST(DihedralAngles, GrowWithTheCoarsenessOfASphere) {
+    const auto most = [](int columns, int rows) {
+        const std::vector<float> angles = dihedralAngles(test::sphereMesh(1.0, columns, rows, {1.0f, 1.0f}));
+        return *std::max_element(angles.begin(), angles.end());
+    };
+    const float coarse = most(20, 10), fine = most(40, 20);
+    EXPECT_NEAR(coarse / fine, 2.0f, 0.2f);
+    EXPECT_NEAR(fine, 9.0f, 1.0f) << "180 degrees in twenty rows";
+}
+
+TEST(FalseColorScale, TiltHasTheRangeThatShadingKeeps) {
+    const FalseColorScale scale = falseColorScale(plate({}), ViewMode::Tilt);
+    EXPECT_TRUE(scale.meaningful);
+    EXPECT_EQ(scale.high, kMostTilt);
+    EXPECT_EQ(scale.unit, "°");
 }
 
 } // namespace

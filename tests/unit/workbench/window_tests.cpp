@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace touchstone::test {
 namespace {
@@ -155,6 +156,35 @@ TEST_F(WindowTest, KeysLookFromTheSidesAndAtAll) {
     const double yaw =
         camera(until("the turntable", [](const Json& s) { return s["view"]["turntable"] == true; }), "yaw");
     until("it to turn", [&](const Json& s) { return std::abs(camera(s, "yaw") - yaw) > 0.2; });
+    expectCleanEnd();
+}
+
+TEST_F(WindowTest, EveryViewCanBeSavedWithMagnifierAndLegend) {
+    open(kDoughnut, {"--hand", "simulated"});
+    display_.key("m");
+    until("the magnifier", [](const Json& s) { return s["view"]["magnifier"] == true; });
+    std::string last = "shaded";
+    std::set<std::string> seen{last};
+    for (int i = 0; i < 9; ++i) {
+        display_.key("v");
+        const Json now = until("another view", [&](const Json& s) { return s["view"]["mode"] != last; });
+        last = now["view"]["mode"];
+        seen.insert(last);
+    }
+    EXPECT_EQ(seen.size(), 10u);
+    for (const char* name : {"doughnut-effects-1.png", "doughnut-effects-2.png"}) {
+        display_.key("F12");
+        const Json saved = until("the picture", [&](const Json& s) {
+            return s["view"]["picture"].get<std::string>().ends_with(name);
+        });
+        const std::filesystem::path file = scratch_ / "state/touchstone/pictures" / name;
+        EXPECT_EQ(saved["view"]["picture"], "saved " + file.string());
+        EXPECT_GT(std::filesystem::file_size(file), 10000u);
+    }
+    display_.key("o");
+    until("no overlays", [](const Json& s) { return s["view"]["overlays"] == false; });
+    display_.key("v");
+    until("the look", [](const Json& s) { return s["view"]["mode"] == "shaded"; });
     expectCleanEnd();
 }
 

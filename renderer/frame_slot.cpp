@@ -1,0 +1,80 @@
+#include "renderer/frame_slot.h"
+
+#include "renderer/pipelines.h"
+#include "shaders/shared/scene_types.h"
+
+#include <chrono>
+
+namespace touchstone {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+void createSlot(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, FrameSlot& slot) {
+    vk::raii::CommandBuffers buffers(
+        gpu.device, vk::CommandBufferAllocateInfo{.commandPool = *gpu.commandPool, .commandBufferCount = 1});
+    slot.commands = std::move(buffers.front());
+    slot.done = vk::raii::Fence(gpu.device, vk::FenceCreateInfo{.flags = vk::FenceCreateFlagBits::eSignaled});
+    if (gpu.timestampBits > 0)
+        slot.timestamps = vk::raii::QueryPool(
+            gpu.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2});
+    slot.uniforms = createBuffer(gpu, sizeof(shared::FrameUniforms), vk::BufferUsageFlagBits::eUniformBuffer,
+                                 MemoryUse::Upload);
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eUniformBuffer, 1};
+    slot.pool = vk::raii::DescriptorPool(
+        gpu.device, vk::DescriptorPoolCreateInfo{.maxSets = 1, .poolSizeCount = 1, .pPoolSizes = &size});
+    slot.frameSet = (*gpu.device)
+                        .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{.descriptorPool = *slot.pool,
+                                                                              .descriptorSetCount = 1,
+                                                                              .pSetLayouts = &layout},
+                                                *gpu.device.getDispatcher())
+                        .front();
+    const vk::DescriptorBufferInfo uniforms{*slot.uniforms.buffer, 0, VK_WHOLE_SIZE};
+    gpu.device.updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = slot.frameSet,
+                               .descriptorCount = 1,
+                               .descriptorType = vk::DescriptorType::eUniformBuffer,
+                               .pBufferInfo = &uniforms},
+        {});
+}
+
+void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot) {
+    // The window may still be reading the old image in a submission of its own.
+    gpu.device.waitIdle();
+    using Usage = vk::ImageUsageFlagBits;
+    slot.colorBytes = nullptr;
+    slot.color = GpuImage{};
+    slot.depth = GpuImage{};
+    slot.color = createImage(gpu, {.format = kSceneFormat,
+                                   .extent = extent,
+                                   .levels = 1,
+                                   .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc,
+                                   .otherFormat = kSceneByteFormat});
+    slot.colorBytes = createView(gpu, slot.color, kSceneByteFormat);
+    slot.depth = createImage(
+        gpu,
+        {.format = kDepthFormat, .extent = extent, .levels = 1, .usage = Usage::eDepthStencilAttachment});
+}
+
+void waitFor(const Gpu::Impl& gpu, FrameSlot& slot, SceneRenderer::Statistics& statistics) {
+    const auto start = std::chrono::steady_clock::now();
+    while (gpu.device.waitForFences(*slot.done, true, UINT64_MAX) == vk::Result::eTimeout) {
+    }
+    statistics.waitSeconds = secondsSince(start);
+    if (!slot.timed)
+        return;
+    const auto [result, ticks] = slot.timestamps.getResults<uint64_t>(
+        0, 2, 2 * sizeof(uint64_t), sizeof(uint64_t), vk::QueryResultFlagBits::e64);
+    if (result != vk::Result::eSuccess)
+        return;
+    const uint64_t mask = gpu.timestampBits >= 64 ? UINT64_MAX : (uint64_t{1} << gpu.timestampBits) - 1;
+    statistics.gpuSeconds =
+        1e-9 * gpu.limits.timestampPeriod * static_cast<double>((ticks[1] - ticks[0]) & mask);
+}
+
+} // namespace touchstone

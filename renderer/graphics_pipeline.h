@@ -1,0 +1,33 @@
+#pragma once
+// How a graphics pipeline is made here, whatever it draws. Main thread only, private to renderer/.
+
+#include "renderer/gpu_impl.h"
+
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+inline constexpr vk::Format kSceneFormat = vk::Format::eR8G8B8A8Srgb; ///< what shaders write: linear, encoded
+inline constexpr vk::Format kSceneByteFormat =
+    vk::Format::eR8G8B8A8Unorm; ///< the same bytes, for copies and the window
+inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+
+/// What differs between our pipelines.
+struct PipelineRecipe {
+    std::span<const uint32_t> vertexCode, fragmentCode;
+    std::vector<uint32_t> constants; ///< specialization constants 0, 1, ... of both stages
+    std::vector<vk::VertexInputBindingDescription> bindings;
+    std::vector<vk::VertexInputAttributeDescription> attributes;
+    vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
+    bool depthTest = true, depthWrite = true, blend = false;
+    vk::CompareOp depthCompare = vk::CompareOp::eLessOrEqual;
+    vk::PipelineLayout layout;
+    vk::RenderPass renderPass; ///< null: dynamic rendering into kSceneFormat and kDepthFormat
+};
+
+/// Viewport and scissor, cull mode and front face are dynamic.
+[[nodiscard]] vk::raii::Pipeline makePipeline(const Gpu::Impl& gpu, const vk::raii::PipelineCache& cache,
+                                              const PipelineRecipe& recipe);
+
+} // namespace touchstone

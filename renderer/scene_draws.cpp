@@ -1,0 +1,138 @@
+// Which instances are drawn in which order, and how.
+
+#include "renderer/scene_renderer_impl.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+/// Rows of the affine map and of its cofactor matrix, which takes normals also where the map is singular.
+bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item) {
+    // Columns of the cofactor matrix; det = dot of a column with its cofactor.
+    glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                        glm::cross(linear[0], linear[1]));
+    const double determinant = glm::dot(linear[0], cofactor[0]);
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(cofactor[column][row]));
+    if (!std::isfinite(largest) || !std::isfinite(glm::dot(t, t)))
+        return false;
+    item.mirrored = determinant < 0.0;
+    const double scale = largest > 0.0 ? (item.mirrored ? -1.0 : 1.0) / largest : 0.0;
+    for (int row = 0; row < 3; ++row) {
+        const auto at = static_cast<size_t>(row);
+        item.constants.eyeFromMesh[at] =
+            glm::vec4(glm::dvec4(linear[0][row], linear[1][row], linear[2][row], t[row]));
+        item.constants.normalFromMesh[at] = glm::vec4(
+            glm::dvec4(cofactor[0][row] * scale, cofactor[1][row] * scale, cofactor[2][row] * scale, 0.0));
+    }
+    item.constants.normalFromMesh[0].w = item.mirrored ? -1.0f : 1.0f;
+    return true;
+}
+
+} // namespace
+
+void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye) {
+    draws_.clear();
+    if (!scene_)
+        return;
+    const Scene& scene = scene_->scene();
+    const uint32_t light = (view.lights[1].irradiance != glm::vec3(0.0f) ? shared::kHasSecondLight : 0u) |
+                           (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const GpuScene::MeshRange& mesh = scene_->mesh(scene.instances[i].mesh);
+        if (mesh.indexCount == 0)
+            continue;
+        const glm::dmat3 linear = view.workspaceFromScene.scale *
+                                  (glm::mat3_cast(view.workspaceFromScene.rotation) * glm::dmat3(poses[i]));
+        const glm::dvec3 origin =
+            view.workspaceFromScene.point(glm::dvec3(poses[i] * glm::dvec4(mesh.centre, 1.0))) - eye;
+        DrawItem item;
+        item.instance = static_cast<int>(i);
+        item.features = mesh.features | light;
+        item.distance = glm::length(origin);
+        if (setConstants(linear, origin, item))
+            draws_.push_back(item);
+    }
+    // Few state changes for what is opaque; what is blended comes last, from the farthest.
+    std::stable_sort(draws_.begin(), draws_.end(), [](const DrawItem& a, const DrawItem& b) {
+        const bool blendedA = (a.features & shared::kIsBlended) != 0,
+                   blendedB = (b.features & shared::kIsBlended) != 0;
+        if (blendedA != blendedB)
+            return blendedB;
+        if (blendedA)
+            return a.distance > b.distance;
+        return a.features < b.features;
+    });
+}
+
+void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, const DrawItem& item,
+                                   ViewMode mode) {
+    const Scene& scene = scene_->scene();
+    const int meshIndex = scene.instances[static_cast<size_t>(item.instance)].mesh;
+    const int materialIndex = scene.meshes[static_cast<size_t>(meshIndex)].material;
+    const GpuScene::MeshRange& mesh = scene_->mesh(meshIndex);
+    const bool shaded = mode == ViewMode::Shaded;
+    const vk::PipelineLayout layout = shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, shaded
+                                                                ? pipelines_.scene(item.features)
+                                                                : pipelines_.falseColor(item.features, mode));
+    commands.bindDescriptorSets(
+        vk::PipelineBindPoint::eGraphics, layout, 1,
+        shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
+    const bool bothSides = scene.materials[static_cast<size_t>(materialIndex)].doubleSided;
+    // What shines through shows its far side first, then its near side.
+    const bool twice = shaded && bothSides && (item.features & shared::kIsBlended) != 0;
+    commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+    commands.pushConstants<shared::ObjectConstants>(layout, vk::ShaderStageFlagBits::eVertex, 0,
+                                                    item.constants);
+    using Cull = vk::CullModeFlagBits;
+    for (const Cull cull : {Cull::eFront, bothSides && !twice ? Cull::eNone : Cull::eBack}) {
+        if (cull == Cull::eFront && !twice)
+            continue;
+        commands.setCullMode(cull);
+        commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.firstVertex, 0);
+        ++statistics.drawCalls;
+    }
+}
+
+void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
+                                    ViewMode mode) {
+    bool backgroundDrawn = false;
+    if (!draws_.empty()) {
+        commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
+        commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
+        if (mode != ViewMode::Shaded)
+            commands.bindVertexBuffers(1, scene_->scalars(), vk::DeviceSize{0});
+        const vk::PipelineLayout layout =
+            mode == ViewMode::Shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
+        for (const DrawItem& item : draws_) {
+            // Behind everything opaque, but before what lets it shine through.
+            if (mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0 && !backgroundDrawn) {
+                drawBackground(commands, frameSet);
+                commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
+                backgroundDrawn = true;
+            }
+            drawItem(commands, item, mode);
+        }
+    }
+    if (!backgroundDrawn)
+        drawBackground(commands, frameSet);
+}
+
+void SceneRenderer::Impl::drawBackground(const vk::raii::CommandBuffer& commands,
+                                         vk::DescriptorSet frameSet) {
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.background());
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.overlayLayout(), 0, frameSet,
+                                {});
+    commands.setCullMode(vk::CullModeFlagBits::eNone);
+    commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+    commands.draw(3, 1, 0, 0);
+}
+
+} // namespace touchstone

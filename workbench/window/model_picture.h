@@ -1,0 +1,52 @@
+#pragma once
+
+#include "renderer/window_target.h"
+#include "workbench/model/model.h"
+#include "workbench/window/overlays.h"
+#include "workbench/window/picture_desk.h"
+#include "workbench/window/view_legend.h"
+
+namespace touchstone {
+
+/// The picture of the model and all that belongs on it: overlays of the newest tick, legend, magnifier. Main
+/// thread.
+class ModelPicture {
+  public:
+    /// Pictures that are saved go into `folder`.
+    ModelPicture(SceneRenderer& renderer, std::filesystem::path folder)
+        : renderer_(renderer), desk_(std::move(folder)) {}
+
+    struct Frame {
+        const Model& model; ///< its scene may be null
+        const TickRecord& tick;
+        const HapticSettings& settings;
+        const OrbitCamera& camera;
+        ViewOptions& options;
+        PixelRect place;             ///< of the framebuffer
+        glm::ivec2 sceneSize{1};     ///< pixels that are drawn for it
+        float pixelsPerPoint = 1.0f; ///< framebuffer pixels for one window coordinate
+        float scale = 1.0f;          ///< window coordinates for one unit of the layout
+        bool software = false;       ///< the device computes on the CPU
+    };
+    /// Draws into the renderer's images, and the legend into the ImGui frame at hand. Returns where the
+    /// images belong.
+    [[nodiscard]] EyePlaces draw(const Frame& frame);
+
+    /// After endFrame: keeps the picture that `options` asked for. True when there is news in `message`.
+    bool save(WindowTarget& target, const Frame& frame);
+    [[nodiscard]] const std::string& message() const { return desk_.message(); }
+
+  private:
+    void colorMaterials(const Frame& frame);
+    void drawMagnifier(const Frame& frame, const View& main, EyePlaces& places);
+
+    SceneRenderer& renderer_;
+    PictureDesk desk_;
+    Overlay overlay_;
+    ViewLegend legend_;
+    std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan the colours show
+    EffectColors colors_;
+    int magnifierAge_ = 0; ///< frames since it was drawn
+};
+
+} // namespace touchstone
