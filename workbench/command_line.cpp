@@ -314,10 +314,10 @@ void parseShard(const std::string& text, StudyCommandOptions& options) {
 }
 
 void defineStudy(CLI::App& app, StudyCommandOptions& options) {
-    app.add_option(
-           "WHAT", options.what,
-           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge) and glTF files; without any, every "
-           "shape")
+    app.add_option("WHAT", options.what,
+                   "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), glTF files and `rate`, "
+                   "the servo's; "
+                   "without any, every shape and the rate")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
     app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")

@@ -5,6 +5,7 @@
 #include "study/errors/noticeable.h"
 #include "study/ladder/ladder.h"
 #include "study/provenance.h"
+#include "study/rate/rate_ladder.h"
 #include "study/report/report.h"
 #include "study/study.h"
 #include "workbench/commands.h"
@@ -47,6 +48,9 @@ class Bar {
     bool shown_;
 };
 
+/// What is no shape but is studied like one: the servo's rate.
+constexpr const char* kRate = "rate";
+
 const ShapeKind* kindNamed(const std::string& name) {
     for (const ShapeKind& kind : shapeKinds())
         if (kind.name == name)
@@ -70,6 +74,10 @@ void printLadders() {
                 std::printf("\n");
             }
     }
+    std::printf(
+        "%s: how often the servo ticks: the stiffest stable wall, energy and processor at 0.5, 1, 2, 4 kHz; "
+        "no ladder of a scene, named like a shape\n",
+        kRate);
     std::printf("shapes:\n");
     for (const ShapeKind& kind : shapeKinds())
         std::printf("  %-18s %s; %s triangles\n", std::string(kind.name).c_str(),
@@ -82,6 +90,8 @@ std::vector<std::string> share(const StudyCommandOptions& options) {
     if (what.empty())
         for (const ShapeKind& kind : shapeKinds())
             what.emplace_back(kind.name);
+    if (options.what.empty() && options.ladders.empty())
+        what.emplace_back(kRate);
     std::sort(what.begin(), what.end());
     what.erase(std::unique(what.begin(), what.end()), what.end());
     std::vector<std::string> mine;
@@ -93,6 +103,11 @@ std::vector<std::string> share(const StudyCommandOptions& options) {
 
 void studyOne(const std::string& name, const StudyOptions& options, bool tessellate, StudyResult& result,
               const StudyProgress& progress) {
+    if (name == kRate) {
+        result.rates = studyRates(kServoRates, {.rounds = std::max(2, options.rounds / 5)},
+                                  [&](double done) { progress("servo rates", done); });
+        return;
+    }
     const ShapeKind* kind = kindNamed(name);
     if (kind == nullptr) {
         studySubject(loadSubject(name), options, result, progress);
@@ -129,6 +144,14 @@ void printTable(const StudyResult& result) {
                     rung.stepMean.value > 0.0 ? 100.0 * (sum(rung.stages) / rung.stepMean.value - 1.0) : 0.0,
                     1e3 * felt(e), e.forceDirection.p99 / 0.017453292519943295, 1e6 * e.position.p99);
     }
+    for (const RateResult& r : result.rates)
+        std::printf(
+            "servo at %4.0f Hz: stiffest stable wall %6.0f N/m, bound from theory %6.0f N/m; a stroke is "
+            "given %.3g mJ; %.3f..%.3f %% of a processor\n",
+            r.rateHz, r.stiffestStable, r.bound, 1e3 * r.energyCreated, 100.0 * r.busy.low,
+            100.0 * r.busy.high);
+    if (result.rungs.empty())
+        return;
     std::printf(
         "\nforce, angle and proxy: 99th percentile of the difference from the truth. stages: how much "
         "the sum of the stages differs from the whole step.\n");

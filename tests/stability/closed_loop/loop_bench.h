@@ -2,14 +2,16 @@
 // A device in a hand against the whole haptic step, offline.
 
 #include "devices/plant/yielding_hand.h"
+#include "study/rate/closed_loop.h"
+#include "study/rate/rate_ladder.h"
 #include "tests/support/touch_bench.h"
 
 #include <functional>
 
 namespace touchstone::test {
 
-/// Limits that no test force comes near: what is studied is the loop and not its safety.
-[[nodiscard]] DeviceLimits noLimits();
+using study::noLimits;
+using study::pressedWallSettles;
 /// No hand, no friction, an exact sensor, motors that do not saturate.
 [[nodiscard]] PlantParameters bareDevice(double mass, double viscous);
 /// No shading, texture and friction: k x and nothing else.
@@ -54,11 +56,6 @@ class LoopBench {
     YieldingHand hand_;
     uint64_t ticks_ = 0;
 };
-
-/// True if a device that a constant weight presses 1 mm into a plane comes back to its rest there: disturbed
-/// by a tenth of that, its swings after half of `ticks` are larger than at the end.
-[[nodiscard]] bool pressedWallSettles(const PlantParameters& plant, const HapticSettings& wall, double rateHz,
-                                      int ticks);
 
 /// How a device meets a wall: from above, or let go inside it.
 struct Start {

@@ -1,0 +1,66 @@
+#pragma once
+// A simulated device in a hand against the whole haptic step: position to force to motion, offline.
+
+#include "devices/plant/yielding_hand.h"
+#include "haptics/haptic_scene.h"
+#include "haptics/haptic_step.h"
+
+#include <functional>
+#include <memory>
+
+namespace touchstone::study {
+
+/// Limits that no force of a study comes near: what is studied is the loop and not its safety.
+[[nodiscard]] DeviceLimits noLimits();
+
+class ClosedLoop {
+  public:
+    /// The safety stage takes `limits` for the device's.
+    ClosedLoop(const HapticScene& scene, const HapticSettings& settings, const PlantParameters& plant,
+               double rateHz, const DeviceLimits& limits);
+    ClosedLoop(const ClosedLoop&) = delete;
+    ClosedLoop& operator=(const ClosedLoop&) = delete;
+
+    /// Leads the device from `outside` to `position`, without a force on it, and keeps it there until the
+    /// safety stage has faded its own in.
+    void hold(const glm::dvec3& outside, const glm::dvec3& position);
+    /// Lets it go from there.
+    void release(const glm::dvec3& position, const glm::dvec3& velocity);
+    /// Sample, haptic step, force. The first without `hold` places the hand where it wants to be.
+    const HapticOutput& tick();
+
+    std::function<glm::dvec3(double)> intention = [](double) {
+        return glm::dvec3(0.0);
+    };                      ///< of s; workspace m
+    glm::dvec3 weight{0.0}; ///< N, constant, on the device
+    int64_t stepNs = 0;     ///< of the last tick's step, with what reading the clock takes
+    [[nodiscard]] const Plant& plant() const { return hand_.plant(); }
+
+  private:
+    class Wish final : public Device {
+      public:
+        explicit Wish(ClosedLoop& loop) : loop_(loop) {}
+        [[nodiscard]] std::string name() const override { return "wish"; }
+        [[nodiscard]] DeviceLimits limits() const override { return {}; }
+        [[nodiscard]] DeviceSample sample(double time) noexcept override {
+            return {.position = loop_.intention(time), .valid = true};
+        }
+        void apply(const DeviceCommand&) noexcept override {}
+
+      private:
+        ClosedLoop& loop_;
+    };
+    const HapticOutput& step(const glm::dvec3& position);
+
+    std::shared_ptr<const HapticScene> scene_;
+    HapticSettings settings_;
+    double rate_;
+    Wish wish_{*this};
+    YieldingHand hand_;
+    WorldState world_;
+    DeviceState state_;
+    HapticOutput output_;
+    uint64_t ticks_ = 0, steps_ = 0;
+};
+
+} // namespace touchstone::study
