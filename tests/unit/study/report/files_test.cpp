@@ -26,7 +26,7 @@ TEST(StudyFiles, KnowTheStructuresAsTheyAre) {
 }
 
 TEST(StudyFiles, JsonComesBackToTheBit) {
-    const Folder folder;
+    const ScratchFolder folder;
     const StudyResult result = everyField();
     ASSERT_EQ(result.rungs.size(), 2u);
     EXPECT_NE(result.rungs[0], result.rungs[1]);
@@ -35,7 +35,7 @@ TEST(StudyFiles, JsonComesBackToTheBit) {
 }
 
 TEST(StudyFiles, JsonKeepsWhatIsNoNumber) {
-    const Folder folder;
+    const ScratchFolder folder;
     StudyResult result = everyField();
     result.rungs[0].errors.position.max = std::numeric_limits<double>::infinity();
     result.rungs[0].step.low = -std::numeric_limits<double>::infinity();
@@ -69,10 +69,10 @@ std::vector<std::vector<std::string>> table(const std::string& text) {
 }
 
 TEST(StudyFiles, CsvHasARowForARungAndItsUnitsInTheHeader) {
-    const Folder folder;
+    const ScratchFolder folder;
     const StudyResult result = everyField();
     writeStudyCsv(result, folder.path() / "study.csv");
-    const auto rows = table(textOf(folder.path() / "study.csv"));
+    const auto rows = table(readFile(folder.path() / "study.csv"));
     ASSERT_EQ(rows.size(), 1 + result.rungs.size());
     const auto value = [&](size_t rung, const std::string& column) {
         for (size_t i = 0; i < rows[0].size(); ++i)
@@ -103,10 +103,10 @@ class BadJson : public testing::TestWithParam<std::pair<const char*, const char*
 
 /// Sets what stands at a JSON pointer, and expects to be told of it.
 TEST_P(BadJson, IsToldWithItsPlace) {
-    const Folder folder;
+    const ScratchFolder folder;
     const auto file = folder.path() / "study.json";
     writeStudyJson(everyField(), file);
-    Json json = Json::parse(textOf(file));
+    Json json = Json::parse(readFile(file));
     const Json::json_pointer at(GetParam().first);
     ASSERT_TRUE(json.contains(at)) << at;
     json[at.parent_pointer()].erase(at.back());
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(StudyFiles, BadJson,
                                          std::pair{"/noticeable/0/source", "noticeable[0].source"}));
 
 TEST(StudyFiles, WhatIsNoStudyIsToldSo) {
-    const Folder folder;
+    const ScratchFolder folder;
     const auto throws = [](const std::filesystem::path& file) {
         try {
             (void)readStudyJson(file);
@@ -157,7 +157,7 @@ TEST(StudyFiles, WhatIsNoStudyIsToldSo) {
 }
 
 TEST(StudyFiles, LeaveNothingHalfWritten) {
-    const Folder folder;
+    const ScratchFolder folder;
     EXPECT_THROW(writeStudyCsv(everyField(), folder.path() / "none" / "study.csv"), Error);
     EXPECT_THROW(writeStudyJson(everyField(), folder.path()), Error);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

@@ -22,14 +22,14 @@ size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST(StudyPlots, AreAllDrawnWhateverTheNamesHold) {
-    const Folder folder;
+    const ScratchFolder folder;
     const PlotsWritten written = writeStudyPlots(likeMeasured(), folder.path());
     for (const std::string& problem : written.problems)
         ADD_FAILURE() << problem;
     // Two scenes: three errors and the stages each. Then triangles, scenes, tessellation, rates.
     EXPECT_EQ(written.files.size(), 2 * 4 + 4u);
     for (const auto& file : written.files) {
-        const std::string svg = textOf(file);
+        const std::string svg = readFile(file);
         EXPECT_NE(svg.find("</svg>"), std::string::npos) << file;
         EXPECT_EQ(svg.find("font-family=\"Inter\""), std::string::npos) << "no font to fall back to";
         EXPECT_EQ(count(svg, "<&>"), 0u) << file;
@@ -46,7 +46,7 @@ TEST(StudyPlots, AreAllDrawnWhateverTheNamesHold) {
 }
 
 TEST(StudyPlots, NameTheirUnitsAndSeries) {
-    const Folder folder;
+    const ScratchFolder folder;
     const PlotsWritten written = writeStudyPlots(likeMeasured(), folder.path());
     const std::vector<std::pair<std::string, std::vector<std::string>>> expected{
         {"error_force_torus", {"mN", "µs", "just noticeable: 40 mN", "exact", "Pareto", "rung 0", "0a1b2c"}},
@@ -61,7 +61,7 @@ TEST(StudyPlots, NameTheirUnitsAndSeries) {
         std::string svg;
         for (const auto& file : written.files)
             if (file.filename().string().starts_with(name))
-                svg = textOf(file);
+                svg = readFile(file);
         for (const std::string& word : words)
             EXPECT_NE(svg.find(word), std::string::npos) << name << " does not say " << word;
     }
@@ -87,7 +87,7 @@ TEST(StudyPlots, DrawTheFrontThatThereIs) {
 }
 
 TEST(StudyPlots, FindAPlaceForWhatALogarithmHasNoneFor) {
-    const Folder folder;
+    const ScratchFolder folder;
     StudyResult result = likeMeasured();
     result.noticeable.clear();
     result.rates.clear();
@@ -106,7 +106,7 @@ TEST(StudyPlots, FindAPlaceForWhatALogarithmHasNoneFor) {
 }
 
 TEST(StudyPlots, AreMissedWithARemedyWhereGnuplotIs) {
-    const Folder folder;
+    const ScratchFolder folder;
     const PlotsWritten written = writeStudyPlots(likeMeasured(), folder.path(), "no-such-gnuplot");
     EXPECT_TRUE(written.files.empty());
     ASSERT_FALSE(written.problems.empty());

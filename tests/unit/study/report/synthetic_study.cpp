@@ -2,14 +2,9 @@
 
 #include "study/report/fields.h"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <cmath>
 #include <concepts>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace touchstone::study::test {
 
@@ -114,25 +109,6 @@ StudyResult likeMeasured() {
     for (const double hz : {500.0, 1000.0, 2000.0, 4000.0})
         result.rates.push_back({hz, 9.0 * hz, 6.0 * hz, 1e-3 / hz, {6e-7 * hz, 5e-7 * hz, 7e-7 * hz}});
     return result;
-}
-
-Folder::Folder() {
-    static std::atomic<int> number{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("touchstone report " + std::to_string(getpid()) + " " + std::to_string(++number));
-    std::filesystem::create_directories(path_);
-}
-
-Folder::~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
-std::string textOf(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
 }
 
 } // namespace touchstone::study::test

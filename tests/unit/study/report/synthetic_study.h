@@ -2,8 +2,7 @@
 // Studies that nobody measured: every field with a figure of its own, and one that looks like a measured one.
 
 #include "study/result.h"
-
-#include <filesystem>
+#include "tests/support/program.h"
 
 namespace touchstone::study::test {
 
@@ -14,19 +13,7 @@ namespace touchstone::study::test {
 /// tessellations, rates, what people notice. Names hold what a shell, gnuplot and SVG read something into.
 [[nodiscard]] StudyResult likeMeasured();
 
-/// A folder for the life of a test.
-class Folder {
-  public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
-[[nodiscard]] std::string textOf(const std::filesystem::path& file);
+using touchstone::test::readFile;
+using touchstone::test::ScratchFolder;
 
 } // namespace touchstone::study::test
