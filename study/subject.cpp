@@ -179,13 +179,13 @@ Subject wedgeSubject(size_t triangles) {
 }
 
 constexpr std::array kKinds{
-    ShapeKind{"plane", "a level sheet of 0.2 m", 2, planeSubject},
-    ShapeKind{"sphere", "radius 50 mm", 1800, sphereSubject},
-    ShapeKind{"cylinder", "radius 25 mm", 2048, cylinderSubject},
-    ShapeKind{"torus", "ring 60 mm, tube 25 mm", 64800, torusSubject},
-    ShapeKind{"waves", "a cosine of 1 mm every 20 mm", 12800, wavesSubject},
-    ShapeKind{"relief", "the sheet with a height map of waves, 0.5 mm every 25 mm", 2, reliefSubject},
-    ShapeKind{"wedge", "a ridge of 120 degrees", 512, wedgeSubject},
+    ShapeKind{"plane", "a level sheet of 0.2 m", 2, false, planeSubject},
+    ShapeKind{"sphere", "radius 50 mm", 1800, true, sphereSubject},
+    ShapeKind{"cylinder", "radius 25 mm", 2048, true, cylinderSubject},
+    ShapeKind{"torus", "ring 60 mm, tube 25 mm", 64800, true, torusSubject},
+    ShapeKind{"waves", "a cosine of 1 mm every 20 mm", 12800, true, wavesSubject},
+    ShapeKind{"relief", "the sheet with a height map of waves, 0.5 mm every 25 mm", 2, false, reliefSubject},
+    ShapeKind{"wedge", "a ridge of 120 degrees", 512, false, wedgeSubject},
 };
 
 } // namespace

@@ -28,6 +28,7 @@ struct Subject {
 struct ShapeKind {
     std::string_view name, what;
     size_t triangles; ///< by default
+    bool round;       ///< so that more triangles come nearer to it
     Subject (*make)(size_t triangles);
 };
 [[nodiscard]] std::span<const ShapeKind> shapeKinds();

@@ -314,10 +314,10 @@ void parseShard(const std::string& text, StudyCommandOptions& options) {
 }
 
 void defineStudy(CLI::App& app, StudyCommandOptions& options) {
-    app.add_option("WHAT", options.what,
-                   "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), glTF files and `rate`, "
-                   "the servo's; "
-                   "without any, every shape and the rate")
+    app.add_option(
+           "WHAT", options.what,
+           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), glTF files, folders of them "
+           "and `rate`, the servo's; without any, every shape and the rate")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
     app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")
@@ -334,6 +334,10 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
            "Study every N-th of what is asked for only, from the I-th, and leave plots to `study merge`: for "
            "GNU parallel and job arrays")
         ->type_name("I/N");
+    app.parse_complete_callback([&app, &options] {
+        if (options.out.empty() && !options.list && app.get_subcommands().empty())
+            throw CLI::RequiredError("--out");
+    });
 }
 
 void defineCompare(CLI::App& app, StudyCompareOptions& options) {

@@ -102,7 +102,7 @@ int benchCommand(const BenchOptions& options);
 
 /// touchstone study [NAME|FILE...] --out DIR
 struct StudyCommandOptions {
-    std::vector<std::string> what;    ///< shapes by name and files; empty: every shape
+    std::vector<std::string> what;    ///< shapes by name, files and folders; empty: every shape
     std::filesystem::path out;        ///< a folder
     std::vector<std::string> ladders; ///< empty: all
     int rounds = 0;                   ///< turns of each rung; 0: as many as make intervals of a few per cent

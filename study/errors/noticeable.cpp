@@ -21,6 +21,15 @@ std::vector<JustNoticeable> noticeableDifferences() {
         {"force magnitude", "1",
          arm + "Weber fraction 0.08 at the shoulder, 0.11 wrist, 0.13 elbow; the least", 0.08},
         {"force", "N", arm + "least force that was felt at all, mean of three joints", 0.04},
+        {"position", "m",
+         "Ho and Srinivasan, MIT RLE Technical Report 608, 1996 (abstract): thickness of an unbendable plate "
+         "between finger and thumb, 0.4 mm, give or take 0.1",
+         0.4e-3},
+        {"relief", "m",
+         "Skedung et al., Scientific Reports 3, 2013, srep02617: amplitude of ridges that a bare finger told "
+         "from "
+         "a smooth surface",
+         13e-9},
     };
 }
 

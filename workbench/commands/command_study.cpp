@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -84,10 +85,31 @@ void printLadders() {
                     std::string(kind.what).c_str(), grouped(kind.triangles).c_str());
 }
 
+/// The models in a folder and in those within it.
+std::vector<std::string> modelsIn(const std::filesystem::path& folder) {
+    std::vector<std::string> models;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             folder, std::filesystem::directory_options::skip_permission_denied)) {
+        std::string ending = entry.path().extension().string();
+        std::transform(ending.begin(), ending.end(), ending.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if ((ending == ".glb" || ending == ".gltf") && entry.is_regular_file())
+            models.push_back(entry.path().string());
+    }
+    if (models.empty())
+        throw Error(folder.string(), "", "has no .glb or .gltf file in it", "name a folder that has some");
+    return models;
+}
+
 /// What is asked for, in a fixed order, and of it the part of this shard.
 std::vector<std::string> share(const StudyCommandOptions& options) {
-    std::vector<std::string> what = options.what;
-    if (what.empty())
+    std::vector<std::string> what;
+    for (const std::string& asked : options.what) {
+        const bool folder = kindNamed(asked) == nullptr && std::filesystem::is_directory(asked);
+        const std::vector<std::string> these = folder ? modelsIn(asked) : std::vector<std::string>{asked};
+        what.insert(what.end(), these.begin(), these.end());
+    }
+    if (options.what.empty())
         for (const ShapeKind& kind : shapeKinds())
             what.emplace_back(kind.name);
     if (options.what.empty() && options.ladders.empty())
@@ -113,6 +135,7 @@ void studyOne(const std::string& name, const StudyOptions& options, bool tessell
         studySubject(loadSubject(name), options, result, progress);
         return;
     }
+    tessellate = tessellate && kind->round;
     const double first = tessellate ? 0.5 : 1.0;
     studySubject(kind->make(kind->triangles), options, result,
                  [&](const std::string& what, double done) { progress(what, first * done); });
@@ -182,8 +205,11 @@ int studyCommand(const StudyCommandOptions& options) {
         printLadders();
         return 0;
     }
-    if (options.out.empty())
-        throw Error("study", "--out", "is missing", "say in which folder the results go");
+    for (const std::string& name : options.ladders)
+        if (std::none_of(ladders().begin(), ladders().end(),
+                         [&](const Ladder& ladder) { return ladder.name == name; }))
+            throw Error("study", "--ladder", "there is no ladder '" + name + "'",
+                        "see touchstone study --list");
     StudyOptions plan;
     plan.ladders = options.ladders;
     if (options.quick) {
@@ -207,10 +233,10 @@ int studyCommand(const StudyCommandOptions& options) {
             };
             try {
                 studyOne(mine[i], plan, tessellate, result, progress);
-            } catch (const Error& error) {
-                if (options.what.size() == 1)
+            } catch (const std::exception& error) { // one of thousands may be broken, or too large
+                if (options.shards == 1 && mine.size() == 1)
                     throw;
-                result.problems.emplace_back(error.what());
+                result.problems.push_back(mine[i] + ": " + error.what());
             }
         }
     }
