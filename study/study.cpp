@@ -106,7 +106,8 @@ class Run {
     }
 
     [[nodiscard]] Truth truthOf(const Ladder& ladder) const {
-        if ((ladder.against == Against::Smooth && subject_.smooth == nullptr) ||
+        if (ladder.against == Against::Coulomb ||
+            (ladder.against == Against::Smooth && subject_.smooth == nullptr) ||
             (ladder.against == Against::Relief && !subject_.relief))
             return Truth::Reference;
         return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;
@@ -148,13 +149,26 @@ class Run {
 
     std::vector<truth::FeltTick> truthFor(const Entry& entry) {
         const Against against = entry.rung.ladder->against;
+        if (against == Against::Coulomb)
+            return truth::springForces(restsOf(referenceFor(entry.rung.exact)), hips_, kStiffness, kSliding);
         if (entry.truth == Truth::Reference)
             return referenceFor(entry.rung.exact);
         const double radius = feltRadius(entry.rung.settings);
         if (against == Against::Relief)
             return truth::reliefForces(rests_.at(radius), hips_, radius, kStiffness, subject_.relief);
-        return truth::springForces(rests_.at(radius), hips_, kStiffness,
-                                   against == Against::Coulomb ? kSliding : 0.0);
+        return truth::springForces(rests_.at(radius), hips_, kStiffness, 0.0);
+    }
+
+    /// What was felt without friction, as rests.
+    static truth::RestPath restsOf(const std::vector<truth::FeltTick>& felt) {
+        truth::RestPath path;
+        for (const truth::FeltTick& tick : felt) {
+            path.proxies.push_back(tick.proxy);
+            const double force = glm::length(tick.force);
+            path.normals.push_back(tick.contact && force > 0.0 ? tick.force / force : glm::dvec3(0.0));
+            path.failed.push_back(false);
+        }
+        return path;
     }
 
     const std::vector<truth::FeltTick>& referenceFor(const HapticSettings& settings) {

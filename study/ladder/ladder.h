@@ -19,7 +19,7 @@ enum class Against : uint8_t {
     Shape,   ///< the frictionless rest on the true shape: closed form, else the oracle on the mesh
     Smooth,  ///< the same, but what smooth normals mean has no truth on a mesh: there the most exact rung
     Relief,  ///< what the height map means in closed form, where that is known; else the most exact rung
-    Coulomb, ///< the rest on the true shape with ideal friction
+    Coulomb, ///< ideal friction on what is felt without friction
 };
 
 /// A stage with a choice. Settings as `--set` takes them, separated by spaces.
