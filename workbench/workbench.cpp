@@ -16,13 +16,15 @@
 #include "workbench/model/default_scene.h"
 #include "workbench/model/model_loader.h"
 #include "workbench/state_folder.h"
+#include "workbench/window/layout.h"
 #include "workbench/window/model_picture.h"
-#include "workbench/window/panel.h"
 #include "workbench/window/recording_desk.h"
+#include "workbench/window/saved_file.h"
 #include "workbench/window/status_file.h"
 #include "workbench/window/style.h"
 #include "workbench/window/view_control.h"
 #include "workbench/window/window.h"
+#include "workbench/window/window_memory.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -31,9 +33,11 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <map>
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace touchstone {
 
@@ -43,25 +47,48 @@ constexpr double kFramePeriod = 1.0 / 30.0; // s
 constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU draws it
 constexpr int kHardwarePixels = 2560 * 1440;
 constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
-constexpr double kPlotSeconds = 2.0;
+constexpr double kChartSeconds = 10.0;
 
 double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+constexpr const char* kMemoryFile = "window.json"; // in the state folder
+
+/// The size asked for on the command line, else that of the last run.
+glm::ivec2 firstSize(const glm::ivec2& asked, const glm::ivec2& remembered) {
+    return asked == WindowOptions{}.size && remembered.x > 0 ? remembered : asked;
+}
+
+/// Our own scenes, to be opened from the menu.
+std::vector<std::filesystem::path> sampleScenes() {
+    std::vector<std::filesystem::path> found;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(defaultScene().parent_path(), error))
+        if (entry.path().extension() == ".glb")
+            found.push_back(entry.path());
+    std::ranges::sort(found);
+    return found;
+}
+
 class Workbench {
   public:
     explicit Workbench(const WindowOptions& options)
-        : window_("Touchstone", options.size),
+        : memory_(readMemory(stateFolder() / kMemoryFile)),
+          window_("Touchstone", firstSize(options.size, memory_.size)),
           gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
           target_(*gpu_, window_.handle(), [this] { applyStyle(window_.layoutScale()); }), renderer_(*gpu_),
           resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
                        .smallestScale = kSmallestScale}),
           servo_(portOf(hand_), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
-          liveError_(options.rateHz), forces_(static_cast<size_t>(kPlotSeconds * options.rateHz)),
+          liveError_(options.rateHz), forces_(static_cast<size_t>(kChartSeconds * options.rateHz)),
           status_(options.statusJson) {
-        state_.settings = state_.chosen = options.settings;
+        // What the command line asks for goes before what the last run left.
+        state_.settings = state_.chosen =
+            options.settings == HapticSettings{} ? memory_.settings : options.settings;
+        state_.folds = memory_.folds;
+        state_.introduced = memory_.introduced;
         state_.simulatedHand = options.simulatedHand;
         state_.device = options.device;
         holdDevice();
@@ -79,6 +106,7 @@ class Workbench {
         servo_.stop();
         servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, secondsNow());
         desk_.finish();
+        remember();
     }
     Workbench(const Workbench&) = delete;
     Workbench& operator=(const Workbench&) = delete;
@@ -135,6 +163,8 @@ class Workbench {
         hand_.offerPath(shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
         forces_.clear();
+        memory_.opened(std::filesystem::absolute(shown_.model.scene->path));
+        remember();
         window_.setTitle(shown_.model.scene->path + " – Touchstone");
     }
 
@@ -220,22 +250,22 @@ class Workbench {
     }
 
     void draw() {
-        const glm::ivec2 area = pictureArea();
-        const PanelInput input = panelInput(resolution_.sceneSize(area));
+        const PixelRect area = pictureArea();
+        const PanelInput input = panelInput(resolution_.sceneSize({area.width, area.height}));
         const HapticSettings before = state_.settings;
-        const auto widgets = drawPanel(input, state_);
+        const PanelFolds folds = state_.folds;
+        const auto widgets = drawPanels(input, state_);
         const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
-        view_.update({.area = glm::dvec2(area) / points,
+        view_.update({.area = glm::dvec2(area.width, area.height) / points,
                       .probe = servo_.snapshot().output.proxy,
                       .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
                       .mouseIsHand = state_.device.empty() && !state_.simulatedHand},
                      state_.view);
-        if (std::exchange(state_.recordPressed, false))
-            desk_.toggle();
-        if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_SPACE, false))
-            state_.settings.forceEnabled = !state_.settings.forceEnabled;
+        doWhatWasAsked(widgets);
         if (!(state_.settings == before))
             servo_.setSettings(state_.settings);
+        if (!(state_.folds == folds))
+            remember();
 
         if (hasModel())
             poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
@@ -244,7 +274,7 @@ class Workbench {
                                         .settings = state_.settings,
                                         .camera = view_.camera(),
                                         .options = state_.view,
-                                        .place = {0, 0, area.x, area.y},
+                                        .place = area,
                                         .sceneSize = input.sceneSize,
                                         .pixelsPerPoint = static_cast<float>(points),
                                         .scale = window_.layoutScale(),
@@ -252,6 +282,8 @@ class Workbench {
         target_.endFrame(&renderer_, picture_.draw(frame));
         if (picture_.save(target_, frame))
             notice_ = picture_.message();
+        if (chartPictures_.update(target_))
+            notice_ = chartPictures_.message();
         status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
     }
 
@@ -259,9 +291,8 @@ class Workbench {
         PanelInput input;
         if (hasModel()) {
             const Scene& scene = *shown_.model.scene;
-            input.plan = shown_.model.haptic->plan.effects;
-            for (const Material& material : scene.materials)
-                input.materialNames.push_back(material.name);
+            input.scene = &scene;
+            input.haptic = shown_.model.haptic.get();
             input.modelName = std::filesystem::path(scene.path).filename().string();
             input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
                                (scene.touchable() ? "" : ": nothing to touch");
@@ -274,7 +305,10 @@ class Workbench {
                 input.warnings.emplace_back("the neighbourhood watch is being prepared: swept until then");
         }
         input.problem = problem_;
+        input.recent = memory_.recent;
+        input.samples = samples_;
         input.loading = loader_.loading();
+        input.loadName = loader_.path().filename().string();
         input.loadFraction = loader_.fraction();
         input.loadActivity = loader_.activity();
         input.notice = notice_;
@@ -295,16 +329,64 @@ class Workbench {
         return input;
     }
 
-    /// The part of the framebuffer that the panel leaves, pixels.
-    [[nodiscard]] glm::ivec2 pictureArea() const {
-        const ImGuiIO& io = ImGui::GetIO();
-        const float panel = kPanelWidth * window_.layoutScale() * io.DisplayFramebufferScale.x;
-        const glm::ivec2 size = target_.size();
-        return {std::max(16, size.x - static_cast<int>(panel)), std::max(16, size.y)};
+    /// What the buttons and menus of this frame asked for.
+    void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {
+        if (std::exchange(state_.recordPressed, false))
+            desk_.toggle();
+        if (std::exchange(state_.cancelPressed, false))
+            loader_.abandon();
+        if (std::exchange(state_.dismissPressed, false))
+            problem_.clear();
+        if (std::exchange(state_.quitPressed, false))
+            window_.close();
+        if (const auto asked = std::exchange(state_.open, std::nullopt))
+            open(*asked);
+        if (const auto wanted = std::exchange(state_.chartWanted, std::nullopt)) {
+            if (*wanted == ChartFile::Picture)
+                chartPictures_.request(target_, pixelsOf(widgets.at("charts")), "charts");
+            else
+                saveChart();
+        }
+    }
+
+    void saveChart() {
+        try {
+            const std::filesystem::path file = savedFile("charts", ".csv");
+            writeChart(file, state_.stopped ? *state_.stopped : forces_);
+            notice_ = "saved " + file.string();
+        } catch (const std::exception& error) {
+            problem_ = error.what();
+        }
+    }
+
+    /// Framebuffer pixels of a place in window coordinates.
+    [[nodiscard]] static PixelRect pixelsOf(const WidgetRect& rect) {
+        const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
+        return {static_cast<int>(rect.x * pixels), static_cast<int>(rect.y * pixels),
+                static_cast<int>(rect.width * pixels), static_cast<int>(rect.height * pixels)};
+    }
+
+    /// For the next run.
+    void remember() {
+        memory_.settings = state_.settings;
+        memory_.settings.forceEnabled = true;
+        memory_.folds = state_.folds;
+        memory_.introduced = state_.introduced;
+        memory_.size = window_.size();
+        writeMemory(stateFolder() / kMemoryFile, memory_);
+    }
+
+    /// The part of the framebuffer that bar and panels leave, pixels.
+    [[nodiscard]] PixelRect pictureArea() const {
+        const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
+        const glm::vec2 size(target_.size());
+        const PictureRect rect = pictureRect(state_.folds, size, window_.layoutScale() * pixels);
+        return {static_cast<int>(rect.x), static_cast<int>(rect.y),
+                std::max(16, static_cast<int>(rect.width)), std::max(16, static_cast<int>(rect.height))};
     }
     [[nodiscard]] double aspect() const {
-        const glm::ivec2 area = pictureArea();
-        return static_cast<double>(area.x) / area.y;
+        const PixelRect area = pictureArea();
+        return static_cast<double>(area.width) / area.height;
     }
 
     /// Adapts the picture to the time it took and waits for the next frame's turn, handling events meanwhile.
@@ -319,6 +401,8 @@ class Workbench {
         framesPerSecond_ = framesPerSecond_ <= 0.0 ? rate : (1.0 - kShare) * framesPerSecond_ + kShare * rate;
     }
 
+    WindowMemory memory_;
+    const std::vector<std::filesystem::path> samples_ = sampleScenes();
     Window window_;
     std::unique_ptr<Gpu> gpu_;
     WindowTarget target_;
@@ -339,6 +423,7 @@ class Workbench {
     ServoView servoView_;
     ForceHistory forces_;
     ModelPicture picture_{renderer_, stateFolder() / "pictures"};
+    PictureDesk chartPictures_{stateFolder() / "pictures"};
     StatusFile status_;
     std::string problem_;
     std::future<void> building_;

@@ -41,6 +41,8 @@ HapticSettings referenceOf(const HapticSettings& settings) {
     exact.proxyRadius = feltRadius(settings);
     exact.iterationBudget = kToTheEnd;
     exact.forceShading = ShadingMode::TwoPass;
+    exact.textureFilter = TextureFilter::Bicubic;
+    exact.textureGradient = TextureGradient::Central;
     return exact;
 }
 

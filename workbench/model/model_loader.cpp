@@ -48,6 +48,11 @@ std::optional<LoadedModel> ModelLoader::take() {
     if (!worker_.joinable() || !finished_.load(std::memory_order_acquire))
         return std::nullopt;
     worker_.join();
+    if (cancelled_.load(std::memory_order_relaxed)) {
+        failure_ = nullptr;
+        result_.reset();
+        return std::nullopt;
+    }
     if (failure_)
         std::rethrow_exception(std::exchange(failure_, nullptr));
     return std::exchange(result_, std::nullopt);

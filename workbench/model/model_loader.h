@@ -30,7 +30,10 @@ class ModelLoader {
 
     void start(const std::filesystem::path& path, const DeviceLimits& limits);
 
-    /// The model once it is there; throws the Error that stopped it, once.
+    /// Gives up what is being loaded; `loading` goes on until the worker has noticed.
+    void abandon() { cancelled_.store(true, std::memory_order_relaxed); }
+
+    /// The model once it is there; throws the Error that stopped it, once. Nothing of what was abandoned.
     [[nodiscard]] std::optional<LoadedModel> take();
 
     [[nodiscard]] bool loading() const { return worker_.joinable(); }

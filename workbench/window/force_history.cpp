@@ -4,11 +4,17 @@
 
 namespace touchstone {
 
-void ForceHistory::add(const HapticOutput& output) {
+void ForceHistory::add(const TickRecord& record, bool recorded) {
+    const HapticOutput& output = record.output;
     const glm::dvec3 along = output.force - glm::dot(output.force, output.normal) * output.normal;
-    entries_[next_] = {static_cast<float>(glm::length(output.force)),
-                       output.contacts > 0 ? static_cast<float>(glm::length(along)) : 0.0f,
-                       output.contacts > 0};
+    entries_[next_] = {.time = record.time,
+                       .force = static_cast<float>(glm::length(output.force)),
+                       .tangential = output.contacts > 0 ? static_cast<float>(glm::length(along)) : 0.0f,
+                       .penetration = static_cast<float>(output.penetration),
+                       .energy = static_cast<float>(output.energyBalance),
+                       .step = 1e-9f * static_cast<float>(record.stepNs),
+                       .contact = output.contacts > 0,
+                       .recorded = recorded};
     next_ = (next_ + 1) % entries_.size();
     count_ = std::min(count_ + 1, entries_.size());
 }

@@ -8,7 +8,7 @@ void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& rec
     while (servo.popRecord(record)) {
         statistics_.addLive(record);
         recorder.take(record);
-        forces.add(record.output);
+        forces.add(record, recorder.recording());
         liveError.take(record, servo.settingsOf(record.settings));
         last = record;
     }

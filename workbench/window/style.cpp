@@ -9,7 +9,7 @@ namespace touchstone {
 namespace {
 
 constexpr const char* kFont = "/usr/share/fonts/opentype/inter/Inter-Regular.otf"; // Debian's fonts-inter
-constexpr float kFontSize = 15.0f;
+constexpr float kFontSize = 15.0f, kLargeFontSize = 24.0f;
 
 void applyColors(ImGuiStyle& style) {
     ImGui::StyleColorsDark(&style);
@@ -44,11 +44,14 @@ void applyStyle(float scale) {
     io.IniFilename = nullptr; // the layout is ours
     if (std::filesystem::exists(kFont)) {
         static const ImWchar kRanges[] = {0x20, 0xFF, 0x2013, 0x2026, 0x03BC, 0x03BC, 0, 0};
-        io.Fonts->AddFontFromFileTTF(kFont, kFontSize * scale, nullptr, kRanges);
+        for (const float size : {kFontSize, kLargeFontSize})
+            io.Fonts->AddFontFromFileTTF(kFont, size * scale, nullptr, kRanges);
     } else {
         ImFontConfig config;
-        config.SizePixels = 13.0f * scale;
-        io.Fonts->AddFontDefault(&config);
+        for (const float size : {13.0f, 26.0f}) {
+            config.SizePixels = size * scale;
+            io.Fonts->AddFontDefault(&config);
+        }
     }
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();

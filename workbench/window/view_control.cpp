@@ -103,7 +103,7 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
         }
         if (pressed({GLFW_KEY_M}))
             options.magnifier = !options.magnifier;
-        if (pressed({GLFW_KEY_O}))
+        if (pressed({GLFW_KEY_O}) && !ImGui::GetIO().KeyCtrl)
             options.overlays = options.overlays.probe
                                    ? ShownOverlays{false, false, false, false, false, false}
                                    : ShownOverlays{};

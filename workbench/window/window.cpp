@@ -80,6 +80,16 @@ std::optional<std::filesystem::path> Window::takeDropped() {
     return std::exchange(dropped_, std::nullopt);
 }
 
+glm::ivec2 Window::size() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return size;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
 void Window::setTitle(const std::string& title) {
     glfwSetWindowTitle(window_, title.c_str());
 }

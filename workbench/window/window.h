@@ -27,6 +27,8 @@ class Window {
     [[nodiscard]] float layoutScale() const;
     /// The file that was dropped on the window since the last call.
     [[nodiscard]] std::optional<std::filesystem::path> takeDropped();
+    [[nodiscard]] glm::ivec2 size() const; ///< screen coordinates
+    void close();                          ///< shouldClose from now on
     void setTitle(const std::string& title);
 
   private:

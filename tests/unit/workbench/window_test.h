@@ -22,7 +22,7 @@ class WindowTest : public testing::Test {
   protected:
     void open(const std::string& scene, const std::vector<std::string>& more = {}) {
         std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size",
-                                           "1000x640",        "--status-json", status_.string()};
+                                           "1000x780",        "--status-json", status_.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
@@ -71,8 +71,10 @@ class WindowTest : public testing::Test {
                 corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())};
     }
     /// A place in the picture, as shares of its width and height.
-    VirtualDisplay::Place inPicture(double x, double y) const {
-        return {corner_.x + static_cast<int>(680.0 * x), corner_.y + static_cast<int>(640.0 * y)};
+    VirtualDisplay::Place inPicture(double x, double y) {
+        const Json rect = status()["widgets"].at("picture");
+        return {corner_.x + static_cast<int>(rect["x"].get<double>() + x * rect["width"].get<double>()),
+                corner_.y + static_cast<int>(rect["y"].get<double>() + y * rect["height"].get<double>())};
     }
 
     void expectCleanEnd() {

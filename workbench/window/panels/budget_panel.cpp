@@ -51,7 +51,10 @@ class Strips {
     void draw() {
         const float line = ImGui::GetTextLineHeight(), bar = widgets_.units(15.0f);
         char text[96];
-        std::snprintf(text, sizeof text, "half of all ticks within %.1f µs", servo_.contactP50Us);
+        if (sum(servo_.stageP99Us) <= 0.0)
+            std::snprintf(text, sizeof text, "in contact: touch something");
+        else
+            std::snprintf(text, sizeof text, "half of all ticks within %.1f µs", servo_.contactP50Us);
         y_ = corner_.y;
         strip(text, servo_.stageP50Us, line, bar);
         std::snprintf(text, sizeof text, "99 of 100 within %.1f µs", servo_.contactP99Us);
@@ -115,50 +118,37 @@ class Strips {
     float y_ = 0.0f;
 };
 
-void drawLegend(const ServoView& servo, const Widgets& widgets) {
-    if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_SizingStretchProp))
-        return;
-    ImGui::TableSetupColumn("stage", 0, 2.0f);
-    ImGui::TableSetupColumn("p50 µs", 0, 1.0f);
-    ImGui::TableSetupColumn("p99 µs", 0, 1.0f);
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TableNextRow();
-    for (const char* title : {"stage", "p50 µs", "p99 µs"}) {
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(title);
-    }
-    ImGui::PopStyleColor();
+/// Swatch, name, p50 and p99 of each stage, down two columns.
+void drawLegend(const ServoView& servo, Widgets& widgets) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float column = 0.5f * ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight(),
+                side = widgets.units(9.0f), pitch = line + widgets.units(3.0f);
+    constexpr size_t kRows = kStageCount / 2;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
     for (size_t i = 0; i < kStageCount; ++i) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float side = widgets.units(9.0f), low = 0.5f * (ImGui::GetTextLineHeight() - side);
-        ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + low),
-                                                  ImVec2(at.x + side, at.y + low + side), kColors[i], 2.0f);
-        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + widgets.units(16.0f));
-        ImGui::TextUnformatted(kStageNames[i].data());
-        ImGui::TableNextColumn();
-        ImGui::Text("%.2f", servo.stageP50Us[i]);
-        ImGui::TableNextColumn();
-        ImGui::Text("%.2f", servo.stageP99Us[i]);
+        const ImVec2 at(corner.x + static_cast<float>(i / kRows) * column,
+                        corner.y + static_cast<float>(i % kRows) * pitch);
+        const float low = 0.5f * (line - side);
+        draw.AddRectFilled(ImVec2(at.x, at.y + low), ImVec2(at.x + side, at.y + low + side), kColors[i],
+                           2.0f);
+        draw.AddText(ImVec2(at.x + widgets.units(14.0f), at.y), kText, kStageNames[i].data());
+        char text[32];
+        std::snprintf(text, sizeof text, "%.1f  %.1f", servo.stageP50Us[i], servo.stageP99Us[i]);
+        draw.AddText(ImVec2(at.x + column - widgets.units(10.0f) - ImGui::CalcTextSize(text).x, at.y), kLabel,
+                     text);
     }
-    ImGui::EndTable();
+    ImGui::Dummy(ImVec2(2.0f * column, static_cast<float>(kRows) * pitch));
+    widgets.mark("budgetLegend");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("µs of each stage: median and 99th percentile of the last 4000 ticks in contact");
 }
 
 } // namespace
 
 void drawBudget(const ServoView& servo, Widgets& widgets) {
-    if (sum(servo.stageP99Us) <= 0.0) {
-        ImGui::TextDisabled("touch something: stages are timed in contact");
-        return;
-    }
     Strips(servo, widgets).draw();
     widgets.mark("budget");
-    if (ImGui::TreeNodeEx("by stage", ImGuiTreeNodeFlags_DefaultOpen)) {
-        drawLegend(servo, widgets);
-        widgets.mark("budgetLegend");
-        ImGui::TreePop();
-    }
+    drawLegend(servo, widgets);
 }
 
 } // namespace touchstone

@@ -89,13 +89,12 @@ bool belowPerception(const LiveErrorFigures& error) {
 }
 
 void drawError(const LiveErrorFigures& error, Widgets& widgets) {
-    if (error.inContact + error.lost + error.invented == 0) {
-        ImGui::TextDisabled("touch something: it is compared in contact");
-        widgets.mark("error");
-        return;
-    }
     table(error);
     widgets.mark("error");
+    if (error.inContact + error.lost + error.invented == 0) {
+        ImGui::TextDisabled("in contact: touch something");
+        return;
+    }
     const bool below = belowPerception(error);
     ImGui::TextColored(below ? kBelow : kAbove, "%s", below ? "below perception" : "may be felt");
     if (ImGui::IsItemHovered())

@@ -2,7 +2,9 @@
 // What the panels are made of. Main thread, within an ImGui frame.
 
 #include <map>
+#include <span>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 
@@ -17,12 +19,17 @@ class Widgets {
     /// `scale`: window coordinates for one unit of the layout.
     explicit Widgets(float scale) : scale_(scale) {}
 
-    [[nodiscard]] float scale() const { return scale_; }
     [[nodiscard]] float units(float n) const { return n * scale_; }
     /// Notes where the last widget is.
     void mark(const char* name);
-    [[nodiscard]] const std::map<std::string, WidgetRect>& rects() const { return rects_; }
+    void place(const char* name, const WidgetRect& rect) { rects_[name] = rect; }
     [[nodiscard]] std::map<std::string, WidgetRect> take() { return std::move(rects_); }
+
+    void section(const char* title) const;
+    /// As wide as the window; marks `name`. True where another one was chosen.
+    bool combo(const char* name, int& chosen, std::span<const char* const> labels);
+    /// A button with a lamp, lit in `color` (ImU32) while `on`; marks `name`. True where it was pressed.
+    bool lampButton(const char* name, const char* label, bool on, unsigned color);
 
   private:
     float scale_;

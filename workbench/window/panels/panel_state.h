@@ -1,4 +1,5 @@
 #pragma once
+// What the panels show and what they change. Plain values of the main thread.
 
 #include "devices/device_choice.h"
 #include "haptics/effect_plan.h"
@@ -9,16 +10,22 @@
 #include "workbench/window/servo_view.h"
 #include "workbench/window/view_options.h"
 
-#include <map>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace touchstone {
 
-/// What the panel shows.
+class HapticScene;
+
+/// What the panels show.
 struct PanelInput {
     std::string modelName, modelFacts; ///< "doughnut.glb", "64,800 triangles"
+    const Scene* scene = nullptr;      ///< what is shown; null: nothing yet
+    const HapticScene* haptic = nullptr;
+    std::span<const std::filesystem::path> recent, samples; ///< to open
     std::vector<std::string> warnings;
     std::string problem; ///< of the last load, with its remedy; empty: none
     std::string notice;  ///< of the recorder: what went wrong, or what was kept
@@ -26,14 +33,13 @@ struct PanelInput {
     std::string recordingFile; ///< the last one; empty: none yet
     double recordedSeconds = 0.0;
     bool loading = false;
+    std::string loadName; ///< of the file
     double loadFraction = 0.0;
     std::string loadActivity;
     bool canSimulate = false; ///< there is a path for the simulated hand
     std::vector<DeviceOffer> devices;
     std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
     const ServoView* servo = nullptr;
-    std::span<const PlannedEffect> plan; ///< of the scene
-    std::vector<std::string> materialNames;
     const ForceHistory* forces = nullptr;
     std::string picture; ///< what became of the last picture that was to be saved; empty: none yet
     double framesPerSecond = 0.0;
@@ -43,21 +49,31 @@ struct PanelInput {
     float scale = 1.0f; ///< window coordinates for one unit of the layout
 };
 
-/// What the panel changes. Plain values of the main thread.
+/// Which panels are folded away.
+struct PanelFolds {
+    bool left = false, right = false, bottom = false;
+    bool operator==(const PanelFolds&) const = default;
+};
+
+enum class ChartFile : uint8_t { Csv, Picture };
+
+/// What the panels change.
 struct PanelState {
     HapticSettings settings;
     HapticSettings chosen; ///< what the toggles return to when switched on again
     bool simulatedHand = false;
     std::string device; ///< what chooses it; empty: the mouse or the simulated hand
     ViewOptions view;
-    bool recordPressed = false; ///< the record button, in this frame
+    PanelFolds folds;
+    bool help = false;
+    bool introduced = false;                        ///< the first-run card was read
+    std::optional<ForceHistory> stopped;            ///< what the charts show while they are paused
+    std::string openPath = std::string(1024, '\0'); ///< what is being typed
+
+    // Asked for in this frame; whoever does it takes it back:
+    bool recordPressed = false, cancelPressed = false, dismissPressed = false, quitPressed = false;
+    std::optional<ChartFile> chartWanted;
+    std::optional<std::filesystem::path> open;
 };
-
-/// Units of layout that the panel takes on the right of the window.
-inline constexpr float kPanelWidth = 320.0f;
-
-/// Draws the panel over the right side of the ImGui frame and applies what the user did to `state`. Returns
-/// where its widgets are, by name ("friction", "texture", "forceShading", "stiffness", ...).
-std::map<std::string, WidgetRect> drawPanel(const PanelInput& input, PanelState& state);
 
 } // namespace touchstone

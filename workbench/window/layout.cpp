@@ -1,0 +1,179 @@
+#include "workbench/window/layout.h"
+
+#include "workbench/window/panels/budget_panel.h"
+#include "workbench/window/panels/error_panel.h"
+#include "workbench/window/panels/panels.h"
+
+#include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+namespace touchstone {
+
+namespace {
+
+// Units of layout.
+constexpr float kBar = 42.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
+constexpr float kFolded = 20.0f; // what is left of a folded panel: the arrow that unfolds it
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
+struct Rect {
+    float x, y, width, height;
+};
+
+/// A panel in its place, or the arrow that unfolds it. `out`, `in`: where the arrows point.
+template <class Content>
+void panel(const char* name, const Rect& rect, bool& folded, ImGuiDir out, ImGuiDir in, Widgets& widgets,
+           const Content& content) {
+    ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
+    ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
+    if (folded)
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+    ImGui::Begin(name, nullptr, folded ? kFixed | ImGuiWindowFlags_NoScrollbar : kFixed);
+    if (folded)
+        ImGui::PopStyleVar();
+    const float side = ImGui::GetFrameHeight();
+    if (folded) {
+        ImGui::SetCursorPos(ImVec2(0.5f * (rect.width - std::min(rect.width, side)), 0.0f));
+    } else {
+        // On the first line, right.
+        const ImVec2 begin = ImGui::GetCursorPos();
+        ImGui::SetCursorPos(ImVec2(ImGui::GetWindowContentRegionMax().x - side, begin.y));
+        if (ImGui::ArrowButton("##fold", in))
+            folded = true;
+        widgets.mark((std::string("fold:") + name).c_str());
+        ImGui::SetCursorPos(begin);
+        content();
+        ImGui::End();
+        return;
+    }
+    if (ImGui::ArrowButton("##unfold", out))
+        folded = false;
+    widgets.mark((std::string("fold:") + name).c_str());
+    ImGui::End();
+}
+
+template <class Mode>
+void toggle(Mode& mode, Mode& chosen, Mode off, Mode usual) {
+    if (mode != off)
+        chosen = mode;
+    mode = mode != off ? off : (chosen != off ? chosen : usual);
+}
+
+void effectKeys(PanelState& state) {
+    HapticSettings &settings = state.settings, &chosen = state.chosen;
+    if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false))
+        settings.forceEnabled = !settings.forceEnabled;
+    if (ImGui::IsKeyPressed(GLFW_KEY_F5, false))
+        toggle(settings.forceShading, chosen.forceShading, ShadingMode::Off, ShadingMode::Material);
+    if (ImGui::IsKeyPressed(GLFW_KEY_F6, false))
+        toggle(settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
+    if (ImGui::IsKeyPressed(GLFW_KEY_F7, false))
+        toggle(settings.friction, chosen.friction, FrictionMode::Off, FrictionMode::Zilles);
+}
+
+void windowKeys(const PanelInput& input, PanelState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    PanelFolds& folds = state.folds;
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    if (pressed(GLFW_KEY_F1) || (pressed(GLFW_KEY_SLASH) && io.KeyShift))
+        state.help = !state.help;
+    if (pressed(GLFW_KEY_ESCAPE))
+        state.help = false;
+    if (pressed(GLFW_KEY_F2))
+        folds.left = !folds.left;
+    if (pressed(GLFW_KEY_F3))
+        folds.right = !folds.right;
+    if (pressed(GLFW_KEY_F4))
+        folds.bottom = !folds.bottom;
+    if (pressed(GLFW_KEY_TAB)) {
+        const bool all = folds.left && folds.right && folds.bottom;
+        folds = {!all, !all, !all};
+    }
+    if (pressed(GLFW_KEY_F8) && input.canSimulate) {
+        state.simulatedHand = !state.simulatedHand || !state.device.empty();
+        state.device.clear();
+    }
+    if (pressed(GLFW_KEY_F9))
+        state.recordPressed = true;
+    if (pressed(GLFW_KEY_P))
+        state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
+    if (pressed(GLFW_KEY_Q) && io.KeyCtrl)
+        state.quitPressed = true;
+}
+
+/// The bar, with the popup that Ctrl+O opens.
+void topBar(const PanelInput& input, PanelState& state, const Rect& rect, Widgets& widgets) {
+    ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
+    ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(7.0f)));
+    ImGui::Begin("bar", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
+    ImGui::PopStyleVar();
+    if (!ImGui::GetIO().WantTextInput && ImGui::GetIO().KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_O, false))
+        ImGui::OpenPopup("file");
+    drawTopBar(input, state, widgets);
+    ImGui::End();
+}
+
+void leftPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    ImGui::TextDisabled("HAND");
+    ImGui::Separator();
+    drawHand(input, state, widgets);
+    widgets.section("SCENE");
+    drawScene(input, state, widgets);
+    widgets.section("UNDER THE PROBE");
+    drawTouched(input, state, widgets);
+}
+
+void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    ImGui::TextDisabled("FELT NOW");
+    ImGui::Separator();
+    drawNow(input, state, widgets);
+    widgets.section("WHAT A TICK COSTS");
+    drawBudget(*input.servo, widgets);
+    widgets.section("HOW FAR FROM EXACT");
+    drawError(input.servo->error, widgets);
+    widgets.section("HOW IT IS DONE");
+    drawRungs(state, widgets);
+    widgets.section("SERVO");
+    drawServo(input, widgets);
+}
+
+} // namespace
+
+PictureRect pictureRect(const PanelFolds& folds, const glm::vec2& window, float scale) {
+    const float left = (folds.left ? kFolded : kLeft) * scale,
+                right = (folds.right ? kFolded : kRight) * scale,
+                bottom = (folds.bottom ? kFolded : kBottom) * scale, bar = kBar * scale;
+    return {left, bar, std::max(1.0f, window.x - left - right), std::max(1.0f, window.y - bar - bottom)};
+}
+
+std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState& state) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    Widgets widgets(input.scale);
+    if (!ImGui::GetIO().WantTextInput) {
+        effectKeys(state);
+        windowKeys(input, state);
+    }
+    const PictureRect picture = pictureRect(state.folds, {display.x, display.y}, input.scale);
+    const float below = picture.y + picture.height, beyond = picture.x + picture.width;
+    widgets.place("picture", {picture.x, picture.y, picture.width, picture.height});
+    topBar(input, state, {0.0f, 0.0f, display.x, picture.y}, widgets);
+    panel("scene", {0.0f, picture.y, picture.x, display.y - picture.y}, state.folds.left, ImGuiDir_Right,
+          ImGuiDir_Left, widgets, [&] { leftPanel(input, state, widgets); });
+    panel("felt", {beyond, picture.y, display.x - beyond, display.y - picture.y}, state.folds.right,
+          ImGuiDir_Left, ImGuiDir_Right, widgets, [&] { rightPanel(input, state, widgets); });
+    panel("charts", {picture.x, below, picture.width, display.y - below}, state.folds.bottom, ImGuiDir_Up,
+          ImGuiDir_Down, widgets, [&] { drawCharts(input, state, widgets); });
+    drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
+    drawHelp(input, state, widgets);
+    return widgets.take();
+}
+
+} // namespace touchstone

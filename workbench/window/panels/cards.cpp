@@ -1,0 +1,135 @@
+#include "workbench/window/panels/panels.h"
+
+#include <imgui.h>
+
+namespace touchstone {
+
+namespace {
+
+constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+/// A card on the picture: `x`, `y` say where on it and which of its own points lies there, 0..1.
+bool beginCard(const char* name, const WidgetRect& picture, float x, float y, const Widgets& widgets) {
+    const float margin = widgets.units(14.0f);
+    ImGui::SetNextWindowPos(ImVec2(picture.x + margin + x * (picture.width - 2.0f * margin),
+                                   picture.y + margin + y * (picture.height - 2.0f * margin)),
+                            ImGuiCond_Always, ImVec2(x, y));
+    ImGui::SetNextWindowBgAlpha(0.88f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
+    const bool open = ImGui::Begin(name, nullptr, kCard);
+    ImGui::PopStyleVar();
+    return open;
+}
+
+void loading(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
+    if (!input.loading)
+        return;
+    if (beginCard("loading", picture, 0.5f, 0.0f, widgets)) {
+        ImGui::Text("Opening %s", input.loadName.c_str());
+        ImGui::ProgressBar(static_cast<float>(input.loadFraction), ImVec2(widgets.units(240.0f), 0.0f),
+                           input.loadActivity.c_str());
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel"))
+            state.cancelPressed = true;
+        widgets.mark("cancel");
+    }
+    ImGui::End();
+}
+
+void problem(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
+    if (input.problem.empty() || input.loading)
+        return;
+    if (beginCard("problem", picture, 0.5f, 0.0f, widgets)) {
+        ImGui::PushTextWrapPos(widgets.units(380.0f));
+        ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.5f, 0.42f, 1.0f));
+        ImGui::TextUnformatted(input.problem.c_str());
+        ImGui::PopStyleColor();
+        ImGui::PopTextWrapPos();
+        if (input.scene != nullptr)
+            ImGui::TextDisabled("%s is still there.", input.modelName.c_str());
+        if (ImGui::Button("Dismiss"))
+            state.dismissPressed = true;
+        widgets.mark("dismiss");
+    }
+    ImGui::End();
+}
+
+/// Three lines, until they were read.
+void introduction(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
+    if (state.introduced || input.loading || input.scene == nullptr)
+        return;
+    if (beginCard("introduction", picture, 0.5f, 1.0f, widgets)) {
+        const bool mouse = state.device.empty() && !state.simulatedHand;
+        ImGui::TextUnformatted(
+            mouse ? "Drag with the left button to move the hand, roll the wheel to push it in."
+                  : "Another hand touches; choose Mouse on the left to touch yourself.");
+        ImGui::TextUnformatted("Drag with the right button to look from elsewhere.");
+        ImGui::TextUnformatted("Space switches the force off and on; F1 tells the rest.");
+        if (ImGui::Button("Got it"))
+            state.introduced = true;
+        widgets.mark("gotIt");
+    }
+    ImGui::End();
+}
+
+} // namespace
+
+void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
+    loading(input, state, picture, widgets);
+    problem(input, state, picture, widgets);
+    introduction(input, state, picture, widgets);
+}
+
+void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    if (!state.help)
+        return;
+    constexpr const char* kLines[][2]{
+        {"Left drag", "moves the hand in the plane of the view"},
+        {"Wheel", "moves the hand in depth; with Shift finely"},
+        {"Right or middle drag", "turns the view; with Shift shifts it, with Ctrl zooms"},
+        {"Alt + left drag", "turns the view, too"},
+        {"Ctrl + wheel, + and -", "zooms"},
+        {"Arrow keys; with Shift", "turn the view; shift it"},
+        {"Home or F", "shows all"},
+        {"1, 3, 7; with Ctrl", "from the front, the right, above; the other side"},
+        {". and T", "near the probe; turntable"},
+        {"V; with Shift", "the next view; the one before"},
+        {"M and O", "magnifier; overlays"},
+        {"F12", "saves the picture"},
+        {"Space", "switches the force off and on"},
+        {"F5, F6, F7", "switch shading, texture and friction"},
+        {"F8", "changes between mouse and simulated hand"},
+        {"F9", "begins and ends a recording"},
+        {"P", "pauses the charts"},
+        {"F2, F3, F4; Tab", "fold the scene, what is felt, the charts; all"},
+        {"Ctrl + O", "opens a file by its path; one may be dropped here, too"},
+        {"Ctrl + Q", "quits"},
+        {"F1 or ?, Escape", "shows this; puts it away"},
+    };
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+    ImGui::SetNextWindowBgAlpha(0.96f);
+    ImGui::SetNextWindowFocus();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
+    if (ImGui::Begin("help", nullptr, kCard)) {
+        ImGui::TextDisabled("POINTER AND KEYS");
+        ImGui::Separator();
+        for (const auto& [key, meaning] : kLines) {
+            ImGui::TextUnformatted(key);
+            ImGui::SameLine(widgets.units(200.0f));
+            ImGui::TextDisabled("%s", meaning);
+        }
+        ImGui::Separator();
+        ImGui::TextDisabled("%s, %d x %d", input.gpuName.c_str(), input.sceneSize.x, input.sceneSize.y);
+        if (ImGui::Button("Close"))
+            state.help = false;
+        widgets.mark("helpClose");
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+} // namespace touchstone

@@ -1,0 +1,179 @@
+#include "workbench/window/panels/panels.h"
+#include "workbench/window/view_menu.h"
+
+#include <imgui.h>
+
+#include <cstdio>
+
+namespace touchstone {
+
+namespace {
+
+constexpr ImU32 kGreen = IM_COL32(80, 200, 120, 255), kAmber = IM_COL32(240, 180, 60, 255),
+                kRed = IM_COL32(235, 75, 65, 255), kBlue = IM_COL32(97, 173, 255, 255);
+
+/// A file as a line of a menu, its folder behind it.
+void fileItem(const std::filesystem::path& file, bool withFolder, PanelState& state) {
+    ImGui::PushID(file.c_str());
+    const std::string folder = withFolder ? file.parent_path().string() : std::string();
+    if (ImGui::MenuItem(file.filename().c_str(), folder.c_str()))
+        state.open = file;
+    ImGui::PopID();
+}
+
+void openByPath(PanelState& state, Widgets& widgets) {
+    ImGui::TextDisabled("a .glb or .gltf; it may be dropped on the window, too");
+    ImGui::SetNextItemWidth(widgets.units(360.0f));
+    const bool typed = ImGui::InputText("##path", state.openPath.data(), state.openPath.size(),
+                                        ImGuiInputTextFlags_EnterReturnsTrue);
+    widgets.mark("openPath");
+    ImGui::SameLine();
+    const bool pressed = ImGui::Button("Open");
+    widgets.mark("open");
+    const std::string path(state.openPath.c_str());
+    if ((typed || pressed) && !path.empty()) {
+        state.open = path;
+        ImGui::CloseCurrentPopup();
+    }
+}
+
+void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    if (ImGui::Button("File"))
+        ImGui::OpenPopup("file");
+    widgets.mark("file");
+    if (!ImGui::BeginPopup("file"))
+        return;
+    openByPath(state, widgets);
+    ImGui::Separator();
+    ImGui::TextDisabled("samples");
+    for (const std::filesystem::path& file : input.samples) {
+        fileItem(file, false, state);
+        widgets.mark(("sample:" + file.filename().string()).c_str());
+    }
+    if (!input.recent.empty()) {
+        ImGui::Separator();
+        ImGui::TextDisabled("opened before");
+        for (const std::filesystem::path& file : input.recent)
+            fileItem(file, true, state);
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Save the picture", "F12"))
+        state.view.savePicture = true;
+    if (ImGui::MenuItem("Quit", "Ctrl+Q"))
+        state.quitPressed = true;
+    ImGui::EndPopup();
+}
+
+void viewMenu(PanelState& state, Widgets& widgets) {
+    if (ImGui::Button("View"))
+        ImGui::OpenPopup("view");
+    widgets.mark("viewMenu");
+    ImGui::SetNextWindowSize(ImVec2(widgets.units(330.0f), 0.0f));
+    if (!ImGui::BeginPopup("view"))
+        return;
+    drawViewMenu(state.view, [&](const char* name) { widgets.mark(name); });
+    ImGui::Separator();
+    const auto fold = [](const char* label, const char* key, bool& folded) {
+        bool shown = !folded;
+        if (ImGui::MenuItem(label, key, &shown))
+            folded = !shown;
+    };
+    fold("Scene", "F2", state.folds.left);
+    fold("What is felt", "F3", state.folds.right);
+    fold("Charts", "F4", state.folds.bottom);
+    ImGui::EndPopup();
+}
+
+/// An effect that may have several ways of being on: it comes back in the way it was.
+template <class Mode>
+void effect(Widgets& widgets, const char* name, const char* label, Mode& mode, Mode& chosen, Mode off,
+            Mode usual) {
+    const bool on = mode != off;
+    if (on)
+        chosen = mode;
+    if (widgets.lampButton(name, label, on, kBlue))
+        mode = on ? off : (chosen != off ? chosen : usual);
+}
+
+void effects(PanelState& state, Widgets& widgets) {
+    HapticSettings& settings = state.settings;
+    HapticSettings& chosen = state.chosen;
+    effect(widgets, "forceShading", "Shading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
+           ShadingMode::Material);
+    ImGui::SameLine();
+    effect(widgets, "texture", "Texture", settings.texture, chosen.texture, TextureMode::Off,
+           TextureMode::Law);
+    ImGui::SameLine();
+    effect(widgets, "friction", "Friction", settings.friction, chosen.friction, FrictionMode::Off,
+           FrictionMode::Zilles);
+}
+
+void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const bool latched = has(input.servo->last.output.flags, TickFlag::SafetyLatched);
+    bool& on = state.settings.forceEnabled;
+    const char* label = latched ? "Force: fault" : on ? "Force on" : "Force off";
+    if (widgets.lampButton("forceEnabled", label, on, latched ? kRed : kGreen))
+        on = !on;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Space");
+}
+
+void record(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    char label[32] = "Record";
+    if (input.recording)
+        std::snprintf(label, sizeof label, "Stop %.0f s", input.recordedSeconds);
+    if (widgets.lampButton("record", label, input.recording, kRed))
+        state.recordPressed = true;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", input.recordingFile.empty() ? "keeps every tick, for `touchstone replay`"
+                                                            : input.recordingFile.c_str());
+}
+
+/// Right in the bar: the servo's rate and its 99th percentile, and the help.
+void servoLamp(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const ServoView& servo = *input.servo;
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f kHz  p99 %.0f µs", 1e-3 * servo.ticksPerSecond, servo.stepP99Us);
+    const float line = ImGui::GetTextLineHeight(), radius = 0.28f * line;
+    const float width = ImGui::CalcTextSize(text).x + 2.0f * radius + widgets.units(8.0f);
+    const float help = ImGui::CalcTextSize("?").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    const float from = ImGui::GetWindowContentRegionMax().x - help - widgets.units(10.0f) - width;
+    ImGui::SameLine();
+    if (from >= ImGui::GetCursorPosX()) {
+        const bool well = servo.ticksPerSecond > 0.98 * servo.rateHz;
+        ImGui::SetCursorPosX(from);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddCircleFilled(
+            ImVec2(at.x + radius, at.y + 0.5f * ImGui::GetFrameHeight()), radius, well ? kGreen : kAmber);
+        ImGui::SetCursorPosX(from + 2.0f * radius + widgets.units(8.0f));
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(text);
+        widgets.mark("servo");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Servo at %.0f Hz, %s; 99 of 100 steps within %.1f µs", servo.rateHz,
+                              servo.scheduling.c_str(), servo.stepP99Us);
+        ImGui::SameLine();
+    }
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - help);
+    if (ImGui::Button("?"))
+        state.help = !state.help;
+    widgets.mark("help");
+}
+
+} // namespace
+
+void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const float gap = widgets.units(18.0f);
+    fileMenu(input, state, widgets);
+    ImGui::SameLine();
+    viewMenu(state, widgets);
+    ImGui::SameLine(0.0f, gap);
+    effects(state, widgets);
+    ImGui::SameLine(0.0f, gap);
+    force(input, state, widgets);
+    ImGui::SameLine();
+    record(input, state, widgets);
+    servoLamp(input, state, widgets);
+}
+
+} // namespace touchstone

@@ -1,0 +1,100 @@
+#include "workbench/window/window_memory.h"
+
+#include "engine/core/output_file.h"
+#include "workbench/figures/settings_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <fstream>
+
+namespace touchstone {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr int kSmallest = 320, kLargest = 16384; // of a window, screen coordinates
+
+bool flag(const Json& json, const char* name, bool otherwise) {
+    const auto found = json.find(name);
+    return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
+}
+
+/// Names and values that are no longer known are left out.
+HapticSettings settingsOf(const Json& json) {
+    HapticSettings settings;
+    for (const SettingInfo& info : settingInfos()) {
+        const auto found = json.find(std::string(info.name));
+        if (found != json.end() && found->is_string())
+            (void)setSetting(settings, info.name, found->get<std::string>());
+    }
+    settings.forceEnabled = true;
+    return settings;
+}
+
+WindowMemory memoryOf(const Json& json) {
+    WindowMemory memory;
+    if (!json.is_object() || json.value("version", 0) != kVersion)
+        return memory;
+    if (const auto settings = json.find("settings"); settings != json.end() && settings->is_object())
+        memory.settings = settingsOf(*settings);
+    if (const auto folds = json.find("folded"); folds != json.end() && folds->is_object())
+        memory.folds = {flag(*folds, "scene", false), flag(*folds, "felt", false),
+                        flag(*folds, "charts", false)};
+    memory.introduced = flag(json, "introduced", false);
+    if (const auto size = json.find("size"); size != json.end() && size->is_array() && size->size() == 2 &&
+                                             (*size)[0].is_number_integer() && (*size)[1].is_number_integer())
+        memory.size =
+            glm::clamp(glm::ivec2((*size)[0].get<int>(), (*size)[1].get<int>()), kSmallest, kLargest);
+    if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
+        for (const Json& file : *recent)
+            if (file.is_string() && memory.recent.size() < WindowMemory::kMostRecent)
+                memory.recent.emplace_back(file.get<std::string>());
+    return memory;
+}
+
+} // namespace
+
+void WindowMemory::opened(const std::filesystem::path& file) {
+    std::erase(recent, file);
+    recent.insert(recent.begin(), file);
+    recent.resize(std::min(recent.size(), kMostRecent));
+}
+
+WindowMemory readMemory(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    if (!stream)
+        return {};
+    try {
+        return memoryOf(Json::parse(stream));
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory) {
+    nlohmann::ordered_json recent = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& path : memory.recent)
+        recent.push_back(path.string());
+    const nlohmann::ordered_json json{
+        {"version", kVersion},
+        {"settings", settingsJson(memory.settings)},
+        {"folded",
+         {{"scene", memory.folds.left}, {"felt", memory.folds.right}, {"charts", memory.folds.bottom}}},
+        {"introduced", memory.introduced},
+        {"size", {memory.size.x, memory.size.y}},
+        {"recent", std::move(recent)},
+    };
+    try {
+        std::filesystem::create_directories(file.parent_path());
+        writeFile(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        return true;
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+} // namespace touchstone
