@@ -12,6 +12,11 @@ namespace {
 constexpr ImU32 kGreen = IM_COL32(80, 200, 120, 255), kAmber = IM_COL32(240, 180, 60, 255),
                 kRed = IM_COL32(235, 75, 65, 255), kBlue = IM_COL32(97, 173, 255, 255);
 
+/// The next popup opens beneath the last widget.
+void beneath() {
+    ImGui::SetNextWindowPos(ImVec2(ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + 4.0f));
+}
+
 /// A file as a line of a menu, its folder behind it.
 void fileItem(const std::filesystem::path& file, bool withFolder, PanelState& state) {
     ImGui::PushID(file.c_str());
@@ -41,6 +46,7 @@ void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (ImGui::Button("File"))
         ImGui::OpenPopup("file");
     widgets.mark("file");
+    beneath();
     if (!ImGui::BeginPopup("file"))
         return;
     openByPath(state, widgets);
@@ -68,7 +74,8 @@ void viewMenu(PanelState& state, Widgets& widgets) {
     if (ImGui::Button("View"))
         ImGui::OpenPopup("view");
     widgets.mark("viewMenu");
-    ImGui::SetNextWindowSize(ImVec2(widgets.units(330.0f), 0.0f));
+    beneath();
+    ImGui::SetNextWindowSize(ImVec2(widgets.units(390.0f), 0.0f));
     if (!ImGui::BeginPopup("view"))
         return;
     drawViewMenu(state.view, [&](const char* name) { widgets.mark(name); });
