@@ -137,7 +137,7 @@ class Run {
             pending[radius] = std::async(std::launch::async, [this, radius, frame] {
                 return subject_.smooth != nullptr
                            ? truth::smoothPath(*subject_.smooth, hips_, radius)
-                           : truth::oraclePath(*bare_.haptic, frame, hips_, radius, options_.oracleMoves);
+                           : truth::oraclePath(*bare_.haptic, frame, hips_, radius, options_.oracleWork);
             });
         }
         size_t done = 0;

@@ -14,8 +14,8 @@ namespace touchstone::study {
 struct StudyOptions {
     std::vector<std::string> ladders; ///< empty: all
     size_t errorTicks = 4000;         ///< of the path, from where the hand comes down
-    /// Of the oracle over a path, for each radius: a bound on its time, about 10 µs each.
-    size_t oracleMoves = 400'000;
+    /// Of the oracle over a path, for each radius (truth::oraclePath).
+    size_t oracleWork = 100'000'000;
     int rounds = 150, ticksPerRound = 480;
     /// Of a closed form's tessellation ladder: 2^10, 2^12, … up to this.
     size_t largestTriangles = 1'048'576;

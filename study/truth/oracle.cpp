@@ -121,7 +121,8 @@ void tellWhatIsThere(std::vector<Near>& near, const LVec3& p, long double radius
 
 } // namespace
 
-OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, long double radius) {
+OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, long double radius,
+                      int mostMoves) {
     OracleRest rest;
     rest.proxy = from;
     // Only triangles that the way could meet: the proxy never leaves the ball through itself around the goal.
@@ -131,7 +132,7 @@ OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, lo
         near.push_back({soup.corners(t), soup.oneSided(t), 0.0L});
     const bool oneSided =
         std::any_of(near.begin(), near.end(), [](const Near& t) { return t.oneSided >= 0; });
-    for (; rest.moves < kOracleMoves; ++rest.moves) {
+    for (; rest.moves < mostMoves; ++rest.moves) {
         rest.touching.clear();
         if (oneSided)
             tellWhatIsThere(near, rest.proxy, radius);

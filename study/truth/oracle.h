@@ -12,7 +12,7 @@ struct OracleRest {
     LVec3 proxy{0.0L};
     std::vector<LVec3> touching; ///< unit normals of the surfaces at the rest
     int moves = 0;
-    bool settled = false; ///< false: it ran out of moves (kOracleMoves)
+    bool settled = false; ///< false: it ran out of moves
 };
 
 /// Around a rounded edge of radius r, with the goal a distance e from its axis, a radian takes r / e moves.
@@ -21,7 +21,7 @@ inline constexpr int kOracleMoves = 200000;
 /// Moves a sphere of `radius` from `from` (free) towards `goal` along free space until it rests; the soup's
 /// frame.
 [[nodiscard]] OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal,
-                                    long double radius);
+                                    long double radius, int mostMoves = kOracleMoves);
 
 /// What is left of the wish to move at `proxy`, given the surfaces that touch there: the distance from
 /// goal - proxy to the cone that the inward normals span. Zero at a valid rest. Object units.

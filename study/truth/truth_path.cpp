@@ -21,7 +21,7 @@ RestPath smoothPath(const SmoothShape& shape, std::span<const glm::dvec3> hips, 
 }
 
 RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dvec3> hips, double radius,
-                    size_t moves) {
+                    size_t work) {
     RestPath path;
     const Soup soup(scene, frame);
     const HapticObject& object = *scene.objects[static_cast<size_t>(frame)];
@@ -31,14 +31,17 @@ RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dv
                                        static_cast<long double>(0.5 * kWeldTolerance * object.diagonal));
     LVec3 at = hips.empty() ? LVec3(0.0L) : workspaceFromObject.inversePoint(LVec3(hips[0]));
     for (const glm::dvec3& hip : hips) {
-        if (moves == 0) {
+        const LVec3 goal = workspaceFromObject.inversePoint(LVec3(hip));
+        const size_t near = 1 + soup.near(goal, glm::length(goal - at) + reach).size();
+        if (work < near) {
             path.proxies.push_back(hip);
             path.normals.emplace_back(0.0);
             path.failed.push_back(true);
             continue;
         }
-        const OracleRest rest = oracleRest(soup, at, workspaceFromObject.inversePoint(LVec3(hip)), reach);
-        moves -= std::min(moves, static_cast<size_t>(rest.moves) + 1);
+        const int most = static_cast<int>(std::min(work / near, static_cast<size_t>(kOracleMoves)));
+        const OracleRest rest = oracleRest(soup, at, goal, reach, most);
+        work -= std::min(work, near * (static_cast<size_t>(rest.moves) + 1));
         at = rest.proxy;
         const LVec3 proxy = workspaceFromObject.point(at);
         path.proxies.emplace_back(proxy);

@@ -33,10 +33,11 @@ struct RestPath {
 [[nodiscard]] RestPath smoothPath(const SmoothShape& shape, std::span<const glm::dvec3> hips, double radius);
 
 /// On the mesh, by the oracle, in the frame of one of the scene's objects: the one that is touched most. It
-/// goes on from its own last rest, sees every triangle of the scene at rest and has no budget but `moves`
-/// over the whole path; ticks beyond are failed. Any thread.
+/// goes on from its own last rest and sees every triangle of the scene at rest. `work` bounds its time:
+/// triangles near the hand times moves, summed over the path (10^8 are some 10 s); ticks beyond are failed.
+/// Any thread.
 [[nodiscard]] RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dvec3> hips,
-                                  double radius, size_t moves);
+                                  double radius, size_t work);
 
 /// The force of a spring of `stiffness`, N/m, from the HIP to the proxy, and Coulomb's friction at
 /// `friction` times the load against the way that the proxy takes: rigid, so that a sliding hand feels it in
