@@ -248,11 +248,11 @@ void studySubject(const Subject& subject, const StudyOptions& options, StudyResu
 
 void studyTessellation(const ShapeKind& kind, const StudyOptions& options, StudyResult& result,
                        const StudyProgress& progress) {
-    constexpr size_t kCoarsest = 1024;
+    constexpr size_t kCoarsest = 512;
     size_t scenes = 0, done = 0;
-    for (size_t n = kCoarsest; n <= options.largestTriangles; n *= 4)
+    for (size_t n = kCoarsest; n <= options.largestTriangles; n *= 2)
         ++scenes;
-    for (size_t n = kCoarsest; n <= options.largestTriangles; n *= 4) {
+    for (size_t n = kCoarsest; n <= options.largestTriangles; n *= 2) {
         const auto share = [&](const std::string& what, double fraction) {
             progress(what, (static_cast<double>(done) + fraction) / static_cast<double>(scenes));
         };

@@ -17,7 +17,7 @@ struct StudyOptions {
     /// Of the oracle over a path, for each radius (truth::oraclePath).
     size_t oracleWork = 100'000'000;
     int rounds = 150, ticksPerRound = 480;
-    /// Of a closed form's tessellation ladder: 2^10, 2^12, … up to this.
+    /// Of a closed form's tessellation ladder: 2^9, 2^10, … up to this.
     size_t largestTriangles = 1'048'576;
 };
 

@@ -22,9 +22,14 @@ constexpr double kDescent = 0.1;   // m/s
 /// them.
 constexpr uint64_t kAlike = 4;
 
-/// The stage at whose end the clock is read in a tick, or none: in every third four.
+/// The stage at whose end the clock is read in a tick, or none: in every third four. Each twelve fours begin
+/// elsewhere in the row, or a path that comes back after a multiple of them would read one stage at one
+/// place.
 std::optional<Stage> splitOf(uint64_t tick) {
-    const uint64_t turn = tick / kAlike % (3 * kStageCount / 2);
+    constexpr uint64_t kRow = 3 * kStageCount / 2,
+                       kGolden = 0x9e3779b97f4a7c15u; // 2^64 over the golden ratio
+    const uint64_t four = tick / kAlike;
+    const uint64_t turn = (four + (four / kRow * kGolden >> 32)) % kRow;
     if (turn % 3 == 0)
         return std::nullopt;
     return static_cast<Stage>(2 * (turn / 3) + turn % 3 - 1);

@@ -167,6 +167,12 @@ void printTable(const StudyResult& result) {
                     rung.stepMean.value > 0.0 ? 100.0 * (sum(rung.stages) / rung.stepMean.value - 1.0) : 0.0,
                     1e3 * felt(e), e.forceDirection.p99 / 0.017453292519943295, 1e6 * e.position.p99);
     }
+    double furthest = 0.0;
+    for (const RungResult& rung : result.rungs)
+        if (rung.stepMean.value > 0.0)
+            furthest = std::max(furthest, std::fabs(sum(rung.stages) / rung.stepMean.value - 1.0));
+    if (furthest > 0.0)
+        std::printf("\nthe stages of every rung add up to its step within %.1f %%\n", 100.0 * furthest);
     for (const RateResult& r : result.rates)
         std::printf(
             "servo at %4.0f Hz: stiffest stable wall %6.0f N/m, bound from theory %6.0f N/m; a stroke is "
