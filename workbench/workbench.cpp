@@ -372,7 +372,7 @@ class Workbench {
         memory_.settings.forceEnabled = true;
         memory_.folds = state_.folds;
         memory_.introduced = state_.introduced;
-        memory_.size = window_.size();
+        memory_.size = glm::ivec2(glm::vec2(window_.size()) / window_.layoutScale()); // as it was asked for
         writeMemory(stateFolder() / kMemoryFile, memory_);
     }
 

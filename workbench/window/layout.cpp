@@ -16,6 +16,7 @@ namespace {
 
 // Units of layout.
 constexpr float kBar = 42.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
+constexpr float kLeastWidth = 320.0f, kLeastHeight = 180.0f; // of the picture
 constexpr float kFolded = 20.0f; // what is left of a folded panel: the arrow that unfolds it
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -27,9 +28,10 @@ struct Rect {
     float x, y, width, height;
 };
 
-/// A panel in its place, or the arrow that unfolds it. `out`, `in`: where the arrows point.
+/// A panel in its place, or the arrow that unfolds it. `out`, `in`: where the arrows point. True where it was
+/// pressed.
 template <class Content>
-void panel(const char* name, const Rect& rect, bool& folded, ImGuiDir out, ImGuiDir in, Widgets& widgets,
+bool panel(const char* name, const Rect& rect, bool folded, ImGuiDir out, ImGuiDir in, Widgets& widgets,
            const Content& content) {
     ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
     ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
@@ -39,24 +41,29 @@ void panel(const char* name, const Rect& rect, bool& folded, ImGuiDir out, ImGui
     if (folded)
         ImGui::PopStyleVar();
     const float side = ImGui::GetFrameHeight();
-    if (folded) {
+    const ImVec2 begin = ImGui::GetCursorPos();
+    if (folded)
         ImGui::SetCursorPos(ImVec2(0.5f * (rect.width - std::min(rect.width, side)), 0.0f));
-    } else {
-        // On the first line, right.
-        const ImVec2 begin = ImGui::GetCursorPos();
+    else // on the first line, right
         ImGui::SetCursorPos(ImVec2(ImGui::GetWindowContentRegionMax().x - side, begin.y));
-        if (ImGui::ArrowButton("##fold", in))
-            folded = true;
-        widgets.mark((std::string("fold:") + name).c_str());
+    const bool pressed = ImGui::ArrowButton("##fold", folded ? out : in);
+    widgets.mark((std::string("fold:") + name).c_str());
+    if (!folded) {
         ImGui::SetCursorPos(begin);
         content();
-        ImGui::End();
-        return;
     }
-    if (ImGui::ArrowButton("##unfold", out))
-        folded = false;
-    widgets.mark((std::string("fold:") + name).c_str());
     ImGui::End();
+    return pressed;
+}
+
+/// What is pressed on or off: where both sides do not fit, the one that comes takes the other's room.
+void foldSide(PanelFolds& folds, bool PanelFolds::*side, bool PanelFolds::*other, const PanelInput& input) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const auto fitting = [&] { return fittingFolds(folds, {display.x, display.y}, input.scale); };
+    const bool folded = fitting().*side;
+    folds.*side = !folded;
+    if (folded && fitting().*side)
+        folds.*other = true;
 }
 
 template <class Mode>
@@ -87,9 +94,9 @@ void windowKeys(const PanelInput& input, PanelState& state) {
     if (pressed(GLFW_KEY_ESCAPE))
         state.help = false;
     if (pressed(GLFW_KEY_F2))
-        folds.left = !folds.left;
+        foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);
     if (pressed(GLFW_KEY_F3))
-        folds.right = !folds.right;
+        foldSide(folds, &PanelFolds::right, &PanelFolds::left, input);
     if (pressed(GLFW_KEY_F4))
         folds.bottom = !folds.bottom;
     if (pressed(GLFW_KEY_TAB)) {
@@ -147,7 +154,20 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
 
 } // namespace
 
-PictureRect pictureRect(const PanelFolds& folds, const glm::vec2& window, float scale) {
+PanelFolds fittingFolds(const PanelFolds& folds, const glm::vec2& window, float scale) {
+    const glm::vec2 units = window / scale;
+    PanelFolds fitting = folds;
+    const auto width = [&] {
+        return units.x - (fitting.left ? kFolded : kLeft) - (fitting.right ? kFolded : kRight);
+    };
+    fitting.left = fitting.left || width() < kLeastWidth;
+    fitting.right = fitting.right || width() < kLeastWidth;
+    fitting.bottom = fitting.bottom || units.y - kBar - kBottom < kLeastHeight;
+    return fitting;
+}
+
+PictureRect pictureRect(const PanelFolds& wanted, const glm::vec2& window, float scale) {
+    const PanelFolds folds = fittingFolds(wanted, window, scale);
     const float left = (folds.left ? kFolded : kLeft) * scale,
                 right = (folds.right ? kFolded : kRight) * scale,
                 bottom = (folds.bottom ? kFolded : kBottom) * scale, bar = kBar * scale;
@@ -165,12 +185,16 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     const float below = picture.y + picture.height, beyond = picture.x + picture.width;
     widgets.place("picture", {picture.x, picture.y, picture.width, picture.height});
     topBar(input, state, {0.0f, 0.0f, display.x, picture.y}, widgets);
-    panel("scene", {0.0f, picture.y, picture.x, display.y - picture.y}, state.folds.left, ImGuiDir_Right,
-          ImGuiDir_Left, widgets, [&] { leftPanel(input, state, widgets); });
-    panel("felt", {beyond, picture.y, display.x - beyond, display.y - picture.y}, state.folds.right,
-          ImGuiDir_Left, ImGuiDir_Right, widgets, [&] { rightPanel(input, state, widgets); });
-    panel("charts", {picture.x, below, picture.width, display.y - below}, state.folds.bottom, ImGuiDir_Up,
-          ImGuiDir_Down, widgets, [&] { drawCharts(input, state, widgets); });
+    const PanelFolds folds = fittingFolds(state.folds, {display.x, display.y}, input.scale);
+    if (panel("scene", {0.0f, picture.y, picture.x, display.y - picture.y}, folds.left, ImGuiDir_Right,
+              ImGuiDir_Left, widgets, [&] { leftPanel(input, state, widgets); }))
+        foldSide(state.folds, &PanelFolds::left, &PanelFolds::right, input);
+    if (panel("felt", {beyond, picture.y, display.x - beyond, display.y - picture.y}, folds.right,
+              ImGuiDir_Left, ImGuiDir_Right, widgets, [&] { rightPanel(input, state, widgets); }))
+        foldSide(state.folds, &PanelFolds::right, &PanelFolds::left, input);
+    if (panel("charts", {picture.x, below, picture.width, display.y - below}, folds.bottom, ImGuiDir_Up,
+              ImGuiDir_Down, widgets, [&] { drawCharts(input, state, widgets); }))
+        state.folds.bottom = !state.folds.bottom;
     drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawHelp(input, state, widgets);
     return widgets.take();

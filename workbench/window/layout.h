@@ -6,6 +6,10 @@
 
 namespace touchstone {
 
+/// `folds`, and what else must be folded so that the picture keeps some room in a small window: first the
+/// scene, then what is felt.
+[[nodiscard]] PanelFolds fittingFolds(const PanelFolds& folds, const glm::vec2& window, float scale);
+
 /// Where the picture is, in window coordinates: what bar and unfolded panels leave of the window.
 struct PictureRect {
     float x = 0.0f, y = 0.0f, width = 1.0f, height = 1.0f;

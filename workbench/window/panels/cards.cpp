@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace touchstone {
 
 namespace {
@@ -43,7 +45,7 @@ void problem(const PanelInput& input, PanelState& state, const WidgetRect& pictu
     if (input.problem.empty() || input.loading)
         return;
     if (beginCard("problem", picture, 0.5f, 0.0f, widgets)) {
-        ImGui::PushTextWrapPos(widgets.units(380.0f));
+        ImGui::PushTextWrapPos(std::min(widgets.units(380.0f), picture.width - widgets.units(34.0f)));
         ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.5f, 0.42f, 1.0f));
         ImGui::TextUnformatted(input.problem.c_str());
         ImGui::PopStyleColor();
@@ -62,12 +64,14 @@ void introduction(const PanelInput& input, PanelState& state, const WidgetRect& 
     if (state.introduced || input.loading || input.scene == nullptr)
         return;
     if (beginCard("introduction", picture, 0.5f, 1.0f, widgets)) {
+        ImGui::PushTextWrapPos(std::min(widgets.units(440.0f), picture.width - widgets.units(34.0f)));
         const bool mouse = state.device.empty() && !state.simulatedHand;
         ImGui::TextUnformatted(
             mouse ? "Drag with the left button to move the hand, roll the wheel to push it in."
                   : "Another hand touches; choose Mouse on the left to touch yourself.");
         ImGui::TextUnformatted("Drag with the right button to look from elsewhere.");
         ImGui::TextUnformatted("Space switches the force off and on; F1 tells the rest.");
+        ImGui::PopTextWrapPos();
         if (ImGui::Button("Got it"))
             state.introduced = true;
         widgets.mark("gotIt");
@@ -111,7 +115,7 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
     };
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-    ImGui::SetNextWindowBgAlpha(0.96f);
+    ImGui::SetNextWindowBgAlpha(1.0f);
     ImGui::SetNextWindowFocus();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
     if (ImGui::Begin("help", nullptr, kCard)) {

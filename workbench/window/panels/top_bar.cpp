@@ -29,6 +29,8 @@ void fileItem(const std::filesystem::path& file, bool withFolder, PanelState& st
 void openByPath(PanelState& state, Widgets& widgets) {
     ImGui::TextDisabled("a .glb or .gltf; it may be dropped on the window, too");
     ImGui::SetNextItemWidth(widgets.units(360.0f));
+    if (ImGui::IsWindowAppearing())
+        ImGui::SetKeyboardFocusHere();
     const bool typed = ImGui::InputText("##path", state.openPath.data(), state.openPath.size(),
                                         ImGuiInputTextFlags_EnterReturnsTrue);
     widgets.mark("openPath");
@@ -38,6 +40,7 @@ void openByPath(PanelState& state, Widgets& widgets) {
     const std::string path(state.openPath.c_str());
     if ((typed || pressed) && !path.empty()) {
         state.open = path;
+        state.openPath.front() = '\0';
         ImGui::CloseCurrentPopup();
     }
 }

@@ -1,0 +1,142 @@
+// The window around the picture: what is folded, opened, saved and kept, and figures that move with the
+// rungs.
+
+#include "tests/unit/workbench/window_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+namespace touchstone::test {
+namespace {
+
+const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
+
+class LayoutTest : public WindowTest {
+  protected:
+    /// The figures look back on some seconds: waits until they hold nothing of before.
+    Json settled(const std::function<bool(const Json&)>& holds) {
+        std::this_thread::sleep_for(std::chrono::seconds(5));
+        return until("figures that are settled", holds);
+    }
+    /// A file's path typed into the menu that Ctrl+O opens.
+    void openByPath(const std::string& path) {
+        display_.key("ctrl+o");
+        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
+        display_.xdotool({"type", "--delay", "20", path});
+        later();
+        display_.key("Return");
+    }
+};
+
+TEST_F(LayoutTest, MovingARungMovesWhatItCostsAndHowFarFromExactItIs) {
+    open(kDoughnut, {"--hand", "simulated", "--set", "textureFilter=bicubic", "--set", "friction=off"});
+    const auto compared = [](const Json& s) { return s["error"]["ticks_in_contact"] > 500; };
+    const Json exact = settled(compared);
+    EXPECT_EQ(exact["error"]["position_m"]["p99"], 0.0);
+    EXPECT_EQ(exact["error"]["force_n"]["p99"], 0.0);
+    EXPECT_TRUE(exact["error"]["below_perception"]);
+    double stages = 0.0;
+    for (const auto& [name, stage] : exact["stages"].items())
+        stages += name == "step" ? 0.0 : stage["p50_us"].get<double>();
+    EXPECT_GT(stages, 0.0);
+    EXPECT_GT(exact["stages"]["shading"]["p99_us"], 0.0);
+
+    display_.click(middleOf("forceShading"));
+    until("shading to be off", [](const Json& s) { return s["settings"]["forceShading"] == "off"; });
+    const Json coarse = settled(compared);
+    EXPECT_GT(coarse["error"]["position_m"]["p50"], 1e-7) << "the facets are felt";
+    EXPECT_GT(coarse["error"]["direction_rad"]["p99"], 1e-3);
+    EXPECT_NE(coarse["stages"]["shading"], exact["stages"]["shading"]);
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, PanelsFoldAwayAndThePictureTakesTheirRoom) {
+    open(kDoughnut);
+    const auto width = [](const Json& s) { return s["widgets"]["picture"]["width"].get<double>(); };
+    const double narrow = width(status());
+    display_.key("F2");
+    const Json left =
+        until("the scene to be folded", [](const Json& s) { return s["folded"]["scene"] == true; });
+    EXPECT_GT(width(left), narrow + 150.0);
+    EXPECT_FALSE(left["widgets"].contains("mouse"));
+    display_.key("Tab");
+    until("all to be folded", [](const Json& s) {
+        return s["folded"]["scene"] == true && s["folded"]["felt"] == true && s["folded"]["charts"] == true;
+    });
+    display_.click(middleOf("fold:felt"));
+    until("what is felt to be back", [](const Json& s) { return s["folded"]["felt"] == false; });
+    display_.key("F1");
+    until("the help", [](const Json& s) { return s["help"] == true; });
+    display_.key("Escape");
+    until("no help", [](const Json& s) { return s["help"] == false; });
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
+    open(kDoughnut);
+    display_.click(middleOf("gotIt"));
+    until("the card to be gone", [](const Json& s) { return s["introduced"] == true; });
+    display_.click(middleOf("friction"));
+    until("friction to be off", [](const Json& s) { return s["settings"]["friction"] == "off"; });
+    display_.key("F4");
+    until("the charts to be folded", [](const Json& s) { return s["folded"]["charts"] == true; });
+    expectCleanEnd();
+    std::filesystem::remove(status_);
+    open(kDoughnut);
+    const Json again = later();
+    EXPECT_EQ(again["settings"]["friction"], "off");
+    EXPECT_EQ(again["folded"]["charts"], true);
+    EXPECT_EQ(again["introduced"], true);
+    EXPECT_FALSE(again["widgets"].contains("gotIt"));
+    expectCleanEnd();
+
+    // A file that says nothing.
+    std::ofstream(scratch_ / "state/touchstone/window.json") << "{ \"version\": 1, \"folded\": [";
+    std::filesystem::remove(status_);
+    open(kDoughnut);
+    EXPECT_EQ(later()["settings"]["friction"], "zilles");
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, AFileThatIsWrongIsToldAndTheOldModelStays) {
+    open(kDoughnut);
+    const std::string bad = (scratch_ / "bad.glb").string();
+    std::ofstream(bad) << "this is no model";
+    openByPath(bad);
+    const Json told = until("the problem", [](const Json& s) { return s["problem"] != ""; });
+    EXPECT_NE(told["problem"].get<std::string>().find("bad.glb"), std::string::npos);
+    EXPECT_EQ(told["model"], "doughnut.glb");
+    display_.click(middleOf("dismiss"));
+    until("no problem", [](const Json& s) { return s["problem"] == ""; });
+    openByPath(TOUCHSTONE_ASSETS "/box.glb");
+    until("the box", [](const Json& s) { return s["model"] == "box.glb"; });
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, ChartsPauseAndAreSaved) {
+    open(kDoughnut, {"--hand", "simulated"});
+    until("some contact", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
+    display_.key("p");
+    until("the charts to stand", [](const Json& s) { return s["charts_paused"] == true; });
+    display_.click(middleOf("saveCsv"));
+    const Json csv =
+        until("the table", [](const Json& s) { return s["notice"].get<std::string>().ends_with(".csv"); });
+    const std::string text = readFile(csv["notice"].get<std::string>().substr(6));
+    EXPECT_TRUE(text.starts_with("t,force,tangential,penetration,energy,step,contact,recorded\n"));
+    EXPECT_GT(std::ranges::count(text, '\n'), 500);
+    EXPECT_NE(text.find(",1,0\n"), std::string::npos) << "in contact, not recorded";
+    display_.click(middleOf("savePng"));
+    const Json png =
+        until("the picture", [](const Json& s) { return s["notice"].get<std::string>().ends_with(".png"); });
+    EXPECT_GT(std::filesystem::file_size(png["notice"].get<std::string>().substr(6)), 2000u);
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace touchstone::test
