@@ -1,0 +1,79 @@
+// What the window keeps: all of it comes back, and nothing that a broken file holds can harm.
+
+#include "tests/support/program.h"
+#include "workbench/window/window_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace touchstone::test {
+namespace {
+
+class WindowMemoryTest : public testing::Test {
+  protected:
+    WindowMemory readOf(const std::string& text) {
+        std::ofstream(file_) << text;
+        return readMemory(file_);
+    }
+
+    ScratchFolder scratch_;
+    std::filesystem::path file_ = scratch_ / "a/window.json";
+};
+
+TEST_F(WindowMemoryTest, ComesBackAsItWasButForTheForceSwitch) {
+    WindowMemory memory;
+    ASSERT_EQ(setSetting(memory.settings, "proxyRadius", "0.00125"), "");
+    ASSERT_EQ(setSetting(memory.settings, "friction", "ho"), "");
+    memory.settings.forceEnabled = false;
+    memory.folds = {true, false, true};
+    memory.introduced = true;
+    memory.size = {1111, 777};
+    memory.recent = {"/models/a b.glb", "/models/\u00e4.gltf"};
+    ASSERT_TRUE(writeMemory(file_, memory)) << "its folder is made";
+    memory.settings.forceEnabled = true;
+    EXPECT_EQ(readMemory(file_), memory);
+}
+
+TEST_F(WindowMemoryTest, IsTheUsualOneWhereTheFileSaysNothing) {
+    EXPECT_EQ(readMemory(file_), WindowMemory{}) << "not there";
+    std::filesystem::create_directories(file_.parent_path());
+    for (const char* text : {"", "{", "[1,2]", "null", "\xff\xfe", "{\"version\": 2, \"introduced\": true}",
+                             "{\"introduced\": true}", "{\"version\": \"1\"}"})
+        EXPECT_EQ(readOf(text), WindowMemory{}) << text;
+}
+
+TEST_F(WindowMemoryTest, KeepsWhatIsRightBesideWhatIsWrong) {
+    std::filesystem::create_directories(file_.parent_path());
+    const WindowMemory memory = readOf(
+        "{\"version\": 1, \"introduced\": 3, \"folded\": {\"scene\": true, \"felt\": \"yes\"}, \"size\": "
+        "[1e9, -4], "
+        "\"recent\": [7, \"/a.glb\", null], \"settings\": {\"friction\": \"ho\", \"stiffness\": \"-5\", "
+        "\"proxyRadius\": 0.1, \"magic\": \"on\"}}");
+    EXPECT_FALSE(memory.introduced);
+    EXPECT_EQ(memory.folds, (PanelFolds{true, false, false}));
+    EXPECT_EQ(memory.size, glm::ivec2(0)) << "no whole numbers";
+    EXPECT_EQ(memory.recent, std::vector<std::filesystem::path>{"/a.glb"});
+    EXPECT_EQ(memory.settings.friction, FrictionMode::Ho);
+    EXPECT_EQ(memory.settings.stiffness, HapticSettings{}.stiffness);
+    EXPECT_EQ(memory.settings.proxyRadius, HapticSettings{}.proxyRadius);
+    EXPECT_EQ(readOf("{\"version\": 1, \"size\": [99999999, 5]}").size, glm::ivec2(16384, 320));
+    EXPECT_EQ(readOf("{\"version\": 1, \"size\": [99999999999999, 700]}").size.y, 700);
+}
+
+TEST_F(WindowMemoryTest, NamesEachFileOnceNewestFirst) {
+    WindowMemory memory;
+    for (int i = 0; i < 20; ++i)
+        memory.opened("/m" + std::to_string(i));
+    memory.opened("/m15");
+    ASSERT_EQ(memory.recent.size(), WindowMemory::kMostRecent);
+    EXPECT_EQ(memory.recent[0], "/m15");
+    EXPECT_EQ(memory.recent[1], "/m19");
+    EXPECT_EQ(std::ranges::count(memory.recent, std::filesystem::path("/m15")), 1);
+}
+
+} // namespace
+} // namespace touchstone::test
