@@ -242,7 +242,8 @@ int studyCommand(const StudyCommandOptions& options) {
             } catch (const std::exception& error) { // one of thousands may be broken, or too large
                 if (options.shards == 1 && mine.size() == 1)
                     throw;
-                result.problems.push_back(mine[i] + ": " + error.what());
+                const std::string what = error.what();
+                result.problems.push_back(what.starts_with(mine[i]) ? what : mine[i] + ": " + what);
             }
         }
     }
