@@ -65,6 +65,7 @@ class ErrorPlot {
                 noticeable_ = &j;
         markFront(points_);
         number();
+        makeRoom();
         chooseAxes();
     }
 
@@ -99,6 +100,16 @@ class ErrorPlot {
             if (next < kMostNumbers &&
                 (sizes[p.ladder] < std::max(most, kLargeLadder) || p.front || p.rung->isDefault))
                 p.number = ++next;
+    }
+
+    /// A page that is as high as its key.
+    void makeRoom() {
+        double key = kKeyEnd + kKeyLadder * static_cast<double>(ladders_.size());
+        for (const Point& p : points_)
+            key += p.number > 0 ? kKeyRung : 0.0;
+        const double below = paper_.height - paper_.area.top;
+        paper_.height = std::max(paper_.height, key + below + 40.0);
+        paper_.area.top = paper_.height - below;
     }
 
     void chooseAxes() {
@@ -227,22 +238,22 @@ class ErrorPlot {
                                   std::string(kAgainst[static_cast<size_t>(truth)]) +
                                   (numbered < rungs ? " (" + std::to_string(rungs) + "):" : ""),
                               "tc rgb '" + std::string(markOf(ladder).colour) + "'", 12.5);
-            down(18.0);
+            down(kKeyTitle);
             for (const Point& p : points_)
                 if (p.ladder == ladder && p.number > 0) {
                     script += labelAt(paper_, left + 34.0, y, std::to_string(p.number), "right", 11.5);
                     script +=
                         labelAt(paper_, left + 42.0, y,
                                 cut(p.rung->rung, 50) + (p.rung->isDefault ? " (default)" : ""), "", 11.5);
-                    down(15.5);
+                    down(kKeyRung);
                 }
-            down(7.0);
+            down(kKeyLadder - kKeyTitle);
         }
         script +=
             "set arrow from screen " + at(left - 3.0, y) + " to screen " + at(left + 14.0, y) +
             " nohead lw 2 lc rgb '#666666' front\n" +
             labelAt(paper_, left + 20.0, y, "Pareto front: no rung of the ladder beats these", "", 11.5);
-        down(19.0);
+        down(0.5 * kKeyEnd);
         script += "set label '' at screen " + at(left + 5.0, y) +
                   " point pt 6 ps 1.9 lw 1.6 lc rgb '#000000' front\n" +
                   labelAt(paper_, left + 20.0, y, "what the program does by itself", "", 11.5);
@@ -284,7 +295,10 @@ class ErrorPlot {
         return script + "\n";
     }
 
-    static constexpr int kMostNumbers = 34;   ///< as many lines as the key has room for
+    /// Pixels of the key: a rung's line, a ladder's title, that with the gap after it, the two lines at the
+    /// end.
+    static constexpr double kKeyRung = 15.5, kKeyTitle = 18.0, kKeyLadder = 25.0, kKeyEnd = 38.0;
+    static constexpr int kMostNumbers = 48;   ///< more than these nobody looks up
     static constexpr size_t kLargeLadder = 8; ///< rungs, from which on only the front is numbered
     const SceneRungs& scene_;
     const Quantity& quantity_;

@@ -54,7 +54,9 @@ Mark markOf(size_t series) {
                                                  {"#56b4e9", 15},
                                                  {"#222222", 6},
                                                  {"#8c6d31", 4}}};
-    return kMarks[series % kMarks.size()];
+    // From the ninth series on each colour has another shape.
+    return {kMarks[series % kMarks.size()].colour,
+            kMarks[(series + series / kMarks.size()) % kMarks.size()].point};
 }
 
 std::string inQuotes(std::string_view text) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <set>
 
 namespace touchstone::study::test {
@@ -131,6 +132,31 @@ TEST(StudyPlots, OfScenesWithLikeNamesKeepApart) {
         for (const Figure& figure : kind(result))
             EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
     EXPECT_EQ(names.size(), 16u);
+}
+
+/// However much there is to say.
+TEST(StudyPlots, KeepAllTheirWordsOnThePage) {
+    StudyResult result = likeMeasured();
+    const RungResult rung = result.rungs.front();
+    for (int i = 0; i < 63; ++i) {
+        result.rungs.push_back(rung);
+        result.rungs.back().ladder = "ladder " + std::to_string(i / 7);
+        result.rungs.back().rung = "rung " + std::to_string(i);
+        result.rungs.back().step.value += 10.0 * i;
+    }
+    static const std::regex kPlace(R"(set label .* at screen (-?[0-9.e-]+),(-?[0-9.e-]+))");
+    size_t labels = 0;
+    for (const auto& kind :
+         {errorOverTime, costByStage, costOverTriangles, errorOverTessellation, stabilityOverRate})
+        for (const Figure& figure : kind(result))
+            for (std::sregex_iterator at(figure.script.begin(), figure.script.end(), kPlace), end; at != end;
+                 ++at)
+                for (const int axis : {1, 2}) {
+                    EXPECT_GE(std::stod((*at)[axis]), 0.0) << figure.name << ": " << at->str();
+                    EXPECT_LE(std::stod((*at)[axis]), 1.0) << figure.name << ": " << at->str();
+                    ++labels;
+                }
+    EXPECT_GT(labels, 500u);
 }
 
 TEST(StudyPlots, AxesHoldWhatTheyShow) {
