@@ -7,7 +7,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr vk::DeviceSize kStagingSize = 16u << 20;
+constexpr vk::DeviceSize kStagingSize = 2u << 20;
 
 uint32_t memoryType(const Gpu::Impl& gpu, uint32_t allowed, vk::MemoryPropertyFlags wanted,
                     vk::MemoryPropertyFlags preferred) {
@@ -115,21 +115,16 @@ void Uploader::buffer(const GpuBuffer& target, vk::DeviceSize offset, std::span<
     }
 }
 
-void Uploader::imageLevel(const GpuImage& target, uint32_t level, vk::Extent2D extent,
-                          std::span<const std::byte> bytes) {
-    const size_t rowBytes = bytes.size() / extent.height;
-    const auto rowsAtOnce = static_cast<uint32_t>(std::max<size_t>(1, kStagingSize / rowBytes));
-    for (uint32_t row = 0; row < extent.height; row += rowsAtOnce) {
-        const uint32_t rows = std::min(rowsAtOnce, extent.height - row);
-        std::memcpy(staging_.mapped, bytes.data() + row * rowBytes, rows * rowBytes);
-        runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
-            commands.copyBufferToImage(
-                *staging_.buffer, *target.image, vk::ImageLayout::eTransferDstOptimal,
-                vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
-                                    .imageOffset = {0, static_cast<int32_t>(row), 0},
-                                    .imageExtent = {extent.width, rows, 1}});
-        });
-    }
+void Uploader::imageRows(const GpuImage& target, uint32_t level, vk::Extent2D extent, uint32_t firstRow,
+                         std::span<const std::byte> bytes) {
+    std::memcpy(staging_.mapped, bytes.data(), bytes.size());
+    runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+        commands.copyBufferToImage(
+            *staging_.buffer, *target.image, vk::ImageLayout::eTransferDstOptimal,
+            vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+                                .imageOffset = {0, static_cast<int32_t>(firstRow), 0},
+                                .imageExtent = {extent.width, extent.height, 1}});
+    });
 }
 
 } // namespace touchstone

@@ -67,9 +67,10 @@ class Uploader {
   public:
     explicit Uploader(const Gpu::Impl& gpu);
     void buffer(const GpuBuffer& target, vk::DeviceSize offset, std::span<const std::byte> bytes);
-    /// One level of an image in layout TransferDstOptimal; rows are tightly packed.
-    void imageLevel(const GpuImage& target, uint32_t level, vk::Extent2D extent,
-                    std::span<const std::byte> bytes);
+    /// Rows of a level of an image in layout TransferDstOptimal, from `firstRow`; tightly packed, at most
+    /// kStagingSize bytes or one row.
+    void imageRows(const GpuImage& target, uint32_t level, vk::Extent2D extent, uint32_t firstRow,
+                   std::span<const std::byte> bytes);
 
   private:
     const Gpu::Impl& gpu_;

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace touchstone {
 
 namespace {
+
+constexpr size_t kSlice = 2u << 20; ///< bytes that are copied in one step
 
 template <class T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) {
@@ -39,28 +42,6 @@ bool sameLookup(const TextureRef& a, const TextureRef& b) {
     return a.image == b.image && a.texCoord == b.texCoord && a.offset == b.offset &&
            a.rotation == b.rotation && a.scale == b.scale && a.wrapS == b.wrapS && a.wrapT == b.wrapT &&
            a.nearest == b.nearest;
-}
-
-bool usable(const Scene& scene, const TextureRef& reference) {
-    if (!reference || static_cast<size_t>(reference.image) >= scene.images.size())
-        return false;
-    const PixelData& pixels = scene.images[static_cast<size_t>(reference.image)].pixels;
-    return pixels.width > 0 && pixels.height > 0 && !pixels.bytes.empty();
-}
-
-SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
-    SceneVertex vertex{};
-    vertex.position = glm::vec3(glm::dvec3(mesh.positions[i]) - centre);
-    vertex.normal = mesh.normals.empty() ? glm::vec3(0.0f, 0.0f, 1.0f) : mesh.normals[i];
-    vertex.tangent = mesh.tangents.empty() ? glm::vec4(1.0f, 0.0f, 0.0f, 1.0f) : mesh.tangents[i];
-    if (!mesh.uv0.empty())
-        vertex.uv0 = mesh.uv0[i];
-    if (!mesh.uv1.empty())
-        vertex.uv1 = mesh.uv1[i];
-    const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : glm::clamp(mesh.colors[i], 0.0f, 1.0f);
-    for (int c = 0; c < 4; ++c)
-        vertex.color[static_cast<size_t>(c)] = static_cast<uint16_t>(std::lround(65535.0f * color[c]));
-    return vertex;
 }
 
 vk::raii::DescriptorPool makePool(const Gpu::Impl& gpu, size_t sets, size_t texturesEach) {
@@ -126,11 +107,25 @@ vk::SamplerAddressMode addressMode(Wrap wrap) {
 
 } // namespace
 
-GpuScene::GpuScene(const Gpu::Impl& gpu, const Pipelines& pipelines, ScenePtr scene)
-    : gpu_(gpu), pipelines_(pipelines), scene_(std::move(scene)) {
-    Uploader uploader(gpu);
-    uploadMeshes(uploader);
-    uploadMaterials(uploader);
+GpuScene::GpuScene(const Gpu::Impl& gpu, const Pipelines& pipelines,
+                   std::shared_ptr<const PreparedScene> prepared)
+    : gpu_(gpu), pipelines_(pipelines), scene_(prepared->scene), prepared_(std::move(prepared)),
+      uploader_(gpu) {
+    planMeshes();
+    for (const auto& [key, levels] : prepared_->textures)
+        planTexture(levels, textures_[key]);
+    steps_.push_back([this] { uploadMaterials(); });
+    deviceBytes_ += vertices_.size + indices_.size;
+}
+
+bool GpuScene::uploadNext() {
+    if (!steps_.empty()) {
+        steps_.front()();
+        steps_.pop_front();
+    }
+    if (steps_.empty())
+        prepared_.reset();
+    return steps_.empty();
 }
 
 uint32_t GpuScene::materialFeatures(const Material& material) const {
@@ -138,13 +133,13 @@ uint32_t GpuScene::materialFeatures(const Material& material) const {
     uint32_t features = 0;
     if (material.baseColorTexture)
         features |= kHasBaseColorTexture; // a broken one is drawn grey
-    if (usable(*scene_, material.metallicRoughnessTexture))
+    if (usableTexture(*scene_, material.metallicRoughnessTexture))
         features |= kHasMetallicRoughnessTexture;
-    if (usable(*scene_, material.normalTexture))
+    if (usableTexture(*scene_, material.normalTexture))
         features |= kHasNormalTexture;
-    if (usable(*scene_, material.occlusionTexture))
+    if (usableTexture(*scene_, material.occlusionTexture))
         features |= kHasOcclusionTexture;
-    if (usable(*scene_, material.emissiveTexture))
+    if (usableTexture(*scene_, material.emissiveTexture))
         features |= kHasEmissiveTexture;
     const bool emissive = material.emissive != glm::vec3(0.0f);
     const bool emissionKnown = !material.emissiveTexture || (features & kHasEmissiveTexture) != 0;
@@ -167,48 +162,35 @@ uint32_t GpuScene::materialFeatures(const Material& material) const {
     return features;
 }
 
-void GpuScene::uploadMeshes(Uploader& uploader) {
-    size_t vertexCount = 0, indexCount = 0;
-    for (const Mesh& mesh : scene_->meshes) {
-        MeshRange range;
-        range.firstVertex = static_cast<int32_t>(vertexCount);
-        range.firstIndex = static_cast<uint32_t>(indexCount);
-        range.indexCount = static_cast<uint32_t>(mesh.indices.size());
-        Bounds bounds;
-        for (const glm::vec3& position : mesh.positions)
-            bounds.include(glm::dvec3(position));
-        if (!bounds.empty())
-            range.centre = bounds.centre();
-        const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
-        range.features = materialFeatures(material);
-        if (!mesh.colors.empty())
-            range.features |= shared::kHasVertexColor;
-        if (!mesh.tangents.empty() && (range.features & shared::kHasNormalTexture) != 0)
-            range.features |= shared::kHasTangents;
-        meshes_.push_back(range);
-        vertexCount += mesh.positions.size();
-        indexCount += mesh.indices.size();
-    }
-    using Usage = vk::BufferUsageFlagBits;
-    vertices_ = createBuffer(gpu_, vertexCount * sizeof(SceneVertex),
-                             Usage::eVertexBuffer | Usage::eTransferDst, MemoryUse::Device);
-    indices_ = createBuffer(gpu_, indexCount * sizeof(uint32_t), Usage::eIndexBuffer | Usage::eTransferDst,
-                            MemoryUse::Device);
-    deviceBytes_ += vertices_.size + indices_.size;
-    std::vector<SceneVertex> packed;
+void GpuScene::planMeshes() {
     for (size_t m = 0; m < scene_->meshes.size(); ++m) {
         const Mesh& mesh = scene_->meshes[m];
-        packed.clear();
-        packed.reserve(mesh.positions.size());
-        for (size_t i = 0; i < mesh.positions.size(); ++i)
-            packed.push_back(packVertex(mesh, i, meshes_[m].centre));
-        uploader.buffer(vertices_, static_cast<vk::DeviceSize>(meshes_[m].firstVertex) * sizeof(SceneVertex),
-                        bytesOf(packed));
-        uploader.buffer(indices_, meshes_[m].firstIndex * sizeof(uint32_t), bytesOf(mesh.indices));
+        DrawnMesh drawn{prepared_->meshes[m],
+                        materialFeatures(scene_->materials[static_cast<size_t>(mesh.material)])};
+        if (!mesh.colors.empty())
+            drawn.features |= shared::kHasVertexColor;
+        if (!mesh.tangents.empty() && (drawn.features & shared::kHasNormalTexture) != 0)
+            drawn.features |= shared::kHasTangents;
+        meshes_.push_back(std::move(drawn));
     }
+    using Usage = vk::BufferUsageFlagBits;
+    const auto vertices = bytesOf(prepared_->vertices), indices = bytesOf(prepared_->indices);
+    vertices_ =
+        createBuffer(gpu_, vertices.size(), Usage::eVertexBuffer | Usage::eTransferDst, MemoryUse::Device);
+    indices_ =
+        createBuffer(gpu_, indices.size(), Usage::eIndexBuffer | Usage::eTransferDst, MemoryUse::Device);
+    const auto plan = [this](const GpuBuffer& target, std::span<const std::byte> bytes) {
+        for (size_t at = 0; at < bytes.size(); at += kSlice)
+            steps_.push_back(
+                [this, &target, at, part = bytes.subspan(at, std::min(kSlice, bytes.size() - at))] {
+                    uploader_.buffer(target, at, part);
+                });
+    };
+    plan(vertices_, vertices);
+    plan(indices_, indices);
 }
 
-void GpuScene::uploadMaterials(Uploader& uploader) {
+void GpuScene::uploadMaterials() {
     using namespace shared;
     const size_t count = scene_->materials.size();
     const vk::DeviceSize stride =
@@ -234,61 +216,84 @@ void GpuScene::uploadMaterials(Uploader& uploader) {
                                     : slot == kNormalSlot  ? Neutral::FlatNormal
                                                            : Neutral::White;
             setUv(*references[slot], uniforms.uvLinear[slot], uniforms.uvOffset[slot]);
-            images.push_back({sampler(*references[slot]),
-                              texture(uploader, *references[slot],
-                                      color ? TextureRole::Color : TextureRole::Data, neutral),
-                              vk::ImageLayout::eShaderReadOnlyOptimal});
+            images.push_back(
+                {sampler(*references[slot]),
+                 texture(*references[slot], color ? TextureRole::Color : TextureRole::Data, neutral),
+                 vk::ImageLayout::eShaderReadOnlyOptimal});
         }
         std::memcpy(materialUniforms_.mapped + m * stride, &uniforms, sizeof uniforms);
         writeSet(gpu_, materialSets_[m], {*materialUniforms_.buffer, m * stride, sizeof uniforms}, images);
     }
 }
 
-void GpuScene::upload(Uploader& uploader, const TextureLevels& levels, GpuImage& image) {
+void GpuScene::planTexture(const TextureLevels& levels, GpuImage& image) {
     const auto extentOf = [](const TextureLevels::Level& level) {
         return vk::Extent2D{static_cast<uint32_t>(level.width), static_cast<uint32_t>(level.height)};
     };
-    image =
-        createImage(gpu_, {.format = formatOf(levels.format),
-                           .extent = extentOf(levels.levels.front()),
-                           .levels = static_cast<uint32_t>(levels.levels.size()),
-                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
-    deviceBytes_ += image.size;
+    const auto largest = static_cast<int>(gpu_.limits.maxImageDimension2D);
+    size_t first = 0;
+    while (first + 1 < levels.levels.size() &&
+           std::max(levels.levels[first].width, levels.levels[first].height) > largest)
+        ++first;
     using Layout = vk::ImageLayout;
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
-    const vk::ImageAspectFlags color = vk::ImageAspectFlagBits::eColor;
-    runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
-        transition(commands, *image.image, color, Layout::eUndefined, Layout::eTransferDstOptimal,
-                   Stage::eNone, Access::eNone, Stage::eCopy, Access::eTransferWrite);
+    constexpr vk::ImageAspectFlags kColor = vk::ImageAspectFlagBits::eColor;
+    steps_.push_back([this, &levels, &image, first, extentOf] {
+        image = createImage(
+            gpu_, {.format = formatOf(levels.format),
+                   .extent = extentOf(levels.levels[first]),
+                   .levels = static_cast<uint32_t>(levels.levels.size() - first),
+                   .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+        deviceBytes_ += image.size;
+        runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+            transition(commands, *image.image, kColor, Layout::eUndefined, Layout::eTransferDstOptimal,
+                       Stage::eNone, Access::eNone, Stage::eCopy, Access::eTransferWrite);
+        });
     });
-    for (size_t i = 0; i < levels.levels.size(); ++i) {
+    for (size_t i = first; i < levels.levels.size(); ++i) {
         const TextureLevels::Level& level = levels.levels[i];
-        const size_t size = static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
-                            bytesPerTexel(levels.format);
-        uploader.imageLevel(image, static_cast<uint32_t>(i), extentOf(level),
-                            std::span(levels.bytes).subspan(level.offset, size));
+        const size_t rowBytes = static_cast<size_t>(level.width) * bytesPerTexel(levels.format);
+        const auto rowsAtOnce = static_cast<uint32_t>(std::max<size_t>(1, kSlice / rowBytes));
+        for (uint32_t row = 0; row < static_cast<uint32_t>(level.height); row += rowsAtOnce) {
+            const uint32_t rows = std::min(rowsAtOnce, static_cast<uint32_t>(level.height) - row);
+            steps_.push_back(
+                [this, &image, to = static_cast<uint32_t>(i - first), extent = extentOf(level), row, rows,
+                 part = std::span(levels.bytes).subspan(level.offset + row * rowBytes, rows * rowBytes)] {
+                    uploader_.imageRows(image, to, {extent.width, rows}, row, part);
+                });
+        }
     }
-    runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
-        transition(commands, *image.image, color, Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal,
-                   Stage::eCopy, Access::eTransferWrite, Stage::eFragmentShader, Access::eShaderSampledRead);
+    steps_.push_back([this, &image] {
+        runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+            transition(commands, *image.image, kColor, Layout::eTransferDstOptimal,
+                       Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
+                       Stage::eFragmentShader, Access::eShaderSampledRead);
+        });
     });
 }
 
-vk::ImageView GpuScene::texture(Uploader& uploader, const TextureRef& reference, TextureRole role,
-                                Neutral neutral) {
-    if (!usable(*scene_, reference))
-        return neutralTexture(uploader, neutral);
+void GpuScene::uploadNow(const TextureLevels& levels, GpuImage& image) {
+    // After the plan is done, or as a step of it: what was planned behind waits.
+    std::deque<std::function<void()>> later = std::exchange(steps_, {});
+    planTexture(levels, image);
+    for (const std::function<void()>& step : steps_)
+        step();
+    steps_ = std::move(later);
+}
+
+vk::ImageView GpuScene::texture(const TextureRef& reference, TextureRole role, Neutral neutral) {
+    if (!usableTexture(*scene_, reference))
+        return neutralTexture(neutral);
     const auto [entry, fresh] = textures_.try_emplace({reference.image, role});
-    if (fresh) {
-        const PixelData& pixels = scene_->images[static_cast<size_t>(reference.image)].pixels;
-        upload(uploader, buildTextureLevels(pixels, role, static_cast<int>(gpu_.limits.maxImageDimension2D)),
-               entry->second);
-    }
+    if (fresh)
+        uploadNow(buildTextureLevels(scene_->images[static_cast<size_t>(reference.image)].pixels, role,
+                                     static_cast<int>(gpu_.limits.maxImageDimension2D)),
+                  entry->second);
     return *entry->second.view;
 }
 
-vk::ImageView GpuScene::neutralTexture(Uploader& uploader, Neutral neutral) {
+vk::ImageView GpuScene::neutralTexture(Neutral neutral) {
     const auto [entry, fresh] = neutrals_.try_emplace(neutral);
     if (fresh) {
         // Grey is 0.5 as seen, FlatNormal is +z, 127.5 rounded up.
@@ -299,7 +304,7 @@ vk::ImageView GpuScene::neutralTexture(Uploader& uploader, Neutral neutral) {
         levels.levels = {{1, 1, 0}};
         for (const int c : texels[static_cast<size_t>(neutral)])
             levels.bytes.push_back(static_cast<std::byte>(c));
-        upload(uploader, levels, entry->second);
+        uploadNow(levels, entry->second);
     }
     return *entry->second.view;
 }
@@ -321,7 +326,7 @@ vk::Sampler GpuScene::sampler(const TextureRef& reference) {
     return *found->second;
 }
 
-void GpuScene::uploadScalars(Uploader& uploader, FalseColor& target) const {
+void GpuScene::uploadScalars(FalseColor& target) {
     size_t vertexCount = 0;
     for (const Mesh& mesh : scene_->meshes)
         vertexCount += mesh.positions.size();
@@ -330,30 +335,29 @@ void GpuScene::uploadScalars(Uploader& uploader, FalseColor& target) const {
         vk::BufferUsageFlagBits::eVertexBuffer | vk::BufferUsageFlagBits::eTransferDst, MemoryUse::Device);
     for (size_t m = 0; m < scene_->meshes.size(); ++m) {
         const Mesh& mesh = scene_->meshes[m];
-        const vk::DeviceSize place = static_cast<vk::DeviceSize>(meshes_[m].firstVertex) * sizeof(float);
+        const vk::DeviceSize place = static_cast<vk::DeviceSize>(meshes_[m].mesh.firstVertex) * sizeof(float);
         if (target.mode == ViewMode::Dihedral) {
-            uploader.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));
+            uploader_.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));
             continue;
         }
         if (const std::vector<float>* values = vertexValues(mesh, target.mode)) {
-            uploader.buffer(target.scalars, place, bytesOf(*values));
+            uploader_.buffer(target.scalars, place, bytesOf(*values));
             continue;
         }
         // A negative scalar is drawn grey: nobody states the quantity.
         const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
         const std::vector<float> same(mesh.positions.size(),
                                       hapticQuantity(material, target.mode).base.value_or(-1.0f));
-        uploader.buffer(target.scalars, place, bytesOf(same));
+        uploader_.buffer(target.scalars, place, bytesOf(same));
     }
 }
 
 void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& materialColors) {
     if (falseColorReady(mode))
         return;
-    Uploader uploader(gpu_);
     FalseColor fresh;
     fresh.mode = mode;
-    uploadScalars(uploader, fresh);
+    uploadScalars(fresh);
     const size_t count = scene_->materials.size();
     const vk::DeviceSize stride =
         alignedTo(sizeof(shared::FalseColorUniforms), gpu_.limits.minUniformBufferOffsetAlignment);
@@ -380,7 +384,7 @@ void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& ma
         const bool normals = mode == ViewMode::Normals || (mode == ViewMode::Tilt && material.normalTexture);
         const Neutral neutral = normals ? Neutral::FlatNormal : Neutral::Black;
         writeSet(gpu_, fresh.sets[m], {*fresh.uniforms.buffer, m * stride, sizeof uniforms},
-                 {{sampler(reference), texture(uploader, reference, TextureRole::Data, neutral),
+                 {{sampler(reference), texture(reference, TextureRole::Data, neutral),
                    vk::ImageLayout::eShaderReadOnlyOptimal}});
     }
     falseColor_ = std::move(fresh);

@@ -5,28 +5,33 @@
 #include "renderer/false_color.h"
 #include "renderer/gpu_memory.h"
 #include "renderer/pipelines.h"
-#include "renderer/texture_levels.h"
+#include "renderer/prepared_scene.h"
 
+#include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 
 namespace touchstone {
 
-/// Uploads everything that the shaded view needs on construction; what a false-colour view needs, when it is
-/// asked for.
+/// Uploads what the shaded view needs in steps of a few milliseconds; what a false-colour view needs, when it
+/// is asked for.
 class GpuScene {
   public:
-    GpuScene(const Gpu::Impl& gpu, const Pipelines& pipelines, ScenePtr scene);
+    GpuScene(const Gpu::Impl& gpu, const Pipelines& pipelines, std::shared_ptr<const PreparedScene> prepared);
+    GpuScene(const GpuScene&) = delete;
+    GpuScene& operator=(const GpuScene&) = delete;
 
-    struct MeshRange {
-        uint32_t firstIndex = 0, indexCount = 0;
-        int32_t firstVertex = 0;
-        glm::dvec3 centre{0.0}; ///< mesh frame; the uploaded positions are relative to it
-        uint32_t features = 0;  ///< kHas... bits of mesh and material, without lights
+    /// Makes the next step of the upload. True when all are made; before, nothing of it may be drawn.
+    bool uploadNext();
+
+    struct DrawnMesh {
+        PreparedMesh mesh;
+        uint32_t features = 0; ///< kHas... bits of mesh and material, without lights
     };
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
-    [[nodiscard]] const MeshRange& mesh(int index) const { return meshes_[static_cast<size_t>(index)]; }
+    [[nodiscard]] const DrawnMesh& mesh(int index) const { return meshes_[static_cast<size_t>(index)]; }
     [[nodiscard]] vk::DescriptorSet material(int index) const {
         return materialSets_[static_cast<size_t>(index)];
     }
@@ -58,21 +63,24 @@ class GpuScene {
     /// Images that stand for what a material lacks.
     enum class Neutral : uint8_t { White, Grey, Black, FlatNormal };
 
-    void uploadMeshes(Uploader& uploader);
-    void uploadMaterials(Uploader& uploader);
-    void uploadScalars(Uploader& uploader, FalseColor& target) const;
+    void planMeshes();
+    void planTexture(const TextureLevels& levels, GpuImage& image);
+    void uploadNow(const TextureLevels& levels, GpuImage& image);
+    void uploadMaterials();
+    void uploadScalars(FalseColor& target);
     [[nodiscard]] uint32_t materialFeatures(const Material& material) const;
-    [[nodiscard]] vk::ImageView texture(Uploader& uploader, const TextureRef& reference, TextureRole role,
-                                        Neutral neutral);
-    [[nodiscard]] vk::ImageView neutralTexture(Uploader& uploader, Neutral neutral);
+    [[nodiscard]] vk::ImageView texture(const TextureRef& reference, TextureRole role, Neutral neutral);
+    [[nodiscard]] vk::ImageView neutralTexture(Neutral neutral);
     [[nodiscard]] vk::Sampler sampler(const TextureRef& reference);
-    void upload(Uploader& uploader, const TextureLevels& levels, GpuImage& image);
 
     const Gpu::Impl& gpu_;
     const Pipelines& pipelines_;
     ScenePtr scene_;
+    std::shared_ptr<const PreparedScene> prepared_; ///< until it is uploaded
+    Uploader uploader_;
+    std::deque<std::function<void()>> steps_;
     GpuBuffer vertices_, indices_, materialUniforms_;
-    std::vector<MeshRange> meshes_;
+    std::vector<DrawnMesh> meshes_;
     std::map<std::pair<int, TextureRole>, GpuImage> textures_;
     std::map<Neutral, GpuImage> neutrals_;
     std::map<std::tuple<Wrap, Wrap, bool>, vk::raii::Sampler> samplers_;

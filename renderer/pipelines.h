@@ -2,6 +2,7 @@
 // Descriptor layouts and the pipelines, made on first use and kept. Main thread only, private to renderer/.
 
 #include "renderer/graphics_pipeline.h"
+#include "renderer/scene_vertex.h"
 #include "renderer/view.h"
 
 #include <map>
@@ -11,16 +12,6 @@ namespace touchstone {
 
 /// Which of the overlay's three passes.
 enum class OverlayPass : uint8_t { Hidden, Opaque, Translucent };
-
-/// Vertex layout of scene meshes, binding 0; binding 1 holds one float a vertex in false-colour views.
-struct SceneVertex {
-    glm::vec3 position; ///< mesh frame, relative to the mesh's centre
-    glm::vec3 normal;
-    glm::vec4 tangent;
-    glm::vec2 uv0, uv1;
-    std::array<uint16_t, 4> color; ///< linear, 0..1 as 0..65535
-};
-static_assert(sizeof(SceneVertex) == 64);
 
 class Pipelines {
   public:

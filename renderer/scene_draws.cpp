@@ -34,18 +34,27 @@ bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item)
     return true;
 }
 
+/// At least the largest singular value: the root of the sum of squares.
+double largestStretch(const glm::dmat3& linear) {
+    return std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) +
+                     glm::dot(linear[2], linear[2])) /
+           std::sqrt(3.0);
+}
+
 } // namespace
 
-void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye) {
+void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent) {
     draws_.clear();
     if (!scene_)
         return;
     const Scene& scene = scene_->scene();
     const uint32_t light = (view.lights[1].irradiance != glm::vec3(0.0f) ? shared::kHasSecondLight : 0u) |
                            (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u);
+    const double pixelsAtUnitDepth = 0.5 * extent.height * std::abs(view.clipFromView[1][1]);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
-        const GpuScene::MeshRange& mesh = scene_->mesh(scene.instances[i].mesh);
-        if (mesh.indexCount == 0)
+        const GpuScene::DrawnMesh& drawn = scene_->mesh(scene.instances[i].mesh);
+        const PreparedMesh& mesh = drawn.mesh;
+        if (mesh.levels.front().indexCount == 0)
             continue;
         const glm::dmat3 linear = view.workspaceFromScene.scale *
                                   (glm::mat3_cast(view.workspaceFromScene.rotation) * glm::dmat3(poses[i]));
@@ -53,10 +62,20 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye) 
             view.workspaceFromScene.point(glm::dvec3(poses[i] * glm::dvec4(mesh.centre, 1.0))) - eye;
         DrawItem item;
         item.instance = static_cast<int>(i);
-        item.features = mesh.features | light;
+        item.features = drawn.features | light;
         item.distance = glm::length(origin);
-        if (setConstants(linear, origin, item))
-            draws_.push_back(item);
+        if (!setConstants(linear, origin, item))
+            continue;
+        const double stretch = largestStretch(linear);
+        // The nearest that the mesh can be to the eye: there an error of one metre is so many pixels.
+        const double nearest = item.distance - stretch * mesh.radius;
+        const double allowed = view.allowedError > 0.0 && nearest > 0.0 && stretch > 0.0
+                                   ? view.allowedError * nearest / (pixelsAtUnitDepth * stretch)
+                                   : 0.0;
+        const DrawLevel& level = levelWithin(mesh, allowed);
+        item.firstIndex = level.firstIndex;
+        item.indexCount = level.indexCount;
+        draws_.push_back(item);
     }
     // Few state changes for what is opaque; what is blended comes last, from the farthest.
     std::stable_sort(draws_.begin(), draws_.end(), [](const DrawItem& a, const DrawItem& b) {
@@ -75,7 +94,7 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     const Scene& scene = scene_->scene();
     const int meshIndex = scene.instances[static_cast<size_t>(item.instance)].mesh;
     const int materialIndex = scene.meshes[static_cast<size_t>(meshIndex)].material;
-    const GpuScene::MeshRange& mesh = scene_->mesh(meshIndex);
+    const PreparedMesh& mesh = scene_->mesh(meshIndex).mesh;
     const bool shaded = mode == ViewMode::Shaded;
     const vk::PipelineLayout layout = shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, shaded
@@ -95,7 +114,8 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
         if (cull == Cull::eFront && !twice)
             continue;
         commands.setCullMode(cull);
-        commands.drawIndexed(mesh.indexCount, 1, mesh.firstIndex, mesh.firstVertex, 0);
+        commands.drawIndexed(item.indexCount, 1, item.firstIndex, mesh.firstVertex, 0);
+        statistics.drawnTriangles += item.indexCount / 3;
         ++statistics.drawCalls;
     }
 }

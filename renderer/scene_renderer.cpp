@@ -4,6 +4,8 @@
 #include "renderer/scene_renderer_impl.h"
 
 #include <algorithm>
+#include <chrono>
+#include <set>
 #include <stdexcept>
 
 namespace touchstone {
@@ -31,6 +33,7 @@ SceneRenderer::Impl::Impl(Gpu& owner) : gpu(owner.impl()), pipelines_(gpu), shap
     for (FrameRing& ring : rings_)
         for (FrameSlot& slot : ring.slots)
             createSlot(gpu, pipelines_.frameSet(), slot);
+    createSlot(gpu, pipelines_.frameSet(), warm_);
 }
 
 SceneRenderer::Impl::~Impl() {
@@ -41,20 +44,76 @@ SceneRenderer::Impl::~Impl() {
     }
 }
 
-void SceneRenderer::Impl::setScene(ScenePtr scene) {
+void SceneRenderer::Impl::clear() {
     gpu.device.waitIdle();
     scene_.reset();
+    coming_.reset();
     poses.clear();
     draws_.clear();
     statistics.triangles = 0;
     statistics.deviceBytes = 0;
-    if (!scene)
+}
+
+void SceneRenderer::Impl::beginScene(std::shared_ptr<const PreparedScene> prepared) {
+    coming_.reset();
+    coming_ = std::make_unique<GpuScene>(gpu, pipelines_, std::move(prepared));
+    const Scene& scene = coming_->scene();
+    std::set<uint32_t> known;
+    cold_.clear();
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+        if (known.insert(coming_->mesh(scene.instances[i].mesh).features).second)
+            cold_.push_back(static_cast<int>(i));
+}
+
+void SceneRenderer::Impl::warmUp(int instance) {
+    const GpuScene::DrawnMesh& drawn =
+        coming_->mesh(coming_->scene().instances[static_cast<size_t>(instance)].mesh);
+    if (drawn.mesh.levels.front().indexCount == 0)
         return;
-    scene_ = std::make_unique<GpuScene>(gpu, pipelines_, scene);
-    for (const Instance& instance : scene->instances)
+    DrawItem item; // its constants are zero: all vertices fall onto the eye and no pixel is drawn
+    item.instance = instance;
+    item.features = drawn.features | shared::kHasProbeShadow;
+    item.firstIndex = drawn.mesh.levels.front().firstIndex;
+    item.indexCount = 3;
+    draws_.assign(1, item);
+    if (warm_.color.extent.width == 0)
+        resizeSlot(gpu, {16, 16}, warm_);
+    // A frame as any other, of the scene that is coming.
+    std::swap(scene_, coming_);
+    writeUniforms(warm_, View{}, glm::dvec3(0.0), Overlay{}, warm_.color.extent);
+    record(warm_, View{}, Overlay{}, OverlayDraw{});
+    std::swap(scene_, coming_);
+    draws_.clear();
+    gpu.device.resetFences(*warm_.done);
+    const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *warm_.commands};
+    gpu.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted},
+                      *warm_.done);
+    SceneRenderer::Statistics ignored;
+    waitFor(gpu, warm_, ignored);
+}
+
+bool SceneRenderer::Impl::continueScene(double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    while (!coming_->uploadNext())
+        if (Clock::now() >= end)
+            return false;
+    // A driver compiles shaders when they first draw; one at a time does not hold up a frame for long.
+    while (!cold_.empty()) {
+        warmUp(cold_.back());
+        cold_.pop_back();
+        if (Clock::now() >= end)
+            return false;
+    }
+    std::unique_ptr<GpuScene> ready = std::move(coming_);
+    clear();
+    scene_ = std::move(ready);
+    for (const Instance& instance : scene_->scene().instances)
         poses.push_back(instance.sceneFromMesh);
-    statistics.triangles = scene->triangleCount();
+    statistics.triangles = scene_->scene().triangleCount();
     statistics.deviceBytes = scene_->deviceBytes();
+    return true;
 }
 
 void SceneRenderer::Impl::setMaterialColors(std::vector<glm::vec3> colors) {
@@ -87,8 +146,8 @@ void SceneRenderer::Impl::render(const View& view, const Overlay& overlay, int w
     }
     const glm::dmat3 viewAxes(view.viewFromWorkspace);
     const glm::dvec3 eye = -(glm::inverse(viewAxes) * glm::dvec3(view.viewFromWorkspace[3]));
-    statistics.drawCalls = 0;
-    collectDraws(view, eye);
+    statistics.drawCalls = statistics.drawnTriangles = 0;
+    collectDraws(view, eye, extent);
     const OverlayDraw draw = layOut(overlay, eye);
     writeUniforms(slot, view, eye, overlay, extent);
     writeOverlay(slot, draw);
@@ -139,10 +198,35 @@ SceneRenderer::SceneRenderer(Gpu& gpu)
 SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::setScene(ScenePtr scene) {
+    if (!scene) {
+        translatingErrors("emptying the scene", [&] { impl_->clear(); });
+        return;
+    }
     try {
-        translatingErrors("uploading the scene", [&] { impl_->setScene(std::move(scene)); });
+        beginScene(prepareScene(std::move(scene), {.coarsest = 0}));
+        impl_->compileLater();
+        while (!continueScene(1.0)) {
+        }
     } catch (const Error&) {
-        impl_->setScene(nullptr);
+        impl_->clear();
+        throw;
+    }
+}
+
+void SceneRenderer::beginScene(std::shared_ptr<const PreparedScene> prepared) {
+    try {
+        translatingErrors("uploading the scene", [&] { impl_->beginScene(std::move(prepared)); });
+    } catch (const Error&) {
+        impl_->abandon();
+        throw;
+    }
+}
+
+bool SceneRenderer::continueScene(double seconds) {
+    try {
+        return translatingErrors("uploading the scene", [&] { return impl_->continueScene(seconds); });
+    } catch (const Error&) {
+        impl_->abandon();
         throw;
     }
 }

@@ -5,6 +5,7 @@
 #include "renderer/false_color.h"
 #include "renderer/gpu.h"
 #include "renderer/overlay.h"
+#include "renderer/prepared_scene.h"
 #include "renderer/view.h"
 
 #include <glm/glm.hpp>
@@ -32,6 +33,12 @@ class SceneRenderer {
     /// empty.
     void setScene(ScenePtr scene);
 
+    /// The same in steps, for a window that must not wait: the scene before is drawn until `continueScene`
+    /// says that the new one is there; it works for about `seconds`. A second beginScene replaces the first.
+    /// Errors as in setScene, but what was drawn before stays.
+    void beginScene(std::shared_ptr<const PreparedScene> prepared);
+    [[nodiscard]] bool continueScene(double seconds);
+
     /// Where the instances are now, one `sceneFromMesh` for each of Scene::instances; holds until the next
     /// call. Throws std::invalid_argument on another count.
     void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
@@ -52,12 +59,13 @@ class SceneRenderer {
     [[nodiscard]] FalseColorScale falseColorScale() const;
 
     struct Statistics {
-        uint64_t triangles = 0;   ///< of the scene, over the instances
-        uint64_t drawCalls = 0;   ///< of the last frame
-        uint64_t pipelines = 0;   ///< compiled so far
-        uint64_t deviceBytes = 0; ///< device memory held for the scene
-        double gpuSeconds = 0.0;  ///< of the last finished frame as the device measured it; 0: it cannot
-        double waitSeconds = 0.0; ///< that the last `render` waited for a frame in flight
+        uint64_t triangles = 0;      ///< of the scene, over the instances
+        uint64_t drawCalls = 0;      ///< of the last frame
+        uint64_t drawnTriangles = 0; ///< of the last frame, of what simplification left
+        uint64_t pipelines = 0;      ///< compiled so far
+        uint64_t deviceBytes = 0;    ///< device memory held for the scene
+        double gpuSeconds = 0.0;     ///< of the last finished frame as the device measured it; 0: it cannot
+        double waitSeconds = 0.0;    ///< that the last `render` waited for a frame in flight
     };
     [[nodiscard]] const Statistics& statistics() const;
 

@@ -17,6 +17,7 @@ namespace touchstone {
 /// One instance in one frame.
 struct DrawItem {
     int instance = 0;
+    uint32_t firstIndex = 0, indexCount = 0;
     uint32_t features = 0;
     double distance = 0.0;
     bool mirrored = false;
@@ -30,7 +31,11 @@ struct SceneRenderer::Impl {
     /// The image of an eye's last frame, for the window; valid until its next render.
     [[nodiscard]] const FrameSlot* lastFrame(Eye eye) const { return rings_[static_cast<size_t>(eye)].last; }
 
-    void setScene(ScenePtr scene);
+    void clear();
+    void beginScene(std::shared_ptr<const PreparedScene> prepared);
+    [[nodiscard]] bool continueScene(double seconds);
+    void abandon() { coming_.reset(); }
+    void compileLater() { cold_.clear(); } ///< of the scene that is coming: when it is first drawn
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye);
     void setMaterialColors(std::vector<glm::vec3> colors);
     [[nodiscard]] PixelData readPixels();
@@ -45,7 +50,8 @@ struct SceneRenderer::Impl {
     [[nodiscard]] const Scene* scene() const { return scene_ ? &scene_->scene() : nullptr; }
 
   private:
-    void collectDraws(const View& view, const glm::dvec3& eye);
+    void warmUp(int instance);
+    void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent);
     void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
                        vk::Extent2D extent);
     void writeOverlay(FrameSlot& slot, const OverlayDraw& draw);
@@ -57,10 +63,12 @@ struct SceneRenderer::Impl {
                      bool showHidden);
 
     Pipelines pipelines_;
-    std::unique_ptr<GpuScene> scene_;
+    std::unique_ptr<GpuScene> scene_, coming_;
     GpuBuffer shapeVertices_, shapeIndices_;
     ShapeMeshes shapes_;
     std::array<FrameRing, 2> rings_; ///< of each Eye
+    FrameSlot warm_;                 ///< for pictures that nobody sees
+    std::vector<int> cold_;          ///< instances of `coming_` whose pipelines have not drawn yet
     std::vector<glm::vec3> materialColors_;
     std::vector<DrawItem> draws_; ///< kept between frames for its memory
 };

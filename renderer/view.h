@@ -62,6 +62,9 @@ struct View {
     ProbeShadow probe;
     Background background;
     float exposure = 1.0f; ///< factor before tone mapping
+    /// Pixels by which a simplified mesh may differ from the full one; 0: the full one is drawn. Only of
+    /// scenes that were prepared with simplified meshes.
+    double allowedError = 0.0;
 };
 
 /// The view of a camera with a key light over its left shoulder and soft lamps on both sides, which all move

@@ -48,6 +48,7 @@ constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU 
 constexpr int kHardwarePixels = 2560 * 1440;
 constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
 constexpr double kChartSeconds = 10.0;
+constexpr double kUploadTime = 0.008; // s of a frame, while a model is taken in
 
 double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -98,6 +99,7 @@ class Workbench {
 
     void open(const std::filesystem::path& path) {
         problem_.clear();
+        longestFrame_ = 0.0;
         loader_.start(path, handLimits());
     }
 
@@ -132,23 +134,28 @@ class Workbench {
     }
 
     [[nodiscard]] bool closed() const { return window_.shouldClose() || interrupted(); }
-    [[nodiscard]] bool loading() const { return loader_.loading(); }
+    [[nodiscard]] bool loading() const { return loader_.loading() || uploading_.has_value(); }
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
 
   private:
     /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
     void takeModel() {
         try {
-            std::optional<LoadedModel> loaded = loader_.take();
-            if (loaded)
-                show(std::move(*loaded));
+            if (std::optional<LoadedModel> loaded = loader_.take()) {
+                renderer_.beginScene(std::move(loaded->prepared));
+                uploading_ = std::move(loaded);
+            }
+            if (uploading_ && renderer_.continueScene(kUploadTime))
+                show(*std::exchange(uploading_, std::nullopt));
         } catch (const Error& error) {
             if (!hasModel())
                 throw;
+            uploading_.reset();
             problem_ = error.what();
         } catch (const std::bad_alloc&) {
             if (!hasModel())
                 throw;
+            uploading_.reset();
             problem_ = loader_.path().filename().string() + ": there is not enough memory for it";
         }
     }
@@ -157,7 +164,6 @@ class Workbench {
         loaded.model.haptic =
             limited(*loaded.model.haptic); // another hand may be held than when it was begun
         shown_ = std::move(loaded);
-        renderer_.setScene(shown_.model.scene);
         shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
         offerScene();
         hand_.offerPath(shown_.path);
@@ -307,7 +313,8 @@ class Workbench {
         input.problem = problem_;
         input.recent = memory_.recent;
         input.samples = samples_;
-        input.loading = loader_.loading();
+        input.loading = loading();
+        input.longestFrame = longestFrame_;
         input.loadName = loader_.path().filename().string();
         input.loadFraction = loader_.fraction();
         input.loadActivity = loader_.activity();
@@ -392,6 +399,7 @@ class Workbench {
     /// Adapts the picture to the time it took and waits for the next frame's turn, handling events meanwhile.
     void pace(double start) {
         resolution_.frameDone(secondsNow() - start);
+        longestFrame_ = std::max(longestFrame_, secondsNow() - start);
         window_.waitEvents(0.0);
         for (double left = start + kFramePeriod - secondsNow(); left > 0.0;
              left = start + kFramePeriod - secondsNow())
@@ -417,6 +425,7 @@ class Workbench {
     RecordingDesk desk_;
     study::LiveError liveError_;
     ModelLoader loader_;
+    std::optional<LoadedModel> uploading_; ///< not yet shown: the renderer takes it in slices
     LoadedModel shown_;
     ViewControl view_;
     PanelState state_;
@@ -428,6 +437,7 @@ class Workbench {
     std::string problem_;
     std::future<void> building_;
     double framesPerSecond_ = 0.0;
+    double longestFrame_ = 0.0; // s, since a model was last opened
 };
 
 } // namespace

@@ -169,6 +169,45 @@ TEST_F(Picture, EveryViewFillsThePictureAndClipsNothing) {
     }
 }
 
+TEST_F(Picture, SimplifiedMeshesLookTheSame) {
+    const auto scene = torusScene();
+    View view = viewFor(*scene);
+    const PixelData full = draw(scene, view);
+    renderer_->beginScene(prepareScene(scene));
+    while (!renderer_->continueScene(0.001)) {
+    }
+    const auto drawn = [&](double pixels, PixelData& picture) {
+        view.allowedError = pixels;
+        renderer_->render(view, {}, kWidth, kHeight);
+        picture = renderer_->readPixels();
+        return renderer_->statistics().drawnTriangles;
+    };
+    PixelData same, near, coarse;
+    EXPECT_EQ(drawn(0.0, same), 64800u);
+    EXPECT_EQ(failingShare(same, full), 0.0) << "taken in by slices";
+    const uint64_t nearTriangles = drawn(0.4, near), coarseTriangles = drawn(30.0, coarse);
+    EXPECT_LT(nearTriangles, 40000u);
+    EXPECT_LT(failingShare(near, full), 0.04);
+    EXPECT_LT(coarseTriangles, nearTriangles);
+    EXPECT_GT(failingShare(coarse, full), failingShare(near, full));
+}
+
+TEST_F(Picture, WhatWasShownStaysUntilTheNextSceneIsWhole) {
+    const auto before = torusScene(48, 16), after = featureBoard();
+    const View view = viewFor(*before);
+    const PixelData shown = draw(before, view);
+    renderer_->beginScene(prepareScene(after));
+    bool done = false;
+    for (int step = 0; !done; ++step) {
+        ASSERT_LT(step, 10000);
+        renderer_->render(view, {}, kWidth, kHeight);
+        EXPECT_EQ(failingShare(renderer_->readPixels(), shown), 0.0) << "step " << step;
+        done = renderer_->continueScene(0.0);
+    }
+    renderer_->render(view, {}, kWidth, kHeight);
+    EXPECT_EQ(failingShare(renderer_->readPixels(), draw(after, view)), 0.0);
+}
+
 TEST_F(Picture, TheMagnifiersImageIsItsOwn) {
     const auto scene = torusScene(48, 16);
     const View view = viewFor(*scene);

@@ -2,7 +2,10 @@
 // counts, and frame times.
 //   render_probe pixels FILE            raw RGBA8 of one 320x180 frame
 //   render_probe png FILE WIDTH HEIGHT  one picture
-//   render_probe bench FRAMES WIDTH HEIGHT [MODEL]   of the torus or another model, with the probe's shadow
+//   render_probe open MODEL             what taking a model in takes, step by step
+//   render_probe bench FRAMES WIDTH HEIGHT [MODEL [PIXELS]]   of the torus or another model, with the probe's
+//   shadow, by
+//       simplified meshes that differ by so many PIXELS
 #include "engine/scene/scene_loader.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
@@ -24,12 +27,20 @@ struct Probe {
     SceneRenderer renderer{*gpu};
     ScenePtr scene;
 
-    explicit Probe(ScenePtr shown = torusScene()) : scene(std::move(shown)) { renderer.setScene(scene); }
+    double allowedError = 0.0;
+
+    explicit Probe(ScenePtr shown = torusScene(), double error = 0.0)
+        : scene(std::move(shown)), allowedError(error) {
+        renderer.beginScene(prepareScene(scene, {.coarsest = error > 0.0 ? 2000u : 0u}));
+        while (!renderer.continueScene(1.0)) {
+        }
+    }
     void draw(int width, int height, double turn) {
         const double aspect = static_cast<double>(width) / height;
         OrbitCamera camera = cameraFor(*scene, aspect);
         camera.orbit(turn, 0.0);
         View view = viewOf(camera, {}, aspect);
+        view.allowedError = allowedError;
         view.probe = {camera.target + 0.3 * camera.sceneRadius * camera.up(), 0.02 * camera.sceneRadius};
         renderer.render(view, touchOverlay(), width, height);
     }
@@ -44,8 +55,8 @@ void writePixels(const char* file) {
                static_cast<std::streamsize>(pixels.bytes.size()));
 }
 
-void bench(int frames, int width, int height, ScenePtr scene) {
-    Probe probe(std::move(scene));
+void bench(int frames, int width, int height, ScenePtr scene, double error) {
+    Probe probe(std::move(scene), error);
     for (int i = 0; i < 5; ++i)
         probe.draw(width, height, 0.0);
     probe.gpu->waitIdle();
@@ -69,12 +80,43 @@ void bench(int frames, int width, int height, ScenePtr scene) {
     }
     const double alone = std::chrono::duration<double, std::milli>(Clock::now() - second).count() / frames;
     const char* threads = std::getenv("LP_NUM_THREADS");
-    std::printf(
-        "%s, %dx%d, %llu triangles, LP_NUM_THREADS=%s: %.2f ms a frame in flight, %.2f ms alone, device "
-        "clock %.2f ms, CPU time %.2f ms\n",
-        probe.gpu->name().c_str(), width, height,
-        static_cast<unsigned long long>(probe.renderer.statistics().triangles),
-        threads != nullptr ? threads : "unset", inFlight, alone, device, cpu);
+    std::printf("%s, %dx%d, %llu triangles, %llu drawn, LP_NUM_THREADS=%s: %.2f ms a frame in flight, %.2f "
+                "ms alone, device "
+                "clock %.2f ms, CPU time %.2f ms\n",
+                probe.gpu->name().c_str(), width, height,
+                static_cast<unsigned long long>(probe.renderer.statistics().triangles),
+                static_cast<unsigned long long>(probe.renderer.statistics().drawnTriangles),
+                threads != nullptr ? threads : "unset", inFlight, alone, device, cpu);
+}
+
+/// What a window goes through while it takes a model in: processor time of all threads, for the machine may
+/// do other things.
+void open(const ScenePtr& scene) {
+    const auto milliseconds = [] { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+    Probe probe(torusScene(24, 12));
+    probe.draw(800, 448, 0.0);
+    probe.gpu->waitIdle();
+    const double start = milliseconds();
+    std::shared_ptr<const PreparedScene> prepared = prepareScene(scene);
+    const double preparing = milliseconds() - start;
+    double longest = 0.0;
+    int steps = 0;
+    probe.renderer.beginScene(std::move(prepared));
+    for (bool done = false; !done; ++steps) {
+        const double before = milliseconds();
+        done = probe.renderer.continueScene(0.008);
+        longest = std::max(longest, milliseconds() - before);
+    }
+    probe.scene = scene;
+    probe.allowedError = 0.4;
+    const double before = milliseconds();
+    probe.draw(800, 448, 0.0);
+    probe.gpu->waitIdle();
+    std::printf("%zu triangles: prepared in %.0f ms, uploaded in %d steps, the longest %.1f ms, first frame "
+                "%.1f ms, all in processor time; "
+                "%.1f MB on the device\n",
+                scene->triangleCount(), preparing, steps, longest, milliseconds() - before,
+                1e-6 * static_cast<double>(probe.renderer.statistics().deviceBytes));
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -86,13 +128,15 @@ int run(const std::vector<std::string>& arguments) {
         Probe probe;
         probe.draw(number(2), number(3), 0.0);
         writePng(arguments[1], probe.renderer.readPixels());
-    } else if ((arguments.size() == 4 || arguments.size() == 5) && arguments[0] == "bench") {
-        bench(number(1), number(2), number(3),
-              arguments.size() == 5 ? loadScene(arguments[4]) : torusScene());
+    } else if (arguments.size() >= 4 && arguments.size() <= 6 && arguments[0] == "bench") {
+        const bool torus = arguments.size() == 4 || arguments[4] == "torus";
+        bench(number(1), number(2), number(3), torus ? ScenePtr(torusScene()) : loadScene(arguments[4]),
+              arguments.size() == 6 ? std::atof(arguments[5].c_str()) : 0.0);
+    } else if (arguments.size() == 2 && arguments[0] == "open") {
+        open(loadScene(arguments[1]));
     } else {
-        std::fprintf(
-            stderr,
-            "usage: render_probe pixels FILE | png FILE WIDTH HEIGHT | bench FRAMES WIDTH HEIGHT [MODEL]\n");
+        std::fprintf(stderr, "usage: render_probe pixels FILE | png FILE WIDTH HEIGHT | bench FRAMES WIDTH "
+                             "HEIGHT [MODEL [PIXELS]] | open MODEL\n");
         return 2;
     }
     return 0;

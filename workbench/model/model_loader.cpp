@@ -1,8 +1,14 @@
 #include "workbench/model/model_loader.h"
 
+#include <sys/resource.h>
+
 #include <utility>
 
 namespace touchstone {
+
+namespace {
+constexpr int kNiceness = 10; ///< on few cores the window comes first
+}
 
 ModelLoader::~ModelLoader() {
     cancel();
@@ -24,6 +30,9 @@ void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& l
     result_.reset();
     failure_ = nullptr;
     worker_ = std::thread([this, path, limits] {
+        // Of this thread and those that it starts; where it is refused, loading merely competes with the
+        // picture.
+        (void)::setpriority(PRIO_PROCESS, 0, kNiceness);
         LoadOptions options;
         options.cancel = &cancelled_;
         options.progress = [this](double fraction, const char* what) {
@@ -31,11 +40,13 @@ void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& l
             activity_.store(what, std::memory_order_relaxed);
         };
         try {
-            LoadedModel loaded{loadModel(path, Fit::Workspace, limits, options), nullptr, {}};
+            LoadedModel loaded{loadModel(path, Fit::Workspace, limits, options), nullptr, {}, nullptr};
             if (loaded.model.scene->touchable())
                 loaded.path = std::make_shared<StrokePath>(
                     strokeOver(*loaded.model.scene, loaded.model.workspaceFromScene));
             loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
+            options.progress(1.0, "simplifying what is drawn");
+            loaded.prepared = prepareScene(loaded.model.scene, {.cancel = &cancelled_});
             result_ = std::move(loaded);
         } catch (...) {
             failure_ = std::current_exception();

@@ -2,6 +2,7 @@
 
 #include "devices/stroke_path.h"
 #include "haptics/recording/scene_identity.h"
+#include "renderer/prepared_scene.h"
 #include "workbench/model/model.h"
 
 #include <atomic>
@@ -17,7 +18,8 @@ namespace touchstone {
 struct LoadedModel {
     Model model;
     std::shared_ptr<const StrokePath> path;
-    SceneIdentity identity; ///< for recordings
+    SceneIdentity identity;                        ///< for recordings
+    std::shared_ptr<const PreparedScene> prepared; ///< for the renderer
 };
 
 /// Loads models on a worker thread, one at a time; a new request cancels the one before. Main thread only.

@@ -9,7 +9,12 @@ namespace touchstone {
 namespace {
 
 constexpr double kMagnifierOverlayScale = 0.22; ///< of the overlays' sizes in it
-constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames: the CPU transforms every vertex for it once more
+// Pixels by which the simplified mesh may differ while the camera rests and while it moves. The CPU
+// transforms every vertex, and its picture is coarser than the window.
+constexpr double kRestingError = 0.0, kMovingError = 0.7;
+constexpr double kSoftwareRestingError = 0.4, kSoftwareMovingError = 1.0;
+constexpr int kSettling = 8;                // frames without motion until the camera rests
+constexpr int kSoftwareMagnifierPeriod = 3; ///< frames: the CPU transforms every vertex for it once more
 
 } // namespace
 
@@ -18,6 +23,7 @@ EyePlaces ModelPicture::draw(const Frame& frame) {
     const double aspect = static_cast<double>(frame.place.width) / std::max(frame.place.height, 1);
     View view = viewOf(frame.camera, frame.model.workspaceFromScene, aspect);
     view.mode = options.mode;
+    view.allowedError = allowedError(frame);
     overlay_.clear();
     EyePlaces places{.main = frame.place, .magnifier = {}};
     TickLook look{.shown = options.overlays};
@@ -49,6 +55,15 @@ EyePlaces ModelPicture::draw(const Frame& frame) {
     return places;
 }
 
+double ModelPicture::allowedError(const Frame& frame) {
+    const glm::dmat4 view = frame.camera.viewFromWorkspace();
+    stillFrames_ = view == lastView_ ? stillFrames_ + 1 : 0;
+    lastView_ = view;
+    const bool moving = stillFrames_ < kSettling;
+    return frame.software ? (moving ? kSoftwareMovingError : kSoftwareRestingError)
+                          : (moving ? kMovingError : kRestingError);
+}
+
 void ModelPicture::colorMaterials(const Frame& frame) {
     if (frame.options.mode != ViewMode::Effects || colored_ == frame.model.haptic)
         return;
@@ -68,6 +83,7 @@ void ModelPicture::drawMagnifier(const Frame& frame, const View& main, EyePlaces
     View near =
         viewOf(Magnifier::camera(frame.camera, frame.tick.output.proxy), frame.model.workspaceFromScene, 1.0);
     near.mode = main.mode;
+    near.allowedError = main.allowedError;
     near.probe = main.probe;
     renderer_.render(near, overlay_, places.magnifier.width, places.magnifier.height, Eye::Magnifier);
 }

@@ -38,6 +38,7 @@ class ModelPicture {
 
   private:
     void colorMaterials(const Frame& frame);
+    [[nodiscard]] double allowedError(const Frame& frame);
     void drawMagnifier(const Frame& frame, const View& main, EyePlaces& places);
 
     SceneRenderer& renderer_;
@@ -47,6 +48,8 @@ class ModelPicture {
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan the colours show
     EffectColors colors_;
     int magnifierAge_ = 0; ///< frames since it was drawn
+    glm::dmat4 lastView_{0.0};
+    int stillFrames_ = 0; ///< since the camera moved
 };
 
 } // namespace touchstone

@@ -95,6 +95,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"distance", input.camera.distance},
           {"target", {input.camera.target.x, input.camera.target.y, input.camera.target.z}}}},
         {"fps", input.framesPerSecond},
+        {"longest_frame_s", input.longestFrame},
         {"scene_size", {input.sceneSize.x, input.sceneSize.y}},
         {"gpu", input.gpuName},
         {"validation_messages", validationMessages},

@@ -43,6 +43,7 @@ struct PanelInput {
     const ForceHistory* forces = nullptr;
     std::string picture; ///< what became of the last picture that was to be saved; empty: none yet
     double framesPerSecond = 0.0;
+    double longestFrame = 0.0; ///< s of work in one frame since a model was last opened
     OrbitCamera camera;
     glm::ivec2 sceneSize{0};
     std::string gpuName;

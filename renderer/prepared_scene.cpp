@@ -1,0 +1,130 @@
+#include "renderer/prepared_scene.h"
+
+#include <meshoptimizer.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+
+namespace {
+
+constexpr int kLargestTexture = 16384; // of any device; smaller ones leave out the largest levels
+
+SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
+    SceneVertex vertex{};
+    vertex.position = glm::vec3(glm::dvec3(mesh.positions[i]) - centre);
+    vertex.normal = mesh.normals.empty() ? glm::vec3(0.0f, 0.0f, 1.0f) : mesh.normals[i];
+    vertex.tangent = mesh.tangents.empty() ? glm::vec4(1.0f, 0.0f, 0.0f, 1.0f) : mesh.tangents[i];
+    if (!mesh.uv0.empty())
+        vertex.uv0 = mesh.uv0[i];
+    if (!mesh.uv1.empty())
+        vertex.uv1 = mesh.uv1[i];
+    const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : glm::clamp(mesh.colors[i], 0.0f, 1.0f);
+    for (int c = 0; c < 4; ++c)
+        vertex.color[static_cast<size_t>(c)] = static_cast<uint16_t>(std::lround(65535.0f * color[c]));
+    return vertex;
+}
+
+/// Halves the triangles again and again. Errors are of each step against the one before, so they add up.
+void simplify(const Mesh& mesh, const PrepareOptions& options, std::vector<uint32_t>& indices,
+              PreparedMesh& out) {
+    const float* positions = &mesh.positions[0].x;
+    const auto scale =
+        static_cast<double>(meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(glm::vec3)));
+    std::vector<uint32_t> current = mesh.indices, coarser(mesh.indices.size());
+    double error = 0.0;
+    while (options.coarsest > 0 && current.size() / 3 > 2 * options.coarsest) {
+        if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
+            return;
+        float step = 0.0f;
+        const size_t target = current.size() / 6 * 3;
+        const size_t count =
+            meshopt_simplify(coarser.data(), current.data(), current.size(), positions, mesh.positions.size(),
+                             sizeof(glm::vec3), target, std::numeric_limits<float>::max(), 0, &step);
+        if (count == 0 || count > current.size() / 10 * 9)
+            return; // seams and borders hold the rest
+        // In an order that transforms few vertices twice: software devices feel that.
+        current.resize(count);
+        meshopt_optimizeVertexCache(current.data(), coarser.data(), count, mesh.positions.size());
+        error += scale * static_cast<double>(step);
+        out.levels.push_back({static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(count), error});
+        indices.insert(indices.end(), current.begin(), current.end());
+    }
+}
+
+void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene& out) {
+    PreparedMesh prepared;
+    prepared.firstVertex = static_cast<int32_t>(out.vertices.size());
+    Bounds bounds;
+    for (const glm::vec3& position : mesh.positions)
+        bounds.include(glm::dvec3(position));
+    if (!bounds.empty()) {
+        prepared.centre = bounds.centre();
+        prepared.radius = 0.5 * bounds.diagonal();
+    }
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+        out.vertices.push_back(packVertex(mesh, i, prepared.centre));
+    prepared.levels.push_back(
+        {static_cast<uint32_t>(out.indices.size()), static_cast<uint32_t>(mesh.indices.size()), 0.0});
+    out.indices.insert(out.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    if (!mesh.indices.empty())
+        simplify(mesh, options, out.indices, prepared);
+    out.meshes.push_back(std::move(prepared));
+}
+
+void prepareTextures(const PrepareOptions& options, PreparedScene& out) {
+    const Scene& scene = *out.scene;
+    for (const Material& material : scene.materials) {
+        const std::array<std::pair<const TextureRef*, TextureRole>, 5> wanted{
+            {{&material.baseColorTexture, TextureRole::Color},
+             {&material.metallicRoughnessTexture, TextureRole::Data},
+             {&material.normalTexture, TextureRole::Data},
+             {&material.occlusionTexture, TextureRole::Data},
+             {&material.emissiveTexture, TextureRole::Color}}};
+        for (const auto& [reference, role] : wanted) {
+            if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
+                return;
+            if (!usableTexture(scene, *reference) || out.textures.count({reference->image, role}) != 0)
+                continue;
+            const PixelData& pixels = scene.images[static_cast<size_t>(reference->image)].pixels;
+            out.textures.emplace(std::pair{reference->image, role},
+                                 buildTextureLevels(pixels, role, kLargestTexture));
+        }
+    }
+}
+
+} // namespace
+
+bool usableTexture(const Scene& scene, const TextureRef& reference) {
+    if (!reference || static_cast<size_t>(reference.image) >= scene.images.size())
+        return false;
+    const PixelData& pixels = scene.images[static_cast<size_t>(reference.image)].pixels;
+    return pixels.width > 0 && pixels.height > 0 && !pixels.bytes.empty();
+}
+
+const DrawLevel& levelWithin(const PreparedMesh& mesh, double allowed) {
+    size_t level = 0;
+    while (level + 1 < mesh.levels.size() && mesh.levels[level + 1].error <= allowed)
+        ++level;
+    return mesh.levels[level];
+}
+
+std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene, const PrepareOptions& options) {
+    auto prepared = std::make_shared<PreparedScene>();
+    prepared->scene = std::move(scene);
+    size_t vertices = 0, indices = 0;
+    for (const Mesh& mesh : prepared->scene->meshes) {
+        vertices += mesh.positions.size();
+        indices += mesh.indices.size();
+    }
+    prepared->vertices.reserve(vertices);
+    prepared->indices.reserve(options.coarsest > 0 ? 2 * indices : indices);
+    for (const Mesh& mesh : prepared->scene->meshes)
+        prepareMesh(mesh, options, *prepared);
+    prepareTextures(options, *prepared);
+    return prepared;
+}
+
+} // namespace touchstone

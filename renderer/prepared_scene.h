@@ -1,0 +1,57 @@
+#pragma once
+// A scene as the device wants it, made by a worker so that the window need only copy it: packed vertices,
+// simplified meshes, texture levels. Pure; any thread.
+
+#include "engine/scene/scene.h"
+#include "renderer/scene_vertex.h"
+#include "renderer/texture_levels.h"
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace touchstone {
+
+/// Triangles of a mesh that differ from the full ones by about `error`, in the mesh's units:
+/// libmeshoptimizer's mean over the surface (quadrics). The worst place of a torus is six times as far.
+struct DrawLevel {
+    uint32_t firstIndex = 0, indexCount = 0;
+    double error = 0.0;
+};
+
+struct PreparedMesh {
+    int32_t firstVertex = 0;
+    glm::dvec3 centre{0.0};        ///< mesh frame; the packed positions are relative to it
+    double radius = 0.0;           ///< of a ball about the centre that holds all vertices
+    std::vector<DrawLevel> levels; ///< the full mesh, and from there each coarser than the one before
+};
+
+struct PreparedScene {
+    ScenePtr scene;
+    std::vector<PreparedMesh> meshes; ///< as Scene::meshes
+    std::vector<SceneVertex> vertices;
+    std::vector<uint32_t> indices; ///< relative to the mesh's first vertex
+    /// Of the images that the look needs: (index of the image, role). Broken images have none.
+    std::map<std::pair<int, TextureRole>, TextureLevels> textures;
+};
+
+struct PrepareOptions {
+    /// Meshes of more triangles than twice this are simplified by halves down to about this many; 0: none is.
+    size_t coarsest = 2000;
+    /// Set it to stop: then the scene may lack levels and textures. May be null.
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+/// `scene` must not be null. A million triangles take about two seconds with simplification, and 60 MB until
+/// they are uploaded.
+[[nodiscard]] std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene,
+                                                                const PrepareOptions& options = {});
+
+/// The coarsest level whose error stays within `allowed`, mesh units.
+[[nodiscard]] const DrawLevel& levelWithin(const PreparedMesh& mesh, double allowed);
+
+/// There is an image behind the reference and it was decoded.
+[[nodiscard]] bool usableTexture(const Scene& scene, const TextureRef& reference);
+
+} // namespace touchstone

@@ -1,0 +1,78 @@
+#include "renderer/prepared_scene.h"
+#include "tests/support/test_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+std::shared_ptr<Scene> torus(int columns, int rows) {
+    auto scene = std::make_shared<Scene>();
+    scene->materials.push_back({});
+    test::place(*scene, test::torusMesh(0.060, 0.025, columns, rows, {1.0f, 1.0f}), 0);
+    return scene;
+}
+
+/// How far a place is from the torus about the y axis.
+double offTorus(const glm::dvec3& p) {
+    const double ring = std::hypot(p.x, p.z) - 0.060;
+    return std::abs(std::hypot(ring, p.y) - 0.025);
+}
+
+TEST(PreparedScene, EachLevelHasHalfTheTrianglesAndTellsItsErrorHonestly) {
+    const auto prepared = prepareScene(torus(324, 100), {.coarsest = 500});
+    const PreparedMesh& mesh = prepared->meshes.at(0);
+    ASSERT_GE(mesh.levels.size(), 5u);
+    EXPECT_EQ(mesh.levels[0].error, 0.0);
+    EXPECT_EQ(mesh.levels[0].indexCount, 3u * 64800u);
+    const double sag = 0.025 * (1.0 - std::cos(3.1416 / 100.0)); // of the full mesh itself
+    for (size_t l = 1; l < mesh.levels.size(); ++l) {
+        const DrawLevel& level = mesh.levels[l];
+        EXPECT_LT(level.indexCount, 0.6 * mesh.levels[l - 1].indexCount);
+        EXPECT_GT(level.error, mesh.levels[l - 1].error);
+        EXPECT_LT(level.error, 0.02) << "of a tube 25 mm thick";
+        double worst = 0.0;
+        for (uint32_t i = 0; i < level.indexCount; i += 3) {
+            glm::dvec3 middle(0.0);
+            for (uint32_t corner = 0; corner < 3; ++corner) {
+                const uint32_t index = prepared->indices.at(level.firstIndex + i + corner);
+                middle += glm::dvec3(prepared->vertices.at(index).position) / 3.0;
+            }
+            worst = std::max(worst, offTorus(middle + mesh.centre));
+        }
+        EXPECT_LT(worst, 8.0 * level.error + 4.0 * sag) << "level " << l;
+    }
+}
+
+TEST(PreparedScene, SmallMeshesAndUnwantedLevelsStayAsTheyAre) {
+    EXPECT_EQ(prepareScene(torus(24, 12))->meshes[0].levels.size(), 1u);
+    EXPECT_EQ(prepareScene(torus(324, 100), {.coarsest = 0})->meshes[0].levels.size(), 1u);
+    const std::atomic<bool> cancelled{true};
+    EXPECT_EQ(prepareScene(torus(324, 100), {.cancel = &cancelled})->meshes[0].levels.size(), 1u);
+}
+
+TEST(PreparedScene, ACoarseLevelIsTakenOnlyWithinTheAllowedError) {
+    PreparedMesh mesh;
+    mesh.levels = {{0, 300, 0.0}, {300, 150, 0.1}, {450, 75, 0.4}};
+    EXPECT_EQ(levelWithin(mesh, 0.0).indexCount, 300u);
+    EXPECT_EQ(levelWithin(mesh, 0.099).indexCount, 300u);
+    EXPECT_EQ(levelWithin(mesh, 0.1).indexCount, 150u);
+    EXPECT_EQ(levelWithin(mesh, 1e9).indexCount, 75u);
+}
+
+TEST(PreparedScene, TexturesOfTheLookArePreparedAndBrokenOnesAreNot) {
+    auto scene = torus(8, 6);
+    scene->images.push_back(test::checkerImage("color", 4, glm::vec4(1.0f), glm::vec4(0.0f)));
+    scene->images.push_back({});
+    scene->materials[0].baseColorTexture = scene->materials[0].metallicRoughnessTexture = test::texture(0);
+    scene->materials[0].normalTexture = test::texture(1);
+    const auto prepared = prepareScene(scene);
+    EXPECT_EQ(prepared->textures.size(), 2u) << "one image in two roles";
+    EXPECT_EQ(prepared->textures.count({0, TextureRole::Color}), 1u);
+    EXPECT_EQ(prepared->textures.count({0, TextureRole::Data}), 1u);
+}
+
+} // namespace
+} // namespace touchstone
