@@ -41,9 +41,9 @@ struct Errors {
 };
 
 /// What the errors are against: the smooth shape in closed form; the mesh itself, in long double; the
-/// ladder's most exact rung, where an effect has no other truth (for friction: Coulomb's law on what is felt
-/// without).
-enum class Truth : uint8_t { Analytic, Oracle, Reference };
+/// ladder's most exact rung, where an effect has no other truth; Coulomb's law on what is felt without
+/// friction.
+enum class Truth : uint8_t { Analytic, Oracle, Reference, Coulomb };
 
 /// By what a rung is nearer the truth than another (Pareto fronts), N.
 [[nodiscard]] inline double felt(const Errors& errors) {

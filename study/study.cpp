@@ -106,8 +106,9 @@ class Run {
     }
 
     [[nodiscard]] Truth truthOf(const Ladder& ladder) const {
-        if (ladder.against == Against::Coulomb ||
-            (ladder.against == Against::Smooth && subject_.smooth == nullptr) ||
+        if (ladder.against == Against::Coulomb)
+            return Truth::Coulomb;
+        if ((ladder.against == Against::Smooth && subject_.smooth == nullptr) ||
             (ladder.against == Against::Relief && !subject_.relief))
             return Truth::Reference;
         return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;
@@ -132,7 +133,8 @@ class Run {
         const int frame = bare_.haptic->objects.size() > 1 ? feel(*bare_.haptic, {}, hips_).object : 0;
         for (const Entry& entry : entries_) {
             const double radius = feltRadius(entry.rung.settings);
-            if (entry.truth == Truth::Reference || pending.contains(radius))
+            const bool rests = entry.truth == Truth::Analytic || entry.truth == Truth::Oracle;
+            if (!rests || pending.contains(radius))
                 continue;
             pending[radius] = std::async(std::launch::async, [this, radius, frame] {
                 return subject_.smooth != nullptr

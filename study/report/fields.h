@@ -9,7 +9,7 @@
 namespace touchstone::study {
 
 /// By Truth.
-inline constexpr std::array<std::string_view, 3> kTruthNames{"analytic", "oracle", "reference"};
+inline constexpr std::array<std::string_view, 4> kTruthNames{"analytic", "oracle", "reference", "coulomb"};
 
 template <class Visitor>
 void visitFields(Visitor& visit, Estimate& e) {

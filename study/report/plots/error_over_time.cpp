@@ -27,8 +27,8 @@ constexpr std::array<Quantity, 3> kQuantities{{
 }};
 
 /// By Truth.
-constexpr std::array<std::string_view, 3> kAgainst{"the shape in closed form", "the mesh solved exactly",
-                                                   "its most exact rung"};
+constexpr std::array<std::string_view, 4> kAgainst{"the shape in closed form", "the mesh solved exactly",
+                                                   "its most exact rung", "Coulomb's law"};
 
 struct Point {
     const RungResult* rung;

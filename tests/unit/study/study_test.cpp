@@ -48,7 +48,7 @@ TEST(Study, OnThePlaneEverythingThatMovesFreelyIsExact) {
     const StudyResult study = studyShape("plane");
     EXPECT_TRUE(study.problems.empty());
     for (const RungResult& rung : study.rungs) {
-        EXPECT_EQ(rung.truth, rung.ladder == "friction" ? Truth::Reference : Truth::Analytic);
+        EXPECT_EQ(rung.truth, rung.ladder == "friction" ? Truth::Coulomb : Truth::Analytic);
         EXPECT_EQ(rung.errors.ticks, 800u);
         EXPECT_GT(rung.errors.compared, 500u) << rung.rung;
         EXPECT_EQ(rung.errors.truthFailed, 0u);
