@@ -20,9 +20,8 @@ void MouseHand::goHome() {
 
 void MouseHand::pointAt(const PointedSurface& surface, const MousePress& press) {
     // In series: force = hand stiffness * (goal to hand) = surface stiffness * (hand to surface).
-    const double depth = press.force > 0.0
-                             ? press.force / press.handStiffness + press.force / press.surfaceStiffness
-                             : -kHover;
+    const double depth =
+        press.force > 0.0 ? press.force / press.handStiffness + press.force / surface.stiffness : -kHover;
     moveTo(surface.point - depth * surface.normal);
 }
 

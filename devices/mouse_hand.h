@@ -14,15 +14,15 @@ struct ViewAxes {
 
 /// What lies under the pointer.
 struct PointedSurface {
-    glm::dvec3 point{0.0};  ///< m, device frame
-    glm::dvec3 normal{0.0}; ///< unit, towards the viewer
+    glm::dvec3 point{0.0};    ///< m, device frame
+    glm::dvec3 normal{0.0};   ///< unit, towards the viewer
+    double stiffness = 600.0; ///< N/m with which it will push back
 };
 
-/// How hard a hand that is on the surface presses, and how soft that and the hand's own hold are.
+/// How hard a hand that is on the surface presses, and how softly it is held.
 struct MousePress {
-    double force = 0.6;              ///< N along the normal; 0: hovers
-    double handStiffness = 150.0;    ///< N/m, MouseSmoothing::stiffness
-    double surfaceStiffness = 600.0; ///< N/m
+    double force = 0.6;           ///< N along the normal; 0: hovers
+    double handStiffness = 150.0; ///< N/m, MouseSmoothing::stiffness
 };
 
 /// Turns what a mouse does in a view into where the hand wants to be, in the device frame, m. The camera says

@@ -12,6 +12,7 @@
 #include "workbench/hand/device_menu.h"
 #include "workbench/hand/device_port.h"
 #include "workbench/hand/hand_switch.h"
+#include "workbench/hand/sight.h"
 #include "workbench/model/animate.h"
 #include "workbench/model/default_scene.h"
 #include "workbench/model/model_loader.h"
@@ -250,6 +251,7 @@ class Workbench {
     /// To the servo, and to what records it.
     void offerScene() {
         shown_.identity.limits = shown_.model.haptic->limits;
+        sight_.show(shown_.model.haptic, shown_.model.scene);
         offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene);
         desk_.recorder().sceneOffered(offered_, shown_.identity);
         liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);
@@ -262,10 +264,15 @@ class Workbench {
         const PanelFolds folds = state_.folds;
         const auto widgets = drawPanels(input, state_);
         const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
-        view_.update({.area = glm::dvec2(area.width, area.height) / points,
+        view_.update({.origin = glm::dvec2(area.x, area.y) / points,
+                      .area = glm::dvec2(area.width, area.height) / points,
                       .probe = servo_.snapshot().output.proxy,
                       .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
-                      .mouseIsHand = state_.device.empty() && !state_.simulatedHand},
+                      .mouseIsHand = state_.device.empty() && !state_.simulatedHand,
+                      .look =
+                          [this](const Ray& ray) {
+                              return sight_.look(ray, servo_.snapshot().time, state_.settings);
+                          }},
                      state_.view);
         doWhatWasAsked(widgets);
         if (!(state_.settings == before))
@@ -428,6 +435,7 @@ class Workbench {
     std::optional<LoadedModel> uploading_; ///< not yet shown: the renderer takes it in slices
     LoadedModel shown_;
     ViewControl view_;
+    Sight sight_;
     PanelState state_;
     ServoView servoView_;
     ForceHistory forces_;

@@ -25,6 +25,8 @@ void HandSwitch::face(const glm::dquat& deviceFromView) {
 void HandSwitch::apply(const DeviceCommand& command) noexcept {
     if (driven_ != nullptr)
         driven_->apply(command);
+    else
+        mouse_.apply(followed_ == nullptr && !gliding_ ? command : DeviceCommand{});
 }
 
 DeviceSample HandSwitch::sample(double time) noexcept {

@@ -57,6 +57,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
          {{"on", input.recording}, {"file", input.recordingFile}, {"seconds", input.recordedSeconds}}},
         {"notice", input.notice},
         {"hand", state.simulatedHand ? "simulated" : "mouse"},
+        {"mouse", {{"free", state.view.freeHand}, {"press_n", state.view.press}}},
         {"folded",
          {{"scene", state.folds.left}, {"felt", state.folds.right}, {"charts", state.folds.bottom}}},
         {"help", state.help},

@@ -96,6 +96,8 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
             options.move = move;
         if (pressed({GLFW_KEY_T}))
             options.turntable = !options.turntable;
+        if (pressed({GLFW_KEY_G}))
+            options.freeHand = !options.freeHand;
         if (pressed({GLFW_KEY_V})) {
             const size_t step = ImGui::GetIO().KeyShift ? kViewModeNames.size() - 1 : 1;
             options.mode =
@@ -116,7 +118,7 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
     if (options.turntable)
         camera_.orbit(kTurntable * now.seconds, 0.0);
     if (!ImGui::GetIO().WantCaptureMouse)
-        turnWithPointer(now);
+        turnWithPointer(now, options);
 }
 
 /// Arrows orbit, with Shift they pan; plus and minus zoom.
@@ -133,7 +135,7 @@ void ViewControl::turnWithKeys(const Situation& now) {
         camera_.zoom(std::pow(kKeyZoom, nearer * now.seconds));
 }
 
-void ViewControl::turnWithPointer(const Situation& now) {
+void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 moved(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
     const auto notches = static_cast<double>(io.MouseWheel);
@@ -151,13 +153,38 @@ void ViewControl::turnWithPointer(const Situation& now) {
         camera_.zoom(std::pow(kZoomPerNotch, notches));
     if (!now.mouseIsHand)
         return;
+    if (options.freeHand || !now.look)
+        return moveFreeHand(now);
+    if (notches != 0.0 && !io.KeyCtrl)
+        options.press = std::clamp(options.press * std::pow(kWheelPress, notches), kLeastPress, kMostPress);
+    if (!io.MouseDown[1] && !io.MouseDown[2] && !io.KeyAlt)
+        pointHand(now, options);
+}
+
+/// Left drag moves the hand in the plane of the view, the wheel in depth.
+void ViewControl::moveFreeHand(const Situation& now) {
+    const ImGuiIO& io = ImGui::GetIO();
     const ViewAxes axes{camera_.right(), camera_.up(), camera_.forward()};
-    if (io.MouseDown[0] && leftIsHand) {
+    if (io.MouseDown[0] && !io.KeyAlt) {
+        const glm::dvec2 moved(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
         const glm::dvec3 along = camera_.viewPlaneDisplacement(moved, now.area.y, hand_.goal());
         hand_.drag(axes, glm::dot(along, axes.right), glm::dot(along, axes.up));
     }
-    if (notches != 0.0 && !io.KeyCtrl)
-        hand_.push(axes, notches * kWheelDepth * (io.KeyShift ? 0.1 : 1.0));
+    if (io.MouseWheel != 0.0f && !io.KeyCtrl)
+        hand_.push(axes, static_cast<double>(io.MouseWheel) * kWheelDepth * (io.KeyShift ? 0.1 : 1.0));
+}
+
+/// The hand hovers over what lies under the pointer; the left button presses.
+void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::dvec2 pointer(static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y));
+    if (!ImGui::IsMousePosValid())
+        return;
+    const Ray sight = camera_.rayThroughPixel(pointer - now.origin, now.area);
+    const MousePress press{.force = io.MouseDown[0] ? options.press : 0.0};
+    if (const std::optional<PointedSurface> surface = now.look(sight))
+        return hand_.pointAt(*surface, press);
+    hand_.pointPast({camera_.right(), camera_.up(), camera_.forward()}, sight.origin, sight.direction);
 }
 
 } // namespace touchstone

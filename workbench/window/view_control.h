@@ -5,23 +5,31 @@
 #include "renderer/camera.h"
 #include "workbench/window/view_options.h"
 
+#include <functional>
+#include <optional>
+
 namespace touchstone {
 
 /// What pointer and keys do over the picture (docs/window.md): they move the camera and, where the mouse is
 /// the hand, the hand. Main thread.
 class ViewControl {
   public:
-    /// m of depth for one notch of the wheel; a tenth of it with Shift.
+    /// m of depth of the free hand for one notch of the wheel; a tenth of it with Shift.
     static constexpr double kWheelDepth = 2e-3;
+    /// By how much a notch makes the hand press harder, and the least and most that it presses with, N.
+    static constexpr double kWheelPress = 1.25, kLeastPress = 0.05, kMostPress = 5.0;
 
     /// A new model: looks at all of it and rests the hand in front of it.
     void lookAt(const Bounds& bounds, double aspect);
 
     struct Situation {
-        glm::dvec2 area{1.0};    ///< the picture's size in window coordinates
+        glm::dvec2 origin{0.0};  ///< the picture's upper left corner in window coordinates
+        glm::dvec2 area{1.0};    ///< its size
         glm::dvec3 probe{0.0};   ///< workspace, m
         double seconds = 0.0;    ///< since the last call
         bool mouseIsHand = true; ///< else the left button and the wheel are the camera's, too
+        /// What a line of sight meets first; null: there is no model.
+        std::function<std::optional<PointedSurface>(const Ray&)> look;
     };
     /// Once a frame, within an ImGui frame. Does what `options` ask for and what keys and pointer do.
     void update(const Situation& now, ViewOptions& options);
@@ -36,7 +44,9 @@ class ViewControl {
   private:
     void go(CameraMove move, const Situation& now);
     void turnWithKeys(const Situation& now);
-    void turnWithPointer(const Situation& now);
+    void turnWithPointer(const Situation& now, ViewOptions& options);
+    void moveFreeHand(const Situation& now);
+    void pointHand(const Situation& now, const ViewOptions& options);
 
     OrbitCamera camera_;
     Bounds bounds_;

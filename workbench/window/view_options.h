@@ -26,6 +26,8 @@ struct ViewOptions {
     ShownOverlays overlays;
     bool turntable = false;         ///< the camera goes round by itself
     bool magnifier = false;         ///< a second small view that follows the probe
+    bool freeHand = false;          ///< the mouse moves its hand in space, not over what it points at
+    double press = 0.6;             ///< N with which the mouse presses on what it points at
     bool savePicture = false;       ///< asked for in this frame: the picture as it is in the window, as PNG
     std::optional<CameraMove> move; ///< asked for in this frame
 };

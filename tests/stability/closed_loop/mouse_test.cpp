@@ -30,7 +30,7 @@ struct Pointer {
     void frame(const glm::dvec2& at) {
         const glm::dvec3 eye(at.x, 0.5, -at.y), along(0.0, -1.0, 0.0);
         if (const auto pick = pickSurface(*bench.scene, {}, eye, along))
-            hand.pointAt({pick->point, pick->normal}, press);
+            hand.pointAt({pick->point, pick->normal, bench.settings.stiffness}, press);
         mouse.moveTo(hand.goal());
         for (int i = 0; i < 33; ++i) {
             bench.step(mouse.sample(kTick * static_cast<double>(ticks++)).position);
@@ -66,7 +66,7 @@ TEST(MouseLoop, PressesWithTheForceItWasAskedFor) {
         for (const double force : {0.2, 0.6, 3.0}) {
             Pointer pointer(wall(stiffness, 0.0));
             EXPECT_NEAR(pointer.bench.output.hip.y, MouseHand::kHover, 1e-6);
-            pointer.press = {.force = force, .surfaceStiffness = stiffness};
+            pointer.press.force = force;
             pointer.rest({0.01, 0.02}, 1.0);
             EXPECT_NEAR(pointer.bench.output.force.y, force, 1e-3 * force) << stiffness << " N/m";
         }
@@ -94,7 +94,7 @@ TEST(MouseLoop, AStiffWallNeitherBuzzesNorLetsThrough) {
     for (const double stiffness : {600.0, 3500.0})
         for (const double force : {0.5, 5.0}) {
             Pointer pointer(wall(stiffness, 0.3));
-            pointer.press = {.force = force, .surfaceStiffness = stiffness};
+            pointer.press.force = force;
             pointer.rest({0.0, 0.0}, 2.0);
             for (int i = 0; i < 30; ++i)
                 pointer.frame({0.0, 0.0});

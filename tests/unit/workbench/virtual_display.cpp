@@ -66,29 +66,38 @@ VirtualDisplay::Place VirtualDisplay::waitForWindow(const std::string& title) co
     throw std::runtime_error("no window called " + title);
 }
 
-void VirtualDisplay::click(const Place& place, int button) const {
+void VirtualDisplay::move(const Place& place) const {
     xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y)});
-    pause(150); // a frame or two: the press must not come before the pointer
+    pause(150); // a frame or two: what follows must not come before the pointer
+}
+
+void VirtualDisplay::press(int button) const {
     xdotool({"mousedown", std::to_string(button)});
     pause(150);
+}
+
+void VirtualDisplay::release(int button) const {
     xdotool({"mouseup", std::to_string(button)});
     pause(150);
 }
 
+void VirtualDisplay::click(const Place& place, int button) const {
+    move(place);
+    press(button);
+    release(button);
+}
+
 void VirtualDisplay::drag(const Place& from, const Place& to, int button) const {
     constexpr int kSteps = 12;
-    xdotool({"mousemove", std::to_string(from.x), std::to_string(from.y)});
-    pause(150);
-    xdotool({"mousedown", std::to_string(button)});
-    pause(100);
+    move(from);
+    press(button);
     for (int i = 1; i <= kSteps; ++i) {
         xdotool({"mousemove", std::to_string(from.x + (to.x - from.x) * i / kSteps),
                  std::to_string(from.y + (to.y - from.y) * i / kSteps)});
         pause(40);
     }
     pause(150);
-    xdotool({"mouseup", std::to_string(button)});
-    pause(100);
+    release(button);
 }
 
 void VirtualDisplay::key(const std::string& name) const {

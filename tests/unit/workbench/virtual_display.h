@@ -24,6 +24,9 @@ class VirtualDisplay {
     };
     /// Waits for a window whose title contains `title` and returns where its upper left corner is.
     [[nodiscard]] Place waitForWindow(const std::string& title) const;
+    void move(const Place& place) const;
+    void press(int button = 1) const;
+    void release(int button = 1) const;
     void click(const Place& place, int button = 1) const;
     void drag(const Place& from, const Place& to, int button = 1) const;
     void key(const std::string& name) const;

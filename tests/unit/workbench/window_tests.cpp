@@ -102,8 +102,37 @@ TEST_F(WindowTest, TheOtherTogglesAndTheSpaceKeyReachTheServo) {
     expectCleanEnd();
 }
 
-TEST_F(WindowTest, DraggingMovesTheHandInTheViewPlaneAndTheWheelInDepth) {
+TEST_F(WindowTest, PointingTouchesAndPressesAsHardAsTheWheelSays) {
+    open(kDoughnut, {"--set", "texture=off"});
+    const Json before = later();
+    const auto pressed = [](const Json& s) { return s["tick"]["contacts"].get<int>() > 0; };
+    // The tube of the doughnut, left of its hole.
+    const VirtualDisplay::Place tube = inPicture(0.3, 0.5);
+    display_.move(tube);
+    until("the hand to be over the tube",
+          [&](const Json& s) { return s["tick"]["hip"] != before["tick"]["hip"]; });
+    EXPECT_FALSE(pressed(later())) << "it hovers";
+    const auto force = [](const Json& s) {
+        const auto f = s["tick"]["force"].get<std::vector<double>>();
+        return std::hypot(f[0], f[1], f[2]);
+    };
+    display_.press();
+    const double asked = before["mouse"]["press_n"];
+    until("the asked force", [&](const Json& s) { return std::abs(force(s) - asked) < 0.1 * asked; });
+    display_.scroll(tube, 3);
+    until("more force", [&](const Json& s) {
+        const double more = s["mouse"]["press_n"];
+        return more > 1.5 * asked && std::abs(force(s) - more) < 0.1 * more;
+    });
+    display_.release();
+    until("the hand to let go", [&](const Json& s) { return !pressed(s); });
+    expectCleanEnd();
+}
+
+TEST_F(WindowTest, DraggingMovesAFreeHandInTheViewPlaneAndTheWheelInDepth) {
     open(kDoughnut);
+    display_.key("g");
+    until("the hand to be free", [](const Json& s) { return s["mouse"]["free"].get<bool>(); });
     const auto hip = [](const Json& s) {
         const auto v = s["tick"]["hip"].get<std::vector<double>>();
         return std::array<double, 3>{v[0], v[1], v[2]};

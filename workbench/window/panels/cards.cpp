@@ -67,7 +67,7 @@ void introduction(const PanelInput& input, PanelState& state, const WidgetRect& 
         ImGui::PushTextWrapPos(std::min(widgets.units(440.0f), picture.width - widgets.units(34.0f)));
         const bool mouse = state.device.empty() && !state.simulatedHand;
         ImGui::TextUnformatted(
-            mouse ? "Drag with the left button to move the hand, roll the wheel to push it in."
+            mouse ? "Point at the model and press the left button to touch it; drag to stroke it."
                   : "Another hand touches; choose Mouse on the left to touch yourself.");
         ImGui::TextUnformatted("Drag with the right button to look from elsewhere.");
         ImGui::TextUnformatted("Space switches the force off and on; F1 tells the rest.");
@@ -91,8 +91,9 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!state.help)
         return;
     constexpr const char* kLines[][2]{
-        {"Left drag", "moves the hand in the plane of the view"},
-        {"Wheel", "moves the hand in depth; with Shift finely"},
+        {"Left button, drag", "touches what is pointed at, and strokes it"},
+        {"Wheel", "presses harder or more lightly"},
+        {"G", "the mouse moves its hand free in space: left drag, and the wheel in depth"},
         {"Right or middle drag", "turns the view; with Shift shifts it, with Ctrl zooms"},
         {"Alt + left drag", "turns the view, too"},
         {"Ctrl + wheel, + and -", "zooms"},

@@ -43,6 +43,12 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.mark("simulatedHand");
     if (!input.canSimulate)
         ImGui::EndDisabled();
+    if (!held && !state.simulatedHand) {
+        ImGui::Checkbox("free in space", &state.view.freeHand);
+        widgets.mark("freeHand");
+        if (!state.view.freeHand)
+            ImGui::TextDisabled("presses with %.2f N", state.view.press);
+    }
     if (held || !input.devices.empty())
         devices(input, state, widgets);
     if (!input.deviceStatus.empty())

@@ -1,0 +1,29 @@
+#include "workbench/hand/sight.h"
+
+#include "haptics/contact/surface_pick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace touchstone {
+
+void Sight::show(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
+    moving_ = source != nullptr ? MovingObjects(std::move(source), *scene) : MovingObjects();
+    scene_ = std::move(scene);
+}
+
+std::optional<PointedSurface> Sight::look(const Ray& ray, double time, const HapticSettings& settings) {
+    if (scene_ == nullptr)
+        return std::nullopt;
+    const auto hit = pickSurface(*scene_, moving_.at(time), ray.origin, ray.direction);
+    if (!hit)
+        return std::nullopt;
+    const double own = scene_->materials[static_cast<size_t>(hit->material)].stiffness;
+    const double stiffness = settings.stiffness > 0.0 ? settings.stiffness
+                             : std::isnan(own)        ? scene_->limits.recommendedStiffness
+                                                      : own;
+    return PointedSurface{hit->point, hit->normal, std::min(stiffness, scene_->limits.maxStiffness)};
+}
+
+} // namespace touchstone
