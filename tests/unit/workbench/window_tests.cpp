@@ -217,8 +217,9 @@ TEST_F(WindowTest, EveryViewCanBeSavedWithMagnifierAndLegend) {
     expectCleanEnd();
 }
 
-TEST_F(WindowTest, PushingIntoTheModelIsFelt) {
+TEST_F(WindowTest, PushingAFreeHandIntoTheModelIsFelt) {
     open(TOUCHSTONE_ASSETS "/box.glb");
+    display_.key("g");
     until("the air", [](const Json& s) { return !touching(s); });
     display_.scroll(inPicture(0.3, 0.3), 14);
     const Json pressed = until("a contact", touching);
