@@ -35,7 +35,8 @@ struct RateOptions {
 
 /// At each of `rates`: the stiffest wall; and a Phantom Premium 1.5 in a light grip that strokes the torus of
 /// 64,800 triangles with the program's own settings: most energy that it was given beyond what its friction
-/// took, and the share of a processor that the steps take. Calling thread; `progress` gets 0..1.
+/// took, and the share of a processor that the steps take; stretches in which another program had the
+/// processor are left out. Calling thread; `progress` gets 0..1.
 [[nodiscard]] std::vector<RateResult> studyRates(std::span<const double> rates, const RateOptions& options,
                                                  const std::function<void(double)>& progress);
 

@@ -59,8 +59,8 @@ std::vector<Figure> stabilityOverRate(const StudyResult& result) {
         "set ylabel 'share of one processor, %'\n"
         "plot " +
         file + " using 1:5:6:7 with yerrorbars pt 0 lw 1 lc rgb '#d55e00' notitle, " + file +
-        " using 1:5 with linespoints pt 5 ps 0.9 lw 1.6 lc rgb '#d55e00' title 'all that the servo "
-        "computes'\n"
+        " using 1:5 with linespoints pt 5 ps 0.9 lw 1.6 lc rgb '#d55e00' title 'median of the strokes; bar: "
+        "95 % interval'\n"
         "unset multiplot\n";
     return {figure};
 }

@@ -46,7 +46,7 @@ class StagePlot {
         figure.script = openPaper(figure.name, paper_, result_.provenance);
         double most = 0.0;
         for (const RungResult* rung : rungs_)
-            most = std::max({most, rung->stepMean.high, sum(*rung)});
+            most = std::max({most, rung->stepMean.value, sum(*rung)});
         std::array<char, 200> line{};
         std::snprintf(line.data(), line.size(),
                       "set xrange [0:%.6g]\nset yrange [%.6g:%.6g]\nunset ytics\nset border 1\n", 1.04 * most,
@@ -57,12 +57,15 @@ class StagePlot {
         figure.data = data();
         figure.script += "plot ";
         for (size_t s = 0; s < kStageCount; ++s)
-            figure.script += "'" + figure.name + ".dat' using " + std::to_string(4 + s) +
-                             ":1:" + std::to_string(4 + s) + ":" + std::to_string(5 + s) +
+            figure.script += "'" + figure.name + ".dat' using " + std::to_string(5 + s) +
+                             ":1:" + std::to_string(5 + s) + ":" + std::to_string(6 + s) +
                              ":($1-0.38):($1+0.38) with boxxyerror fs solid 1 noborder lc rgb '" +
                              std::string(kStageColours[s]) + "', \\\n  ";
-        figure.script += "'" + figure.name +
-                         ".dat' using 2:($1-0.46):(0):(0.92) with vectors nohead lw 2.6 lc rgb '#000000'\n";
+        figure.script +=
+            "'" + figure.name +
+            ".dat' using 2:($1-0.46):(0):(0.92) with vectors nohead lw 2.6 lc rgb '#000000', \\\n  "
+            "'" +
+            figure.name + ".dat' using 3:1:($4-$3):(0) with vectors nohead lw 1.2 lc rgb '#000000'\n";
         return figure;
     }
 
@@ -133,12 +136,12 @@ class StagePlot {
             script += labelAt(paper_, x + 17.0, y, kStageNames[s], "", 11.5);
             x += 28.0 + textWidth(kStageNames[s], 11.5);
         }
-        return script + labelAt(paper_, x + 6.0, y, "┃ whole tick, timed at once", "", 11.5);
+        return script + labelAt(paper_, x + 6.0, y, "┃ whole tick (line: 95 %)", "", 11.5);
     }
-    /// Row, mean of the plain step and its interval's half width, then where each stage begins and ends.
+    /// Row, mean of the plain step and its interval, then where each stage begins and ends.
     [[nodiscard]] std::string data() const {
         std::string text =
-            "# row, mean of the whole step, half its 95 % interval, ends of the stages one on another (ns)\n";
+            "# row, mean of the whole step, its 95 % interval, ends of the stages one on another (ns)\n";
         eachRow([&](const RungResult& rung, double row, bool) {
             std::array<char, 64> cell{};
             const auto put = [&](double value) {
@@ -147,7 +150,8 @@ class StagePlot {
             };
             put(row);
             put(rung.stepMean.value);
-            put(0.5 * (rung.stepMean.high - rung.stepMean.low));
+            put(rung.stepMean.low);
+            put(rung.stepMean.high);
             double end = 0.0;
             put(end);
             for (const Estimate& stage : rung.stages)
