@@ -10,8 +10,11 @@ namespace touchstone {
 namespace {
 
 constexpr std::array kInfos{
-    SettingInfo{"contact", "", "sweep, neighbourhood",
-                "how contacts are found; neighbourhood: Ho's walk over the mesh, a point without a radius"},
+    SettingInfo{"contact", "", "sweep, neighbourhood, rays",
+                "how contacts are found; neighbourhood: Ho's walk over the mesh; rays: Zilles' god-object; "
+                "both a point without a radius"},
+    SettingInfo{"precision", "", "double, single",
+                "single: contact=rays finds contacts and solves for the proxy in floats"},
     SettingInfo{"forceShading", "", "off, twoPass, projected, direction, material",
                 "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's direction, or "
                 "what each material says"},
@@ -62,7 +65,8 @@ bool setNumber(double& field, std::string_view value, double low, double high, d
     return true;
 }
 
-constexpr std::array<std::string_view, 2> kContactNames{"sweep", "neighbourhood"};
+constexpr std::array<std::string_view, 3> kContactNames{"sweep", "neighbourhood", "rays"};
+constexpr std::array<std::string_view, 2> kPrecisionNames{"double", "single"};
 constexpr std::array<std::string_view, 5> kShadingNames{"off", "twoPass", "projected", "direction",
                                                         "material"};
 constexpr std::array<std::string_view, 4> kTextureNames{"off", "law", "blinn", "minsky"};
@@ -75,6 +79,8 @@ constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 bool assign(HapticSettings& s, std::string_view name, std::string_view value) {
     if (name == "contact")
         return setChoice(s.contact, value, kContactNames);
+    if (name == "precision")
+        return setChoice(s.precision, value, kPrecisionNames);
     if (name == "forceShading")
         return setChoice(s.forceShading, value, kShadingNames);
     if (name == "texture")
@@ -163,8 +169,12 @@ std::string setSetting(HapticSettings& settings, std::string_view name, std::str
 
 std::vector<std::string> settingWarnings(const HapticSettings& settings) {
     std::vector<std::string> warnings;
-    if (settings.contact == ContactMethod::Neighbourhood && settings.proxyRadius > 0.0)
-        warnings.emplace_back("contact=neighbourhood is a point method: proxyRadius is ignored");
+    if (settings.contact != ContactMethod::Sweep && settings.proxyRadius > 0.0)
+        warnings.emplace_back("contact=" + settingValue(settings, "contact") +
+                              " is a point method: proxyRadius is ignored");
+    if (settings.precision == Precision::Single && settings.contact != ContactMethod::Rays)
+        warnings.emplace_back("precision=single is of contact=rays only: contact=" +
+                              settingValue(settings, "contact") + " stays double");
     if (settings.textureFilter == TextureFilter::Nearest &&
         settings.textureGradient == TextureGradient::Analytic)
         warnings.emplace_back("textureFilter=nearest makes a staircase, whose textureGradient=analytic is "
@@ -180,6 +190,8 @@ std::string settingValue(const HapticSettings& s, std::string_view name) {
     };
     if (name == "contact")
         return choice(kContactNames, s.contact);
+    if (name == "precision")
+        return choice(kPrecisionNames, s.precision);
     if (name == "forceShading")
         return choice(kShadingNames, s.forceShading);
     if (name == "texture")

@@ -9,8 +9,11 @@
 
 namespace touchstone {
 
-/// Neighbourhood: Ho's walk over the mesh, a point method (proxy/neighbourhood_watch.h).
-enum class ContactMethod : uint8_t { Sweep, Neighbourhood };
+/// Neighbourhood: Ho's walk over the mesh, a point method (proxy/neighbourhood_watch.h). Rays: Zilles'
+/// god-object moved by rays, a point too (proxy/ray_proxy.h).
+enum class ContactMethod : uint8_t { Sweep, Neighbourhood, Rays };
+/// Of the contact query and the proxy solve of contact=rays; the others are double.
+enum class Precision : uint8_t { Double, Single };
 /// Material: as each material's forceShading says (auto is two-pass). The others hold for every material but
 /// those that say off.
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
@@ -30,6 +33,7 @@ enum class PassivityMode : uint8_t { Off, Observe, Control };
 /// Defaults are what the program starts with. SI units; lengths in workspace metres.
 struct HapticSettings {
     ContactMethod contact = ContactMethod::Sweep;
+    Precision precision = Precision::Double;
     /// Where the material and the model's normals allow it.
     ShadingMode forceShading = ShadingMode::Material;
     TextureMode texture = TextureMode::Law;
@@ -59,9 +63,9 @@ struct HapticSettings {
     bool operator==(const HapticSettings&) const = default;
 };
 
-/// The radius with which the hand touches, m: the neighbourhood watch is a point, whatever proxyRadius says.
+/// The radius with which the hand touches, m: all but the sweep are points, whatever proxyRadius says.
 [[nodiscard]] constexpr double feltRadius(const HapticSettings& settings) {
-    return settings.contact == ContactMethod::Neighbourhood ? 0.0 : settings.proxyRadius;
+    return settings.contact == ContactMethod::Sweep ? settings.proxyRadius : 0.0;
 }
 
 /// What a person should know about settings that do not go together, one sentence each.

@@ -7,6 +7,7 @@
 #include "haptics/proxy/mesh_proxy.h"
 #include "haptics/proxy/neighbourhood_watch.h"
 #include "haptics/proxy/place_proxy.h"
+#include "haptics/proxy/ray_proxy.h"
 #include "haptics/safety/force_limiter.h"
 #include "haptics/sample/hip_sample.h"
 #include "haptics/shading/first_goal.h"
@@ -127,14 +128,20 @@ void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings
         if (state.watch.touching)
             leaveWatch(scene, motions, state);
         carryProxy(scene, motions, settings.proxyRadius, state, flags);
+    } else if constexpr (std::is_same_v<Model, NeighbourhoodWatch>) {
+        leaveCarry(motions, state, flags);
     } else {
         leaveCarry(motions, state, flags);
+        if (state.watch.touching)
+            leaveWatch(scene, motions, state);
+        carryByRays(scene, motions, state, flags);
     }
 }
 
 /// The place without friction is a god-object of its own, which friction does not hold back [001 §4.1.1]: it
 /// goes on from where it was. Not where objects move: what they may have pushed is the proxy.
-void leaveFriction(MeshProxy& proxy, const DeviceState& state, bool atRest) {
+template <class Model>
+void leaveFriction(Model& proxy, const DeviceState& state, bool atRest) {
     if (atRest && state.friction != FrictionState::Free)
         proxy.placeAt(state.frictionless);
 }
@@ -144,7 +151,8 @@ void leaveFriction(NeighbourhoodWatch&, const DeviceState&, bool) {}
 void settleClearance(MeshProxy& proxy, DeviceState&) {
     proxy.settleClearance();
 }
-void settleClearance(NeighbourhoodWatch&, DeviceState& state) {
+template <class Model>
+void settleClearance(Model&, DeviceState& state) {
     state.clearance = 0.0;
 }
 
@@ -159,8 +167,13 @@ bool meet(const HapticScene&, ObjectMotions, NeighbourhoodWatch& watch, DeviceSt
     return true;
 }
 
+template <class Real>
+bool meet(const HapticScene&, ObjectMotions, RayProxy<Real>& proxy, DeviceState&) {
+    return proxy.place();
+}
+
 /// Stages 2 to 7 for a hand whose place is known. `Model` is the contact model, all of stages 2 and 3; what
-/// it must offer is what MeshProxy and NeighbourhoodWatch have in common.
+/// it must offer is what MeshProxy, NeighbourhoodWatch and RayProxy have in common.
 /// Plain: no material of the scene calls for stages 4 to 6, and they are not there.
 template <class Model, bool Plain, class Stopwatch>
 void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
@@ -269,11 +282,28 @@ void carryUnseen(const HapticScene& scene, const HapticSettings& settings, Objec
                  DeviceState& state, uint32_t& flags) {
     if (!state.placed || state.anchor < 0)
         return;
+    if (settings.contact == ContactMethod::Rays)
+        return carry<RayProxy<double>>(scene, motions, settings, state, flags);
     if (settings.contact == ContactMethod::Sweep || scene.neighbourhoods() == nullptr)
         return carry<MeshProxy>(scene, motions, settings, state, flags);
     carry<NeighbourhoodWatch>(scene, motions, settings, state, flags);
     if (!state.watch.touching)
         state.placed = false;
+}
+
+/// The contact models that are there to be compared with the sweep. Out of line: the sweep pays one branch.
+template <class Stopwatch>
+[[gnu::noinline]] void touchOtherwise(const HapticScene& scene, const HapticSettings& settings,
+                                      const TickInput& input, DeviceState& state, HapticOutput& output,
+                                      Stopwatch& stopwatch) {
+    if (settings.contact == ContactMethod::Rays)
+        return settings.precision == Precision::Single
+                   ? touchAsPlanned<RayProxy<float>>(scene, settings, input, state, output, stopwatch)
+                   : touchAsPlanned<RayProxy<double>>(scene, settings, input, state, output, stopwatch);
+    if (scene.neighbourhoods() != nullptr)
+        return touchAsPlanned<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
+    touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
+    output.flags = output.flags | TickFlag::NeighbourhoodMissing;
 }
 
 /// The contact model that the settings name.
@@ -282,10 +312,7 @@ void touchWithModel(const HapticScene& scene, const HapticSettings& settings, co
                     DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     if (settings.contact == ContactMethod::Sweep)
         return touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
-    if (scene.neighbourhoods() != nullptr)
-        return touchAsPlanned<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
-    touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
-    output.flags = output.flags | TickFlag::NeighbourhoodMissing;
+    touchOtherwise(scene, settings, input, state, output, stopwatch);
 }
 
 } // namespace

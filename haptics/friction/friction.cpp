@@ -2,6 +2,7 @@
 
 #include "haptics/friction/friction_law.h"
 #include "haptics/proxy/neighbourhood_watch.h"
+#include "haptics/proxy/ray_proxy.h"
 
 namespace touchstone {
 
@@ -21,7 +22,8 @@ FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
 }
 
 /// The nearest way to a place that the proxy held last: from there, where the model can be put anywhere.
-void startAt(const glm::dvec3& held, MeshProxy& proxy) {
+template <class Model>
+void startAt(const glm::dvec3& held, Model& proxy) {
     proxy.placeAt(held);
 }
 void startAt(const glm::dvec3&, NeighbourhoodWatch&) {}
@@ -30,7 +32,8 @@ void startAt(const glm::dvec3&, NeighbourhoodWatch&) {}
 bool slide(const glm::dvec3& goal, MeshProxy& proxy) {
     return proxy.slideOnFacet(goal);
 }
-bool slide(const glm::dvec3&, NeighbourhoodWatch&) {
+template <class Model>
+bool slide(const glm::dvec3&, Model&) {
     return false;
 }
 
@@ -112,5 +115,9 @@ template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::d
                                   DeviceState&, ProxyRest&) noexcept;
 template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
                                   NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
+template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
+                                  RayProxy<double>&, DeviceState&, ProxyRest&) noexcept;
+template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
+                                  RayProxy<float>&, DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

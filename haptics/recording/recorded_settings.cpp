@@ -10,7 +10,8 @@ namespace {
 /// A choice's number of values; 0: a number.
 template <class Settings, class Visit>
 void eachSetting(Settings& s, const Visit& visit) {
-    visit("contact", s.contact, 2);
+    visit("contact", s.contact, 3);
+    visit("precision", s.precision, 2);
     visit("forceShading", s.forceShading, 5);
     visit("texture", s.texture, 4);
     visit("friction", s.friction, 4);

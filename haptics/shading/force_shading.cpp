@@ -2,6 +2,7 @@
 
 #include "haptics/contact/triangle.h"
 #include "haptics/proxy/neighbourhood_watch.h"
+#include "haptics/proxy/ray_proxy.h"
 #include "haptics/shading/tilt_limit.h"
 #include "haptics/tick_flags.h"
 
@@ -192,5 +193,9 @@ template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettin
                            const FirstGoal&, MeshProxy&, DeviceState&, ProxyRest&) noexcept;
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
                            const FirstGoal&, NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
+template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
+                           const FirstGoal&, RayProxy<double>&, DeviceState&, ProxyRest&) noexcept;
+template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
+                           const FirstGoal&, RayProxy<float>&, DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

@@ -34,6 +34,8 @@ constexpr std::array kLadders{
 
 constexpr std::array kRungs{
     RungLine{"contact", "neighbourhood", "contact=neighbourhood"},
+    RungLine{"contact", "rays, single", "contact=rays precision=single"},
+    RungLine{"contact", "rays", "contact=rays"},
     RungLine{"contact", "sweep r = 0", "contact=sweep proxyRadius=0"},
     RungLine{"contact", "sweep r = 0.5 mm", "contact=sweep proxyRadius=0.0005"},
 

@@ -118,8 +118,10 @@ void applySettings(HapticSettings& settings, std::string_view assignments) {
 
 HapticSettings inEffect(HapticSettings settings, const HapticScene& scene) {
     const HapticSettings defaults;
-    if (settings.contact == ContactMethod::Neighbourhood)
+    if (settings.contact != ContactMethod::Sweep)
         settings.proxyRadius = 0.0;
+    if (settings.contact != ContactMethod::Rays)
+        settings.precision = defaults.precision;
     if (!scene.plan.anyShading)
         settings.forceShading = ShadingMode::Off;
     else if (settings.forceShading == ShadingMode::Material && !scene.plan.oneFacetShading)

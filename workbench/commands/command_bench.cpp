@@ -252,10 +252,18 @@ HapticSettings walking(HapticSettings settings) {
     return settings;
 }
 
+HapticSettings byRays(HapticSettings settings, Precision precision) {
+    settings.contact = ContactMethod::Rays;
+    settings.precision = precision;
+    return settings;
+}
+
 std::vector<Ladder> growthLadder() {
     return {{"sweep, r = 0", bare(0.0)},
             {"sweep, r = 0.5 mm", bare(0.5e-3)},
             {"neighbourhood watch", walking(bare(0.0))},
+            {"rays", byRays(bare(0.0), Precision::Double)},
+            {"rays, single precision", byRays(bare(0.0), Precision::Single)},
             {"sweep, r = 0, all effects", HapticSettings{}},
             {"neighbourhood watch, all effects", walking(HapticSettings{})}};
 }

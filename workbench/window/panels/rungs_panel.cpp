@@ -43,7 +43,7 @@ void sliders(HapticSettings& settings, Widgets& widgets) {
     if (ImGui::SliderFloat("##stiffness", &stiffness, 0.0f, 3000.0f, shown))
         settings.stiffness = static_cast<double>(stiffness);
     widgets.mark("stiffness");
-    const bool point = settings.contact == ContactMethod::Neighbourhood;
+    const bool point = settings.contact != ContactMethod::Sweep;
     if (point)
         ImGui::BeginDisabled();
     auto radius = static_cast<float>(1e3 * settings.proxyRadius);
@@ -60,10 +60,17 @@ void sliders(HapticSettings& settings, Widgets& widgets) {
 
 void drawRungs(PanelState& state, Widgets& widgets) {
     HapticSettings& settings = state.settings;
-    constexpr std::array kContact{"contact: swept sphere", "contact: neighbourhood watch"};
+    constexpr std::array kContact{"contact: swept sphere", "contact: neighbourhood watch",
+                                  "contact: rays (god-object)"};
     int method = static_cast<int>(settings.contact);
     if (widgets.combo("contact", method, kContact))
         settings.contact = static_cast<ContactMethod>(method);
+    if (settings.contact == ContactMethod::Rays) {
+        constexpr std::array kPrecision{"precision: double", "precision: single"};
+        int precision = static_cast<int>(settings.precision);
+        if (widgets.combo("precision", precision, kPrecision))
+            settings.precision = static_cast<Precision>(precision);
+    }
     moves(settings, widgets);
     way(widgets, "shadingModel", settings.forceShading, ShadingMode::Off, ShadingMode::TwoPass,
         std::array{"shading: two passes (Ruspini)", "shading: projected (Ho)",

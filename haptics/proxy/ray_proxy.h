@@ -1,0 +1,74 @@
+#pragma once
+// The third contact model, stages 2 and 3: Zilles and Salisbury's god-object [001], a point that is moved by
+// rays. Made to be compared with the sweep, which is the better one.
+
+#include "haptics/device_state.h"
+#include "haptics/haptic_scene.h"
+#include "haptics/object_motion.h"
+#include "haptics/proxy/proxy_rest.h"
+#include "haptics/proxy/ray_path.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace touchstone {
+
+/// One device in one tick. A ray goes from the god-object to where it wishes to be. What it meets becomes a
+/// constraint plane, the place nearest to the goal on the planes the next wish; at most three hold it, and
+/// the multipliers say which. A free move lets go of the planes whose triangles the god-object has left, and
+/// the next ray says what is there instead. It ends where the planes leave it no wish.
+///
+/// Real: the precision of all of this, double or float (precision=single); poses of several objects are
+/// double in both, and Embree's rays float in both. It keeps kRayClearance from every surface that a ray
+/// finds. A point: it knows no radius. See docs/architecture.md for what rays may let slip. Bounded: `budget`
+/// moves and four times as many rays, beyond which it stops where it is and sets BudgetReached.
+template <class Real>
+class RayProxy {
+  public:
+    using Vec = glm::vec<3, Real>;
+    /// `radius` is not used.
+    RayProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
+             ProxyRest& rest) noexcept;
+
+    /// Puts the god-object at the HIP in the first tick; false while the HIP is inside a closed object.
+    [[nodiscard]] bool place() noexcept;
+
+    /// Moves the god-object to a rest (`goal`: anchor frame). Anytime: every move ends in free space.
+    void moveTowards(const glm::dvec3& goal) noexcept { solve(goal, true); }
+    /// Straight until it touches something.
+    void dropTowards(const glm::dvec3& goal) noexcept { solve(goal, false); }
+    /// Without a ray: only for places where it stood before.
+    void placeAt(const glm::dvec3& p) noexcept;
+
+  private:
+    void solve(const glm::dvec3& goal, bool sliding) noexcept;
+    void wish(const Vec& goal) noexcept;
+    void add(const RayStrike<Real>& struck) noexcept;
+    void holdInTheAir(const Vec& goal) noexcept;
+    void report() noexcept;
+
+    const HapticScene& scene_;
+    ObjectMotions motions_;
+    DeviceState& state_;
+    ProxyRest& rest_;
+    uint32_t moves_, rays_; ///< that are left
+    RayPath<Real> path_;
+    Vec at_; ///< the god-object, anchor frame
+    std::array<RayStrike<Real>, 4> held_;
+    size_t heldCount_ = 0;
+    RayStrike<Real> last_; ///< of this tick
+    Vec wish_{Real(0)};    ///< way to the place nearest to the goal on the planes held
+    std::array<Real, 4> multiplier_{};
+};
+
+extern template class RayProxy<double>;
+extern template class RayProxy<float>;
+
+/// Stage 2 where objects move: the god-object goes with its anchor; an object that runs into it takes it
+/// along. One that two run into stays with the last, and may be left behind by the other (Pinched).
+void carryByRays(const HapticScene& scene, ObjectMotions motions, DeviceState& state,
+                 uint32_t& flags) noexcept;
+
+} // namespace touchstone
