@@ -51,9 +51,9 @@ HapticQuantity hapticQuantity(const Material& material, ViewMode mode) {
         break;
     case ViewMode::Tilt:
         // What the hand is told by: the normal map, else the height map.
-        if (material.normalTexture) {
+        quantity.offset = material.normalScale * haptic.normalTextureInfluence.value.value_or(1.0f);
+        if (material.normalTexture && quantity.offset > 0.0f) {
             quantity.texture = material.normalTexture;
-            quantity.offset = material.normalScale * haptic.normalTextureInfluence.value.value_or(1.0f);
         } else if (haptic.height.value && haptic.height.value->texture) {
             quantity.texture = haptic.height.value->texture;
             quantity.gain = haptic.height.value->scale;

@@ -381,7 +381,7 @@ void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& ma
             uniforms.map = glm::vec4(m < materialColors.size() ? materialColors[m] : glm::vec3(0.5f), 1.0f);
         setUv(reference, uniforms.uvLinear, uniforms.uvOffset);
         std::memcpy(fresh.uniforms.mapped + m * stride, &uniforms, sizeof uniforms);
-        const bool normals = mode == ViewMode::Normals || (mode == ViewMode::Tilt && material.normalTexture);
+        const bool normals = mode == ViewMode::Normals || (mode == ViewMode::Tilt && quantity.gain == 0.0f);
         const Neutral neutral = normals ? Neutral::FlatNormal : Neutral::Black;
         writeSet(gpu_, fresh.sets[m], {*fresh.uniforms.buffer, m * stride, sizeof uniforms},
                  {{sampler(reference), texture(reference, TextureRole::Data, neutral),

@@ -30,16 +30,16 @@ float tilt(vec3 n, vec2 uv) {
     vec3 facet = normalize(cross(dx, dy));
     facet = dot(facet, n) < 0.0 ? -facet : facet;
     vec3 felt = n;
-    if ((kFeatures & kHasNormalTexture) != 0u) {
-        const vec3 m = decodeNormal(texture(map, uv).xyz, parameters.map.x);
-        felt = (kFeatures & kHasTangents) != 0u ? bendWithTangent(n, eyeTangent, m)
-                                                : bendWithDerivatives(n, eyePosition, uv, m);
-    } else if (parameters.map.y != 0.0) {
+    if (parameters.map.y != 0.0) {
         // The height's gradient along the surface from its change across the pixel (Mikkelsen 2010): n - grad H.
         const float height = parameters.map.y * frame.image.w * texture(map, uv).r;
         const vec3 dyPerp = cross(dy, n), dxPerp = cross(n, dx);
         const float area = dot(dx, dyPerp);
         if (abs(area) > 0.0) felt = normalize(n - (dyPerp * dFdx(height) + dxPerp * dFdy(height)) / area);
+    } else if ((kFeatures & kHasNormalTexture) != 0u) {
+        const vec3 m = decodeNormal(texture(map, uv).xyz, parameters.map.x);
+        felt = (kFeatures & kHasTangents) != 0u ? bendWithTangent(n, eyeTangent, m)
+                                                : bendWithDerivatives(n, eyePosition, uv, m);
     }
     return degrees(acos(clamp(dot(facet, felt), -1.0, 1.0)));
 }
