@@ -14,6 +14,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,13 +32,19 @@ class BuiltOnce {
         const std::lock_guard lock(building_);
         if (built_ != nullptr)
             return;
-        built_ = std::make_unique<const T>(make());
+        built_ = std::make_shared<const T>(make());
+        there_.store(built_.get(), std::memory_order_release);
+    }
+    /// Takes the other's, if it is built. Any thread but the servo.
+    void share(const BuiltOnce& other) {
+        const std::scoped_lock lock(building_, other.building_);
+        built_ = other.built_;
         there_.store(built_.get(), std::memory_order_release);
     }
 
   private:
     mutable std::mutex building_;
-    mutable std::unique_ptr<const T> built_;
+    mutable std::shared_ptr<const T> built_;
     mutable std::atomic<const T*> there_{nullptr};
 };
 
@@ -63,6 +70,8 @@ class HapticScene {
     }
     /// Any thread but the servo.
     void buildNeighbourhoods() const;
+    /// Takes those of a scene of the same geometry, if it has them. Before the scene is handed to a servo.
+    void shareNeighbourhoods(const HapticScene& other) { neighbourhoods_.share(other.neighbourhoods_); }
 
     /// What textureGradient=precomputed reads, one per material (empty without a height map); null until
     /// somebody asked for it, and until then a tick works out the same from the texels. Wait-free.
@@ -81,6 +90,15 @@ void settlePlan(HapticScene& scene);
 /// A scene of its own on the same geometry, without neighbourhoods, slopes and warnings: to be changed and
 /// tried out.
 [[nodiscard]] std::shared_ptr<HapticScene> copyOf(const HapticScene& scene);
+
+/// The scene `compiled` with other materials. `before` is what it was compiled from, `after` what it is to
+/// feel like, each one for a material of `scene`, whose meshes and images it has. Geometry, maps and search
+/// trees are shared; where other attributes are read, or `sides` differs, the object is built again, with
+/// equal geometry: the touch of one goes on in the other (ServoLoop::offerScene). Any thread but the servo;
+/// throws Error.
+[[nodiscard]] std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Scene& scene,
+                                                         std::span<const Material> before,
+                                                         std::span<const Material> after);
 
 /// Takes one effect off a material and its objects, and settles the plan. Only on a copy.
 void removeEffect(HapticScene& scene, int material, Effect effect);

@@ -2,6 +2,8 @@
 
 #include "haptics/servo/servo_loop.h"
 #include "renderer/view.h"
+#include "workbench/editor/haptic_fields.h"
+#include "workbench/editor/presets.h"
 
 #include <CLI/CLI.hpp>
 
@@ -263,6 +265,37 @@ void defineReplay(CLI::App& app, ReplayOptions& options) {
         ->take_all();
 }
 
+void defineEdit(CLI::App& app, EditOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--material", options.materials,
+                   "Which one: its name, its index in the file, or all; may be given again. Not needed where "
+                   "the file has only one")
+        ->type_name("NAME")
+        ->expected(1)
+        ->take_all();
+    std::vector<std::string> presets;
+    for (const MaterialPreset& preset : materialPresets())
+        presets.emplace_back(preset.name);
+    app.add_option("--preset", options.preset, "Numbers to begin with; maps stay as they are")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(presets));
+    app.add_flag("--reset", options.reset, "First take out all that the file says of how it feels");
+    app.add_option("--reset-field", options.resetFields, "Take out one field; may be given again")
+        ->type_name("NAME")
+        ->expected(1)
+        ->take_all()
+        ->check([](const std::string& name) {
+            return name == "shader" ? std::string() : hapticFieldProblem(name);
+        });
+    addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
+                   [&options](std::string_view name, std::string_view value) {
+                       options.fields.emplace_back(name, value);
+                       return hapticFieldProblem(name);
+                   });
+    app.add_option("--out", options.out, "Save here; without it into the model's own file")
+        ->type_name("FILE");
+}
+
 void defineRender(CLI::App& app, RenderOptions& options) {
     addScene(app, options.scene)->required();
     app.add_option("--out", options.out, "The picture, as PNG")->type_name("FILE")->required();
@@ -374,6 +407,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     RunOptions run;
     TouchOptions touch;
     ReplayOptions replay;
+    EditOptions edit;
     RenderOptions render;
     InspectOptions inspect;
     BenchOptions bench;
@@ -391,6 +425,9 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     CLI::App* replayApp =
         app.add_subcommand("replay", "Touch again what was recorded, and say whether the same comes out");
     defineReplay(*replayApp, replay);
+    CLI::App* editApp =
+        app.add_subcommand("edit", "Change what a model's materials feel like, and nothing else in its file");
+    defineEdit(*editApp, edit);
     CLI::App* renderApp = app.add_subcommand("render", "Draw a picture of a model");
     defineRender(*renderApp, render);
     CLI::App* inspectApp =
@@ -413,11 +450,12 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        for (CLI::App* command : {runApp, touchApp, replayApp, renderApp, inspectApp, benchApp, compareApp,
-                                  mergeApp, studyApp, devicesApp})
+        for (CLI::App* command : {runApp, touchApp, replayApp, editApp, renderApp, inspectApp, benchApp,
+                                  compareApp, mergeApp, studyApp, devicesApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
                 command->footer(command == runApp || command == touchApp ? settingsHelp() + "\n" + plantHelp()
+                                : command == editApp                     ? hapticFieldHelp()
                                                                          : kExitHelp);
                 std::cout << command->help();
                 return std::nullopt;
@@ -438,6 +476,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         return touch;
     if (replayApp->parsed())
         return replay;
+    if (editApp->parsed())
+        return edit;
     if (renderApp->parsed())
         return render;
     if (inspectApp->parsed())

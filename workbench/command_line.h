@@ -7,9 +7,9 @@
 
 namespace touchstone {
 
-using Command =
-    std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, RenderOptions, InspectOptions,
-                 BenchOptions, StudyCommandOptions, StudyCompareOptions, StudyMergeOptions, DevicesOptions>;
+using Command = std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, EditOptions,
+                             RenderOptions, InspectOptions, BenchOptions, StudyCommandOptions,
+                             StudyCompareOptions, StudyMergeOptions, DevicesOptions>;
 
 /// Reads the command line. Empty when the program is done: help or version was printed (then `status` is 0),
 /// or the usage was wrong and said so on stderr (`status` is 2).

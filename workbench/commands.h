@@ -74,6 +74,18 @@ struct ReplayOptions {
 /// Status 1 where a tick differs or the file is damaged.
 int replayCommand(const ReplayOptions& options);
 
+/// touchstone edit SCENE
+struct EditOptions {
+    std::filesystem::path scene;
+    std::filesystem::path out;          ///< empty: the scene's own file
+    std::vector<std::string> materials; ///< names or indices, or "all"; empty: the only one
+    std::string preset;                 ///< workbench/editor/presets.h; empty: none
+    bool reset = false;                 ///< first of all, whatever the file says is taken out
+    std::vector<std::string> resetFields;
+    std::vector<std::pair<std::string, std::string>> fields; ///< name and value, in order
+};
+int editCommand(const EditOptions& options);
+
 /// touchstone render SCENE --out F.png --size WxH
 struct RenderOptions {
     std::filesystem::path scene, out;

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
                                      [](const RunOptions& options) { return runCommand(options); },
                                      [](const TouchOptions& options) { return touchCommand(options); },
                                      [](const ReplayOptions& options) { return replayCommand(options); },
+                                     [](const EditOptions& options) { return editCommand(options); },
                                      [](const RenderOptions& options) { return renderCommand(options); },
                                      [](const InspectOptions& options) { return inspectCommand(options); },
                                      [](const BenchOptions& options) { return benchCommand(options); },

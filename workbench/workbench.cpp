@@ -7,6 +7,7 @@
 #include "renderer/scene_renderer.h"
 #include "renderer/window_target.h"
 #include "workbench/commands.h"
+#include "workbench/editor/material_panel.h"
 #include "workbench/gpu_options.h"
 #include "workbench/guards/interrupt.h"
 #include "workbench/hand/device_menu.h"
@@ -118,6 +119,7 @@ class Workbench {
     void frame() {
         const double start = secondsNow();
         takeModel();
+        takeMaterials();
         prepareSettings();
         if (const auto dropped = window_.takeDropped())
             open(*dropped);
@@ -165,7 +167,9 @@ class Workbench {
         loaded.model.haptic =
             limited(*loaded.model.haptic); // another hand may be held than when it was begun
         shown_ = std::move(loaded);
+        drawn_ = shown_.model.scene;
         shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
+        materials_.open(shown_.model, shown_.identity.generated);
         offerScene();
         hand_.offerPath(shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
@@ -173,6 +177,43 @@ class Workbench {
         memory_.opened(std::filesystem::absolute(shown_.model.scene->path));
         remember();
         window_.setTitle(shown_.model.scene->path + " – Touchstone");
+    }
+
+    /// Touches what the material editor has made, and goes on touching where it may.
+    void takeMaterials() {
+        if (!hasModel())
+            return;
+        if (const std::optional<FileStamp> saved = materials_.takeSaved()) {
+            const std::filesystem::path& path = materials_.path();
+            shown_.identity.path = path.string();
+            shown_.identity.absolutePath = std::filesystem::absolute(path).string();
+            shown_.identity.generated = false;
+            shown_.identity.fileSize = saved->size;
+            shown_.identity.fileHash = saved->hash;
+            shown_.identity.edits = textOf(materials_.edits().patches());
+            desk_.recorder().sceneOffered(offered_, shown_.identity);
+        }
+        const std::optional<MadeMaterials> made = materials_.update(shown_.model);
+        if (!made)
+            return;
+        if (made->scene != nullptr)
+            shown_.model.scene = made->scene;
+        if (made->read)
+            drawn_.reset(); // it has other images
+        made->haptic->limits = handLimits();
+        shown_.model.haptic = made->haptic;
+        shown_.identity.feltHash = made->feltHash;
+        shown_.identity.edits = made->edits;
+        offerScene(made->touchGoesOn ? SceneSwap::SameGeometry : SceneSwap::Anew);
+    }
+
+    /// The eye needs the edited materials only where it shows what is felt.
+    void showMaterials() {
+        if (uploading_ || drawn_ == shown_.model.scene ||
+            (drawn_ != nullptr && state_.view.mode == ViewMode::Shaded))
+            return;
+        drawn_ = shown_.model.scene;
+        renderer_.setScene(drawn_);
     }
 
     /// What contact=neighbourhood walks on and the slopes of textureGradient=precomputed are built on a
@@ -249,10 +290,10 @@ class Workbench {
     }
 
     /// To the servo, and to what records it.
-    void offerScene() {
+    void offerScene(SceneSwap swap = SceneSwap::Anew) {
         shown_.identity.limits = shown_.model.haptic->limits;
         sight_.show(shown_.model.haptic, shown_.model.scene);
-        offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene);
+        offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene, swap);
         desk_.recorder().sceneOffered(offered_, shown_.identity);
         liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);
     }
@@ -262,7 +303,8 @@ class Workbench {
         const PanelInput input = panelInput(resolution_.sceneSize({area.width, area.height}));
         const HapticSettings before = state_.settings;
         const PanelFolds folds = state_.folds;
-        const auto widgets = drawPanels(input, state_);
+        auto widgets = drawPanels(input, state_);
+        widgets.merge(drawMaterials(input.scale));
         const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
         view_.update({.origin = glm::dvec2(area.x, area.y) / points,
                       .area = glm::dvec2(area.width, area.height) / points,
@@ -280,8 +322,10 @@ class Workbench {
         if (!(state_.folds == folds))
             remember();
 
-        if (hasModel())
+        if (hasModel()) {
+            showMaterials();
             poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
+        }
         const ModelPicture::Frame frame{.model = shown_.model,
                                         .tick = servo_.snapshot(),
                                         .settings = state_.settings,
@@ -298,6 +342,34 @@ class Workbench {
         if (chartPictures_.update(target_))
             notice_ = chartPictures_.message();
         status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
+    }
+
+    /// The material editor, over the picture's upper left corner at first.
+    std::map<std::string, WidgetRect> drawMaterials(float scale) {
+        Widgets widgets(scale);
+        materialKeys(materials_, materialState_);
+        if (!state_.editMaterials)
+            return {};
+        const ImVec2 display = ImGui::GetIO().DisplaySize;
+        const PictureRect picture = pictureRect(state_.folds, {display.x, display.y}, scale);
+        constexpr float kWidth = 320.0f, kHeight = 610.0f; // units
+        ImGui::SetNextWindowPos(ImVec2(picture.x + widgets.units(8.0f), picture.y + widgets.units(8.0f)),
+                                ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize(ImVec2(widgets.units(kWidth), widgets.units(kHeight)),
+                                 ImGuiCond_FirstUseEver);
+        MaterialPanelInput input;
+        if (hasModel()) {
+            input.scene = shown_.model.scene.get();
+            input.deviceStiffness = shown_.model.haptic->limits.recommendedStiffness;
+            const int object = servo_.snapshot().output.object;
+            const auto& objects = shown_.model.haptic->objects;
+            if (object >= 0 && static_cast<size_t>(object) < objects.size())
+                input.probed = objects[static_cast<size_t>(object)]->material;
+        }
+        if (ImGui::Begin("Material", &state_.editMaterials, ImGuiWindowFlags_NoSavedSettings))
+            drawMaterialPanel(input, materials_, materialState_, widgets);
+        ImGui::End();
+        return widgets.take();
     }
 
     [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize) const {
@@ -320,6 +392,9 @@ class Workbench {
         input.problem = problem_;
         input.recent = memory_.recent;
         input.samples = samples_;
+        input.materialNotice = materials_.notice();
+        input.materialsEdited = materials_.edits().edited();
+        input.materialsWorking = materials_.working();
         input.loading = loading();
         input.longestFrame = longestFrame_;
         input.loadName = loader_.path().filename().string();
@@ -434,6 +509,9 @@ class Workbench {
     ModelLoader loader_;
     std::optional<LoadedModel> uploading_; ///< not yet shown: the renderer takes it in slices
     LoadedModel shown_;
+    ScenePtr drawn_; // what the renderer has
+    MaterialDesk materials_;
+    MaterialPanelState materialState_;
     ViewControl view_;
     Sight sight_;
     PanelState state_;

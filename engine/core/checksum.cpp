@@ -29,4 +29,10 @@ void Hash64::addBytes(std::span<const std::byte> bytes) noexcept {
     }
 }
 
+FileStamp stampOf(std::span<const uint8_t> bytes) noexcept {
+    Hash64 hash;
+    hash.addBytes(std::as_bytes(bytes));
+    return {bytes.size(), hash.value()};
+}
+
 } // namespace touchstone

@@ -52,4 +52,12 @@ class Hash64 {
     uint64_t state_ = 0x243f6a8885a308d3u;
 };
 
+/// Which bytes a file had, so that it is known again.
+struct FileStamp {
+    uint64_t size = 0; ///< bytes
+    uint64_t hash = 0; ///< Hash64 of them
+    bool operator==(const FileStamp&) const = default;
+};
+[[nodiscard]] FileStamp stampOf(std::span<const uint8_t> bytes) noexcept;
+
 } // namespace touchstone

@@ -1,6 +1,5 @@
 #include "engine/save/material_patch.h"
 
-#include "engine/core/checksum.h"
 #include "engine/core/error.h"
 #include "engine/save/json_parts.h"
 #include "engine/save/replace_file.h"
@@ -8,9 +7,7 @@
 #include "engine/scene/import/gltf_uri.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdlib>
 #include <optional>
 #include <string_view>
 
@@ -46,13 +43,18 @@ TextSpan textSpan(std::span<const uint8_t> bytes, bool isGlb) {
     return isGlb ? TextSpan{kJson, kJson + wordAt(bytes, kLength), true} : TextSpan{0, bytes.size(), false};
 }
 
+/// What a patch sets where nothing is yet: no member for one that only removes.
 Json withoutNulls(const Json& value) {
     if (!value.is_object())
         return value;
     Json result = Json::object();
-    for (const auto& [name, member] : value.items())
-        if (!member.is_null())
-            result[name] = withoutNulls(member);
+    for (const auto& [name, member] : value.items()) {
+        if (member.is_null())
+            continue;
+        Json kept = withoutNulls(member);
+        if (!kept.is_object() || !kept.empty() || member.empty())
+            result[name] = std::move(kept);
+    }
     return result;
 }
 
@@ -65,9 +67,13 @@ std::string merged(std::string_view object, const Json& patch) {
             continue;
         }
         const auto member = jsonMember(result, name);
-        const bool both = value.is_object() && member && member->of(result).starts_with('{');
-        result =
-            withMember(result, name, both ? merged(member->of(result), value) : withoutNulls(value).dump());
+        if (value.is_object() && member && member->of(result).starts_with('{')) {
+            result = withMember(result, name, merged(member->of(result), value));
+            continue;
+        }
+        const Json kept = withoutNulls(value);
+        if (!kept.is_object() || !kept.empty() || value.empty())
+            result = withMember(result, name, kept.dump());
     }
     return result;
 }
@@ -190,21 +196,29 @@ void checkTarget(const GltfFile& file, const std::filesystem::path& source,
 
 } // namespace
 
-Json jsonOf(float value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size() - 1, value).ptr;
-    *end = '\0';
-    const double number = std::strtod(text.data(), nullptr);
-    const auto whole = static_cast<int64_t>(number);
-    if (std::abs(number) < 1e9 && static_cast<double>(whole) == number)
-        return whole;
-    return number;
+std::string textOf(const MaterialPatches& patches) {
+    Json json = Json::object();
+    for (const auto& [index, patch] : patches)
+        json[std::to_string(index)] = patch;
+    return json.empty() ? std::string() : json.dump();
 }
 
-FileStamp stampOf(std::span<const uint8_t> bytes) {
-    Hash64 hash;
-    hash.addBytes(std::as_bytes(bytes));
-    return {bytes.size(), hash.value()};
+MaterialPatches patchesFrom(const std::string& text) {
+    MaterialPatches patches;
+    if (text.empty())
+        return patches;
+    const Json json = Json::parse(text, nullptr, false);
+    const auto bad = [] { return Error("edits of materials", "", "are damaged", "record them again"); };
+    if (!json.is_object())
+        throw bad();
+    for (const auto& [name, patch] : json.items()) {
+        size_t index = 0;
+        const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+        if (error != std::errc{} || end != name.data() + name.size() || !patch.is_object())
+            throw bad();
+        patches[index] = patch;
+    }
+    return patches;
 }
 
 std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes, const MaterialPatches& patches,

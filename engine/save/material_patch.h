@@ -3,6 +3,8 @@
 // `materials[i].extensions.TOUCHSTONE_materials_haptic` and `extensionsUsed` are touched, everything else of
 // the file keeps its bytes (of a GLB: but for the two lengths and the JSON chunk's padding).
 
+#include "engine/core/checksum.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
@@ -19,16 +21,9 @@ namespace touchstone {
 /// with the name in `extensionsUsed` when it was the last.
 using MaterialPatches = std::map<size_t, nlohmann::ordered_json>;
 
-/// A float as the shortest decimal that is read back as the same float: 0.35, not 0.3499999940395355.
-[[nodiscard]] nlohmann::ordered_json jsonOf(float value);
-
-/// Which bytes a file had, so that it is known again.
-struct FileStamp {
-    uint64_t size = 0; ///< bytes
-    uint64_t hash = 0; ///< Hash64 of them
-    bool operator==(const FileStamp&) const = default;
-};
-[[nodiscard]] FileStamp stampOf(std::span<const uint8_t> bytes);
+/// As JSON, {"0": {...}}, and back; empty for none. patchesFrom throws Error where the text is no such thing.
+[[nodiscard]] std::string textOf(const MaterialPatches& patches);
+[[nodiscard]] MaterialPatches patchesFrom(const std::string& text);
 
 /// The .gltf or .glb in `bytes` with the patches made. `shownAs` names it in messages. Without patches the
 /// same bytes. Throws Error where it is no glTF, or has no material of such an index.

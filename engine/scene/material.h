@@ -15,6 +15,7 @@ enum class Wrap : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
 
 /// A reference to an image with its sampler and KHR_texture_transform. UV origin is the upper left.
 struct TextureRef {
+    int texture = -1; ///< index into Scene::textures, that it was read from
     int image = -1;   ///< index into Scene::images; < 0: no texture
     int texCoord = 0; ///< UV set (0 or 1), already overridden by the transform extension
     Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
@@ -25,6 +26,7 @@ struct TextureRef {
 
     [[nodiscard]] explicit operator bool() const { return image >= 0; }
     [[nodiscard]] glm::vec2 transform(const glm::vec2& uv) const;
+    bool operator==(const TextureRef&) const = default;
 };
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
@@ -36,6 +38,7 @@ enum class HapticSource : uint8_t { Touchstone, Mpeg, Physics, DerivedFromPbr, D
 struct FactorMap {
     TextureRef texture;
     float min = 0.0f, max = 1.0f;
+    bool operator==(const FactorMap&) const = default;
 };
 
 /// Height in model metres: scale * (R - midLevel).
@@ -43,6 +46,7 @@ struct HeightMap {
     TextureRef texture;
     float scale = 0.0f; ///< m, black to white, model metres
     float midLevel = 0.5f;
+    bool operator==(const HeightMap&) const = default;
 };
 
 enum class ShadingChoice : uint8_t { Auto, Off, TwoPass, Projected, Direction, Bezier };
@@ -55,6 +59,7 @@ struct HapticMaterial {
     struct Field {
         std::optional<T> value;
         HapticSource source = HapticSource::Default;
+        bool operator==(const Field&) const = default;
     };
     Field<float> stiffness;              ///< N/m
     Field<float> damping;                ///< N·s/m
@@ -67,11 +72,36 @@ struct HapticMaterial {
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
     std::string representation = "mesh"; ///< "implicit" is kept and reported as not yet available
-    nlohmann::json unavailable;          ///< fields of later work, kept verbatim for saving
+    nlohmann::json unavailable;          ///< fields of later work, for `inspect`
+    bool operator==(const HapticMaterial&) const = default;
+};
+
+/// What TOUCHSTONE_materials_haptic states of a material, field by field; an empty one is left out.
+struct HapticStatement {
+    std::optional<float> stiffness, damping, staticFriction, dynamicFriction, viscousFriction,
+        normalTextureInfluence;
+    std::optional<HeightMap> height;
+    std::optional<FactorMap> friction, stiffnessMap, dampingMap;
+    std::optional<ShadingChoice> forceShading;
+    std::optional<SideChoice> sides;
+    std::optional<bool> implicit;   ///< representation: "implicit", else "mesh"
+    std::optional<float> voxelSize; ///< model metres
+    nlohmann::json shader;          ///< as the file has it; null: none
+    bool operator==(const HapticStatement&) const = default;
+};
+
+/// All that a file says of how a surface feels, by who says it. settleHaptics makes one of them.
+struct HapticLayers {
+    HapticStatement ours;
+    std::optional<FactorMap> mpegStiffness, mpegFriction;
+    nlohmann::json mpegUnavailable; ///< channels of later work
+    std::optional<float> physicsStatic, physicsDynamic;
+    std::optional<float> meanRoughness; ///< that the PBR material states and that could be read
 };
 
 struct Material {
     std::string name;
+    int fileIndex = -1;          ///< of the file's materials; < 0: the file has none for this surface
     glm::vec4 baseColor{1.0f};   ///< linear
     TextureRef baseColorTexture; ///< sRGB
     float metallic = 1.0f, roughness = 1.0f;
@@ -86,7 +116,8 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
-    HapticMaterial haptic;
+    HapticLayers says;
+    HapticMaterial haptic; ///< what holds of `says`
 };
 
 } // namespace touchstone

@@ -1,6 +1,7 @@
 #pragma once
 // What eye and hand share: an immutable scene. Made by scene_loader.h, validated before it exists.
 
+#include "engine/core/checksum.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/image.h"
 #include "engine/scene/material.h"
@@ -75,12 +76,20 @@ struct Warning {
     std::string message;
 };
 
+/// One of the file's textures, without what a material adds to it.
+struct SceneTexture {
+    std::string name;
+    TextureRef reference;
+};
+
 struct Scene {
     std::string path; ///< as given by the user
+    FileStamp file;   ///< of the file itself, not of those that it refers to
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;
     std::vector<Instance> instances;
     std::vector<Material> materials; ///< never empty: the glTF default material is appended when needed
+    std::vector<SceneTexture> textures;
     std::vector<Image> images;
     std::vector<Animation> animations;
     std::vector<Warning> warnings;

@@ -1,8 +1,9 @@
 #include "engine/scene/scene_loader.h"
 
+#include "engine/save/material_patch.h"
+#include "engine/scene/haptic_layers.h"
 #include "engine/scene/import/accessor_values.h"
 #include "engine/scene/import/gltf_animations.h"
-#include "engine/scene/import/gltf_haptics.h"
 #include "engine/scene/import/gltf_images.h"
 #include "engine/scene/import/gltf_schema.h"
 #include "engine/scene/import/gltf_validation.h"
@@ -13,7 +14,7 @@
 namespace touchstone {
 namespace {
 
-ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
+ScenePtr importGltf(ImportContext& context, const GltfFile& file, const FileStamp& stamp) {
     // 1. Check: the shape of the JSON, then how its parts relate. What passes may be read without more
     // asking.
     context.step(0.02, "checking");
@@ -28,6 +29,7 @@ ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
     // 3. Structure: nodes parents first, materials as they look and feel, meshes placed on the nodes.
     auto scene = std::make_shared<Scene>();
     scene->path = context.file();
+    scene->file = stamp;
     if (file.json.contains("extensionsUsed"))
         scene->extensionsUsed = file.json["extensionsUsed"];
     NodeForest forest = readNodes(context, document);
@@ -35,14 +37,17 @@ ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
     MaterialTable materials(context, document);
     buildMeshesAndInstances(context, document, forest, materials, *scene);
     scene->materials = materials.take();
+    scene->textures = readTextures(context, document);
     scene->animations = readAnimations(context, document, forest, scene->nodes);
     scene->bounds = sceneBounds(context, *scene);
 
     // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.
     scene->images = readImages(context, file, document, *scene, context.options().images);
     dropBrokenImages(scene->images, scene->materials);
-    for (Material& material : scene->materials)
-        deriveFriction(material.haptic, statedRoughness(material, scene->images));
+    for (Material& material : scene->materials) {
+        material.says.meanRoughness = statedRoughness(material, scene->images);
+        material.haptic = settledHaptics(material.says, scene->images);
+    }
 
     if (!scene->touchable())
         context.warn("", "nothing to touch: the scene shows no triangles");
@@ -51,13 +56,21 @@ ScenePtr importGltf(ImportContext& context, const GltfFile& file) {
     return scene;
 }
 
+ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
+                     const std::filesystem::path& folder) {
+    const FileStamp stamp = stampOf(bytes);
+    if (const std::string& edits = context.options().edits; !edits.empty())
+        bytes = withMaterials(bytes, patchesFrom(edits), context.file());
+    return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp);
+}
+
 } // namespace
 
 ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     ImportContext context(path.string(), options);
     try {
         context.step(0.0, "reading the file");
-        return importGltf(context, readGltfFile(context, path));
+        return importBytes(context, readWholeFile(path, context.file()), path.parent_path());
     } catch (const std::bad_alloc&) {
         context.fail("", "there is not enough memory for it", "close other programs, or simplify the model");
     }
@@ -67,7 +80,7 @@ ScenePtr loadSceneFromMemory(std::vector<uint8_t> bytes, const std::filesystem::
                              const LoadOptions& options) {
     ImportContext context("memory", options);
     try {
-        return importGltf(context, takeGltfApart(context, std::move(bytes), folder));
+        return importBytes(context, std::move(bytes), folder);
     } catch (const std::bad_alloc&) {
         context.fail("", "there is not enough memory for it", "simplify the model");
     }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace touchstone {
@@ -23,6 +24,8 @@ struct LoadOptions {
     /// Called from the loading thread with 0..1 and what is being done (a literal, valid for ever). May be
     /// empty.
     std::function<void(double fraction, const char* what)> progress;
+    /// MaterialPatches as text (engine/save/material_patch.h) that the file is read with; empty: none.
+    std::string edits;
     /// Set it to stop: loadScene then throws Error with problem "cancelled". May be null.
     const std::atomic<bool>* cancel = nullptr;
 };

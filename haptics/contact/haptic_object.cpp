@@ -56,7 +56,7 @@ void markSmoothTriangles(HapticObject& object) {
 
 /// Attributes of the source vertices, taken to the object frame. Normals go with the inverse transpose. A
 /// mirroring node turns the handedness of the tangent frame over.
-void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, const AttributeUse& use,
+void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, const ObjectUse& use,
                     HapticObject& object) {
     const bool invertible = std::abs(glm::determinant(linear)) > 0.0;
     const glm::dmat3 normalFrom = invertible ? glm::transpose(glm::inverse(linear)) : glm::dmat3(1.0);
@@ -91,7 +91,7 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, c
 }
 
 /// What texture needs to follow a smooth surface rather than its facets; nothing where no height is felt.
-void addGradients(const AttributeUse& use, HapticObject& object) {
+void addGradients(const ObjectUse& use, HapticObject& object) {
     const GradientMesh mesh{object.vertices, object.indices, object.sourceIndices, object.normals};
     for (size_t set = 0; set < 2; ++set)
         if (use.uvGradients[set] && !object.uv[set].empty())
@@ -146,14 +146,14 @@ uint64_t HapticObject::memoryBytes() const {
 
 std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instanceIndex,
                                                       const Similarity& workspaceFromScene,
-                                                      const AttributeUse& use) {
+                                                      const ObjectUse& use) {
     const Instance& instance = scene.instances[static_cast<size_t>(instanceIndex)];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     auto object = std::make_unique<HapticObject>();
     object->name = mesh.name;
     object->instance = instanceIndex;
     object->material = mesh.material;
-    object->oneSided = scene.materials[static_cast<size_t>(mesh.material)].haptic.sides == SideChoice::Front;
+    object->oneSided = use.oneSided;
 
     // Scene positions in double, then one centre and one scale for the float frame.
     std::vector<glm::dvec3> inScene(mesh.positions.size());

@@ -23,12 +23,15 @@ namespace touchstone {
 /// A crack narrower than this is closed at any proxy radius, also at zero.
 inline constexpr double kWeldTolerance = 1e-6;
 
-/// Which attributes of the vertices the effects of a material read. What none reads is not kept.
-struct AttributeUse {
+/// What an object needs to know of its material: which attributes of the vertices its effects read (what none
+/// reads is not kept), and its sides.
+struct ObjectUse {
     bool uv[2] = {};          ///< the coordinates of a map that is felt
     bool uvGradients[2] = {}; ///< and how they change over the surface: of a height map
     bool tangents = false;    ///< of a normal map
     bool normals = false;     ///< of force shading, where the surface is smooth
+    bool oneSided = false;    ///< `sides` is front
+    bool operator==(const ObjectUse&) const = default;
 };
 
 /// What an object keeps for effects, bytes.
@@ -88,7 +91,7 @@ struct HapticObject {
 /// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails.
 [[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,
                                                                     const Similarity& workspaceFromScene,
-                                                                    const AttributeUse& use);
+                                                                    const ObjectUse& use);
 
 /// Centre and radius of a sphere around the object at a pose, workspace.
 [[nodiscard]] inline glm::dvec4 boundingSphere(const HapticObject& object,

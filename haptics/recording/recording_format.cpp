@@ -39,6 +39,8 @@ void put(ByteWriter& bytes, const RecordedScene& scene) {
     bytes.put(identity.fileHash);
     bytes.put(identity.feltHash);
     putLimits(bytes, identity.limits);
+    if (!identity.edits.empty())
+        bytes.put(identity.edits);
 }
 
 void get(ByteReader& bytes, RecordedScene& scene) {
@@ -57,6 +59,8 @@ void get(ByteReader& bytes, RecordedScene& scene) {
     if (fit > static_cast<uint8_t>(Fit::Workspace))
         throw Error("", "fit", "is none that this version has", "");
     identity.fit = static_cast<Fit>(fit);
+    if (bytes.left() > 0)
+        bytes.get(identity.edits);
 }
 
 void put(ByteWriter& bytes, const RecordedSettings& settings) {

@@ -18,6 +18,8 @@ struct SceneIdentity {
     uint64_t fileSize = 0;    ///< bytes; of the file itself, not of those that it refers to
     uint64_t fileHash = 0;    ///< Hash64 of its bytes
     uint64_t feltHash = 0;    ///< all that touch reads: see feltHash
+    /// What was changed since the file was read: MaterialPatches as JSON (engine/save). Empty: nothing.
+    std::string edits;
     Fit fit = Fit::None;
     DeviceLimits limits; ///< that it was compiled for
 };

@@ -5,9 +5,9 @@ namespace touchstone {
 
 namespace {
 
-/// What the effects of a material read of its meshes' vertices.
-AttributeUse attributeUse(const HapticMaterialData& material) {
-    AttributeUse use;
+ObjectUse objectUse(const Material& source, const HapticMaterialData& material) {
+    ObjectUse use;
+    use.oneSided = source.haptic.sides == SideChoice::Front;
     for (const HapticMap* map : {&material.normal, &material.height, &material.friction.map,
                                  &material.stiffnessMap.map, &material.dampingMap.map})
         if (!map->empty())
@@ -61,11 +61,11 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     haptic->limits = limits;
     std::vector<MaterialUse> uses;
     for (const MaterialPlacement& at : materialPlacements(scene)) {
-        const auto material = static_cast<int>(uses.size());
+        const size_t m = uses.size();
         uses.emplace_back().placed = at.placed;
-        haptic->materials.push_back(at.placed
-                                        ? buildHapticMaterial(scene, material, at.sets, haptic->warnings)
-                                        : HapticMaterialData{});
+        haptic->materials.push_back(
+            at.placed ? buildHapticMaterial(scene, scene.materials[m], m, at.sets, haptic->warnings)
+                      : HapticMaterialData{});
     }
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
@@ -73,7 +73,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
             continue;
         const auto material = static_cast<size_t>(mesh.material);
         auto object = buildHapticObject(scene, static_cast<int>(i), workspaceFromScene,
-                                        attributeUse(haptic->materials[material]));
+                                        objectUse(scene.materials[material], haptic->materials[material]));
         uses[material].add(*object);
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
         haptic->restSpheres.push_back(boundingSphere(*object, object->workspaceFromObject));
@@ -82,6 +82,33 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     }
     for (size_t m = 0; m < scene.materials.size(); ++m)
         planMaterial(static_cast<int>(m), scene.materials[m], haptic->materials[m], uses[m], haptic->plan);
+    settlePlan(*haptic);
+    return haptic;
+}
+
+std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Scene& scene,
+                                           std::span<const Material> before,
+                                           std::span<const Material> after) {
+    const std::shared_ptr<HapticScene> haptic = copyOf(compiled);
+    haptic->shareNeighbourhoods(compiled);
+    haptic->plan = {};
+    std::vector<MaterialUse> uses;
+    for (const MaterialPlacement& at : materialPlacements(scene)) {
+        const size_t m = uses.size();
+        uses.emplace_back().placed = at.placed;
+        if (at.placed)
+            haptic->materials[m] = buildHapticMaterial(scene, after[m], m, at.sets, haptic->warnings,
+                                                       {&before[m], &compiled.materials[m]});
+    }
+    for (std::shared_ptr<const HapticObject>& object : haptic->objects) {
+        const auto m = static_cast<size_t>(object->material);
+        const ObjectUse use = objectUse(after[m], haptic->materials[m]);
+        if (use != objectUse(before[m], compiled.materials[m]))
+            object = buildHapticObject(scene, object->instance, compiled.workspaceFromScene, use);
+        uses[m].add(*object);
+    }
+    for (size_t m = 0; m < after.size(); ++m)
+        planMaterial(static_cast<int>(m), after[m], haptic->materials[m], uses[m], haptic->plan);
     settlePlan(*haptic);
     return haptic;
 }

@@ -5,6 +5,7 @@
 #include "engine/core/realtime_guard.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -22,6 +23,7 @@ int32_t saturated(long long nanoseconds) {
 
 struct ServoLoop::Touch {
     const Offer* offer = nullptr;
+    uint32_t geometry = 0; // of the offer; 0: none
     WorldState world;
     DeviceState device;
     bool late = false; // the previous tick ended after its next deadline
@@ -58,13 +60,16 @@ void ServoLoop::stop() {
     thread_.join();
 }
 
-uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
+uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneSwap swap) {
+    if (swap == SceneSwap::Anew)
+        ++offeredGeometry_;
     if (scene == nullptr) {
         scene_.offer(nullptr);
         return 0;
     }
     MovingObjects moving = source != nullptr ? MovingObjects(std::move(source), *scene) : MovingObjects();
-    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(moving), ++offeredScenes_));
+    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(moving), ++offeredScenes_,
+                                               offeredGeometry_));
     return offeredScenes_;
 }
 
@@ -97,6 +102,28 @@ ServoScheduling ServoLoop::scheduling() const {
     return scheduled_.load(std::memory_order_acquire) ? scheduling_ : ServoScheduling{};
 }
 
+/// Turns to another scene. The checkpoint that is taken then forgets the candidates, which point into the one
+/// before.
+void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
+    const uint32_t geometry = offer != nullptr ? offer->geometry : 0;
+    const bool goesOn = geometry != 0 && geometry == touch.geometry;
+    touch.offer = offer;
+    touch.geometry = geometry;
+    if (offer != nullptr)
+        offer->moving.forget();
+    if (goesOn) {
+        // As a replay does that resumes here: the objects come from where they were.
+        if (std::isfinite(touch.previousTime))
+            (void)offer->moving.at(touch.previousTime);
+        return;
+    }
+    // A new world: forget the proxy, fade the force in, but remember what the device still holds.
+    touch.world = WorldState{};
+    touch.device.forgetTouch();
+    ForceLimiter::restartRamp(touch.device.limiter);
+    touch.previousTime = std::numeric_limits<double>::quiet_NaN();
+}
+
 /// What a tick begins with: the newest scene and settings, and a checkpoint where one is due.
 void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     settings_.update();
@@ -104,14 +131,7 @@ void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     const Offer* offer = scene_.adopt();
     bool due = record.tick >= touch.nextCheckpoint;
     if (offer != touch.offer) {
-        // A new world: forget the proxy, fade the force in, but remember what the device still holds.
-        touch.offer = offer;
-        touch.world = WorldState{};
-        touch.device.forgetTouch();
-        ForceLimiter::restartRamp(touch.device.limiter);
-        touch.previousTime = std::numeric_limits<double>::quiet_NaN();
-        if (offer != nullptr)
-            offer->moving.forget();
+        adopt(touch, offer);
         due = true;
     }
     record.scene = offer != nullptr ? offer->number : 0;

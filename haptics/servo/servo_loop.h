@@ -59,6 +59,12 @@ struct DevicePort {
     void (*apply)(void* context, const DeviceCommand& command) noexcept = nullptr;
 };
 
+/// What a new scene is to the touch that goes on.
+enum class SceneSwap : uint8_t {
+    Anew,         ///< another world: touch begins anew, and its force fades in
+    SameGeometry, ///< the scene offered last, with other materials (withMaterials): touch goes on
+};
+
 /// Owner thread constructs, starts and stops; everything else says its thread.
 class ServoLoop {
   public:
@@ -74,7 +80,10 @@ class ServoLoop {
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
     /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
     /// Returns the number by which TickRecord::scene names it.
-    uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr);
+    /// With SameGeometry the hand goes on touching what it touches: the force goes over to what it is with
+    /// the new materials, within the limits of force and slew and without fading, as when a setting changes.
+    uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
+                        SceneSwap swap = SceneSwap::Anew);
     void setSettings(const HapticSettings& settings);
     /// Owner thread: what TickRecord::settings of the record popped last, or of a later one, stands for.
     [[nodiscard]] const HapticSettings& settingsOf(uint32_t number) const;
@@ -109,6 +118,7 @@ class ServoLoop {
         std::shared_ptr<const HapticScene> scene;
         mutable MovingObjects moving; // servo thread once adopted
         uint32_t number = 0;
+        uint32_t geometry = 0; // equal numbers: equal geometry
     };
     struct NumberedSettings {
         uint32_t number = 0;
@@ -117,6 +127,7 @@ class ServoLoop {
     struct Touch; // what the loop carries from tick to tick
 
     void run() noexcept;
+    static void adopt(Touch& touch, const Offer* offer) noexcept;
     void prepare(Touch& touch, TickRecord& record) noexcept;
     TickRecord tick(Touch& touch, uint64_t number, double dt) noexcept;
 
@@ -130,7 +141,7 @@ class ServoLoop {
     Handover<Offer> scene_;
     // Owner thread:
     std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may name
-    uint32_t offeredScenes_ = 0;
+    uint32_t offeredScenes_ = 0, offeredGeometry_ = 0;
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;

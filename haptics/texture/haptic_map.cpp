@@ -66,9 +66,11 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
         least_ = std::min(least_, level.texels[i]);
         greatest_ = std::max(greatest_, level.texels[i]);
     }
-    levels_.push_back(std::move(level));
-    while (levels_.back().width > 1 || levels_.back().height > 1)
-        levels_.push_back(halved(levels_.back()));
+    std::vector<Level> levels;
+    levels.push_back(std::move(level));
+    while (levels.back().width > 1 || levels.back().height > 1)
+        levels.push_back(halved(levels.back()));
+    levels_ = Levels(std::move(levels));
 }
 
 /// Box filter over the very area that a coarse texel covers, so that odd sizes neither shift nor lose an
@@ -99,8 +101,8 @@ HapticMap::Level HapticMap::halved(const Level& fine) const {
 
 uint64_t HapticMap::memoryBytes() const {
     uint64_t bytes = 0;
-    for (const Level& level : levels_)
-        bytes += level.texels.size() * sizeof(float);
+    for (size_t i = 0; i < levels_.size(); ++i)
+        bytes += levels_[i].texels.size() * sizeof(float);
     return bytes;
 }
 

@@ -123,7 +123,20 @@ class HapticMap {
     [[nodiscard]] glm::dvec3 slopeAt(size_t level, TextureFilter filter, TextureGradient gradient,
                                      const glm::dvec2& uv, const Slopes* kept) const;
 
-    std::vector<Level> levels_;
+    /// Shared by copies: a map may hold a hundred megabytes.
+    class Levels {
+      public:
+        Levels() = default;
+        explicit Levels(std::vector<Level> levels)
+            : levels_(std::make_shared<const std::vector<Level>>(std::move(levels))) {}
+        [[nodiscard]] bool empty() const { return levels_ == nullptr; }
+        [[nodiscard]] size_t size() const { return levels_ != nullptr ? levels_->size() : 0; }
+        const Level& operator[](size_t i) const { return (*levels_)[i]; }
+
+      private:
+        std::shared_ptr<const std::vector<Level>> levels_;
+    };
+    Levels levels_;
     std::shared_ptr<const Layout> layout_ = kNoLayout;
     int channels_ = 1;
     float least_ = 0.0f, greatest_ = 0.0f;

@@ -14,10 +14,14 @@ struct MapMaker {
     const CoordinateSets& sets;
     std::vector<Warning>& warnings;
 
-    /// Empty, with a warning, where the image could not be read or no mesh has the coordinates.
-    [[nodiscard]] HapticMap map(const TextureRef& reference, int channels, const std::string& place) {
+    /// Empty, with a warning, where the image could not be read or no mesh has the coordinates. `known`: the
+    /// same map, if there is one already.
+    [[nodiscard]] HapticMap map(const TextureRef& reference, int channels, const std::string& place,
+                                const HapticMap* known) {
         if (!reference)
             return {};
+        if (known != nullptr && !known->empty())
+            return *known;
         if (!sets[static_cast<size_t>(reference.texCoord & 1)]) {
             warnings.push_back({place, "not felt: no mesh with this material has texture coordinates " +
                                            std::to_string(reference.texCoord)});
@@ -32,12 +36,15 @@ struct MapMaker {
         return {image.pixels, reference, channels};
     }
 
-    [[nodiscard]] HapticFactor factor(const HapticMaterial::Field<FactorMap>& field,
-                                      const std::string& place) {
+    [[nodiscard]] HapticFactor factor(const HapticMaterial::Field<FactorMap>& field, const std::string& place,
+                                      const HapticMaterial::Field<FactorMap>* fieldBefore,
+                                      const HapticFactor* before) {
         HapticFactor factor;
         if (!field.value)
             return factor;
-        factor.map = map(field.value->texture, 1, place);
+        const bool same = fieldBefore != nullptr && fieldBefore->value &&
+                          fieldBefore->value->texture == field.value->texture;
+        factor.map = map(field.value->texture, 1, place, same ? &before->map : nullptr);
         factor.min = static_cast<double>(field.value->min);
         factor.max = static_cast<double>(field.value->max);
         return factor;
@@ -67,9 +74,9 @@ ShadingMode shadingOf(ShadingChoice choice) {
 
 } // namespace
 
-HapticMaterialData buildHapticMaterial(const Scene& scene, int index, const CoordinateSets& sets,
-                                       std::vector<Warning>& warnings) {
-    const Material& material = scene.materials[static_cast<size_t>(index)];
+HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& material, size_t index,
+                                       const CoordinateSets& sets, std::vector<Warning>& warnings,
+                                       const SettledMaterial& before) {
     const HapticMaterial& haptic = material.haptic;
     const std::string place = "materials[" + std::to_string(index) + "]";
     HapticMaterialData data;
@@ -89,14 +96,24 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, int index, const Coor
     MapMaker maker{scene, sets, warnings};
     data.normalScale = static_cast<double>(material.normalScale) * influence;
     if (data.normalScale != 0.0)
-        data.normal = maker.map(material.normalTexture, 3, place + ".normalTexture");
+        data.normal = maker.map(material.normalTexture, 3, place + ".normalTexture",
+                                before.data != nullptr ? &before.data->normal : nullptr);
     if (haptic.height.value && haptic.height.value->scale != 0.0f) {
-        data.height = maker.map(haptic.height.value->texture, 1, place + ".heightTexture");
+        const auto* height = before.data != nullptr ? &before.material->haptic.height.value : nullptr;
+        const bool same = height != nullptr && *height && (*height)->texture == haptic.height.value->texture;
+        data.height = maker.map(haptic.height.value->texture, 1, place + ".heightTexture",
+                                same ? &before.data->height : nullptr);
         data.heightScale = static_cast<double>(haptic.height.value->scale);
     }
-    data.friction = maker.factor(haptic.friction, place + ".frictionTexture");
-    data.stiffnessMap = maker.factor(haptic.stiffnessMap, place + ".stiffnessTexture");
-    data.dampingMap = maker.factor(haptic.dampingMap, place + ".dampingTexture");
+    const auto factor = [&](auto field, auto made, const char* name) {
+        const HapticMaterial* was = before.data != nullptr ? &before.material->haptic : nullptr;
+        data.*made =
+            maker.factor(haptic.*field, place + "." + name, was != nullptr ? &(was->*field) : nullptr,
+                         was != nullptr ? &(before.data->*made) : nullptr);
+    };
+    factor(&HapticMaterial::friction, &HapticMaterialData::friction, "frictionTexture");
+    factor(&HapticMaterial::stiffnessMap, &HapticMaterialData::stiffnessMap, "stiffnessTexture");
+    factor(&HapticMaterial::dampingMap, &HapticMaterialData::dampingMap, "dampingTexture");
     const std::array maps{&data.normal, &data.height, &data.friction.map, &data.stiffnessMap.map,
                           &data.dampingMap.map};
     for (size_t i = 1; i < maps.size(); ++i)

@@ -40,10 +40,17 @@ struct HapticMaterialData {
     }
 };
 
-/// Settles one material, of whose texture coordinates its meshes have `sets`; appends what the user should
-/// know to `warnings`.
-[[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, int material,
-                                                     const CoordinateSets& sets,
-                                                     std::vector<Warning>& warnings);
+/// A material as it was and what it was settled to. Its maps are taken over where they stay the same.
+struct SettledMaterial {
+    const Material* material = nullptr;
+    const HapticMaterialData* data = nullptr;
+};
+
+/// Settles `material`, number `index` of the scene, of whose texture coordinates its meshes have `sets`;
+/// appends what the user should know to `warnings`. Of the scene it reads the images.
+[[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& material,
+                                                     size_t index, const CoordinateSets& sets,
+                                                     std::vector<Warning>& warnings,
+                                                     const SettledMaterial& before = {});
 
 } // namespace touchstone

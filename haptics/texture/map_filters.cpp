@@ -91,7 +91,8 @@ std::array<float, 2> HapticMap::texelSlope(const Level& level, int column, int r
 
 HapticMap::Slopes HapticMap::texelSlopes() const {
     Slopes slopes;
-    for (const Level& level : levels_) {
+    for (size_t l = 0; l < levels_.size(); ++l) {
+        const Level& level = levels_[l];
         auto& of = slopes.emplace_back();
         of.reserve(static_cast<size_t>(level.width) * static_cast<size_t>(level.height));
         for (int y = 0; y < level.height; ++y)

@@ -49,6 +49,17 @@ TouchedScene floorScene(float height, const DeviceLimits& limits) {
     return scene;
 }
 
+TouchedScene withChanged(const TouchedScene& scene, const std::function<void(HapticMaterial&)>& change) {
+    auto source = std::make_shared<Scene>(*scene.source);
+    for (Material& material : source->materials)
+        change(material.haptic);
+    TouchedScene changed = scene;
+    changed.haptic = withMaterials(*scene.haptic, *scene.source, scene.source->materials, source->materials);
+    changed.identity.feltHash = feltHash(*changed.haptic, *source);
+    changed.source = std::move(source);
+    return changed;
+}
+
 glm::dvec3 overTheDoughnut(double time) {
     // Fitted, its ring has a radius of 52.9 mm and its tube one of 22.1 mm, about the z axis.
     // Comes from outside: a hand that starts inside feels nothing.
@@ -76,9 +87,9 @@ RecordedServo::~RecordedServo() {
     servo.stop();
 }
 
-void RecordedServo::offer(const TouchedScene& scene) {
+void RecordedServo::offer(const TouchedScene& scene, SceneSwap swap) {
     scenes.push_back(scene);
-    recorder.sceneOffered(servo.offerScene(scene.haptic, scene.source), scene.identity);
+    recorder.sceneOffered(servo.offerScene(scene.haptic, scene.source, swap), scene.identity);
 }
 
 void RecordedServo::drain() {

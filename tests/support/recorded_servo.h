@@ -24,6 +24,10 @@ struct TouchedScene {
 /// A square of 0.1 m, facing up, in the plane y = `height`, in the workspace.
 [[nodiscard]] TouchedScene floorScene(float height, const DeviceLimits& limits = {});
 
+/// The scene with all its materials changed, on the same geometry.
+[[nodiscard]] TouchedScene withChanged(const TouchedScene& scene,
+                                       const std::function<void(HapticMaterial&)>& change);
+
 /// Circles over the doughnut's upper side, a millimetre deep, in the air now and then.
 [[nodiscard]] glm::dvec3 overTheDoughnut(double time);
 
@@ -36,7 +40,7 @@ class RecordedServo {
     ~RecordedServo();
 
     /// Offered to the servo, named to the recorder.
-    void offer(const TouchedScene& scene);
+    void offer(const TouchedScene& scene, SceneSwap swap = SceneSwap::Anew);
     /// Starts the servo where it does not run, and reads until `count` more ticks were made; calls `each`
     /// before each batch.
     void ticks(uint64_t count, const std::function<void()>& each = {});

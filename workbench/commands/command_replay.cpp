@@ -49,7 +49,9 @@ class SceneFinder {
 
     ReplayScene load(const RecordedScene& recorded) {
         FoundScene found{recorded, scenePath(options_, recorded.identity, scenes_.size())};
-        const Model model = loadModel(found.path, recorded.identity.fit, recorded.identity.limits);
+        LoadOptions loading;
+        loading.edits = recorded.identity.edits;
+        const Model model = loadModel(found.path, recorded.identity.fit, recorded.identity.limits, loading);
         const SceneIdentity now = identify(*model.haptic, *model.scene, recorded.identity.fit);
         found.sameFile = now.fileHash == recorded.identity.fileHash;
         found.sameFelt = now.feltHash == recorded.identity.feltHash;

@@ -111,6 +111,8 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.recordPressed = true;
     if (pressed(GLFW_KEY_P))
         state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
+    if (pressed(GLFW_KEY_E))
+        state.editMaterials = !state.editMaterials;
     if (pressed(GLFW_KEY_Q) && io.KeyCtrl)
         state.quitPressed = true;
 }

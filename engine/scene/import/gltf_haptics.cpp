@@ -17,20 +17,13 @@ constexpr const char* kOurs = "TOUCHSTONE_materials_haptic";
 constexpr std::array<const char*, 2> kMpegSpellings = {"MPEG_haptic_material", "MPEG_material_haptic"};
 constexpr const char* kPhysics = "KHR_physics_rigid_bodies";
 
-/// A field keeps the first value it gets: readers run in falling order of precedence.
-template <class T>
-void offer(HapticMaterial::Field<T>& field, std::optional<T> value, HapticSource source) {
-    if (!field.value && value)
-        field = {std::move(value), source};
-}
-
 template <class Choice, size_t N>
-Choice choiceField(const ImportContext& context, const json& object, const char* name,
-                   const std::string& place, const std::array<std::pair<const char*, Choice>, N>& choices,
-                   Choice fallback) {
+std::optional<Choice> choiceField(const ImportContext& context, const json& object, const char* name,
+                                  const std::string& place,
+                                  const std::array<std::pair<const char*, Choice>, N>& choices) {
     const auto text = textField(context, object, name, place);
     if (!text)
-        return fallback;
+        return std::nullopt;
     std::string known;
     for (const auto& [spelling, choice] : choices) {
         if (*text == spelling)
@@ -90,49 +83,23 @@ void checkShader(ImportContext& context, const json& shader, const std::string& 
     warnOfUnknown(context, shader, {"source", "parameters"}, place);
 }
 
-/// Fields of later work stay as they are in the file, for saving and for `inspect`.
-void keepUnavailable(ImportContext& context, const json& ours, const std::string& place,
-                     HapticMaterial& haptic) {
-    const auto keep = [&](const char* name, const std::string& what) {
-        haptic.unavailable[name] = ours[name];
+/// Fields of later work are kept for saving and for `inspect`.
+void tellUnavailable(ImportContext& context, const HapticStatement& ours, const std::string& place) {
+    const auto tell = [&](const char* name, const std::string& what) {
         context.warn(place + "." + name, what + " is not yet available; felt without it");
     };
-    if (ours.contains("shader")) {
-        checkShader(context, ours["shader"], place + ".shader");
-        keep("shader", "a haptic shader");
-    }
-    if (haptic.representation == "implicit")
-        keep("representation", "the implicit representation");
-    if (numberField(context, ours, "voxelSize", place, 1e-30, kUnbounded)) {
-        haptic.unavailable["voxelSize"] = ours["voxelSize"];
-        if (haptic.representation != "implicit")
-            context.warn(place + ".voxelSize", "says nothing without representation \"implicit\"");
-    }
-    if (haptic.forceShading == ShadingChoice::Bezier)
-        keep("forceShading", "force shading \"bezier\"");
+    if (!ours.shader.is_null())
+        tell("shader", "a haptic shader");
+    if (ours.implicit.value_or(false))
+        tell("representation", "the implicit representation");
+    else if (ours.voxelSize)
+        context.warn(place + ".voxelSize", "says nothing without representation \"implicit\"");
+    if (ours.forceShading == ShadingChoice::Bezier)
+        tell("forceShading", "force shading \"bezier\"");
 }
 
-void readOurs(ImportContext& context, const GltfDocument& document, size_t material, HapticMaterial& haptic) {
-    const std::string owner = element("materials", material);
-    const json* found = extensionOf(context, document.json["materials"][material], kOurs, owner);
-    if (found == nullptr)
-        return;
-    const json& ours = *found;
-    const std::string place = owner + ".extensions." + kOurs;
-    constexpr auto source = HapticSource::Touchstone;
-    const auto number = [&](const char* name, double low, double high) {
-        return numberField(context, ours, name, place, low, high);
-    };
-    offer(haptic.stiffness, number("stiffness", 1e-30, kUnbounded), source);
-    offer(haptic.damping, number("damping", 0.0, kUnbounded), source);
-    offer(haptic.staticFriction, number("staticFriction", 0.0, kUnbounded), source);
-    offer(haptic.dynamicFriction, number("dynamicFriction", 0.0, kUnbounded), source);
-    offer(haptic.viscousFriction, number("viscousFriction", 0.0, kUnbounded), source);
-    offer(haptic.normalTextureInfluence, number("normalTextureInfluence", 0.0, 1.0), source);
-    offer(haptic.height, heightField(context, document, ours, place), source);
-    offer(haptic.friction, factorField(context, document, ours, "frictionTexture", place), source);
-    offer(haptic.stiffnessMap, factorField(context, document, ours, "stiffnessTexture", place), source);
-    offer(haptic.dampingMap, factorField(context, document, ours, "dampingTexture", place), source);
+void readChoices(ImportContext& context, const json& object, const std::string& place,
+                 HapticStatement& ours) {
     static constexpr std::array<std::pair<const char*, ShadingChoice>, 6> kShading = {
         {{"auto", ShadingChoice::Auto},
          {"off", ShadingChoice::Off},
@@ -144,12 +111,39 @@ void readOurs(ImportContext& context, const GltfDocument& document, size_t mater
         {{"front", SideChoice::Front}, {"both", SideChoice::Both}}};
     static constexpr std::array<std::pair<const char*, bool>, 2> kRepresentations = {
         {{"mesh", false}, {"implicit", true}}};
-    haptic.forceShading = choiceField(context, ours, "forceShading", place, kShading, ShadingChoice::Auto);
-    haptic.sides = choiceField(context, ours, "sides", place, kSides, SideChoice::Both);
-    haptic.representation =
-        choiceField(context, ours, "representation", place, kRepresentations, false) ? "implicit" : "mesh";
-    keepUnavailable(context, ours, place, haptic);
-    warnOfUnknown(context, ours,
+    ours.forceShading = choiceField(context, object, "forceShading", place, kShading);
+    ours.sides = choiceField(context, object, "sides", place, kSides);
+    ours.implicit = choiceField(context, object, "representation", place, kRepresentations);
+}
+
+void readOurs(ImportContext& context, const GltfDocument& document, size_t material, HapticStatement& ours) {
+    const std::string owner = element("materials", material);
+    const json* found = extensionOf(context, document.json["materials"][material], kOurs, owner);
+    if (found == nullptr)
+        return;
+    const json& object = *found;
+    const std::string place = owner + ".extensions." + kOurs;
+    const auto number = [&](const char* name, double low, double high) {
+        return numberField(context, object, name, place, low, high);
+    };
+    ours.stiffness = number("stiffness", 1e-30, kUnbounded);
+    ours.damping = number("damping", 0.0, kUnbounded);
+    ours.staticFriction = number("staticFriction", 0.0, kUnbounded);
+    ours.dynamicFriction = number("dynamicFriction", 0.0, kUnbounded);
+    ours.viscousFriction = number("viscousFriction", 0.0, kUnbounded);
+    ours.normalTextureInfluence = number("normalTextureInfluence", 0.0, 1.0);
+    ours.height = heightField(context, document, object, place);
+    ours.friction = factorField(context, document, object, "frictionTexture", place);
+    ours.stiffnessMap = factorField(context, document, object, "stiffnessTexture", place);
+    ours.dampingMap = factorField(context, document, object, "dampingTexture", place);
+    readChoices(context, object, place, ours);
+    if (object.contains("shader")) {
+        checkShader(context, object["shader"], place + ".shader");
+        ours.shader = object["shader"];
+    }
+    ours.voxelSize = number("voxelSize", 1e-30, kUnbounded);
+    tellUnavailable(context, ours, place);
+    warnOfUnknown(context, object,
                   {"stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction",
                    "normalTextureInfluence", "heightTexture", "frictionTexture", "stiffnessTexture",
                    "dampingTexture", "forceShading", "representation", "voxelSize", "shader", "sides"},
@@ -207,29 +201,18 @@ std::optional<FactorMap> mpegChannel(ImportContext& context, const GltfDocument&
     return chosen;
 }
 
-void readMpeg(ImportContext& context, const GltfDocument& document, size_t index, HapticMaterial& haptic) {
+void readMpeg(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says) {
     std::string place;
     const json& material = (*mpegMaterials(context, document, place))[index];
     place += "[" + std::to_string(index) + "]";
-    constexpr auto source = HapticSource::Mpeg;
-    offer(haptic.stiffnessMap,
-          mpegChannel(context, document, material, "stiffness", place, kMpegStiffnessMin, kMpegStiffnessMax),
-          source);
-    const bool oursHasFriction =
-        haptic.staticFriction.value || haptic.dynamicFriction.value || haptic.friction.value;
-    auto friction =
+    says.mpegStiffness =
+        mpegChannel(context, document, material, "stiffness", place, kMpegStiffnessMin, kMpegStiffnessMax);
+    says.mpegFriction =
         mpegChannel(context, document, material, "friction", place, kMpegFrictionMin, kMpegFrictionMax);
-    // The map is the coefficient itself, so its scalars are 1; beside a scalar of ours it would mean another
-    // thing.
-    if (friction && !oursHasFriction) {
-        offer(haptic.friction, std::move(friction), source);
-        offer(haptic.staticFriction, std::optional(1.0f), source);
-        offer(haptic.dynamicFriction, std::optional(kSlidingShare), source);
-    }
     for (const auto& [channel, value] : material.items())
         if (channel != "name" && channel != "stiffness" && channel != "friction" && channel != "extensions" &&
             channel != "extras") {
-            haptic.unavailable["MPEG_haptic_material"][channel] = value;
+            says.mpegUnavailable[channel] = value;
             context.warn(place + "." + channel.substr(0, 40), "is not yet available; felt without it");
         }
 }
@@ -246,7 +229,7 @@ const json* physicsMaterials(const ImportContext& context, const GltfDocument& d
     return &*found;
 }
 
-void readPhysics(ImportContext& context, const GltfDocument& document, size_t index, HapticMaterial& haptic) {
+void readPhysics(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says) {
     const json& material = (*physicsMaterials(context, document))[index];
     const std::string place =
         std::string("extensions.") + kPhysics + ".physicsMaterials[" + std::to_string(index) + "]";
@@ -254,8 +237,8 @@ void readPhysics(ImportContext& context, const GltfDocument& document, size_t in
         return std::optional(
             numberField(context, material, name, place, 0.0, kUnbounded).value_or(kPhysicsFriction));
     };
-    offer(haptic.staticFriction, friction("staticFriction"), HapticSource::Physics);
-    offer(haptic.dynamicFriction, friction("dynamicFriction"), HapticSource::Physics);
+    says.physicsStatic = friction("staticFriction");
+    says.physicsDynamic = friction("dynamicFriction");
 }
 
 /// For every node itself or its nearest ancestor that has a mesh, -1 if there is none. Top down, so that a
@@ -299,15 +282,15 @@ void checkHapticExtensions(ImportContext& context, const GltfDocument& document)
                    std::string("extensions.") + kPhysics + ".physicsMaterials");
 }
 
-void readHaptics(ImportContext& context, const GltfDocument& document, const SurfaceKey& key,
-                 HapticMaterial& haptic) {
-    haptic = {};
+HapticLayers readHaptics(ImportContext& context, const GltfDocument& document, const SurfaceKey& key) {
+    HapticLayers says;
     if (key.material >= 0)
-        readOurs(context, document, static_cast<size_t>(key.material), haptic);
+        readOurs(context, document, static_cast<size_t>(key.material), says.ours);
     if (key.mpeg >= 0)
-        readMpeg(context, document, static_cast<size_t>(key.mpeg), haptic);
+        readMpeg(context, document, static_cast<size_t>(key.mpeg), says);
     if (key.physics >= 0)
-        readPhysics(context, document, static_cast<size_t>(key.physics), haptic);
+        readPhysics(context, document, static_cast<size_t>(key.physics), says);
+    return says;
 }
 
 std::optional<int> mpegMaterialOf(ImportContext& context, const GltfDocument& document, size_t mesh) {
@@ -364,18 +347,6 @@ std::vector<int> physicsMaterialOfNodes(ImportContext& context, const GltfDocume
             material[static_cast<size_t>(target)] = *chosen;
     }
     return material;
-}
-
-void deriveFriction(HapticMaterial& haptic, std::optional<float> meanRoughness) {
-    if (!meanRoughness)
-        return;
-    const float rough = 0.15f + 0.6f * std::clamp(*meanRoughness, 0.0f, 1.0f);
-    // Beside a stated coefficient the derived one must not turn the pair upside down.
-    const float fromStatic = haptic.staticFriction.value.value_or(rough);
-    offer(haptic.dynamicFriction, std::optional(std::min(kSlidingShare * rough, fromStatic)),
-          HapticSource::DerivedFromPbr);
-    offer(haptic.staticFriction, std::optional(std::max(rough, *haptic.dynamicFriction.value)),
-          HapticSource::DerivedFromPbr);
 }
 
 } // namespace touchstone

@@ -137,12 +137,6 @@ void dropIfBroken(const std::vector<Image>& images, TextureRef& texture) {
         texture = {};
 }
 
-template <class Map>
-void dropIfBroken(const std::vector<Image>& images, HapticMaterial::Field<Map>& field) {
-    if (field.value && !images[static_cast<size_t>(field.value->texture.image)].problem.empty())
-        field = {};
-}
-
 } // namespace
 
 std::vector<Image> readImages(ImportContext& context, const GltfFile& file, const GltfDocument& document,
@@ -191,10 +185,6 @@ void dropBrokenImages(const std::vector<Image>& images, std::vector<Material>& m
             dropIfBroken(images, *texture);
         if (hadColor && !material.baseColorTexture)
             material.baseColor = glm::vec4(glm::vec3(material.baseColor) * 0.5f, material.baseColor.w);
-        dropIfBroken(images, material.haptic.height);
-        dropIfBroken(images, material.haptic.friction);
-        dropIfBroken(images, material.haptic.stiffnessMap);
-        dropIfBroken(images, material.haptic.dampingMap);
     }
 }
 

@@ -15,8 +15,8 @@ namespace touchstone {
                                             const GltfDocument& document, const Scene& scene,
                                             const ImageUse& use);
 
-/// Lets the materials stand without the images that could not be read: references are dropped, a lost base
-/// colour becomes grey.
+/// Lets the materials be seen without the images that could not be read: references are dropped, a lost base
+/// colour becomes grey. (What is felt: settledHaptics.)
 void dropBrokenImages(const std::vector<Image>& images, std::vector<Material>& materials);
 
 /// The file's roughness of a material: factor times the mean of the texture's green channel, if the file

@@ -89,7 +89,7 @@ Wrap wrapOf(int gl) {
                                                          : Wrap::Repeat;
 }
 
-/// The image of a texture: WebP where the extension offers it, else the core source, else none.
+/// The image of a texture: WebP where the extension offers it, else the core source, else -1.
 int imageOf(ImportContext& context, const GltfDocument& document, size_t index) {
     const std::string place = element("textures", index);
     const json& texture = document.json["textures"][index];
@@ -98,10 +98,22 @@ int imageOf(ImportContext& context, const GltfDocument& document, size_t index) 
         if (const auto source = indexField(context, *webp, "source", place + ".extensions.EXT_texture_webp",
                                            images, "images"))
             return *source;
-    const int source = document.model.textures[index].source;
-    if (source < 0)
-        context.warn(place, "has no image that can be read; drawn and felt without it");
-    return source;
+    return document.model.textures[index].source;
+}
+
+/// A texture with its sampler and image.
+TextureRef textureAt(ImportContext& context, const GltfDocument& document, size_t index) {
+    TextureRef ref;
+    ref.texture = static_cast<int>(index);
+    ref.image = imageOf(context, document, index);
+    const int sampler = document.model.textures[index].sampler;
+    if (sampler >= 0) {
+        const tinygltf::Sampler& gltf = document.model.samplers[static_cast<size_t>(sampler)];
+        ref.wrapS = wrapOf(gltf.wrapS);
+        ref.wrapT = wrapOf(gltf.wrapT);
+        ref.nearest = gltf.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    return ref;
 }
 
 } // namespace
@@ -110,16 +122,10 @@ TextureRef readTexture(ImportContext& context, const GltfDocument& document, con
                        const std::string& place) {
     checkTextureInfo(context, document.json, info, place);
     const size_t index = info["index"];
-    TextureRef ref;
-    ref.image = imageOf(context, document, index);
+    TextureRef ref = textureAt(context, document, index);
+    if (!ref)
+        context.warn(element("textures", index), "has no image that can be read; drawn and felt without it");
     ref.texCoord = info.value("texCoord", 0);
-    const int sampler = document.model.textures[index].sampler;
-    if (sampler >= 0) {
-        const tinygltf::Sampler& gltf = document.model.samplers[static_cast<size_t>(sampler)];
-        ref.wrapS = wrapOf(gltf.wrapS);
-        ref.wrapT = wrapOf(gltf.wrapT);
-        ref.nearest = gltf.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-    }
     if (const json* transform = extensionOf(context, info, "KHR_texture_transform", place)) {
         const std::string at = place + ".extensions.KHR_texture_transform";
         ref.offset = pairField(context, *transform, "offset", at).value_or(ref.offset);
@@ -134,6 +140,13 @@ TextureRef readTexture(ImportContext& context, const GltfDocument& document, con
         return {};
     }
     return ref;
+}
+
+std::vector<SceneTexture> readTextures(ImportContext& context, const GltfDocument& document) {
+    std::vector<SceneTexture> textures(document.model.textures.size());
+    for (size_t i = 0; i < textures.size(); ++i)
+        textures[i] = {document.model.textures[i].name, textureAt(context, document, i)};
+    return textures;
 }
 
 MaterialTable::MaterialTable(ImportContext& context, const GltfDocument& document)
@@ -154,7 +167,9 @@ int MaterialTable::indexOf(const SurfaceKey& key) {
         material = materials_[static_cast<size_t>(indexOf({key.material, -1, -1}))];
     else if (key.material >= 0)
         readLook(context_, document_, static_cast<size_t>(key.material), material);
-    readHaptics(context_, document_, key, material.haptic);
+    material.fileIndex = key.material;
+    material.says = readHaptics(context_, document_, key);
+    material.haptic = statedHaptics(material.says);
     found->second = static_cast<int>(materials_.size()); // making the plain one may have come first
     materials_.push_back(std::move(material));
     return found->second;

@@ -44,4 +44,7 @@ class MaterialTable {
 [[nodiscard]] TextureRef readTexture(ImportContext& context, const GltfDocument& document,
                                      const nlohmann::json& info, const std::string& place);
 
+/// All of the file's textures, by its own indices.
+[[nodiscard]] std::vector<SceneTexture> readTextures(ImportContext& context, const GltfDocument& document);
+
 } // namespace touchstone

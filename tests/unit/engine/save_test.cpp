@@ -1,4 +1,5 @@
 // Saving changes what materials feel like and nothing else.
+#include "engine/core/json_number.h"
 #include "engine/save/json_parts.h"
 #include "engine/save/material_patch.h"
 #include "tests/support/shared_files.h"

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <thread>
@@ -84,6 +85,75 @@ TEST_F(ReplayTest, ObjectsThatMoveAndASceneThatIsSwappedInContact) {
     expectEqualReplay(report);
     EXPECT_EQ(report.ticks, rig.servo.counters().ticks);
     rig.expectWithinLimits();
+}
+
+TEST_F(ReplayTest, MaterialsThatChangeWhileTheyAreTouched) {
+    for (const char* file : {"doughnut.glb", "moving.glb"}) {
+        TouchedScene scene = touchedScene(file);
+        // In and out of the first object.
+        RecordedServo rig([&, sphere = scene.haptic->restSpheres[0]](double time) {
+            const double depth = 1.0 + 0.6 * std::cos(12.0 * time);
+            return at(glm::dvec3(sphere) + sphere.w * depth * glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
+        });
+        rig.recorder.start(file_, "test");
+        rig.offer(scene);
+        rig.ticks(1500);
+        std::mt19937 random(5);
+        const auto number = [&](float most) { return most * static_cast<float>(random() % 1000u) / 1000.0f; };
+        for (int i = 0; i < 40; ++i) {
+            scene = withChanged(scene, [&](HapticMaterial& haptic) {
+                haptic.stiffness.value = 200.0f + number(2000.0f);
+                haptic.damping.value = number(3.0f);
+                haptic.staticFriction.value = number(1.0f);
+                haptic.dynamicFriction.value = haptic.staticFriction.value;
+                haptic.normalTextureInfluence.value = i % 3 == 0 ? 0.0f : number(1.0f);
+                haptic.forceShading = i % 5 == 0 ? ShadingChoice::Off : ShadingChoice::Auto;
+            });
+            rig.offer(scene, SceneSwap::SameGeometry);
+            rig.ticks(120);
+        }
+        rig.finish();
+        const ReplayReport report = replayOf(file_, rig.scenes);
+        expectEqualReplay(report);
+        EXPECT_EQ(report.ticks, rig.servo.counters().ticks);
+        rig.expectWithinLimits();
+        EXPECT_GT(rig.inContact(), 1000u) << file;
+    }
+}
+
+/// A hand that presses on a floor and holds still.
+TEST_F(ReplayTest, TouchGoesOnWhereOnlyTheMaterialChanges) {
+    std::atomic<double> height{0.01};
+    RecordedServo rig([&](double) { return at({0.01, height.load(), 0.02}); });
+    rig.recorder.start(file_, "test");
+    TouchedScene scene = floorScene(0.0f);
+    rig.offer(scene);
+    rig.ticks(1000);
+    height = -0.002;
+    rig.ticks(1000);
+    const auto force = [&] { return rig.records.back().output.force; };
+    const glm::dvec3 before = force();
+    const size_t ramping = rig.countOf(TickFlag::ForceRamping), first = rig.records.size();
+    ASSERT_GT(glm::length(before), 1.0);
+    rig.offer(withChanged(scene, [](HapticMaterial&) {}), SceneSwap::SameGeometry);
+    rig.ticks(500);
+    EXPECT_EQ(force(), before) << "nothing has changed";
+    scene = withChanged(scene, [](HapticMaterial& haptic) { haptic.stiffness.value = 1200.0f; });
+    rig.offer(scene, SceneSwap::SameGeometry);
+    rig.ticks(500);
+    EXPECT_NEAR(glm::length(force()), 1200.0 / 600.0 * glm::length(before), 1e-6 * glm::length(before));
+    EXPECT_EQ(rig.countOf(TickFlag::ForceRamping), ramping) << "no force fades in";
+    for (size_t i = first; i < rig.records.size(); ++i)
+        ASSERT_GT(rig.records[i].output.contacts, 0u) << "tick " << rig.records[i].tick;
+    rig.offer(scene); // another world, though it is the same
+    rig.ticks(1000);
+    EXPECT_GT(rig.countOf(TickFlag::ForceRamping), ramping);
+    // Behind another world the geometry is that one's.
+    rig.offer(scene, SceneSwap::SameGeometry);
+    rig.ticks(200);
+    rig.finish();
+    rig.expectWithinLimits();
+    expectEqualReplay(replayOf(file_, rig.scenes));
 }
 
 TEST_F(ReplayTest, SettingsThatChangeAllTheTimeForceOffAndOn) {

@@ -32,6 +32,9 @@ struct PanelInput {
     bool recording = false;
     std::string recordingFile; ///< the last one; empty: none yet
     double recordedSeconds = 0.0;
+    /// Of the material editor.
+    std::string materialNotice; ///< what became of the last save or change; empty: nothing to tell
+    bool materialsEdited = false, materialsWorking = false; ///< not in the file yet; not touchable yet
     bool loading = false;
     std::string loadName; ///< of the file
     double loadFraction = 0.0;
@@ -67,6 +70,7 @@ struct PanelState {
     ViewOptions view;
     PanelFolds folds;
     bool help = false;
+    bool editMaterials = false;                     ///< the material editor is open
     bool introduced = false;                        ///< the first-run card was read
     std::optional<ForceHistory> stopped;            ///< what the charts show while they are paused
     std::string openPath = std::string(1024, '\0'); ///< what is being typed

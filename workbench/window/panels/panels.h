@@ -13,7 +13,7 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// The model's nodes, what is touched among them, and what was wrong with the file.
 void drawScene(const PanelInput& input, const PanelState& state, Widgets& widgets);
 /// What the touched material is felt as, and which effects it has and why.
-void drawTouched(const PanelInput& input, const PanelState& state, Widgets& widgets);
+void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);
 
 /// The force and depth of now, and in what state the touch is.
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets);

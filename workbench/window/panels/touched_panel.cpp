@@ -58,9 +58,12 @@ void effects(const EffectPlan& plan, int material) {
 
 } // namespace
 
-void drawTouched(const PanelInput& input, const PanelState&, Widgets& widgets) {
+void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (input.haptic == nullptr)
         return;
+    if (ImGui::SmallButton("Edit materials (E)"))
+        state.editMaterials = !state.editMaterials;
+    widgets.mark("editMaterials");
     const int index = touchedMaterial(input);
     const auto at = static_cast<size_t>(index);
     if (index < 0 || at >= input.haptic->materials.size() || at >= input.scene->materials.size()) {

@@ -1,0 +1,98 @@
+#include "engine/scene/haptic_layers.h"
+
+#include "engine/core/json_number.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+/// A field keeps the first value it gets: layers come in falling order of precedence.
+template <class T>
+void offer(HapticMaterial::Field<T>& field, const std::optional<T>& value, HapticSource source) {
+    if (!field.value && value)
+        field = {value, source};
+}
+
+void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
+    constexpr auto source = HapticSource::Touchstone;
+    offer(haptic.stiffness, ours.stiffness, source);
+    offer(haptic.damping, ours.damping, source);
+    offer(haptic.staticFriction, ours.staticFriction, source);
+    offer(haptic.dynamicFriction, ours.dynamicFriction, source);
+    offer(haptic.viscousFriction, ours.viscousFriction, source);
+    offer(haptic.normalTextureInfluence, ours.normalTextureInfluence, source);
+    offer(haptic.height, ours.height, source);
+    offer(haptic.friction, ours.friction, source);
+    offer(haptic.stiffnessMap, ours.stiffnessMap, source);
+    offer(haptic.dampingMap, ours.dampingMap, source);
+    haptic.forceShading = ours.forceShading.value_or(ShadingChoice::Auto);
+    haptic.sides = ours.sides.value_or(SideChoice::Both);
+    haptic.representation = ours.implicit.value_or(false) ? "implicit" : "mesh";
+    if (!ours.shader.is_null())
+        haptic.unavailable["shader"] = ours.shader;
+    if (ours.implicit.value_or(false))
+        haptic.unavailable["representation"] = "implicit";
+    if (ours.voxelSize)
+        haptic.unavailable["voxelSize"] = jsonOf(*ours.voxelSize);
+    if (ours.forceShading == ShadingChoice::Bezier)
+        haptic.unavailable["forceShading"] = "bezier";
+}
+
+void offerMpeg(const HapticLayers& says, HapticMaterial& haptic) {
+    constexpr auto source = HapticSource::Mpeg;
+    const HapticStatement& ours = says.ours;
+    offer(haptic.stiffnessMap, says.mpegStiffness, source);
+    // The map is the coefficient itself, so its scalars are 1; beside a scalar of ours it would mean another
+    // thing.
+    if (says.mpegFriction && !ours.staticFriction && !ours.dynamicFriction && !ours.friction) {
+        offer(haptic.friction, says.mpegFriction, source);
+        offer(haptic.staticFriction, std::optional(1.0f), source);
+        offer(haptic.dynamicFriction, std::optional(kSlidingShare), source);
+    }
+    if (!says.mpegUnavailable.is_null())
+        haptic.unavailable["MPEG_haptic_material"] = says.mpegUnavailable;
+}
+
+template <class Map>
+void dropIfBroken(const std::vector<Image>& images, HapticMaterial::Field<Map>& field) {
+    if (field.value && !images[static_cast<size_t>(field.value->texture.image)].problem.empty())
+        field = {};
+}
+
+} // namespace
+
+HapticMaterial statedHaptics(const HapticLayers& says) {
+    HapticMaterial haptic;
+    offerOurs(says.ours, haptic);
+    offerMpeg(says, haptic);
+    offer(haptic.staticFriction, says.physicsStatic, HapticSource::Physics);
+    offer(haptic.dynamicFriction, says.physicsDynamic, HapticSource::Physics);
+    return haptic;
+}
+
+void deriveFriction(HapticMaterial& haptic, std::optional<float> meanRoughness) {
+    if (!meanRoughness)
+        return;
+    const float rough = 0.15f + 0.6f * std::clamp(*meanRoughness, 0.0f, 1.0f);
+    // Beside a stated coefficient the derived one must not turn the pair upside down.
+    const float fromStatic = haptic.staticFriction.value.value_or(rough);
+    offer(haptic.dynamicFriction, std::optional(std::min(kSlidingShare * rough, fromStatic)),
+          HapticSource::DerivedFromPbr);
+    offer(haptic.staticFriction, std::optional(std::max(rough, *haptic.dynamicFriction.value)),
+          HapticSource::DerivedFromPbr);
+}
+
+HapticMaterial settledHaptics(const HapticLayers& says, const std::vector<Image>& images) {
+    HapticMaterial haptic = statedHaptics(says);
+    dropIfBroken(images, haptic.height);
+    dropIfBroken(images, haptic.friction);
+    dropIfBroken(images, haptic.stiffnessMap);
+    dropIfBroken(images, haptic.dampingMap);
+    deriveFriction(haptic, says.meanRoughness);
+    return haptic;
+}
+
+} // namespace touchstone

@@ -1,0 +1,278 @@
+// What is edited feels as it will when it is saved and opened again, and shares what it may.
+#include "haptics/recording/scene_identity.h"
+#include "tests/support/gltf_maker.h"
+#include "tests/support/shared_files.h"
+#include "workbench/editor/haptic_fields.h"
+#include "workbench/editor/material_desk.h"
+#include "workbench/editor/presets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+namespace touchstone {
+namespace {
+
+Model modelOf(const std::filesystem::path& path, const LoadOptions& options = {}) {
+    Model model;
+    model.scene = loadScene(path, options);
+    model.workspaceFromScene = workspaceFromScene(*model.scene, Fit::Workspace);
+    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene);
+    return model;
+}
+
+MaterialJob jobFor(const Model& model, const MaterialEdits& edits) {
+    MaterialJob job;
+    job.model = model;
+    job.statements = edits.all();
+    job.edits = textOf(edits.patches());
+    job.path = model.scene->path;
+    job.stamp = model.scene->file;
+    return job;
+}
+
+void expectSamePlan(const EffectPlan& a, const EffectPlan& b, const std::string& name) {
+    ASSERT_EQ(a.effects.size(), b.effects.size()) << name;
+    for (size_t i = 0; i < a.effects.size(); ++i) {
+        EXPECT_EQ(a.effects[i].on, b.effects[i].on) << name << " " << i;
+        EXPECT_EQ(a.effects[i].reason, b.effects[i].reason) << name << " " << i;
+        EXPECT_EQ(a.effects[i].memoryBytes, b.effects[i].memoryBytes) << name << " " << i;
+    }
+    EXPECT_EQ(a.plainFeel, b.plainFeel) << name;
+    EXPECT_EQ(a.anyShading, b.anyShading) << name;
+    EXPECT_EQ(a.dampingMap, b.dampingMap) << name;
+}
+
+/// `change` for every material: touchable at once, and again from the saved file.
+template <class Change>
+MadeMaterials expectTheSameWhenOpenedAgain(const std::filesystem::path& path, const Model& model,
+                                           const char* what, const Change& change) {
+    MaterialEdits edits(*model.scene);
+    for (size_t m = 0; m < edits.size(); ++m) {
+        HapticStatement next = edits.now(m);
+        change(next, m);
+        edits.change(m, next, what);
+    }
+    const std::string name = path.filename().string() + ", " + what;
+    MadeMaterials made = makeMaterials(jobFor(model, edits));
+
+    LoadOptions options;
+    options.edits = textOf(edits.patches());
+    const Model again = modelOf(path, options);
+    EXPECT_EQ(made.feltHash, feltHash(*again.haptic, *again.scene)) << name;
+    expectSamePlan(made.haptic->plan, again.haptic->plan, name);
+    EXPECT_EQ(made.haptic->warnings.size(), again.haptic->warnings.size()) << name;
+    return made;
+}
+
+void expectTheSameForAllChanges(const std::filesystem::path& path) {
+    const Model model = modelOf(path);
+    const auto check = [&](const char* what, const auto& change) {
+        return expectTheSameWhenOpenedAgain(path, model, what, change);
+    };
+    const MadeMaterials numbers = check("numbers", [](HapticStatement& next, size_t) {
+        next.stiffness = 321.0f;
+        next.damping = 0.5f;
+        next.staticFriction = 0.6f;
+        next.viscousFriction = 0.25f;
+    });
+    EXPECT_TRUE(numbers.touchGoesOn);
+    EXPECT_FALSE(numbers.read);
+    for (size_t i = 0; i < model.haptic->objects.size(); ++i)
+        EXPECT_EQ(numbers.haptic->objects[i].get(), model.haptic->objects[i].get()) << "geometry is shared";
+    EXPECT_TRUE(check("rubber", [](HapticStatement& next, size_t) {
+                    next = withPreset(std::move(next), *findPreset("rubber"));
+                }).touchGoesOn);
+    EXPECT_TRUE(check("no shading", [](HapticStatement& next, size_t) {
+                    next.forceShading = ShadingChoice::Off;
+                }).touchGoesOn);
+    EXPECT_TRUE(check("no relief", [](HapticStatement& next, size_t) {
+                    next.normalTextureInfluence = 0.0f;
+                    if (next.height)
+                        next.height->scale = 0.0f;
+                }).touchGoesOn);
+    EXPECT_TRUE(check("nothing stated", [](HapticStatement& next, size_t) {
+                    const auto height = next.height;
+                    const auto friction = next.friction, stiffness = next.stiffnessMap,
+                               damping = next.dampingMap;
+                    next = HapticStatement{};
+                    next.height = height;
+                    next.friction = friction;
+                    next.stiffnessMap = stiffness;
+                    next.dampingMap = damping;
+                }).touchGoesOn);
+    const bool editable = std::ranges::any_of(
+        model.scene->materials, [](const Material& material) { return material.fileIndex >= 0; });
+    EXPECT_NE(check("one side",
+                    [](HapticStatement& next, size_t) {
+                        next.sides = next.sides == SideChoice::Front ? SideChoice::Both : SideChoice::Front;
+                    })
+                  .touchGoesOn,
+              editable);
+    if (model.scene->textures.empty())
+        return;
+    const MadeMaterials maps = check("other maps", [&](HapticStatement& next, size_t m) {
+        const size_t t = m % model.scene->textures.size();
+        (void)setHapticField(next, *model.scene, "heightTexture", std::to_string(t));
+        (void)setHapticField(next, *model.scene, "stiffnessTexture", std::to_string(t));
+        (void)setHapticField(next, *model.scene, "stiffnessTexture.min", "0.5");
+    });
+    EXPECT_FALSE(maps.read && maps.touchGoesOn);
+}
+
+TEST(LiveMaterials, OurScenesFeelAsTheyWillWhenOpenedAgain) {
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TOUCHSTONE_ASSETS)) {
+        if (entry.path().extension() != ".glb")
+            continue;
+        ++files;
+        expectTheSameForAllChanges(entry.path());
+    }
+    EXPECT_GT(files, 5u);
+}
+
+TEST(LiveMaterials, RealModelsFeelAsTheyWillWhenOpenedAgain) {
+    const auto models = test::modelsFolder();
+    if (!models)
+        return; // the same is asked of our own scenes above
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(*models))
+        if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+            expectTheSameForAllChanges(entry.path());
+}
+
+TEST(LiveMaterials, ChangesOnTopOfChangesShareWhatTheyMay) {
+    const Model model = modelOf(TOUCHSTONE_ASSETS "/swatches.glb");
+    MaterialEdits edits(*model.scene);
+    Model now = model;
+    std::vector<Material> from = model.scene->materials;
+    for (int step = 0; step < 6; ++step) {
+        for (size_t m = 0; m < edits.size(); ++m) {
+            HapticStatement next = edits.now(m);
+            next.normalTextureInfluence = step % 2 == 0 ? 0.0f : 0.7f;
+            next.staticFriction = 0.1f * static_cast<float>(step + 1);
+            next.forceShading = step % 3 == 0 ? ShadingChoice::Off : ShadingChoice::Auto;
+            edits.change(m, next, "step");
+        }
+        MaterialJob job = jobFor(now, edits);
+        job.compiledFrom = from;
+        job.model.scene = model.scene;
+        job.forTheEye = step == 3;
+        const MadeMaterials made = makeMaterials(job);
+        ASSERT_FALSE(made.read);
+        EXPECT_EQ(made.scene != nullptr, step == 3);
+        LoadOptions options;
+        options.edits = job.edits;
+        const Model again = modelOf(TOUCHSTONE_ASSETS "/swatches.glb", options);
+        EXPECT_EQ(made.feltHash, feltHash(*again.haptic, *again.scene)) << step;
+        expectSamePlan(made.haptic->plan, again.haptic->plan, "swatches");
+        now.haptic = made.haptic;
+        from = made.materials;
+    }
+}
+
+/// The desk as the window uses it.
+class Desk : public testing::Test {
+  protected:
+    Desk() {
+        std::filesystem::copy_file(TOUCHSTONE_ASSETS "/doughnut.glb", path_);
+        model_ = modelOf(path_);
+        desk_.open(model_, false);
+    }
+    /// Until nothing is left to do.
+    void settle() {
+        for (int i = 0; i < 20'000; ++i) {
+            if (auto made = desk_.update(model_)) {
+                model_.haptic = made->haptic;
+                if (made->scene != nullptr)
+                    model_.scene = made->scene;
+                ++made_;
+                last_ = std::move(made);
+            } else if (!desk_.working() && !desk_.saving()) {
+                return;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        FAIL() << "the desk does not come to rest";
+    }
+    void setFriction(float value) {
+        HapticStatement next = desk_.edits().now(0);
+        next.staticFriction = value;
+        desk_.edits().change(0, next, "static friction");
+    }
+
+    test::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_.path() / "doughnut.glb";
+    Model model_;
+    MaterialDesk desk_;
+    std::optional<MadeMaterials> last_;
+    int made_ = 0;
+};
+
+TEST_F(Desk, AChangeIsTouchableAndSaved) {
+    settle();
+    EXPECT_EQ(made_, 0);
+    setFriction(0.77f);
+    settle();
+    EXPECT_EQ(model_.haptic->materials[0].staticFriction, static_cast<double>(0.77f));
+    EXPECT_TRUE(last_->touchGoesOn);
+    desk_.edits().endGesture();
+    settle();
+    EXPECT_EQ(model_.scene->materials[0].haptic.staticFriction.value, 0.77f) << "the eye has it too";
+    desk_.save();
+    settle();
+    EXPECT_FALSE(desk_.failed()) << desk_.notice();
+    EXPECT_FALSE(desk_.edits().edited());
+    ASSERT_TRUE(desk_.takeSaved());
+    EXPECT_EQ(loadScene(path_)->materials[0].haptic.staticFriction.value, 0.77f);
+
+    desk_.edits().undo();
+    settle();
+    EXPECT_TRUE(desk_.edits().edited());
+    desk_.save();
+    settle();
+    EXPECT_FALSE(desk_.failed()) << desk_.notice();
+    const auto bytesOf = [](const std::filesystem::path& path) {
+        std::ifstream stream(path, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    };
+    const ScenePtr original = loadScene(TOUCHSTONE_ASSETS "/doughnut.glb"), now = loadScene(path_);
+    EXPECT_EQ(now->materials[0].says.ours, original->materials[0].says.ours);
+    EXPECT_EQ(bytesOf(path_).size(), bytesOf(TOUCHSTONE_ASSETS "/doughnut.glb").size());
+}
+
+TEST_F(Desk, SavedUnderAnotherNameItGoesOnThere) {
+    setFriction(0.5f);
+    const auto other = folder_.path() / "other.glb";
+    desk_.saveAs(other);
+    settle();
+    EXPECT_FALSE(desk_.failed()) << desk_.notice();
+    EXPECT_EQ(desk_.path(), other);
+    EXPECT_EQ(loadScene(other)->materials[0].haptic.staticFriction.value, 0.5f);
+    EXPECT_NE(loadScene(path_)->materials[0].haptic.staticFriction.value, 0.5f);
+    // Another map makes it read the file anew: the one that was saved.
+    HapticStatement next = desk_.edits().now(0);
+    ASSERT_EQ(setHapticField(next, *model_.scene, "dampingTexture", "0"), "");
+    desk_.edits().change(0, next, "damping map");
+    settle();
+    EXPECT_FALSE(desk_.failed()) << desk_.notice();
+    EXPECT_TRUE(last_->read);
+    EXPECT_EQ(model_.haptic->materials[0].staticFriction, static_cast<double>(0.5f));
+    EXPECT_FALSE(model_.haptic->materials[0].dampingMap.map.empty());
+}
+
+TEST_F(Desk, AFileThatSomebodyElseChangedIsNotWrittenOver) {
+    std::ofstream(path_, std::ios::app) << "x";
+    setFriction(0.5f);
+    desk_.save();
+    settle();
+    EXPECT_TRUE(desk_.failed());
+    EXPECT_NE(desk_.notice().find("has changed since"), std::string::npos) << desk_.notice();
+    EXPECT_TRUE(desk_.edits().edited());
+}
+
+} // namespace
+} // namespace touchstone

@@ -1,0 +1,312 @@
+#include "workbench/editor/haptic_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+constexpr float kLargest = 1e30f;
+
+template <auto Member>
+std::optional<float> getNumber(const HapticStatement& statement) {
+    return statement.*Member;
+}
+template <auto Member>
+bool setNumber(HapticStatement& statement, std::optional<float> value) {
+    statement.*Member = value;
+    return true;
+}
+
+template <auto Map, auto Part>
+std::optional<float> getPart(const HapticStatement& statement) {
+    return statement.*Map ? std::optional((*(statement.*Map)).*Part) : std::nullopt;
+}
+template <auto Map, auto Part>
+bool setPart(HapticStatement& statement, std::optional<float> value) {
+    auto& map = statement.*Map;
+    if (!map)
+        return false;
+    std::remove_cvref_t<decltype(*map)> unset;
+    if constexpr (requires { unset.scale; })
+        unset.scale = kNewHeight;
+    (*map).*Part = value.value_or(unset.*Part);
+    return true;
+}
+
+template <auto Map>
+std::optional<float> getSet(const HapticStatement& statement) {
+    return statement.*Map ? std::optional(static_cast<float>((statement.*Map)->texture.texCoord))
+                          : std::nullopt;
+}
+template <auto Map>
+bool setSet(HapticStatement& statement, std::optional<float> value) {
+    auto& map = statement.*Map;
+    if (map)
+        map->texture.texCoord = value.value_or(0.0f) >= 0.5f ? 1 : 0;
+    return map.has_value();
+}
+
+template <auto Map>
+const TextureRef* getMap(const HapticStatement& statement) {
+    return statement.*Map ? &(*(statement.*Map)).texture : nullptr;
+}
+/// Another texture lies over the surface as the one before did.
+template <auto Map>
+void setMap(HapticStatement& statement, const TextureRef& texture) {
+    auto& map = statement.*Map;
+    if (!texture) {
+        map.reset();
+        return;
+    }
+    if (!map) {
+        map.emplace();
+        if constexpr (requires { map->scale; })
+            map->scale = kNewHeight;
+        map->texture = texture;
+        return;
+    }
+    TextureRef placed = texture;
+    placed.texCoord = map->texture.texCoord;
+    placed.offset = map->texture.offset;
+    placed.rotation = map->texture.rotation;
+    placed.scale = map->texture.scale;
+    map->texture = placed;
+}
+
+template <auto Member, class Enum>
+std::optional<size_t> getChoice(const HapticStatement& statement) {
+    return statement.*Member ? std::optional(static_cast<size_t>(*(statement.*Member))) : std::nullopt;
+}
+template <auto Member, class Enum>
+void setChoice(HapticStatement& statement, std::optional<size_t> value) {
+    statement.*Member = value ? std::optional(static_cast<Enum>(*value)) : std::nullopt;
+}
+
+#define TOUCHSTONE_NUMBER(member) getNumber<&HapticStatement::member>, setNumber<&HapticStatement::member>
+#define TOUCHSTONE_PART(map, Kind, part)                                                                     \
+    getPart<&HapticStatement::map, &Kind::part>, setPart<&HapticStatement::map, &Kind::part>
+#define TOUCHSTONE_SET(map) getSet<&HapticStatement::map>, setSet<&HapticStatement::map>
+
+constexpr std::string_view kTexCoord = "which set of texture coordinates";
+constexpr std::string_view kBlack = "factor where the map is black", kWhite = "factor where the map is white";
+
+constexpr std::array kNumbers{
+    NumberField{"stiffness", "stiffness", "N/m", 1e-30f, kLargest, 20.0f, 3000.0f, true,
+                "the device's recommendation", "force per depth; above the device's limit it is cut to that",
+                TOUCHSTONE_NUMBER(stiffness)},
+    NumberField{"damping", "damping", "N·s/m", 0.0f, kLargest, 0.0f, 10.0f, false, "0",
+                "force per velocity along the normal while pressed in", TOUCHSTONE_NUMBER(damping)},
+    NumberField{"staticFriction", "static friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
+                "coefficient that holds a resting contact", TOUCHSTONE_NUMBER(staticFriction)},
+    NumberField{"dynamicFriction", "dynamic friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
+                "coefficient while sliding; above the static one it is cut to it",
+                TOUCHSTONE_NUMBER(dynamicFriction)},
+    NumberField{"viscousFriction", "viscous friction", "N·s/m", 0.0f, kLargest, 0.0f, 10.0f, false, "0",
+                "force per velocity along the surface", TOUCHSTONE_NUMBER(viscousFriction)},
+    NumberField{"normalTextureInfluence", "felt normal map", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "1",
+                "share of the normal map that is felt; 0 leaves it to the eye",
+                TOUCHSTONE_NUMBER(normalTextureInfluence)},
+    NumberField{"heightTexture.scale", "height", "m", -kLargest, kLargest, -0.02f, 0.02f, false, "0.001",
+                "from black to white, model metres", TOUCHSTONE_PART(height, HeightMap, scale)},
+    NumberField{"heightTexture.midLevel", "mid level", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0.5",
+                "the value that lies on the mesh", TOUCHSTONE_PART(height, HeightMap, midLevel)},
+    NumberField{"heightTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
+                TOUCHSTONE_SET(height)},
+    NumberField{"frictionTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack,
+                TOUCHSTONE_PART(friction, FactorMap, min)},
+    NumberField{"frictionTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite,
+                TOUCHSTONE_PART(friction, FactorMap, max)},
+    NumberField{"frictionTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
+                TOUCHSTONE_SET(friction)},
+    NumberField{"stiffnessTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack,
+                TOUCHSTONE_PART(stiffnessMap, FactorMap, min)},
+    NumberField{"stiffnessTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite,
+                TOUCHSTONE_PART(stiffnessMap, FactorMap, max)},
+    NumberField{"stiffnessTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
+                TOUCHSTONE_SET(stiffnessMap)},
+    NumberField{"dampingTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack,
+                TOUCHSTONE_PART(dampingMap, FactorMap, min)},
+    NumberField{"dampingTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite,
+                TOUCHSTONE_PART(dampingMap, FactorMap, max)},
+    NumberField{"dampingTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
+                TOUCHSTONE_SET(dampingMap)},
+    NumberField{"voxelSize", "voxel size", "m", 1e-30f, kLargest, 0.0001f, 0.1f, true, "none",
+                "of the implicit representation, model metres; not yet available",
+                TOUCHSTONE_NUMBER(voxelSize)}};
+
+#undef TOUCHSTONE_NUMBER
+#undef TOUCHSTONE_PART
+#undef TOUCHSTONE_SET
+
+constexpr std::array<std::string_view, 6> kShading{"auto",      "off",       "twoPass",
+                                                   "projected", "direction", "bezier"};
+constexpr std::array<std::string_view, 2> kSides{"both", "front"}, kRepresentations{"mesh", "implicit"};
+
+constexpr std::array kChoices{
+    ChoiceField{"forceShading", "force shading", kShading, 0,
+                "how the force follows the vertex normals; bezier is not yet available",
+                getChoice<&HapticStatement::forceShading, ShadingChoice>,
+                setChoice<&HapticStatement::forceShading, ShadingChoice>},
+    ChoiceField{"sides", "sides", kSides, 0, "front: from behind the hand comes through",
+                getChoice<&HapticStatement::sides, SideChoice>,
+                setChoice<&HapticStatement::sides, SideChoice>},
+    ChoiceField{"representation", "representation", kRepresentations, 0,
+                "implicit is a distance field; not yet available",
+                getChoice<&HapticStatement::implicit, bool>, setChoice<&HapticStatement::implicit, bool>}};
+
+constexpr std::array kMaps{
+    MapField{"heightTexture", "height map", "relief of the surface", getMap<&HapticStatement::height>,
+             setMap<&HapticStatement::height>},
+    MapField{"frictionTexture", "friction map", "multiplies both coefficients",
+             getMap<&HapticStatement::friction>, setMap<&HapticStatement::friction>},
+    MapField{"stiffnessTexture", "stiffness map", "multiplies the stiffness",
+             getMap<&HapticStatement::stiffnessMap>, setMap<&HapticStatement::stiffnessMap>},
+    MapField{"dampingTexture", "damping map", "multiplies the damping", getMap<&HapticStatement::dampingMap>,
+             setMap<&HapticStatement::dampingMap>}};
+
+constexpr std::string_view kShader = "shader";
+
+template <class Fields>
+auto find(const Fields& fields, std::string_view name) {
+    const auto found =
+        std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.name == name; });
+    return found == fields.end() ? nullptr : &*found;
+}
+
+std::string joined(std::span<const std::string_view> words) {
+    std::string text;
+    for (const std::string_view word : words)
+        text += (text.empty() ? "" : ", ") + std::string(word);
+    return text;
+}
+
+std::string shown(float value) {
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string setNumberField(const NumberField& field, HapticStatement& statement, std::string_view text) {
+    float value = 0.0f;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+        return "'" + std::string(text) + "' is not a number";
+    if (value < field.least || value > field.most)
+        return shown(value) + " is out of range: " +
+               (field.most < kLargest ? shown(field.least) + " to " + shown(field.most)
+                : field.least > 0.0f  ? "above 0"
+                                      : "at least " + shown(field.least));
+    if (field.set(statement, value))
+        return {};
+    const std::string map(field.name.substr(0, field.name.find('.')));
+    return "the material has no such map; give it one first: " + map + "=TEXTURE";
+}
+
+std::string setMapField(const MapField& field, HapticStatement& statement, const Scene& scene,
+                        std::string_view text) {
+    if (text == "none") {
+        field.set(statement, {});
+        return {};
+    }
+    size_t index = scene.textures.size();
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        const auto named =
+            std::find_if(scene.textures.begin(), scene.textures.end(), [&](const SceneTexture& texture) {
+                const int image = texture.reference.image;
+                return texture.name == text ||
+                       (image >= 0 && scene.images[static_cast<size_t>(image)].name == text);
+            });
+        index = static_cast<size_t>(named - scene.textures.begin());
+    }
+    if (index >= scene.textures.size() || !scene.textures[index].reference)
+        return "'" + std::string(text) + "' is none of the file's textures: it has " +
+               std::to_string(scene.textures.size()) + "; give an index, a name, or none";
+    field.set(statement, scene.textures[index].reference);
+    return {};
+}
+
+} // namespace
+
+std::span<const NumberField> numberFields() {
+    return kNumbers;
+}
+std::span<const ChoiceField> choiceFields() {
+    return kChoices;
+}
+std::span<const MapField> mapFields() {
+    return kMaps;
+}
+
+std::string setHapticField(HapticStatement& statement, const Scene& scene, std::string_view name,
+                           std::string_view value) {
+    std::string problem;
+    if (const NumberField* number = find(kNumbers, name)) {
+        problem = setNumberField(*number, statement, value);
+    } else if (const MapField* map = find(kMaps, name)) {
+        problem = setMapField(*map, statement, scene, value);
+    } else if (const ChoiceField* choice = find(kChoices, name)) {
+        const auto found = std::find(choice->choices.begin(), choice->choices.end(), value);
+        if (found == choice->choices.end())
+            problem = "'" + std::string(value) + "' is none of " + joined(choice->choices);
+        else
+            choice->set(statement, static_cast<size_t>(found - choice->choices.begin()));
+    } else {
+        return hapticFieldProblem(name);
+    }
+    return problem.empty() ? problem : std::string(name) + ": " + problem;
+}
+
+bool resetHapticField(HapticStatement& statement, std::string_view name) {
+    if (name == kShader)
+        statement.shader = nullptr;
+    else if (const NumberField* number = find(kNumbers, name))
+        number->set(statement, std::nullopt);
+    else if (const MapField* map = find(kMaps, name))
+        map->set(statement, {});
+    else if (const ChoiceField* choice = find(kChoices, name))
+        choice->set(statement, std::nullopt);
+    else
+        return false;
+    return true;
+}
+
+std::string hapticFieldProblem(std::string_view name) {
+    const std::vector<std::string_view> names = hapticFieldNames();
+    if (std::find(names.begin(), names.end(), name) != names.end())
+        return {};
+    return "'" + std::string(name) + "' is no field of a material; there are " + joined(names);
+}
+
+std::vector<std::string_view> hapticFieldNames() {
+    std::vector<std::string_view> names;
+    for (const NumberField& field : kNumbers)
+        names.push_back(field.name);
+    for (const MapField& field : kMaps)
+        names.push_back(field.name);
+    for (const ChoiceField& field : kChoices)
+        names.push_back(field.name);
+    return names;
+}
+
+std::string hapticFieldHelp() {
+    std::string text = "Fields of a material (NAME=VALUE):\n";
+    const auto line = [&](std::string_view name, const std::string& what) {
+        std::string entry = "  " + std::string(name);
+        entry.resize(std::max<size_t>(entry.size() + 2, 30), ' ');
+        text += entry + what + "\n";
+    };
+    for (const NumberField& field : kNumbers)
+        line(field.name, std::string(field.unit) + (field.unit.empty() ? "" : ", ") +
+                             std::string(field.meaning) + " [" + std::string(field.unset) + "]");
+    for (const MapField& field : kMaps)
+        line(field.name, std::string(field.meaning) + ": index or name of a texture of the file, or none");
+    for (const ChoiceField& field : kChoices)
+        line(field.name, std::string(field.meaning) + ": " + joined(field.choices));
+    return text;
+}
+
+} // namespace touchstone

@@ -1,0 +1,91 @@
+#include "workbench/editor/material_desk.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace touchstone {
+
+void MaterialDesk::open(const Model& model, bool generated) {
+    live_.discard();
+    if (saving_.valid())
+        finishSaving();
+    edits_ = MaterialEdits(*model.scene);
+    materials_ = model.scene->materials;
+    touched_ = seen_ = edits_.revision();
+    path_ = model.scene->path;
+    stamp_ = model.scene->file;
+    generated_ = generated;
+    saved_.reset();
+    tell("", false);
+}
+
+void MaterialDesk::tell(std::string notice, bool failed) {
+    notice_ = std::move(notice);
+    failed_ = failed;
+}
+
+void MaterialDesk::startWork(const Model& model) {
+    MaterialJob job;
+    job.model = model;
+    job.compiledFrom = materials_;
+    job.statements = edits_.all();
+    job.edits = textOf(edits_.patches());
+    job.path = path_;
+    job.stamp = stamp_;
+    job.revision = edits_.revision();
+    job.forTheEye = !edits_.inGesture();
+    live_.start(std::move(job));
+}
+
+std::optional<MadeMaterials> MaterialDesk::update(const Model& model) {
+    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        finishSaving();
+    std::optional<MadeMaterials> made;
+    try {
+        made = live_.take();
+    } catch (const std::exception& error) {
+        tell(error.what(), true);
+        touched_ = seen_ = edits_.revision(); // not again until something else is changed
+    }
+    if (made) {
+        materials_ = made->materials;
+        touched_ = made->revision;
+        if (made->scene != nullptr)
+            seen_ = made->revision;
+        seconds_ = made->seconds;
+        return made; // the caller's model is what the next job starts from
+    }
+    const bool behind = touched_ != edits_.revision() || (!edits_.inGesture() && seen_ != edits_.revision());
+    if (behind && !live_.busy() && !saving_.valid())
+        startWork(model);
+    return std::nullopt;
+}
+
+void MaterialDesk::saveAs(const std::filesystem::path& target) {
+    if (saving_.valid())
+        return;
+    edits_.endGesture();
+    savingStatements_ = edits_.all();
+    target_ = target;
+    tell("", false);
+    saving_ =
+        std::async(std::launch::async, [source = path_, stamp = stamp_, patches = edits_.patches(), target] {
+            return saveMaterials(source, stamp, patches, target);
+        });
+}
+
+void MaterialDesk::finishSaving() {
+    try {
+        stamp_ = saving_.get();
+        path_ = target_;
+        generated_ = false;
+        edits_.saved(std::move(savingStatements_));
+        saved_ = stamp_;
+        tell("saved to " + path_.string(), false);
+    } catch (const std::exception& error) {
+        tell(error.what(), true);
+    }
+}
+
+} // namespace touchstone

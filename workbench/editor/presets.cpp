@@ -1,0 +1,67 @@
+#include "workbench/editor/presets.h"
+
+#include <algorithm>
+#include <array>
+
+namespace touchstone {
+
+namespace {
+
+// Stiffness: a device gives 1 to 3 kN/m before it buzzes, while a real plate of glass has a thousand times
+// that, so what is hard is as hard as the device can (it cuts to its limit), and only what is soft can be
+// told apart.
+constexpr std::array kPresets{
+    MaterialPreset{"glass", 3000.0f, 0.0f, 0.15f, 0.12f, 0.0f, 0.0f,
+                   "as hard as the device can; friction as derived for a mirror (roughness 0); polished: no "
+                   "relief"},
+    MaterialPreset{
+        "wood", 2000.0f, 0.0f, 0.45f, 0.3f, 0.0f, 1.0f,
+        "textbooks give 0.25 to 0.5 and 0.2 to 0.3 for dry wood on wood; less hard than glass; the "
+        "grain of a normal map is felt"},
+    MaterialPreset{"rubber", 500.0f, 2.0f, 1.0f, 0.8f, 0.0f, 1.0f,
+                   "textbooks give 1.0 and 0.8 for rubber on dry concrete; soft, and what it takes it keeps: "
+                   "damping"},
+    MaterialPreset{"sandpaper", 1500.0f, 0.0f, 0.75f, 0.6f, 0.0f, 1.0f,
+                   "friction as derived for roughness 1; grit on paper gives way a little"},
+    MaterialPreset{
+        "felt", 150.0f, 1.0f, 0.29f, 0.22f, 1.0f, 0.3f,
+        "0.29 and 0.22 for wood on felt (The Physics Hypertextbook, Friction); the softest; fibres "
+        "drag with speed and hide most of the relief"},
+    MaterialPreset{"ice", 2500.0f, 0.0f, 0.1f, 0.03f, 0.2f, 0.0f,
+                   "textbooks give 0.1 and 0.03 for ice on ice; the film of water drags with speed; no "
+                   "relief"}};
+
+std::optional<float> unless(float value, float unset) {
+    return value == unset ? std::nullopt : std::optional(value);
+}
+
+} // namespace
+
+std::span<const MaterialPreset> materialPresets() {
+    return kPresets;
+}
+
+const MaterialPreset* findPreset(std::string_view name) {
+    const auto found = std::find_if(kPresets.begin(), kPresets.end(),
+                                    [&](const MaterialPreset& preset) { return preset.name == name; });
+    return found == kPresets.end() ? nullptr : &*found;
+}
+
+HapticStatement withPreset(HapticStatement statement, const MaterialPreset& preset) {
+    statement.stiffness = preset.stiffness;
+    statement.damping = unless(preset.damping, 0.0f);
+    statement.staticFriction = preset.staticFriction;
+    statement.dynamicFriction = preset.dynamicFriction;
+    statement.viscousFriction = unless(preset.viscousFriction, 0.0f);
+    statement.normalTextureInfluence = unless(preset.normalTextureInfluence, 1.0f);
+    return statement;
+}
+
+const MaterialPreset* presetOf(const HapticStatement& statement) {
+    const auto found = std::find_if(kPresets.begin(), kPresets.end(), [&](const MaterialPreset& preset) {
+        return withPreset(statement, preset) == statement;
+    });
+    return found == kPresets.end() ? nullptr : &*found;
+}
+
+} // namespace touchstone
