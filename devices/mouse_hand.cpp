@@ -19,10 +19,11 @@ void MouseHand::goHome() {
 }
 
 void MouseHand::pointAt(const PointedSurface& surface, const MousePress& press) {
+    if (!(press.force > 0.0))
+        return moveTo(hoverOver(surface));
     // In series: force = hand stiffness * (goal to hand) = surface stiffness * (hand to surface).
-    const double depth =
-        press.force > 0.0 ? press.force / press.handStiffness + press.force / surface.stiffness : -kHover;
-    moveTo(surface.point - depth * surface.normal);
+    moveTo(surface.point -
+           (press.force / press.handStiffness + press.force / surface.stiffness) * surface.normal);
 }
 
 void MouseHand::pointPast(const ViewAxes& view, const glm::dvec3& eye, const glm::dvec3& direction) {

@@ -2,6 +2,9 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace touchstone {
 
 /// The view's axes in the device frame, unit and perpendicular: what "right", "up" and "away" mean to the
@@ -17,6 +20,7 @@ struct PointedSurface {
     glm::dvec3 point{0.0};    ///< m, device frame
     glm::dvec3 normal{0.0};   ///< unit, towards the viewer
     double stiffness = 600.0; ///< N/m with which it will push back
+    double room = INFINITY;   ///< m in front of it in which a hand that does not press may stay
 };
 
 /// How hard a hand that is on the surface presses, and how softly it is held.
@@ -38,10 +42,13 @@ class MouseHand {
     void drag(const ViewAxes& view, double right, double up);
     /// `away`: m in depth, positive away from the viewer.
     void push(const ViewAxes& view, double away);
-    /// m in front of the surface at which a hand that does not press stays.
+    /// m in front of the surface at which a hand that does not press stays, where there is room.
     static constexpr double kHover = 3e-3;
+    [[nodiscard]] static glm::dvec3 hoverOver(const PointedSurface& surface) {
+        return surface.point + std::min(kHover, 0.5 * surface.room) * surface.normal;
+    }
     /// Onto the surface under the pointer: so deep below it that hand and surface, which both yield, hold
-    /// each other at `press.force`; without force kHover in front of it.
+    /// each other at `press.force`; without force in front of it (hoverOver).
     void pointAt(const PointedSurface& surface, const MousePress& press);
     /// The pointer points past the model, along the line from `eye` along the unit vector `direction`: there,
     /// as far from the viewer as the hand is.

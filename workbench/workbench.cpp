@@ -128,7 +128,10 @@ class Workbench {
         desk_.update();
         if (target_.beginFrame())
             draw();
-        hand_.mouse().moveTo(view_.handGoal()); // in every frame: a frozen window is a hand that is gone
+        if (const auto goal = view_.handGoal())
+            hand_.mouse().moveTo(*goal); // in every frame: a frozen window is a hand that is gone
+        else
+            hand_.mouse().release();
         hand_.simulate(state_.simulatedHand);
         hand_.face(view_.workspaceFromView());
         devices_.renew(start);

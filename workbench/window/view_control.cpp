@@ -60,6 +60,8 @@ void ViewControl::lookAt(const Bounds& bounds, double aspect) {
     camera_.frame(bounds, aspect);
     const glm::dvec3 centre = bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
     hand_ = MouseHand(centre + glm::dvec3(0.0, 0.0, 0.5 * bounds.extent().z + kClearance));
+    over_ = hand_.goal();
+    lifted_ = 0.0;
 }
 
 void ViewControl::go(CameraMove move, const Situation& now) {
@@ -153,8 +155,10 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
         camera_.zoom(std::pow(kZoomPerNotch, notches));
     if (!now.mouseIsHand)
         return;
-    if (options.freeHand || !now.look)
+    if (options.freeHand || !now.look) {
+        lifted_ = 0.0;
         return moveFreeHand(now);
+    }
     if (notches != 0.0 && !io.KeyCtrl)
         options.press = std::clamp(options.press * std::pow(kWheelPress, notches), kLeastPress, kMostPress);
     if (!io.MouseDown[1] && !io.MouseDown[2] && !io.KeyAlt)
@@ -181,10 +185,40 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
     if (!ImGui::IsMousePosValid())
         return;
     const Ray sight = camera_.rayThroughPixel(pointer - now.origin, now.area);
-    const MousePress press{.force = io.MouseDown[0] ? options.press : 0.0};
-    if (const std::optional<PointedSurface> surface = now.look(sight))
-        return hand_.pointAt(*surface, press);
+    const bool back = lifted_ > 0.0 && lifted_ <= now.seconds;
+    lifted_ = std::max(0.0, lifted_ - now.seconds);
+    if (const std::optional<PointedSurface> seen = now.look(sight)) {
+        const PointedSurface surface = withRoom(now, *seen);
+        liftWhereBlocked(now, MouseHand::hoverOver(surface));
+        // It comes back in the air, before it presses.
+        return hand_.pointAt(surface, {.force = io.MouseDown[0] && !back ? options.press : 0.0});
+    }
     hand_.pointPast({camera_.right(), camera_.up(), camera_.forward()}, sight.origin, sight.direction);
+    liftWhereBlocked(now, hand_.goal());
+}
+
+/// Before a surface that another one faces the hand stays in the middle.
+PointedSurface ViewControl::withRoom(const Situation& now, const PointedSurface& surface) {
+    constexpr double kOff = 1e-6; // m: not the surface itself
+    PointedSurface with = surface;
+    const Ray out{surface.point + kOff * surface.normal, surface.normal};
+    if (const std::optional<PointedSurface> facing = now.look(out))
+        with.room = glm::distance(facing->point, surface.point);
+    return with;
+}
+
+/// A pointer is at once where a hand has a way to go. Where the straight way leads through the model, round
+/// an edge or from one part to another, the hand is lifted off and put down there: for long enough that touch
+/// begins anew. Dragged through, it would stay held on the side that it came from.
+void ViewControl::liftWhereBlocked(const Situation& now, const glm::dvec3& to) {
+    constexpr double kGone = 0.08; // s; kForceRampOutTime is 0.05
+    const glm::dvec3 from = std::exchange(over_, to), way = to - from;
+    const double length = glm::length(way);
+    if (!(length > 0.0))
+        return;
+    const std::optional<PointedSurface> met = now.look({from, way / length});
+    if (met && glm::distance(met->point, from) < length)
+        lifted_ = kGone;
 }
 
 } // namespace touchstone

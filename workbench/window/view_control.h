@@ -39,7 +39,10 @@ class ViewControl {
     [[nodiscard]] glm::dquat workspaceFromView() const {
         return glm::quat_cast(glm::dmat3(camera_.right(), camera_.up(), -camera_.forward()));
     }
-    [[nodiscard]] const glm::dvec3& handGoal() const { return hand_.goal(); } ///< workspace, m
+    /// Workspace, m; none while the hand is lifted off the model.
+    [[nodiscard]] std::optional<glm::dvec3> handGoal() const {
+        return lifted_ > 0.0 ? std::nullopt : std::optional(hand_.goal());
+    }
 
   private:
     void go(CameraMove move, const Situation& now);
@@ -47,10 +50,14 @@ class ViewControl {
     void turnWithPointer(const Situation& now, ViewOptions& options);
     void moveFreeHand(const Situation& now);
     void pointHand(const Situation& now, const ViewOptions& options);
+    [[nodiscard]] static PointedSurface withRoom(const Situation& now, const PointedSurface& surface);
+    void liftWhereBlocked(const Situation& now, const glm::dvec3& to);
 
     OrbitCamera camera_;
     Bounds bounds_;
     MouseHand hand_{glm::dvec3(0.0, 0.0, 0.1)};
+    glm::dvec3 over_{0.0}; ///< where the hand last hovered, or would have if it did not press
+    double lifted_ = 0.0;  ///< s for which the hand is still gone
 };
 
 } // namespace touchstone

@@ -217,11 +217,30 @@ TEST_F(WindowTest, EveryViewCanBeSavedWithMagnifierAndLegend) {
     expectCleanEnd();
 }
 
+TEST_F(WindowTest, PointingRoundAnEdgeLiftsTheHandOff) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    // From the right face to the front one and back, pressed all the while.
+    display_.move(inPicture(0.62, 0.5));
+    display_.press();
+    for (const double x : {0.4, 0.62, 0.4}) {
+        display_.move(inPicture(x, 0.5));
+        until("the force that was asked for", [](const Json& s) {
+            const auto f = s["tick"]["force"].get<std::vector<double>>();
+            return std::abs(std::hypot(f[0], f[1], f[2]) - 0.6) < 0.06;
+        });
+    }
+    display_.release();
+    until("the air", [](const Json& s) { return !touching(s); });
+    expectCleanEnd();
+}
+
 TEST_F(WindowTest, PushingAFreeHandIntoTheModelIsFelt) {
     open(TOUCHSTONE_ASSETS "/box.glb");
+    display_.move(inPicture(0.5, 0.5));
+    later(); // over the box, before it
     display_.key("g");
     until("the air", [](const Json& s) { return !touching(s); });
-    display_.scroll(inPicture(0.3, 0.3), 14);
+    display_.scroll(inPicture(0.5, 0.5), 14);
     const Json pressed = until("a contact", touching);
     EXPECT_GT(pressed["recent"]["mean_force_n"], 0.0);
     expectCleanEnd();
