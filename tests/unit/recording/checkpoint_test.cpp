@@ -124,6 +124,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Moving", "moving.glb", {}},
         Case{"MovingSticky", "moving.glb", {{"proxyRadius", "0.003"}, {"staticFriction", "2"}}},
         Case{"Neighbourhood", "doughnut.glb", {{"contact", "neighbourhood"}}},
+        Case{"Rays", "doughnut.glb", {{"contact", "rays"}}},
+        Case{"MovingRaysInSingle",
+             "moving.glb",
+             {{"contact", "rays"}, {"precision", "single"}, {"staticFriction", "0.7"}}},
         Case{"MovingNeighbourhood", "moving.glb", {{"contact", "neighbourhood"}, {"staticFriction", "0.7"}}}),
     [](const auto& tested) { return tested.param.name; });
 
