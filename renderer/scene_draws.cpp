@@ -37,8 +37,7 @@ bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item)
 /// At least the largest singular value: the root of the sum of squares.
 double largestStretch(const glm::dmat3& linear) {
     return std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) +
-                     glm::dot(linear[2], linear[2])) /
-           std::sqrt(3.0);
+                     glm::dot(linear[2], linear[2]));
 }
 
 } // namespace

@@ -147,6 +147,17 @@ class Run {
             progress_("truth", 0.3 * static_cast<double>(done++) / static_cast<double>(pending.size()));
             rests_[radius] = rests.get();
         }
+        compareTheSameTicks();
+    }
+
+    /// Where the oracle gave up for one radius the others say nothing either: rungs of one ladder are held to
+    /// the same ticks.
+    void compareTheSameTicks() {
+        for (const auto& [one, from] : rests_)
+            for (auto& [other, to] : rests_)
+                for (size_t i = 0; i < from.failed.size(); ++i)
+                    if (from.failed[i])
+                        to.failed[i] = true;
     }
 
     std::vector<truth::FeltTick> truthFor(const Entry& entry) {
@@ -235,9 +246,17 @@ void studyLadders(const Subject& subject, const StudyOptions& options, bool tess
     std::vector<RungResult> rungs;
     run.report(rungs);
     markPareto(rungs);
+    uint64_t failed = 0;
+    for (const RungResult& rung : rungs)
+        failed = std::max(failed, rung.errors.truthFailed);
+    if (failed > 0)
+        result.notes.push_back(subject.bench.name + ": the oracle found no rest in " +
+                               std::to_string(failed) + " ticks, which are not compared");
     if (!rungs.empty() && std::all_of(rungs.begin(), rungs.end(),
                                       [](const RungResult& rung) { return rung.errors.compared == 0; }))
-        result.problems.push_back(subject.bench.name + ": the stroke touched nothing");
+        result.problems.push_back(subject.bench.name + (failed > 0
+                                                            ? ": nothing could be compared with the oracle"
+                                                            : ": the stroke touched nothing"));
     std::move(rungs.begin(), rungs.end(), std::back_inserter(result.rungs));
 }
 

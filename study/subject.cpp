@@ -198,7 +198,7 @@ std::span<const ShapeKind> shapeKinds() {
     return kKinds;
 }
 
-Subject loadSubject(const std::filesystem::path& file) {
+Subject loadSubject(const std::filesystem::path& file, const std::string& name) {
     LoadOptions options;
     options.images.visual = false;
     const ScenePtr scene = loadScene(file, options);
@@ -208,7 +208,7 @@ Subject loadSubject(const std::filesystem::path& file) {
     Subject subject;
     const StrokeOptions stroke;
     subject.speed = stroke.speed;
-    subject.shape = subject.bench.name = file.filename().string();
+    subject.shape = subject.bench.name = name.empty() ? file.filename().string() : name;
     subject.path = kStroke;
     subject.bench.haptic = compileHapticScene(*scene, fit);
     if (subject.bench.haptic->objects.empty())

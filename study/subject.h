@@ -34,8 +34,9 @@ struct ShapeKind {
 [[nodiscard]] std::span<const ShapeKind> shapeKinds();
 
 /// A glTF file, fitted to the workspace and stroked as `run` strokes it. Throws Error where it cannot be
-/// loaded or touched. Moving objects stay in rest pose.
-[[nodiscard]] Subject loadSubject(const std::filesystem::path& file);
+/// loaded or touched. Moving objects stay in rest pose. `name`: what the results call it; empty: the file's
+/// name.
+[[nodiscard]] Subject loadSubject(const std::filesystem::path& file, const std::string& name = "");
 
 /// 64800 as "64,800".
 [[nodiscard]] std::string grouped(size_t value);

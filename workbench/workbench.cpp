@@ -74,6 +74,13 @@ std::vector<std::filesystem::path> sampleScenes() {
     return found;
 }
 
+/// One of our own scenes, which nobody saves over by accident.
+bool isSample(const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(path, error).parent_path() ==
+           std::filesystem::weakly_canonical(defaultScene(), error).parent_path();
+}
+
 class Workbench {
   public:
     explicit Workbench(const WindowOptions& options)
@@ -122,7 +129,8 @@ class Workbench {
         takeMaterials();
         prepareSettings();
         if (const auto dropped = window_.takeDropped())
-            open(*dropped);
+            leaveFor(*dropped);
+        leave();
         servo_.updateSnapshot();
         servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, start);
         desk_.update();
@@ -139,7 +147,14 @@ class Workbench {
         pace(start);
     }
 
-    [[nodiscard]] bool closed() const { return window_.shouldClose() || interrupted(); }
+    /// Asks before unsaved materials are lost, unless it is the system that wants an end.
+    [[nodiscard]] bool closed() {
+        if (interrupted() || !window_.shouldClose() || left_ || !materials_.edits().edited())
+            return interrupted() || window_.shouldClose();
+        window_.stayOpen();
+        state_.leaving.emplace();
+        return false;
+    }
     [[nodiscard]] bool loading() const { return loader_.loading() || uploading_.has_value(); }
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
 
@@ -172,7 +187,8 @@ class Workbench {
         shown_ = std::move(loaded);
         drawn_ = shown_.model.scene;
         shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
-        materials_.open(shown_.model, shown_.identity.generated);
+        redrawn_.reset();
+        materials_.open(shown_.model, isSample(shown_.model.scene->path));
         offerScene();
         hand_.offerPath(shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
@@ -210,13 +226,66 @@ class Workbench {
         offerScene(made->touchGoesOn ? SceneSwap::SameGeometry : SceneSwap::Anew);
     }
 
-    /// The eye needs the edited materials only where it shows what is felt.
-    void showMaterials() {
-        if (uploading_ || drawn_ == shown_.model.scene ||
-            (drawn_ != nullptr && state_.view.mode == ViewMode::Shaded))
+    void leaveFor(const std::filesystem::path& path) {
+        if (hasModel() && materials_.edits().edited())
+            state_.leaving = path;
+        else
+            open(path);
+    }
+
+    /// What the user said about unsaved materials; a save that fails keeps them.
+    void leave() {
+        using enum PanelState::Leave;
+        const PanelState::Leave answer = std::exchange(state_.leave, Undecided);
+        if (!state_.leaving || (answer == Undecided && !savesToLeave_))
             return;
-        drawn_ = shown_.model.scene;
-        renderer_.setScene(drawn_);
+        if (answer == Save) {
+            materials_.save();
+            savesToLeave_ = true;
+        }
+        if (savesToLeave_ && materials_.saving())
+            return;
+        const bool stays = answer == Stay || (savesToLeave_ && materials_.failed());
+        if (savesToLeave_ && materials_.failed())
+            problem_ = materials_.notice();
+        savesToLeave_ = false;
+        const std::filesystem::path path = *std::exchange(state_.leaving, std::nullopt);
+        if (stays)
+            return;
+        if (!path.empty())
+            return open(path);
+        left_ = true;
+        window_.close();
+    }
+
+    /// The eye needs the edited materials only where it shows what is felt. A worker prepares them, and they
+    /// are taken in by slices as a new model is.
+    void showMaterials() {
+        if (uploading_) {
+            redrawn_.reset();
+            return;
+        }
+        const bool stale =
+            drawn_ != shown_.model.scene && (drawn_ == nullptr || state_.view.mode != ViewMode::Shaded);
+        if (stale && !preparing_.valid() && redrawn_ == nullptr)
+            preparing_ =
+                std::async(std::launch::async, [scene = shown_.model.scene] { return prepareScene(scene); });
+        try {
+            if (preparing_.valid() &&
+                preparing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+                const std::shared_ptr<const PreparedScene> prepared = preparing_.get();
+                if (prepared->scene == shown_.model.scene) { // else another change came meanwhile
+                    redrawn_ = prepared->scene;
+                    renderer_.beginScene(prepared);
+                }
+            }
+            if (redrawn_ != nullptr && renderer_.continueScene(kUploadTime))
+                drawn_ = std::exchange(redrawn_, nullptr);
+        } catch (const std::exception& error) {
+            redrawn_.reset();
+            drawn_ = shown_.model.scene; // not again until something else is changed
+            problem_ = std::string("the view could not be made anew: ") + error.what();
+        }
     }
 
     /// What contact=neighbourhood walks on and the slopes of textureGradient=precomputed are built on a
@@ -396,6 +465,7 @@ class Workbench {
         input.recent = memory_.recent;
         input.samples = samples_;
         input.materialNotice = materials_.notice();
+        input.canSaveMaterials = materials_.canSaveInPlace();
         input.materialsEdited = materials_.edits().edited();
         input.materialsWorking = materials_.working();
         input.loading = loading();
@@ -432,7 +502,7 @@ class Workbench {
         if (std::exchange(state_.quitPressed, false))
             window_.close();
         if (const auto asked = std::exchange(state_.open, std::nullopt))
-            open(*asked);
+            leaveFor(*asked);
         if (const auto wanted = std::exchange(state_.chartWanted, std::nullopt)) {
             if (*wanted == ChartFile::Picture)
                 chartPictures_.request(target_, pixelsOf(widgets.at("charts")), "charts");
@@ -524,7 +594,11 @@ class Workbench {
     PictureDesk chartPictures_{stateFolder() / "pictures"};
     StatusFile status_;
     std::string problem_;
+    bool savesToLeave_ = false; // the user waits for a save, to go on after it
+    bool left_ = false;         // the user has said what becomes of unsaved materials
     std::future<void> building_;
+    std::future<std::shared_ptr<const PreparedScene>> preparing_; // of edited materials
+    ScenePtr redrawn_;                                            // that the renderer is taking in for them
     double framesPerSecond_ = 0.0;
     double longestFrame_ = 0.0; // s, since a model was last opened
 };

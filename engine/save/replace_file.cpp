@@ -24,7 +24,7 @@ class TemporaryFile {
             name_ = target_ + "." + std::to_string(getpid()) + "-" + std::to_string(number++) + ".part";
             descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         } while (descriptor_ < 0 && errno == EEXIST && number < 1000);
-        if (descriptor_ < 0)
+        if (descriptor_ < 0) // nothing is there to clean up
             fail("cannot be written", "check the folder's permissions, or save under another name");
     }
     ~TemporaryFile() {
@@ -59,11 +59,7 @@ class TemporaryFile {
 
   private:
     [[noreturn]] void fail(const std::string& problem, const std::string& remedy) {
-        const std::string why = std::strerror(errno);
-        if (descriptor_ >= 0) {
-            close(descriptor_);
-            unlink(name_.c_str());
-        }
+        const std::string why = std::strerror(errno); // the destructor cleans up
         throw Error(target_, "", problem + ": " + why + "; nothing was changed", remedy);
     }
 

@@ -101,8 +101,27 @@ std::vector<std::string> modelsIn(const std::filesystem::path& folder) {
     return models;
 }
 
+/// A model, shape or "rate", and what the results call it.
+struct Asked {
+    std::string what, name;
+};
+
+/// Files are called by their names, and by the way to them where several have the same.
+std::vector<Asked> named(const std::vector<std::string>& what) {
+    std::map<std::string, int> files;
+    const auto fileName = [](const std::string& path) {
+        return std::filesystem::path(path).filename().string();
+    };
+    for (const std::string& path : what)
+        ++files[fileName(path)];
+    std::vector<Asked> asked;
+    for (const std::string& path : what)
+        asked.push_back({path, files[fileName(path)] > 1 ? path : fileName(path)});
+    return asked;
+}
+
 /// What is asked for, in a fixed order, and of it the part of this shard.
-std::vector<std::string> share(const StudyCommandOptions& options) {
+std::vector<Asked> share(const StudyCommandOptions& options) {
     std::vector<std::string> what;
     for (const std::string& asked : options.what) {
         const bool folder = kindNamed(asked) == nullptr && std::filesystem::is_directory(asked);
@@ -116,23 +135,24 @@ std::vector<std::string> share(const StudyCommandOptions& options) {
         what.emplace_back(kRate);
     std::sort(what.begin(), what.end());
     what.erase(std::unique(what.begin(), what.end()), what.end());
-    std::vector<std::string> mine;
-    for (size_t i = 0; i < what.size(); ++i)
+    const std::vector<Asked> all = named(what);
+    std::vector<Asked> mine;
+    for (size_t i = 0; i < all.size(); ++i)
         if (i % static_cast<size_t>(options.shards) == static_cast<size_t>(options.shard - 1))
-            mine.push_back(what[i]);
+            mine.push_back(all[i]);
     return mine;
 }
 
-void studyOne(const std::string& name, const StudyOptions& options, bool tessellate, StudyResult& result,
+void studyOne(const Asked& asked, const StudyOptions& options, bool tessellate, StudyResult& result,
               const StudyProgress& progress) {
-    if (name == kRate) {
+    if (asked.what == kRate) {
         result.rates = studyRates(kServoRates, {.rounds = std::max(2, options.rounds / 5)},
                                   [&](double done) { progress("servo rates", done); });
         return;
     }
-    const ShapeKind* kind = kindNamed(name);
+    const ShapeKind* kind = kindNamed(asked.what);
     if (kind == nullptr) {
-        studySubject(loadSubject(name), options, result, progress);
+        studySubject(loadSubject(asked.what, asked.name), options, result, progress);
         return;
     }
     tessellate = tessellate && kind->round;
@@ -230,12 +250,13 @@ int studyCommand(const StudyCommandOptions& options) {
     StudyResult result;
     result.provenance = provenanceOf(options.commandLine);
     result.noticeable = noticeableDifferences();
-    const std::vector<std::string> mine = share(options);
+    const std::vector<Asked> mine = share(options);
     {
         const Bar bar;
         for (size_t i = 0; i < mine.size(); ++i) {
             const auto progress = [&](const std::string& what, double done) {
-                bar.show(mine[i], what, (static_cast<double>(i) + done) / static_cast<double>(mine.size()));
+                bar.show(mine[i].what, what,
+                         (static_cast<double>(i) + done) / static_cast<double>(mine.size()));
             };
             try {
                 studyOne(mine[i], plan, tessellate, result, progress);
@@ -243,13 +264,14 @@ int studyCommand(const StudyCommandOptions& options) {
                 if (options.shards == 1 && mine.size() == 1)
                     throw;
                 const std::string what = error.what();
-                result.problems.push_back(what.starts_with(mine[i]) ? what : mine[i] + ": " + what);
+                result.problems.push_back(what.starts_with(mine[i].what) ? what : mine[i].what + ": " + what);
             }
         }
     }
     printTable(result);
     publish(result, options.out, options.shards == 1);
-    return 0;
+    // A share without work is done; one of which nothing came has failed.
+    return mine.empty() || !result.rungs.empty() || !result.rates.empty() ? 0 : 1;
 }
 
 int studyMerge(const StudyMergeOptions& options) {

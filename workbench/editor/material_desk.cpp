@@ -8,8 +8,10 @@ namespace touchstone {
 
 void MaterialDesk::open(const Model& model, bool generated) {
     live_.discard();
+    tell("", false);
     if (saving_.valid())
-        finishSaving();
+        finishSaving(); // what went wrong with it stays said
+    wanted_.clear();
     edits_ = MaterialEdits(*model.scene);
     materials_ = model.scene->materials;
     touched_ = seen_ = edits_.revision();
@@ -17,7 +19,6 @@ void MaterialDesk::open(const Model& model, bool generated) {
     stamp_ = model.scene->file;
     generated_ = generated;
     saved_.reset();
-    tell("", false);
 }
 
 void MaterialDesk::tell(std::string notice, bool failed) {
@@ -57,8 +58,12 @@ std::optional<MadeMaterials> MaterialDesk::update(const Model& model) {
         return made; // the caller's model is what the next job starts from
     }
     const bool behind = touched_ != edits_.revision() || (!edits_.inGesture() && seen_ != edits_.revision());
-    if (behind && !live_.busy() && !saving_.valid())
+    if (live_.busy() || saving_.valid())
+        return std::nullopt;
+    if (behind)
         startWork(model);
+    else if (!wanted_.empty())
+        startSaving(std::exchange(wanted_, {}));
     return std::nullopt;
 }
 
@@ -66,6 +71,12 @@ void MaterialDesk::saveAs(const std::filesystem::path& target) {
     if (saving_.valid())
         return;
     edits_.endGesture();
+    wanted_ = target;
+}
+
+/// Only when the last change is felt: the worker may be reading the file, and a recording is told that the
+/// file holds what is touched.
+void MaterialDesk::startSaving(const std::filesystem::path& target) {
     savingStatements_ = edits_.all();
     target_ = target;
     tell("", false);

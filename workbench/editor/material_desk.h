@@ -28,10 +28,11 @@ class MaterialDesk {
     [[nodiscard]] bool working() const { return live_.busy(); }
     [[nodiscard]] double seconds() const { return seconds_; } ///< that the last change took to be touchable
 
-    /// Into the file that is open, or another one, which then is the one that is open.
+    /// Into the file that is open, or another one, which then is the one that is open; once the last change
+    /// is felt.
     void save() { saveAs(path_); }
     void saveAs(const std::filesystem::path& target);
-    [[nodiscard]] bool saving() const { return saving_.valid(); }
+    [[nodiscard]] bool saving() const { return saving_.valid() || !wanted_.empty(); }
     [[nodiscard]] bool canSaveInPlace() const { return !generated_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     /// The file as it was saved; once after each save.
@@ -43,6 +44,7 @@ class MaterialDesk {
 
   private:
     void tell(std::string notice, bool failed);
+    void startSaving(const std::filesystem::path& target);
     void finishSaving();
     void startWork(const Model& model);
 
@@ -52,7 +54,7 @@ class MaterialDesk {
     uint64_t touched_ = 0, seen_ = 0; // revisions that the hand and the eye have
     double seconds_ = 0.0;
 
-    std::filesystem::path path_, target_;
+    std::filesystem::path path_, target_, wanted_; ///< wanted_: to be saved to as soon as may be
     FileStamp stamp_;
     bool generated_ = false;
     std::future<FileStamp> saving_;

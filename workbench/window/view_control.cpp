@@ -62,6 +62,7 @@ void ViewControl::lookAt(const Bounds& bounds, double aspect) {
     hand_ = MouseHand(centre + glm::dvec3(0.0, 0.0, 0.5 * bounds.extent().z + kClearance));
     over_ = hand_.goal();
     lifted_ = 0.0;
+    pressing_ = false;
 }
 
 void ViewControl::go(CameraMove move, const Situation& now) {
@@ -121,6 +122,14 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
         camera_.orbit(kTurntable * now.seconds, 0.0);
     if (!ImGui::GetIO().WantCaptureMouse)
         turnWithPointer(now, options);
+    if (pressing_ && (ImGui::GetIO().WantCaptureMouse || !ImGui::GetIO().MouseDown[0]))
+        letGo();
+}
+
+/// The button came up over a panel or in another window: nobody presses any more.
+void ViewControl::letGo() {
+    pressing_ = false;
+    hand_.pointAt({.point = over_, .normal = glm::dvec3(0.0)}, {.force = 0.0});
 }
 
 /// Arrows orbit, with Shift they pan; plus and minus zoom.
@@ -157,7 +166,9 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
         return;
     if (options.freeHand || !now.look) {
         lifted_ = 0.0;
-        return moveFreeHand(now);
+        moveFreeHand(now);
+        over_ = hand_.goal();
+        return;
     }
     if (notches != 0.0 && !io.KeyCtrl)
         options.press = std::clamp(options.press * std::pow(kWheelPress, notches), kLeastPress, kMostPress);
@@ -191,7 +202,8 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
         const PointedSurface surface = withRoom(now, *seen);
         liftWhereBlocked(now, MouseHand::hoverOver(surface));
         // It comes back in the air, before it presses.
-        return hand_.pointAt(surface, {.force = io.MouseDown[0] && !back ? options.press : 0.0});
+        pressing_ = io.MouseDown[0] && !back;
+        return hand_.pointAt(surface, {.force = pressing_ ? options.press : 0.0});
     }
     hand_.pointPast({camera_.right(), camera_.up(), camera_.forward()}, sight.origin, sight.direction);
     liftWhereBlocked(now, hand_.goal());

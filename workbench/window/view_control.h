@@ -51,13 +51,15 @@ class ViewControl {
     void moveFreeHand(const Situation& now);
     void pointHand(const Situation& now, const ViewOptions& options);
     [[nodiscard]] static PointedSurface withRoom(const Situation& now, const PointedSurface& surface);
+    void letGo();
     void liftWhereBlocked(const Situation& now, const glm::dvec3& to);
 
     OrbitCamera camera_;
     Bounds bounds_;
     MouseHand hand_{glm::dvec3(0.0, 0.0, 0.1)};
     glm::dvec3 over_{0.0}; ///< where the hand last hovered, or would have if it did not press
-    double lifted_ = 0.0;  ///< s for which the hand is still gone
+    bool pressing_ = false;
+    double lifted_ = 0.0; ///< s for which the hand is still gone
 };
 
 } // namespace touchstone

@@ -86,6 +86,10 @@ glm::ivec2 Window::size() const {
     return size;
 }
 
+void Window::stayOpen() {
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+}
+
 void Window::close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }

@@ -28,6 +28,7 @@ class Window {
     /// The file that was dropped on the window since the last call.
     [[nodiscard]] std::optional<std::filesystem::path> takeDropped();
     [[nodiscard]] glm::ivec2 size() const; ///< screen coordinates
+    void stayOpen();                       ///< not shouldClose after all
     void close();                          ///< shouldClose from now on
     void setTitle(const std::string& title);
 

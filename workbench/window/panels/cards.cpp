@@ -41,6 +41,28 @@ void loading(const PanelInput& input, PanelState& state, const WidgetRect& pictu
     ImGui::End();
 }
 
+/// Before edited materials are lost.
+void unsaved(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
+    if (!state.leaving)
+        return;
+    ImGui::SetNextWindowFocus(); // over the editor
+    if (beginCard("unsaved", picture, 0.5f, 0.5f, widgets)) {
+        ImGui::Text("What was changed in the materials of %s is not saved.", input.modelName.c_str());
+        const auto answer = [&](const char* label, const char* name, PanelState::Leave choice) {
+            if (ImGui::Button(label))
+                state.leave = choice;
+            widgets.mark(name);
+            ImGui::SameLine();
+        };
+        if (input.canSaveMaterials)
+            answer("Save", "leaveSave", PanelState::Leave::Save);
+        answer("Discard", "leaveDiscard", PanelState::Leave::Discard);
+        answer("Stay", "leaveStay", PanelState::Leave::Stay);
+        ImGui::NewLine();
+    }
+    ImGui::End();
+}
+
 void problem(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
     if (input.problem.empty() || input.loading)
         return;
@@ -84,6 +106,7 @@ void introduction(const PanelInput& input, PanelState& state, const WidgetRect& 
 void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
     loading(input, state, picture, widgets);
     problem(input, state, picture, widgets);
+    unsaved(input, state, picture, widgets);
     introduction(input, state, picture, widgets);
 }
 

@@ -33,7 +33,8 @@ struct PanelInput {
     std::string recordingFile; ///< the last one; empty: none yet
     double recordedSeconds = 0.0;
     /// Of the material editor.
-    std::string materialNotice; ///< what became of the last save or change; empty: nothing to tell
+    std::string materialNotice;    ///< what became of the last save or change; empty: nothing to tell
+    bool canSaveMaterials = false; ///< into the file that is open
     bool materialsEdited = false, materialsWorking = false; ///< not in the file yet; not touchable yet
     bool loading = false;
     std::string loadName; ///< of the file
@@ -76,6 +77,10 @@ struct PanelState {
     std::string openPath = std::string(1024, '\0'); ///< what is being typed
 
     // Asked for in this frame; whoever does it takes it back:
+    /// Where the user wants to go although materials are not saved: another model, or nowhere (an empty
+    /// path).
+    std::optional<std::filesystem::path> leaving;
+    enum class Leave : uint8_t { Undecided, Save, Discard, Stay } leave = Leave::Undecided; ///< in this frame
     bool recordPressed = false, cancelPressed = false, dismissPressed = false, quitPressed = false;
     std::optional<ChartFile> chartWanted;
     std::optional<std::filesystem::path> open;

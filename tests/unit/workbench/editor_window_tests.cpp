@@ -1,0 +1,50 @@
+// Unsaved materials in the real window: they are asked for before they are lost.
+
+#include "tests/unit/workbench/window_test.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace touchstone::test {
+namespace {
+
+class EditorWindow : public WindowTest {
+  protected:
+    /// A copy of the doughnut with another friction.
+    void edit() {
+        std::filesystem::copy_file(TOUCHSTONE_ASSETS "/doughnut.glb", model_);
+        open(model_.string(), {"--hand", "simulated"});
+        display_.key("e");
+        until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
+        const Json rect = later()["widgets"].at("edit.staticFriction");
+        display_.click(
+            {corner_.x + static_cast<int>(rect["x"].get<double>() + 0.8 * rect["width"].get<double>()),
+             corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
+        until("an edit", [](const Json& s) { return s["materials"]["edited"].get<bool>(); });
+    }
+    void askToQuit() {
+        display_.key("ctrl+q");
+        until("the question",
+              [](const Json& s) { return s["leaving"].get<bool>() && s["widgets"].contains("leaveSave"); });
+        later();
+    }
+
+    std::filesystem::path model_ = scratch_ / "doughnut.glb";
+};
+
+TEST_F(EditorWindow, UnsavedMaterialsAreAskedForAndSavedBeforeTheEnd) {
+    edit();
+    const std::string before = readFile(model_);
+    askToQuit();
+    display_.click(middleOf("leaveStay"));
+    until("to stay", [](const Json& s) { return !s["leaving"].get<bool>(); });
+    EXPECT_TRUE(readFile(model_) == before) << "nothing is written unasked";
+    askToQuit();
+    display_.click(middleOf("leaveSave"));
+    EXPECT_EQ(program_->wait(), 0) << readFile(scratch_ / "log");
+    EXPECT_TRUE(readFile(model_) != before) << "it was saved";
+}
+
+} // namespace
+} // namespace touchstone::test
