@@ -80,8 +80,13 @@ void SceneRenderer::Impl::warmUp(int instance) {
         resizeSlot(gpu, {16, 16}, warm_);
     // A frame as any other, of the scene that is coming.
     std::swap(scene_, coming_);
-    writeUniforms(warm_, View{}, glm::dvec3(0.0), Overlay{}, warm_.color.extent);
-    record(warm_, View{}, Overlay{}, OverlayDraw{});
+    try {
+        writeUniforms(warm_, View{}, glm::dvec3(0.0), Overlay{}, warm_.color.extent);
+        record(warm_, View{}, Overlay{}, OverlayDraw{});
+    } catch (...) { // what is shown stays shown
+        std::swap(scene_, coming_);
+        throw;
+    }
     std::swap(scene_, coming_);
     draws_.clear();
     gpu.device.resetFences(*warm_.done);
@@ -229,6 +234,10 @@ bool SceneRenderer::continueScene(double seconds) {
         impl_->abandon();
         throw;
     }
+}
+
+void SceneRenderer::abandonScene() {
+    impl_->abandon();
 }
 
 void SceneRenderer::setInstancePoses(std::span<const glm::dmat4> sceneFromMesh) {

@@ -38,6 +38,8 @@ class SceneRenderer {
     /// Errors as in setScene, but what was drawn before stays.
     void beginScene(std::shared_ptr<const PreparedScene> prepared);
     [[nodiscard]] bool continueScene(double seconds);
+    /// Forgets the scene that is being taken in; the one that is shown stays.
+    void abandonScene();
 
     /// Where the instances are now, one `sceneFromMesh` for each of Scene::instances; holds until the next
     /// call. Throws std::invalid_argument on another count.

@@ -495,8 +495,11 @@ class Workbench {
     void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {
         if (std::exchange(state_.recordPressed, false))
             desk_.toggle();
-        if (std::exchange(state_.cancelPressed, false))
+        if (std::exchange(state_.cancelPressed, false)) {
             loader_.abandon();
+            uploading_.reset();
+            renderer_.abandonScene();
+        }
         if (std::exchange(state_.dismissPressed, false))
             problem_.clear();
         if (std::exchange(state_.quitPressed, false))
