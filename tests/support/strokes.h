@@ -5,6 +5,7 @@
 #include "haptics/haptic_settings.h"
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -59,5 +60,26 @@ inline glm::dvec3 strokeHand(const StrokeCase& c, int tick) {
     const double tilt = 0.6 * std::sin(0.37 * a);
     return reach * glm::dvec3(std::cos(a) * std::cos(tilt), std::sin(a) * std::cos(tilt), std::sin(tilt));
 }
+
+/// What a device may do at its worst, over the torus of ring 60 mm and tube 25 mm: a stroke 1 mm deep, in
+/// every tenth tick a jump by centimetres, now and then no number at all.
+class RestlessHand {
+  public:
+    glm::dvec3 next() {
+        const int i = tick_++;
+        const double a = 2e-3 * i;
+        glm::dvec3 hip(0.084 * std::cos(a), 0.084 * std::sin(a), 0.01 * std::sin(3 * a));
+        if (i % 10 == 9)
+            hip += glm::dvec3(noise_(random_), noise_(random_), noise_(random_));
+        if (i % 501 == 500)
+            hip.x = NAN;
+        return hip;
+    }
+
+  private:
+    std::mt19937 random_{5};
+    std::normal_distribution<double> noise_{0.0, 0.02};
+    int tick_ = 0;
+};
 
 } // namespace touchstone::test

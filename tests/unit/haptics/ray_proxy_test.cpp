@@ -5,6 +5,7 @@
 #include "haptics/proxy/ray_path.h"
 #include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/strokes.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -361,17 +362,11 @@ TEST_P(RayProxyIn, AllocatesNothingAndRepeatsToTheLastBit) {
     settings.staticFriction = 0.5;
     settings.dynamicFriction = 0.4;
     TouchBench first(scene, settings), second(scene, settings);
-    std::mt19937 random(5);
-    std::normal_distribution<double> noise(0.0, 0.02);
+    RestlessHand hand;
     int touching = 0;
     const uint64_t before = allocationsOnThisThread();
     for (int i = 0; i < 4000; ++i) {
-        const double a = 2e-3 * i;
-        glm::dvec3 hip(0.084 * std::cos(a), 0.084 * std::sin(a), 0.01 * std::sin(3 * a));
-        if (i % 10 == 9)
-            hip += glm::dvec3(noise(random), noise(random), noise(random));
-        if (i % 501 == 500)
-            hip.x = NAN;
+        const glm::dvec3 hip = hand.next();
         first.step(hip);
         second.step(hip);
         touching += first.output.contacts > 0 ? 1 : 0;
