@@ -7,18 +7,21 @@
 #include "renderer/scene_renderer.h"
 #include "renderer/window_target.h"
 #include "workbench/commands.h"
-#include "workbench/editor/material_panel.h"
+#include "workbench/editor/drawn_materials.h"
+#include "workbench/editor/material_window.h"
 #include "workbench/gpu_options.h"
 #include "workbench/guards/interrupt.h"
-#include "workbench/hand/device_menu.h"
 #include "workbench/hand/device_port.h"
 #include "workbench/hand/hand_switch.h"
+#include "workbench/hand/held_device.h"
 #include "workbench/hand/sight.h"
 #include "workbench/model/animate.h"
+#include "workbench/model/background_build.h"
 #include "workbench/model/default_scene.h"
-#include "workbench/model/model_loader.h"
+#include "workbench/model/opening.h"
 #include "workbench/state_folder.h"
 #include "workbench/window/layout.h"
+#include "workbench/window/leaving.h"
 #include "workbench/window/model_picture.h"
 #include "workbench/window/recording_desk.h"
 #include "workbench/window/saved_file.h"
@@ -34,7 +37,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <map>
 #include <new>
 #include <string>
@@ -50,7 +52,6 @@ constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU 
 constexpr int kHardwarePixels = 2560 * 1440;
 constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
 constexpr double kChartSeconds = 10.0;
-constexpr double kUploadTime = 0.008; // s of a frame, while a model is taken in
 
 double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -61,24 +62,6 @@ constexpr const char* kMemoryFile = "window.json"; // in the state folder
 /// The size asked for on the command line, else that of the last run.
 glm::ivec2 firstSize(const glm::ivec2& asked, const glm::ivec2& remembered) {
     return asked == WindowOptions{}.size && remembered.x > 0 ? remembered : asked;
-}
-
-/// Our own scenes, to be opened from the menu.
-std::vector<std::filesystem::path> sampleScenes() {
-    std::vector<std::filesystem::path> found;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(defaultScene().parent_path(), error))
-        if (entry.path().extension() == ".glb")
-            found.push_back(entry.path());
-    std::ranges::sort(found);
-    return found;
-}
-
-/// One of our own scenes, which nobody saves over by accident.
-bool isSample(const std::filesystem::path& path) {
-    std::error_code error;
-    return std::filesystem::weakly_canonical(path, error).parent_path() ==
-           std::filesystem::weakly_canonical(defaultScene(), error).parent_path();
 }
 
 class Workbench {
@@ -109,7 +92,7 @@ class Workbench {
     void open(const std::filesystem::path& path) {
         problem_.clear();
         longestFrame_ = 0.0;
-        loader_.start(path, handLimits());
+        opening_.start(path, held_.limits());
     }
 
     /// Ends what is recorded as it should.
@@ -142,42 +125,37 @@ class Workbench {
             hand_.mouse().release();
         hand_.simulate(state_.simulatedHand);
         hand_.face(view_.workspaceFromView());
-        devices_.renew(start);
+        held_.menu().renew(start);
         holdDevice();
         pace(start);
     }
 
     /// Asks before unsaved materials are lost, unless it is the system that wants an end.
     [[nodiscard]] bool closed() {
-        if (interrupted() || !window_.shouldClose() || left_ || !materials_.edits().edited())
+        if (interrupted() || !window_.shouldClose() || left_)
             return interrupted() || window_.shouldClose();
+        if (leaving_.mayLeave({}, materials_, state_))
+            return true;
         window_.stayOpen();
-        state_.leaving.emplace();
         return false;
     }
-    [[nodiscard]] bool loading() const { return loader_.loading() || uploading_.has_value(); }
+    [[nodiscard]] bool loading() const { return opening_.busy(); }
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
 
   private:
     /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
     void takeModel() {
         try {
-            if (std::optional<LoadedModel> loaded = loader_.take()) {
-                renderer_.beginScene(std::move(loaded->prepared));
-                uploading_ = std::move(loaded);
-            }
-            if (uploading_ && renderer_.continueScene(kUploadTime))
-                show(*std::exchange(uploading_, std::nullopt));
+            if (std::optional<LoadedModel> loaded = opening_.update(renderer_))
+                show(*std::move(loaded));
         } catch (const Error& error) {
             if (!hasModel())
                 throw;
-            uploading_.reset();
             problem_ = error.what();
         } catch (const std::bad_alloc&) {
             if (!hasModel())
                 throw;
-            uploading_.reset();
-            problem_ = loader_.path().filename().string() + ": there is not enough memory for it";
+            problem_ = opening_.path().filename().string() + ": there is not enough memory for it";
         }
     }
 
@@ -185,9 +163,8 @@ class Workbench {
         loaded.model.haptic =
             limited(*loaded.model.haptic); // another hand may be held than when it was begun
         shown_ = std::move(loaded);
-        drawn_ = shown_.model.scene;
+        drawn_.shown(shown_.model.scene);
         shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
-        redrawn_.reset();
         materials_.open(shown_.model, isSample(shown_.model.scene->path));
         offerScene();
         hand_.offerPath(shown_.path);
@@ -218,8 +195,8 @@ class Workbench {
         if (made->scene != nullptr)
             shown_.model.scene = made->scene;
         if (made->read)
-            drawn_.reset(); // it has other images
-        made->haptic->limits = handLimits();
+            drawn_.renew(); // it has other images
+        made->haptic->limits = held_.limits();
         shown_.model.haptic = made->haptic;
         shown_.identity.feltHash = made->feltHash;
         shown_.identity.edits = made->edits;
@@ -227,136 +204,61 @@ class Workbench {
     }
 
     void leaveFor(const std::filesystem::path& path) {
-        if (hasModel() && materials_.edits().edited())
-            state_.leaving = path;
-        else
+        if (leaving_.mayLeave(path, materials_, state_))
             open(path);
     }
 
-    /// What the user said about unsaved materials; a save that fails keeps them.
+    /// Goes where the user wanted to go, once unsaved materials are seen to.
     void leave() {
-        using enum PanelState::Leave;
-        const PanelState::Leave answer = std::exchange(state_.leave, Undecided);
-        if (!state_.leaving || (answer == Undecided && !savesToLeave_))
+        const std::optional<Leaving::Target> target = leaving_.update(materials_, state_, problem_);
+        if (!target)
             return;
-        if (answer == Save) {
-            materials_.save();
-            savesToLeave_ = true;
-        }
-        if (savesToLeave_ && materials_.saving())
-            return;
-        const bool stays = answer == Stay || (savesToLeave_ && materials_.failed());
-        if (savesToLeave_ && materials_.failed())
-            problem_ = materials_.notice();
-        savesToLeave_ = false;
-        const std::filesystem::path path = *std::exchange(state_.leaving, std::nullopt);
-        if (stays)
-            return;
-        if (!path.empty())
-            return open(path);
+        if (!target->empty())
+            return open(*target);
         left_ = true;
         window_.close();
     }
 
-    /// The eye needs the edited materials only where it shows what is felt. A worker prepares them, and they
-    /// are taken in by slices as a new model is.
     void showMaterials() {
-        if (uploading_) {
-            redrawn_.reset();
-            return;
-        }
-        const bool stale =
-            drawn_ != shown_.model.scene && (drawn_ == nullptr || state_.view.mode != ViewMode::Shaded);
-        if (stale && !preparing_.valid() && redrawn_ == nullptr)
-            preparing_ =
-                std::async(std::launch::async, [scene = shown_.model.scene] { return prepareScene(scene); });
+        if (opening_.uploading())
+            return drawn_.interrupt();
         try {
-            if (preparing_.valid() &&
-                preparing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-                const std::shared_ptr<const PreparedScene> prepared = preparing_.get();
-                if (prepared->scene == shown_.model.scene) { // else another change came meanwhile
-                    redrawn_ = prepared->scene;
-                    renderer_.beginScene(prepared);
-                }
-            }
-            if (redrawn_ != nullptr && renderer_.continueScene(kUploadTime))
-                drawn_ = std::exchange(redrawn_, nullptr);
+            drawn_.update(renderer_, shown_.model.scene, state_.view.mode != ViewMode::Shaded);
         } catch (const std::exception& error) {
-            redrawn_.reset();
-            drawn_ = shown_.model.scene; // not again until something else is changed
             problem_ = std::string("the view could not be made anew: ") + error.what();
         }
     }
 
-    /// What contact=neighbourhood walks on and the slopes of textureGradient=precomputed are built on a
-    /// worker when they are first asked for. Until they are there the servo sweeps, or works the slopes out.
     void prepareSettings() {
         if (!hasModel())
             return;
-        const std::shared_ptr<const HapticScene>& haptic = shown_.model.haptic;
-        const bool busy =
-            building_.valid() && building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-        if (building_.valid() && !busy) {
-            try {
-                building_.get();
-            } catch (const std::exception& error) {
-                problem_ = std::string("the settings could not be prepared: ") + error.what();
-                state_.settings.contact = ContactMethod::Sweep;
-                state_.settings.textureGradient = TextureGradient::Central;
-                servo_.setSettings(state_.settings);
-                return;
-            }
-        }
-        const bool walk = state_.settings.contact == ContactMethod::Neighbourhood &&
-                          haptic->neighbourhoods() == nullptr,
-                   slopes = state_.settings.textureGradient == TextureGradient::Precomputed &&
-                            haptic->slopes() == nullptr;
-        if (!busy && (walk || slopes))
-            building_ = std::async(std::launch::async, [haptic, walk, slopes] {
-                if (walk)
-                    haptic->buildNeighbourhoods();
-                if (slopes)
-                    haptic->buildSlopes();
-            });
-    }
-
-    /// Holds what was chosen. A device is driven only by a scene with its own limits: it waits until the
-    /// servo has adopted that; meanwhile nothing is held.
-    void holdDevice() {
-        hand_.collect();
-        if (state_.device != devices_.chosen())
-            chooseDevice();
-        if (coming_ != nullptr && (!hasModel() || servo_.snapshot().scene == offered_))
-            hand_.hold(std::exchange(coming_, nullptr));
-    }
-
-    void chooseDevice() {
-        hand_.hold(nullptr);
-        coming_.reset();
-        coming_ = devices_.choose(state_.device);
-        state_.device = devices_.chosen();
-        if (!hasModel())
-            return;
         try {
-            shown_.model.haptic = limited(*shown_.model.haptic);
-            offerScene();
-        } catch (const std::bad_alloc&) {
-            coming_.reset();
-            devices_.choose("");
-            state_.device.clear();
-            problem_ = "there is not enough memory for the device's limits: nothing is held";
+            build_.update(shown_.model.haptic, state_.settings);
+        } catch (const std::exception& error) {
+            problem_ = std::string("the settings could not be prepared: ") + error.what();
+            state_.settings.contact = ContactMethod::Sweep;
+            state_.settings.textureGradient = TextureGradient::Central;
+            servo_.setSettings(state_.settings);
         }
     }
 
-    /// Of what is held or will be next.
-    [[nodiscard]] DeviceLimits handLimits() const {
-        return coming_ != nullptr ? coming_->limits() : hand_.limits();
+    void holdDevice() {
+        if (held_.choose(state_.device) && hasModel())
+            try {
+                shown_.model.haptic = limited(*shown_.model.haptic);
+                offerScene();
+            } catch (const std::bad_alloc&) {
+                held_.drop(state_.device);
+                problem_ = "there is not enough memory for the device's limits: nothing is held";
+            }
+        if (!hasModel() || servo_.snapshot().scene == offered_)
+            held_.limitsHold();
     }
 
     /// The same scene within the hand's limits.
     [[nodiscard]] std::shared_ptr<HapticScene> limited(const HapticScene& scene) const {
         std::shared_ptr<HapticScene> copy = copyOf(scene);
-        copy->limits = handLimits();
+        copy->limits = held_.limits();
         copy->warnings = scene.warnings;
         return copy;
     }
@@ -416,19 +318,8 @@ class Workbench {
         status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
     }
 
-    /// The material editor, over the picture's upper left corner at first.
     std::map<std::string, WidgetRect> drawMaterials(float scale) {
-        Widgets widgets(scale);
-        materialKeys(materials_, materialState_);
-        if (!state_.editMaterials)
-            return {};
         const ImVec2 display = ImGui::GetIO().DisplaySize;
-        const PictureRect picture = pictureRect(state_.folds, {display.x, display.y}, scale);
-        constexpr float kWidth = 320.0f, kHeight = 610.0f; // units
-        ImGui::SetNextWindowPos(ImVec2(picture.x + widgets.units(8.0f), picture.y + widgets.units(8.0f)),
-                                ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSize(ImVec2(widgets.units(kWidth), widgets.units(kHeight)),
-                                 ImGuiCond_FirstUseEver);
         MaterialPanelInput input;
         if (hasModel()) {
             input.scene = shown_.model.scene.get();
@@ -438,9 +329,10 @@ class Workbench {
             if (object >= 0 && static_cast<size_t>(object) < objects.size())
                 input.probed = objects[static_cast<size_t>(object)]->material;
         }
-        if (ImGui::Begin("Material", &state_.editMaterials, ImGuiWindowFlags_NoSavedSettings))
-            drawMaterialPanel(input, materials_, materialState_, widgets);
-        ImGui::End();
+        Widgets widgets(scale);
+        const PictureRect picture = pictureRect(state_.folds, {display.x, display.y}, scale);
+        drawMaterialWindow(input, {picture.x, picture.y, picture.width, picture.height}, state_.editMaterials,
+                           materials_, materialState_, widgets);
         return widgets.take();
     }
 
@@ -470,16 +362,16 @@ class Workbench {
         input.materialsWorking = materials_.working();
         input.loading = loading();
         input.longestFrame = longestFrame_;
-        input.loadName = loader_.path().filename().string();
-        input.loadFraction = loader_.fraction();
-        input.loadActivity = loader_.activity();
+        input.loadName = opening_.path().filename().string();
+        input.loadFraction = opening_.fraction();
+        input.loadActivity = opening_.activity();
         input.notice = notice_;
         input.recording = desk_.recorder().recording();
         input.recordingFile = desk_.recorder().file().string();
         input.recordedSeconds = static_cast<double>(desk_.recorder().ticks()) / servo_.rateHz();
         input.canSimulate = shown_.path != nullptr;
-        input.devices = devices_.offers();
-        input.deviceStatus = devices_.status();
+        input.devices = held_.menu().offers();
+        input.deviceStatus = held_.menu().status();
         input.servo = &servoView_;
         input.forces = &forces_;
         input.framesPerSecond = framesPerSecond_;
@@ -495,11 +387,8 @@ class Workbench {
     void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {
         if (std::exchange(state_.recordPressed, false))
             desk_.toggle();
-        if (std::exchange(state_.cancelPressed, false)) {
-            loader_.abandon();
-            uploading_.reset();
-            renderer_.abandonScene();
-        }
+        if (std::exchange(state_.cancelPressed, false))
+            opening_.cancel(renderer_);
         if (std::exchange(state_.dismissPressed, false))
             problem_.clear();
         if (std::exchange(state_.quitPressed, false))
@@ -574,18 +463,17 @@ class Workbench {
     WindowTarget target_;
     SceneRenderer renderer_;
     AdaptiveResolution resolution_;
-    DeviceMenu devices_;
     HandSwitch hand_;
-    std::shared_ptr<LinkedDevice> coming_; // held once the servo has adopted a scene with its limits
-    uint32_t offered_ = 0;                 // number of the newest scene
+    HeldDevice held_{hand_};
+    uint32_t offered_ = 0; // number of the newest scene
     ServoLoop servo_;
     std::string notice_; // of the recorder
     RecordingDesk desk_;
     study::LiveError liveError_;
-    ModelLoader loader_;
-    std::optional<LoadedModel> uploading_; ///< not yet shown: the renderer takes it in slices
+    Opening opening_;
     LoadedModel shown_;
-    ScenePtr drawn_; // what the renderer has
+    BackgroundBuild build_;
+    DrawnMaterials drawn_;
     MaterialDesk materials_;
     MaterialPanelState materialState_;
     ViewControl view_;
@@ -597,11 +485,8 @@ class Workbench {
     PictureDesk chartPictures_{stateFolder() / "pictures"};
     StatusFile status_;
     std::string problem_;
-    bool savesToLeave_ = false; // the user waits for a save, to go on after it
-    bool left_ = false;         // the user has said what becomes of unsaved materials
-    std::future<void> building_;
-    std::future<std::shared_ptr<const PreparedScene>> preparing_; // of edited materials
-    ScenePtr redrawn_;                                            // that the renderer is taking in for them
+    Leaving leaving_;
+    bool left_ = false; // the user has said what becomes of unsaved materials
     double framesPerSecond_ = 0.0;
     double longestFrame_ = 0.0; // s, since a model was last opened
 };

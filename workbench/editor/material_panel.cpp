@@ -386,26 +386,4 @@ void drawMaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, Mate
         desk.edits().endGesture();
 }
 
-void materialKeys(MaterialDesk& desk, MaterialPanelState& state) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || !io.KeyCtrl)
-        return;
-    if (ImGui::IsKeyPressed(GLFW_KEY_Z, true)) {
-        if (io.KeyShift)
-            desk.edits().redo();
-        else
-            desk.edits().undo();
-    }
-    if (ImGui::IsKeyPressed(GLFW_KEY_Y, true))
-        desk.edits().redo();
-    if (ImGui::IsKeyPressed(GLFW_KEY_S, false) && desk.edits().edited()) {
-        if (desk.canSaveInPlace()) {
-            desk.save();
-        } else {
-            state.askTarget = true;
-            state.target = desk.path().string();
-        }
-    }
-}
-
 } // namespace touchstone

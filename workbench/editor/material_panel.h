@@ -30,7 +30,4 @@ struct MaterialPanelState {
 void drawMaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, MaterialPanelState& state,
                        Widgets& widgets);
 
-/// Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y, Ctrl+S. In every frame, whether the editor is shown or not.
-void materialKeys(MaterialDesk& desk, MaterialPanelState& state);
-
 } // namespace touchstone

@@ -1,5 +1,6 @@
 #include "workbench/model/default_scene.h"
 
+#include <algorithm>
 #include <system_error>
 
 namespace touchstone {
@@ -14,6 +15,22 @@ std::filesystem::path defaultScene() {
             return std::filesystem::weakly_canonical(beside, error);
     }
     return TOUCHSTONE_DEFAULT_SCENE;
+}
+
+std::vector<std::filesystem::path> sampleScenes() {
+    std::vector<std::filesystem::path> found;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(defaultScene().parent_path(), error))
+        if (entry.path().extension() == ".glb")
+            found.push_back(entry.path());
+    std::ranges::sort(found);
+    return found;
+}
+
+bool isSample(const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(path, error).parent_path() ==
+           std::filesystem::weakly_canonical(defaultScene(), error).parent_path();
 }
 
 } // namespace touchstone

@@ -11,25 +11,31 @@ constexpr int kNiceness = 10; ///< on few cores the window comes first
 }
 
 ModelLoader::~ModelLoader() {
-    cancel();
+    abandon();
+    if (worker_.joinable())
+        worker_.join();
 }
 
-void ModelLoader::cancel() {
-    if (!worker_.joinable())
-        return;
+void ModelLoader::abandon() {
     cancelled_.store(true, std::memory_order_relaxed);
-    worker_.join();
+    next_.reset();
 }
 
 void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& limits) {
-    cancel();
     path_ = path;
+    if (!worker_.joinable())
+        return begin({path, limits});
+    abandon();
+    next_ = Request{path, limits};
+}
+
+void ModelLoader::begin(const Request& request) {
     cancelled_.store(false, std::memory_order_relaxed);
     finished_.store(false, std::memory_order_relaxed);
     fraction_.store(0.0, std::memory_order_relaxed);
     result_.reset();
     failure_ = nullptr;
-    worker_ = std::thread([this, path, limits] {
+    worker_ = std::thread([this, request] {
         // Of this thread and those that it starts; where it is refused, loading merely competes with the
         // picture.
         (void)::setpriority(PRIO_PROCESS, 0, kNiceness);
@@ -40,7 +46,8 @@ void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& l
             activity_.store(what, std::memory_order_relaxed);
         };
         try {
-            LoadedModel loaded{loadModel(path, Fit::Workspace, limits, options), nullptr, {}, nullptr};
+            LoadedModel loaded{
+                loadModel(request.path, Fit::Workspace, request.limits, options), nullptr, {}, nullptr};
             if (loaded.model.scene->touchable())
                 loaded.path = std::make_shared<StrokePath>(
                     strokeOver(*loaded.model.scene, loaded.model.workspaceFromScene));
@@ -62,6 +69,8 @@ std::optional<LoadedModel> ModelLoader::take() {
     if (cancelled_.load(std::memory_order_relaxed)) {
         failure_ = nullptr;
         result_.reset();
+        if (const std::optional<Request> next = std::exchange(next_, std::nullopt))
+            begin(*next);
         return std::nullopt;
     }
     if (failure_)

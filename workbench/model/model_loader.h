@@ -22,7 +22,8 @@ struct LoadedModel {
     std::shared_ptr<const PreparedScene> prepared; ///< for the renderer
 };
 
-/// Loads models on a worker thread, one at a time; a new request cancels the one before. Main thread only.
+/// Loads models on a worker thread, one at a time: a new request cancels the one before and begins when that
+/// has let go. Main thread only; only the end waits for the worker.
 class ModelLoader {
   public:
     ModelLoader() = default;
@@ -33,9 +34,10 @@ class ModelLoader {
     void start(const std::filesystem::path& path, const DeviceLimits& limits);
 
     /// Gives up what is being loaded; `loading` goes on until the worker has noticed.
-    void abandon() { cancelled_.store(true, std::memory_order_relaxed); }
+    void abandon();
 
-    /// The model once it is there; throws the Error that stopped it, once. Nothing of what was abandoned.
+    /// In every frame: the model once it is there; throws the Error that stopped it, once. Nothing of what
+    /// was abandoned.
     [[nodiscard]] std::optional<LoadedModel> take();
 
     [[nodiscard]] bool loading() const { return worker_.joinable(); }
@@ -44,9 +46,14 @@ class ModelLoader {
     [[nodiscard]] std::string activity() const;
 
   private:
-    void cancel();
+    struct Request {
+        std::filesystem::path path;
+        DeviceLimits limits;
+    };
+    void begin(const Request& request);
 
     std::filesystem::path path_;
+    std::optional<Request> next_; // when the worker has let go
     std::thread worker_;
     std::atomic<bool> cancelled_{false}, finished_{false};
     std::atomic<double> fraction_{0.0};

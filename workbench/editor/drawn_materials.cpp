@@ -1,0 +1,36 @@
+#include "workbench/editor/drawn_materials.h"
+
+#include "workbench/model/opening.h"
+
+#include <chrono>
+#include <utility>
+
+namespace touchstone {
+
+void DrawnMaterials::shown(ScenePtr scene) {
+    drawn_ = std::move(scene);
+    redrawn_.reset();
+}
+
+void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool showsWhatIsFelt) {
+    const bool stale = drawn_ != scene && (drawn_ == nullptr || showsWhatIsFelt);
+    if (stale && !preparing_.valid() && redrawn_ == nullptr)
+        preparing_ = std::async(std::launch::async, [scene] { return prepareScene(scene); });
+    try {
+        if (preparing_.valid() && preparing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+            const std::shared_ptr<const PreparedScene> prepared = preparing_.get();
+            if (prepared->scene == scene) { // else another change came meanwhile
+                redrawn_ = prepared->scene;
+                renderer.beginScene(prepared);
+            }
+        }
+        if (redrawn_ != nullptr && renderer.continueScene(kUploadTime))
+            drawn_ = std::exchange(redrawn_, nullptr);
+    } catch (...) {
+        redrawn_.reset();
+        drawn_ = scene; // not again until something else is changed
+        throw;
+    }
+}
+
+} // namespace touchstone
