@@ -21,8 +21,9 @@ VirtualDisplay::VirtualDisplay(int width, int height) {
     const std::string number = (scratch_ / "display").string();
     const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
     server_ = std::make_unique<BackgroundProgram>(
-        std::vector<std::string>{
-            "sh", "-c", "exec Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 " + screen + " 3>" + number},
+        std::vector<std::string>{"sh", "-c",
+                                 "exec Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 " + screen +
+                                     " -fbdir " + scratch_.path().string() + " 3>" + number},
         Environment{}, scratch_ / "xvfb.log");
     for (int i = 0; i < 200 && server_->running(); ++i) {
         const std::string answer = readFile(number);
@@ -33,6 +34,31 @@ VirtualDisplay::VirtualDisplay(int width, int height) {
         pause(50);
     }
     throw std::runtime_error("Xvfb does not start: " + readFile(scratch_ / "xvfb.log"));
+}
+
+ScreenPicture VirtualDisplay::screen() const {
+    // The X window dump that Xvfb keeps in a file: a header of big-endian words, a colour map of 12 bytes an
+    // entry, rows of 32-bit pixels in the machine's order.
+    const std::string dump = readFile(scratch_ / "Xvfb_screen0");
+    const auto word = [&](size_t index) {
+        uint32_t value = 0;
+        for (size_t i = 4 * index; i < 4 * index + 4; ++i)
+            value = value << 8 | static_cast<uint8_t>(dump.at(i));
+        return static_cast<size_t>(value);
+    };
+    constexpr size_t kWidth = 4, kHeight = 5, kBitsPerPixel = 11, kBytesPerLine = 12, kColours = 19;
+    if (dump.size() < 100 || word(kBitsPerPixel) != 32)
+        throw std::runtime_error("Xvfb shows no screen of 32 bits a pixel");
+    ScreenPicture picture{static_cast<int>(word(kWidth)), static_cast<int>(word(kHeight)), {}};
+    const size_t begin = word(0) + 12 * word(kColours);
+    for (size_t y = 0; y < word(kHeight); ++y)
+        for (size_t x = 0; x < word(kWidth); ++x) {
+            const size_t at = begin + y * word(kBytesPerLine) + 4 * x;
+            picture.pixels.push_back({static_cast<uint8_t>(dump.at(at + 2)),
+                                      static_cast<uint8_t>(dump.at(at + 1)),
+                                      static_cast<uint8_t>(dump.at(at))});
+        }
+    return picture;
 }
 
 std::string VirtualDisplay::xdotool(std::vector<std::string> arguments) const {
@@ -105,6 +131,15 @@ void VirtualDisplay::key(const std::string& name) const {
     pause(120);
     xdotool({"keyup", name});
     pause(120);
+}
+
+void VirtualDisplay::drop(const std::string& title, const std::filesystem::path& file) const {
+    std::string window = xdotool({"search", "--onlyvisible", "--name", title});
+    window.resize(window.find('\n'));
+    const std::string program =
+        (std::filesystem::path(TOUCHSTONE_BINARY).parent_path() / "drop_file").string();
+    if (runProgram({program, window, file.string()}, environment()).status != 0)
+        throw std::runtime_error("the window took no file: " + file.string());
 }
 
 void VirtualDisplay::scroll(const Place& place, int notches) const {

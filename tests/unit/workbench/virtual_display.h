@@ -3,10 +3,24 @@
 
 #include "tests/support/program.h"
 
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace touchstone::test {
+
+/// What a screen showed at one moment.
+struct ScreenPicture {
+    int width = 0, height = 0;
+    std::vector<std::array<uint8_t, 3>> pixels; ///< red, green, blue; rows from the top
+
+    [[nodiscard]] const std::array<uint8_t, 3>& at(int x, int y) const {
+        return pixels.at(static_cast<size_t>(y * width + x));
+    }
+};
 
 class VirtualDisplay {
   public:
@@ -14,6 +28,8 @@ class VirtualDisplay {
     VirtualDisplay(int width, int height);
 
     [[nodiscard]] const std::string& name() const { return name_; } ///< ":17"
+    /// Everything that is on the screen now. Throws std::runtime_error where Xvfb does not tell.
+    [[nodiscard]] ScreenPicture screen() const;
     [[nodiscard]] Environment environment() const { return {"DISPLAY=" + name_, "WAYLAND_DISPLAY="}; }
 
     /// xdotool with these arguments; returns what it prints. Throws std::runtime_error when it fails.
@@ -30,6 +46,8 @@ class VirtualDisplay {
     void click(const Place& place, int button = 1) const;
     void drag(const Place& from, const Place& to, int button = 1) const;
     void key(const std::string& name) const;
+    /// Drops a file on the window that is called so; throws where that does not take it.
+    void drop(const std::string& title, const std::filesystem::path& file) const;
     /// Scrolls `notches` at a place, positive away from the user.
     void scroll(const Place& place, int notches) const;
 

@@ -1,0 +1,214 @@
+// The first minute of somebody who has never seen the program: they drop a model of their own on the window,
+// look at it, touch it, find out what the effects do, change how it feels, save it, open it again, record
+// what they do and replay it.
+
+#include "tests/unit/workbench/window_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace touchstone::test {
+namespace {
+
+using Place = VirtualDisplay::Place;
+
+class FirstMinute : public WindowTest {
+  protected:
+    void SetUp() override { std::filesystem::copy_file(TOUCHSTONE_ASSETS "/doughnut.glb", own_); }
+
+    static bool touching(const Json& s) { return s["tick"]["contacts"].get<int>() > 0; }
+    static double forceOf(const Json& s) {
+        const auto f = s["tick"]["force"].get<std::vector<double>>();
+        return std::hypot(f[0], f[1], f[2]);
+    }
+
+    /// The part of the screen where the model is.
+    [[nodiscard]] std::vector<std::array<uint8_t, 3>> picture() {
+        const Json rect = status()["widgets"].at("picture");
+        const ScreenPicture screen = display_.screen();
+        std::vector<std::array<uint8_t, 3>> pixels;
+        const auto at = [&](const char* name) { return static_cast<int>(rect[name].get<double>()); };
+        for (int y = corner_.y + at("y"); y < corner_.y + at("y") + at("height"); ++y)
+            for (int x = corner_.x + at("x"); x < corner_.x + at("x") + at("width"); ++x)
+                pixels.push_back(screen.at(x, y));
+        return pixels;
+    }
+    /// Share of the pixels that differ plainly.
+    [[nodiscard]] static double changed(const std::vector<std::array<uint8_t, 3>>& a,
+                                        const std::vector<std::array<uint8_t, 3>>& b) {
+        size_t count = 0;
+        for (size_t i = 0; i < a.size(); ++i) {
+            int difference = 0;
+            for (size_t c = 0; c < 3; ++c)
+                difference += std::abs(a[i][c] - b.at(i)[c]);
+            count += difference > 30 ? 1 : 0;
+        }
+        return static_cast<double>(count) / static_cast<double>(a.size());
+    }
+    /// A model is seen: many colours, and neither a dark nor a blank picture.
+    void expectAPicture() {
+        const auto pixels = picture();
+        std::set<std::array<uint8_t, 3>> colours(pixels.begin(), pixels.end());
+        double mean = 0.0;
+        for (const auto& pixel : pixels)
+            mean += (pixel[0] + pixel[1] + pixel[2]) / 3.0 / static_cast<double>(pixels.size());
+        EXPECT_GT(colours.size(), 500u);
+        EXPECT_GT(mean, 20.0);
+        EXPECT_LT(mean, 235.0);
+    }
+
+    void welcomed() {
+        open("", {});
+        const Json s = later();
+        EXPECT_EQ(s["model"], "doughnut.glb") << "there is something to touch from the beginning";
+        EXPECT_TRUE(s["widgets"].contains("gotIt")) << "how to touch is said";
+        expectAPicture();
+    }
+
+    void dropsTheirModel() {
+        const auto before = picture();
+        std::filesystem::copy_file(TOUCHSTONE_ASSETS "/box.glb", scratch_ / "box.glb");
+        display_.drop("Touchstone", scratch_ / "box.glb");
+        until("the box", [](const Json& s) { return s["model"] == "box.glb"; });
+        later();
+        EXPECT_GT(changed(before, picture()), 0.02) << "the other model is seen";
+        display_.drop("Touchstone", own_);
+        until("their model", [](const Json& s) { return s["model"] == "mine.glb"; });
+        later();
+        expectAPicture();
+    }
+
+    void looksAround() {
+        const auto before = picture();
+        const double yaw = status()["view"]["yaw"];
+        display_.drag(inPicture(0.6, 0.5), inPicture(0.7, 0.45), 3);
+        until("another view",
+              [&](const Json& s) { return std::abs(s["view"]["yaw"].get<double>() - yaw) > 0.1; });
+        later();
+        EXPECT_GT(changed(before, picture()), 0.02);
+        display_.key("Home");
+        later();
+    }
+
+    struct Felt {
+        double force = 0.0;      ///< N, the largest
+        double tangential = 0.0; ///< the largest share of the force that friction and slopes have
+    };
+    /// Presses on the tube, left of its hole, and strokes to and fro.
+    Felt stroke() {
+        const Place from = inPicture(0.27, 0.5), to = inPicture(0.33, 0.44);
+        display_.move(from);
+        display_.press();
+        until("contact", touching);
+        later();
+        Felt felt;
+        for (int turn = 0; turn < 14; ++turn) {
+            const double share = 0.5 - 0.5 * std::cos(0.7 * turn);
+            display_.move({static_cast<int>(from.x + share * (to.x - from.x)),
+                           static_cast<int>(from.y + share * (to.y - from.y))});
+            const Json now = status(), &recent = now["recent"];
+            felt.force = std::max(felt.force, forceOf(now));
+            if (recent["mean_force_n"] > 0.1)
+                felt.tangential = std::max(felt.tangential, recent["mean_tangential_force_n"].get<double>() /
+                                                                recent["mean_force_n"].get<double>());
+        }
+        display_.release();
+        until("no contact", [](const Json& s) { return !touching(s); });
+        later();
+        return felt;
+    }
+
+    void touches() {
+        const Felt felt = stroke();
+        EXPECT_GT(felt.force, 0.3);
+        EXPECT_LT(felt.force, 2.0);
+        EXPECT_GT(felt.tangential, 0.2) << "the glaze rubs";
+        display_.click(middleOf("gotIt"));
+        until("the card to go", [](const Json& s) { return s["introduced"].get<bool>(); });
+    }
+
+    void togglesEachEffect() {
+        for (const std::string effect : {"forceShading", "texture", "friction"}) {
+            const std::string on = status()["settings"][effect];
+            display_.click(middleOf(effect));
+            until(effect + " to be off", [&](const Json& s) { return s["settings"][effect] == "off"; });
+            if (effect == "friction") {
+                EXPECT_LT(stroke().tangential, 0.15) << "only the slopes of the texture";
+            }
+            display_.click(middleOf(effect));
+            until(effect + " to be back", [&](const Json& s) { return s["settings"][effect] == on; });
+        }
+        display_.key("space");
+        until("no force", [](const Json& s) { return s["settings"]["forceEnabled"] == "off"; });
+        display_.key("space");
+        until("the force", [](const Json& s) { return s["settings"]["forceEnabled"] == "on"; });
+    }
+
+    /// Clicks into a slider of the editor, at a share of its width.
+    void slide(const std::string& name, double share) {
+        const Json rect = later()["widgets"].at(name);
+        display_.click(
+            {corner_.x + static_cast<int>(rect["x"].get<double>() + share * rect["width"].get<double>()),
+             corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
+    }
+    /// What `inspect` says of the friction in the file.
+    [[nodiscard]] double frictionInFile() {
+        const auto json = scratch_ / "inspect.json";
+        const ProgramResult result =
+            runProgram({TOUCHSTONE_BINARY, "inspect", own_.string(), "--json", json.string()});
+        EXPECT_EQ(result.status, 0) << result.err;
+        return std::stod(Json::parse(readFile(json))["materials"][0]["haptic"]["staticFriction"]["value"]
+                             .get<std::string>());
+    }
+
+    void editsFrictionAndSaves() {
+        const double before = frictionInFile();
+        display_.key("e");
+        until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
+        slide("edit.staticFriction", 0.8);
+        until("another friction", [](const Json& s) {
+            return s["materials"]["edited"] == true && s["materials"]["working"] == false;
+        });
+        EXPECT_DOUBLE_EQ(frictionInFile(), before) << "nothing is written unasked";
+        display_.key("ctrl+s");
+        until("it to be saved",
+              [&](const Json& s) { return s["materials"]["notice"] == "saved to " + own_.string(); });
+        EXPECT_GT(frictionInFile(), before + 0.2);
+        display_.key("e");
+        until("no editor", [](const Json& s) { return !s["widgets"].contains("edit.staticFriction"); });
+    }
+
+    /// Another model, and theirs again: the new friction is what the file says and what the hand feels.
+    void reopens() {
+        const double saved = frictionInFile();
+        display_.key("ctrl+o");
+        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
+        display_.xdotool({"type", "--delay", "20", TOUCHSTONE_ASSETS "/plane.glb"});
+        later();
+        display_.key("Return");
+        until("the plane", [](const Json& s) { return s["model"] == "plane.glb"; });
+        display_.drop("Touchstone", own_);
+        until("their model", [](const Json& s) { return s["model"] == "mine.glb"; });
+        EXPECT_GT(stroke().tangential, 0.4) << "saved: " << saved;
+    }
+
+    std::filesystem::path own_ = scratch_ / "mine.glb";
+};
+
+TEST_F(FirstMinute, OpensTouchesChangesSavesAndFindsItAgain) {
+    welcomed();
+    dropsTheirModel();
+    looksAround();
+    touches();
+    togglesEachEffect();
+    editsFrictionAndSaves();
+    reopens();
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace touchstone::test
