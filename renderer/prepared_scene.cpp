@@ -27,14 +27,15 @@ SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
     return vertex;
 }
 
-/// Halves the triangles again and again. Errors are of each step against the one before, so they add up.
+/// Halves the triangles again and again. Errors are of each step against the one before and go as often in as
+/// out: their squares add up.
 void simplify(const Mesh& mesh, const PrepareOptions& options, std::vector<uint32_t>& indices,
               PreparedMesh& out) {
     const float* positions = &mesh.positions[0].x;
     const auto scale =
         static_cast<double>(meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(glm::vec3)));
     std::vector<uint32_t> current = mesh.indices, coarser(mesh.indices.size());
-    double error = 0.0;
+    double squared = 0.0;
     while (options.coarsest > 0 && current.size() / 3 > 2 * options.coarsest) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
             return;
@@ -48,8 +49,9 @@ void simplify(const Mesh& mesh, const PrepareOptions& options, std::vector<uint3
         // In an order that transforms few vertices twice: software devices feel that.
         current.resize(count);
         meshopt_optimizeVertexCache(current.data(), coarser.data(), count, mesh.positions.size());
-        error += scale * static_cast<double>(step);
-        out.levels.push_back({static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(count), error});
+        squared += scale * scale * static_cast<double>(step) * static_cast<double>(step);
+        out.levels.push_back(
+            {static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(count), std::sqrt(squared)});
         indices.insert(indices.end(), current.begin(), current.end());
     }
 }
@@ -62,10 +64,12 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene&
         bounds.include(glm::dvec3(position));
     if (!bounds.empty()) {
         prepared.centre = bounds.centre();
-        prepared.radius = 0.5 * bounds.diagonal();
     }
-    for (size_t i = 0; i < mesh.positions.size(); ++i)
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
         out.vertices.push_back(packVertex(mesh, i, prepared.centre));
+        prepared.radius =
+            std::max(prepared.radius, glm::length(glm::dvec3(mesh.positions[i]) - prepared.centre));
+    }
     prepared.levels.push_back(
         {static_cast<uint32_t>(out.indices.size()), static_cast<uint32_t>(mesh.indices.size()), 0.0});
     out.indices.insert(out.indices.end(), mesh.indices.begin(), mesh.indices.end());

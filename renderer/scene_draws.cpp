@@ -34,10 +34,17 @@ bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item)
     return true;
 }
 
-/// At least the largest singular value: the root of the sum of squares.
+/// At least the largest singular value, and just that where axes stay at right angles: the root of the
+/// largest row sum of linear' linear, whose eigenvalues are the squares of the singular values.
 double largestStretch(const glm::dmat3& linear) {
-    return std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) +
-                     glm::dot(linear[2], linear[2]));
+    double largest = 0.0;
+    for (int row = 0; row < 3; ++row) {
+        double sum = 0.0;
+        for (int column = 0; column < 3; ++column)
+            sum += std::abs(glm::dot(linear[row], linear[column]));
+        largest = std::max(largest, sum);
+    }
+    return std::sqrt(largest);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // Draws the 64,800-triangle torus, for what must be seen from outside the process: bit-identity over thread
 // counts, and frame times.
 //   render_probe pixels FILE            raw RGBA8 of one 320x180 frame
-//   render_probe png FILE WIDTH HEIGHT  one picture
+//   render_probe png FILE WIDTH HEIGHT [MODEL [PIXELS]]   one picture, as bench draws it
 //   render_probe open MODEL             what taking a model in takes, step by step
 //   render_probe bench FRAMES WIDTH HEIGHT [MODEL [PIXELS]]   of the torus or another model, with the probe's
 //   shadow, by
@@ -122,21 +122,26 @@ void open(const ScenePtr& scene) {
 int run(const std::vector<std::string>& arguments) {
     useLavapipe();
     const auto number = [&](size_t i) { return std::atoi(arguments[i].c_str()); };
+    const auto sceneOf = [&](size_t i) {
+        return arguments.size() <= i || arguments[i] == "torus" ? ScenePtr(torusScene())
+                                                                : loadScene(arguments[i]);
+    };
+    const auto errorOf = [&](size_t i) {
+        return arguments.size() > i ? std::atof(arguments[i].c_str()) : 0.0;
+    };
     if (arguments.size() == 2 && arguments[0] == "pixels") {
         writePixels(arguments[1].c_str());
-    } else if (arguments.size() == 4 && arguments[0] == "png") {
-        Probe probe;
+    } else if (arguments.size() >= 4 && arguments.size() <= 6 && arguments[0] == "png") {
+        Probe probe(sceneOf(4), errorOf(5));
         probe.draw(number(2), number(3), 0.0);
         writePng(arguments[1], probe.renderer.readPixels());
     } else if (arguments.size() >= 4 && arguments.size() <= 6 && arguments[0] == "bench") {
-        const bool torus = arguments.size() == 4 || arguments[4] == "torus";
-        bench(number(1), number(2), number(3), torus ? ScenePtr(torusScene()) : loadScene(arguments[4]),
-              arguments.size() == 6 ? std::atof(arguments[5].c_str()) : 0.0);
+        bench(number(1), number(2), number(3), sceneOf(4), errorOf(5));
     } else if (arguments.size() == 2 && arguments[0] == "open") {
         open(loadScene(arguments[1]));
     } else {
-        std::fprintf(stderr, "usage: render_probe pixels FILE | png FILE WIDTH HEIGHT | bench FRAMES WIDTH "
-                             "HEIGHT [MODEL [PIXELS]] | open MODEL\n");
+        std::fprintf(stderr, "usage: render_probe pixels FILE | png FILE WIDTH HEIGHT [MODEL [PIXELS]] | "
+                             "bench FRAMES WIDTH HEIGHT [MODEL [PIXELS]] | open MODEL\n");
         return 2;
     }
     return 0;
