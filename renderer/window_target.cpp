@@ -277,7 +277,9 @@ void WindowTarget::Impl::record(const WindowFrame& frame, uint32_t image, const 
     const vk::raii::CommandBuffer& commands = frame.commands;
     commands.reset();
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    const vk::ClearValue clear{vk::ClearColorValue{std::array{0.10f, 0.11f, 0.12f, 1.0f}}};
+    // What lies behind everything is as the windows are, which then need no background of their own.
+    const ImVec4 behind = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+    const vk::ClearValue clear{vk::ClearColorValue{std::array{behind.x, behind.y, behind.z, 1.0f}}};
     commands.beginRenderPass(vk::RenderPassBeginInfo{.renderPass = swapchain.renderPass(),
                                                      .framebuffer = swapchain.framebuffer(image),
                                                      .renderArea = {.extent = swapchain.extent()},

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "haptics/servo/servo_loop.h"
 #include "renderer/adaptive_resolution.h"
+#include "renderer/frame_pace.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/window_target.h"
 #include "workbench/commands.h"
@@ -108,6 +109,7 @@ class Workbench {
     /// One turn of the main loop.
     void frame() {
         const double start = secondsNow();
+        pace_.begin(start);
         takeModel();
         takeMaterials();
         prepareSettings();
@@ -374,7 +376,7 @@ class Workbench {
         input.deviceStatus = held_.menu().status();
         input.servo = &servoView_;
         input.forces = &forces_;
-        input.framesPerSecond = framesPerSecond_;
+        input.framesPerSecond = pace_.rate();
         input.camera = view_.camera();
         input.picture = picture_.message();
         input.sceneSize = sceneSize;
@@ -448,12 +450,8 @@ class Workbench {
         resolution_.frameDone(secondsNow() - start);
         longestFrame_ = std::max(longestFrame_, secondsNow() - start);
         window_.waitEvents(0.0);
-        for (double left = start + kFramePeriod - secondsNow(); left > 0.0;
-             left = start + kFramePeriod - secondsNow())
+        for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
             window_.waitEvents(left);
-        constexpr double kShare = 0.1; // of the newest frame in the running mean
-        const double rate = 1.0 / (secondsNow() - start);
-        framesPerSecond_ = framesPerSecond_ <= 0.0 ? rate : (1.0 - kShare) * framesPerSecond_ + kShare * rate;
     }
 
     WindowMemory memory_;
@@ -487,7 +485,7 @@ class Workbench {
     std::string problem_;
     Leaving leaving_;
     bool left_ = false; // the user has said what becomes of unsaved materials
-    double framesPerSecond_ = 0.0;
+    FramePace pace_{kFramePeriod};
     double longestFrame_ = 0.0; // s, since a model was last opened
 };
 

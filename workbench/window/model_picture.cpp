@@ -12,7 +12,7 @@ constexpr double kMagnifierOverlayScale = 0.22; ///< of the overlays' sizes in i
 // Pixels by which the simplified mesh may differ while the camera rests and while it moves. The CPU
 // transforms every vertex, and its picture is coarser than the window.
 constexpr double kRestingError = 0.0, kMovingError = 0.7;
-constexpr double kSoftwareRestingError = 0.2, kSoftwareMovingError = 1.0;
+constexpr double kSoftwareRestingError = 0.25, kSoftwareMovingError = 1.0;
 constexpr int kSettling = 8;                // frames without motion until the camera rests
 constexpr int kSoftwareMagnifierPeriod = 3; ///< frames: the CPU transforms every vertex for it once more
 
