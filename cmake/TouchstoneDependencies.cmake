@@ -16,6 +16,10 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 # OpenImageIO's own CMake config demands the tools package; pkg-config does not.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
+pkg_check_modules(portaudio REQUIRED IMPORTED_TARGET portaudio-2.0)
+pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
+pkg_check_modules(jack REQUIRED IMPORTED_TARGET jack)
+pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 
 # Debian ships Dear ImGui as one static library that already holds the GLFW and Vulkan backends and
 # leaves stb undefined.

@@ -1,0 +1,75 @@
+#include "sound/live_sound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+SoundPlayer::SoundPlayer(SoundFeed& feed, double rate)
+    : feed_(feed), synthesizer_(rate), gateStep_(static_cast<float>(1.0 / (kFade * rate))),
+      volumeShare_(static_cast<float>(-std::expm1(-1.0 / (kVolumeTime * rate)))) {}
+
+void SoundPlayer::collect() noexcept {
+    SoundTick tick;
+    while (feed_.pop(tick)) {
+        dt_ = tick.dt;
+        (void)synthesizer_.push(tick); // room for more than the feed holds is made by leaving out below
+    }
+}
+
+/// Begins and leaves off, and says how fast to play this block.
+double SoundPlayer::speedFor(size_t frames) noexcept {
+    const double rate = synthesizer_.rate(), block = static_cast<double>(frames) / rate;
+    const double wanted = (block + kCushion) / dt_, ahead = synthesizer_.ticksAhead(); // ticks
+    if (!playing_) {
+        playing_ = ahead >= wanted;
+        bend_ = 0.0;
+    }
+    if (playing_ && ahead > wanted + kTooMuch / dt_)
+        skipping_ = true;
+    if (skipping_ && gate_ <= 0.0f) {
+        synthesizer_.skipTicks(ahead - wanted);
+        leftOut_.fetch_add(1, std::memory_order_relaxed);
+        skipping_ = false;
+    }
+    if (interrupted_.exchange(false, std::memory_order_relaxed))
+        silentFrames_ = static_cast<size_t>(kSwapSilence * rate);
+    constexpr double kShare = 0.05; // of the newest block: the servo's jitter is not to be heard
+    bend_ += kShare * (std::clamp((ahead - wanted) / wanted, -1.0, 1.0) - bend_);
+    latency_.store(std::max(ahead, 0.0) * dt_ + Synthesizer::delay(dt_), std::memory_order_relaxed);
+    return 1.0 + kMostBend * bend_;
+}
+
+/// One frame at full volume; where the ticks have run out, the last one, which fades.
+SoundFrame SoundPlayer::next(double speed) noexcept {
+    if (playing_ && synthesizer_.render({&last_, 1}, speed) == 0) {
+        playing_ = false;
+        runsDry_.fetch_add(1, std::memory_order_relaxed);
+    }
+    if (silentFrames_ > 0)
+        --silentFrames_;
+    const bool open = playing_ && !skipping_ && silentFrames_ == 0;
+    gate_ = std::clamp(gate_ + (open ? gateStep_ : -gateStep_), 0.0f, 1.0f);
+    return {gate_ * last_.left, gate_ * last_.right};
+}
+
+void SoundPlayer::fill(std::span<SoundFrame> frames) noexcept {
+    collect();
+    const double speed = speedFor(frames.size());
+    const float volume = std::clamp(volume_.load(std::memory_order_relaxed), 0.0f, 1.0f);
+    float peak = 0.0f;
+    for (SoundFrame& frame : frames) {
+        loud_ += volumeShare_ * (volume - loud_);
+        const SoundFrame full = next(speed);
+        frame = {loud_ * full.left, loud_ * full.right};
+        peak = std::max({peak, std::abs(frame.left), std::abs(frame.right)});
+    }
+    peak_.store(peak, std::memory_order_relaxed);
+}
+
+SoundPlayer::Figures SoundPlayer::figures() const noexcept {
+    return {latency_.load(std::memory_order_relaxed), peak_.load(std::memory_order_relaxed),
+            runsDry_.load(std::memory_order_relaxed), leftOut_.load(std::memory_order_relaxed)};
+}
+
+} // namespace touchstone

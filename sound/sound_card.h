@@ -1,0 +1,45 @@
+#pragma once
+
+#include "sound/live_sound.h"
+
+#include <future>
+#include <memory>
+#include <string>
+
+namespace touchstone {
+
+/// The system's default output, by PortAudio. Looking for sound cards and opening one takes up to seconds, so
+/// a thread of its own does it; where there is none, `problem` says so and nothing else happens. Owner
+/// thread, all of it.
+class SoundCard {
+  public:
+    /// The feed outlives it.
+    explicit SoundCard(SoundFeed& feed);
+    ~SoundCard();
+    SoundCard(const SoundCard&) = delete;
+    SoundCard& operator=(const SoundCard&) = delete;
+
+    /// Now and then (once a frame). `volume`: 0..1, share of full scale that is never exceeded.
+    void update(bool on, float volume);
+    /// SoundPlayer::interrupt.
+    void interrupt();
+
+    enum class State : uint8_t { Off, Opening, Playing, Failed };
+    [[nodiscard]] State state() const { return state_; }
+    [[nodiscard]] const std::string& problem() const { return problem_; } ///< while Failed
+    [[nodiscard]] const std::string& name() const { return name_; }       ///< while Playing
+    /// While Playing: with the delay of the card itself, s.
+    [[nodiscard]] SoundPlayer::Figures figures() const;
+
+  private:
+    class Stream;
+
+    SoundFeed& feed_;
+    State state_ = State::Off;
+    std::string problem_, name_;
+    std::shared_ptr<Stream> stream_;
+    std::future<std::shared_ptr<Stream>> opening_;
+    std::future<void> closing_;
+};
+
+} // namespace touchstone
