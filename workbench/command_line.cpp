@@ -247,6 +247,7 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
                      "The path is what the hand intends: it holds a simulated device, and both yield");
     addPlant(app, options.plant)->needs(closed);
     app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
+    app.add_option("--sound", options.sound, "Write how the force sounds, as WAV")->type_name("FILE.wav");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Resample the path at this rate; without it one tick a row");
 }

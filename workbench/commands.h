@@ -57,6 +57,7 @@ struct TouchOptions {
     std::filesystem::path scene, path, out;
     std::filesystem::path json;   ///< empty: not asked for
     std::filesystem::path record; ///< empty: not asked for
+    std::filesystem::path sound;  ///< WAV; empty: not asked for
     Fit fit = Fit::None;
     HapticSettings settings;
     double rateHz = 0.0;     ///< 0: one tick a row of the path

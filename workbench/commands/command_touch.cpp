@@ -17,6 +17,8 @@
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/model/model.h"
+#include "workbench/sound/sounding_hand.h"
+#include "workbench/sound/written_sound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,6 +75,16 @@ std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
         ticks[i].hip = replay.sample(since).position;
     }
     return ticks;
+}
+
+/// Only what a servo could be is heard.
+void requireSound(const std::filesystem::path& file, const std::vector<PlannedTick>& ticks) {
+    for (const PlannedTick& tick : ticks)
+        if (!(tick.dt >= WrittenSound::kShortest && tick.dt <= WrittenSound::kLongest))
+            throw Error(file.string(), "",
+                        "--sound needs ticks of 0.1 to 50 ms, and at t = " + std::to_string(tick.time) +
+                            " s one is " + std::to_string(1e3 * tick.dt) + " ms",
+                        "resample the path: --rate 1000");
 }
 
 /// Is where the path is in the tick that comes next.
@@ -215,9 +227,14 @@ int touchCommand(const TouchOptions& options) {
     std::optional<OfflineRecorder> recorder;
     if (!options.record.empty())
         recorder.emplace(options, model);
-
     enterFloatMode();
     const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
+    std::optional<WrittenSound> sound;
+    if (!options.sound.empty()) {
+        requireSound(options.sound, planned);
+        sound.emplace(options.sound);
+    }
+
     OfflineTouch touch(model, options);
     const bool moving = touch.moving();
     const TouchCheckpoint first = touch.checkpoint();
@@ -241,6 +258,8 @@ int touchCommand(const TouchOptions& options) {
             statistics.add(tick.output, tick.stepNs);
             if (recorder)
                 recorder->add(tick, first);
+            if (sound)
+                sound->add(soundTick(tick.dt, tick.sample, tick.output.command));
             if (report && tick.output.contacts > 0)
                 statistics.addProxyGap(moving ? tick.gap
                                               : proxyGap(*model.haptic, {}, tick.output, options.settings));
@@ -276,6 +295,8 @@ int touchCommand(const TouchOptions& options) {
         report->write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
         report->commit();
     }
+    if (sound)
+        sound->commit();
     out.commit();
     std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
                 static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
