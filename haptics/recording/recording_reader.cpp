@@ -105,6 +105,12 @@ void RecordingReader::spoilt(std::string what) {
         damage_.push_back(std::move(what));
 }
 
+void RecordingReader::goTo(uint64_t offset) {
+    at_ = offset;
+    nextSequence_.reset();
+    damaged_ = ended_ = false;
+}
+
 std::optional<RecordingReader::Item> RecordingReader::next() {
     while (!ended_) {
         Chunk chunk;
@@ -119,7 +125,7 @@ std::optional<RecordingReader::Item> RecordingReader::next() {
             if (chunk.name == kChunkNames.size())
                 continue;
             try {
-                Item item{decode(chunk.name, chunk.payload), std::exchange(damaged_, false)};
+                Item item{decode(chunk.name, chunk.payload), std::exchange(damaged_, false), begin};
                 ended_ = std::holds_alternative<RecordedEnd>(item.item);
                 return item;
             } catch (const Error& error) {

@@ -22,10 +22,15 @@ class RecordingReader {
         RecordedItem item;
         /// Before it something is missing or spoilt: what is known of the touch ends there.
         bool damageBefore = false;
+        uint64_t offset = 0; ///< byte at which its chunk begins
     };
     /// The next whole chunk; nothing at the end of the file. Chunks of kinds that this version does not know
     /// are left out. Throws Error for a chunk that is whole and yet cannot be meant.
     [[nodiscard]] std::optional<Item> next();
+
+    /// The next chunk to be read is the one at `offset`, which an Item of this file said.
+    void goTo(uint64_t offset);
+    [[nodiscard]] uint64_t size() const { return size_; } ///< bytes, when it was opened
 
     /// One sentence for each place that was skipped.
     [[nodiscard]] const std::vector<std::string>& damage() const { return damage_; }

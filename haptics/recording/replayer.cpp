@@ -11,17 +11,9 @@
 namespace touchstone {
 
 ReplayReport Replayer::replay(RecordingReader& reader, const Each& each) {
-    enterFloatMode();
-    report_ = ReplayReport{};
-    each_ = &each;
-    lose();
-    while (const std::optional<RecordingReader::Item> item = reader.next()) {
-        if (item->damageBefore) {
-            ++report_.gaps;
-            lose();
-        }
-        std::visit([this](const auto& value) { take(value); }, item->item);
-    }
+    begin(each);
+    while (const std::optional<RecordingReader::Item> item = reader.next())
+        take(*item);
     report_.damage = reader.damage();
     report_.cutOff = reader.cutOff();
     if (report_.ticks > 0 && report_.replayed == 0 && report_.gaps == 0)
@@ -29,6 +21,21 @@ ReplayReport Replayer::replay(RecordingReader& reader, const Each& each) {
                     "use the build that recorded it (" + report_.origin.version + ", " +
                         report_.origin.build + ")");
     return std::move(report_);
+}
+
+void Replayer::begin(const Each& each) {
+    enterFloatMode();
+    report_ = ReplayReport{};
+    each_ = &each;
+    lose();
+}
+
+void Replayer::take(const RecordingReader::Item& item) {
+    if (item.damageBefore) {
+        ++report_.gaps;
+        lose();
+    }
+    std::visit([this](const auto& value) { take(value); }, item.item);
 }
 
 void Replayer::take(const RecordingOrigin& origin) {

@@ -62,6 +62,12 @@ class Replayer {
     /// Throws Error where the recording contradicts itself or no checkpoint fits this version.
     [[nodiscard]] ReplayReport replay(RecordingReader& reader, const Each& each = {});
 
+    /// The same piece by piece, for who reads only a part: scenes and settings that the ticks name, the
+    /// checkpoint where it begins, then the ticks. `each` must outlive the last `take`.
+    void begin(const Each& each);
+    void take(const RecordingReader::Item& item);
+    [[nodiscard]] const ReplayReport& report() const { return report_; }
+
   private:
     struct Touched {
         ReplayScene scene;

@@ -6,38 +6,24 @@
 #include "workbench/commands.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
-#include "workbench/model/default_scene.h"
-#include "workbench/model/model.h"
+#include "workbench/timeline/recorded_scenes.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace touchstone {
 
 namespace {
 
-/// A scene of the recording and what became of its file.
-struct FoundScene {
-    RecordedScene recorded;
-    std::filesystem::path path;
-    bool sameFile = false, sameFelt = false;
-};
-
 /// The scene's file: the one given in its place, where it was, or beside the recording.
 std::filesystem::path scenePath(const ReplayOptions& options, const SceneIdentity& recorded, size_t index) {
     if (!options.scenes.empty())
         return options.scenes[std::min(index, options.scenes.size() - 1)];
-    std::error_code ignored;
-    const std::filesystem::path beside =
-        options.recording.parent_path() / std::filesystem::path(recorded.path).filename();
-    for (const std::filesystem::path& path :
-         {std::filesystem::path(recorded.absolutePath), std::filesystem::path(recorded.path), beside,
-          recorded.generated ? defaultScene() : std::filesystem::path()})
-        if (!path.empty() && std::filesystem::exists(path, ignored))
-            return path;
+    if (const std::optional<std::filesystem::path> found = findRecordedScene(options.recording, recorded))
+        return *found;
     throw Error(recorded.absolutePath.empty() ? recorded.path : recorded.absolutePath, "",
                 "the scene that was touched is not there", "say with --scene where it is now");
 }
@@ -48,26 +34,12 @@ class SceneFinder {
     explicit SceneFinder(const ReplayOptions& options) : options_(options) {}
 
     ReplayScene load(const RecordedScene& recorded) {
-        FoundScene found{recorded, scenePath(options_, recorded.identity, scenes_.size())};
-        LoadOptions loading;
-        loading.edits = recorded.identity.edits;
-        const Model model = loadModel(found.path, recorded.identity.fit, recorded.identity.limits, loading);
-        const SceneIdentity now = identify(*model.haptic, *model.scene, recorded.identity.fit);
-        found.sameFile = now.fileHash == recorded.identity.fileHash;
-        found.sameFelt = now.feltHash == recorded.identity.feltHash;
-        const char* change = nullptr;
-        if (!found.sameFelt)
-            change = found.sameFile
-                         ? "is the same file, but this build makes something else of it: the ticks "
-                           "will differ"
-                         : "has changed since it was touched: what is felt is not the same, so the "
-                           "ticks will differ";
-        else if (!found.sameFile)
-            change = "has changed since it was touched, but nothing that is felt";
-        if (change != nullptr)
-            std::fprintf(stderr, "touchstone: warning: %s %s\n", found.path.c_str(), change);
-        scenes_.push_back(std::move(found));
-        return {model.haptic, model.scene};
+        FoundScene found =
+            loadRecordedScene(recorded, scenePath(options_, recorded.identity, scenes_.size()));
+        if (const std::string change = found.change(); !change.empty())
+            std::fprintf(stderr, "touchstone: warning: %s %s\n", found.path.c_str(), change.c_str());
+        scenes_.push_back(found);
+        return found.scene;
     }
     [[nodiscard]] const std::vector<FoundScene>& scenes() const { return scenes_; }
 

@@ -1,0 +1,222 @@
+// What is made of a recording: ticks touched again around the cursor, the verdict, and the recorded hand in
+// the servo of now.
+
+#include "tests/unit/workbench/timeline/recordings.h"
+#include "workbench/timeline/lens.h"
+#include "workbench/timeline/touch_again.h"
+#include "workbench/timeline/verification.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace touchstone::test {
+namespace {
+
+class StillHand final : public Device {
+  public:
+    std::string name() const override { return "still"; }
+    DeviceLimits limits() const override { return {}; }
+    DeviceSample sample(double) noexcept override { return at(place); }
+    void apply(const DeviceCommand&) noexcept override { ++applied; }
+
+    glm::dvec3 place{0.0, 0.0, 0.2};
+    int applied = 0;
+};
+
+void pause() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+class AgainTest : public testing::Test {
+  protected:
+    /// Touches the doughnut, and gives what the servo lived through.
+    std::vector<TickRecord> record() {
+        RecordedServo rig([](double time) { return at(overTheDoughnut(time)); });
+        rig.recorder.start(file_, "test");
+        rig.offer(touchedScene("doughnut.glb"));
+        rig.ticks(9000);
+        rig.finish();
+        return rig.records;
+    }
+
+    ScratchFolder scratch_;
+    std::filesystem::path file_ = scratch_ / "r.tsrec";
+};
+
+TEST_F(AgainTest, TheLensShowsAllThatTheServoKnew) {
+    const std::vector<TickRecord> lived = record();
+    const auto timeline = timelineOf(file_);
+    ASSERT_EQ(timeline->size(), lived.size());
+    Lens lens(timeline, std::make_shared<RecordedSceneShelf>(file_));
+    size_t touched = 0;
+    for (const size_t index : {0u, 3000u, 4001u, 8500u, 100u, 8999u}) {
+        while (!lens.complete(index) && lens.problem().empty()) {
+            lens.look(index);
+            pause();
+        }
+        ASSERT_EQ(lens.problem(), "");
+        TickRecord shown;
+        ASSERT_TRUE(lens.show(index, shown));
+        const TickRecord& was = lived[index];
+        EXPECT_EQ(shown.tick, was.tick);
+        EXPECT_EQ(shown.time, was.time);
+        EXPECT_EQ(shown.output.hip, was.output.hip) << index;
+        EXPECT_EQ(shown.output.proxy, was.output.proxy) << index;
+        EXPECT_EQ(shown.output.force, was.output.force) << index;
+        EXPECT_EQ(shown.output.normal, was.output.normal) << index;
+        EXPECT_EQ(shown.output.planeCount, was.output.planeCount) << index;
+        EXPECT_EQ(shown.output.stictionPoint, was.output.stictionPoint) << index;
+        EXPECT_EQ(shown.output.penetration, was.output.penetration) << index;
+        EXPECT_EQ(shown.output.triangle, was.output.triangle) << index;
+        touched += was.output.contacts > 0 ? 1 : 0;
+    }
+    EXPECT_GT(touched, 2u);
+}
+
+TEST_F(AgainTest, WithoutItsModelTheLensShowsWhatWasRecorded) {
+    const std::vector<TickRecord> lived = record();
+    std::vector<RecordedItem> items = itemsOf(file_);
+    for (RecordedItem& item : items)
+        if (auto* scene = std::get_if<RecordedScene>(&item))
+            scene->identity.path = scene->identity.absolutePath = "/nowhere/gone.glb";
+    writeItems(file_, items);
+    Lens lens(timelineOf(file_), std::make_shared<RecordedSceneShelf>(file_));
+    TickRecord shown;
+    while (lens.problem().empty() || !lens.show(5000, shown)) {
+        lens.look(5000);
+        pause();
+    }
+    EXPECT_NE(lens.problem().find("gone.glb"), std::string::npos) << lens.problem();
+    EXPECT_FALSE(lens.complete(5000));
+    EXPECT_EQ(shown.output.proxy, lived[5000].output.proxy);
+    EXPECT_EQ(shown.output.force, lived[5000].output.force);
+    EXPECT_EQ(shown.output.planeCount, 0u);
+}
+
+TEST_F(AgainTest, VerifyingNamesTheTickThatDiffersAndItsStage) {
+    (void)record();
+    JobProgress progress;
+    RecordedSceneShelf shelf(file_);
+    const Verdict good = verify(*timelineOf(file_), shelf, progress);
+    EXPECT_TRUE(good.equal());
+    EXPECT_EQ(good.text(),
+              "equal to the last bit in " + std::to_string(timelineOf(file_)->size()) + " ticks");
+
+    std::vector<RecordedItem> items = itemsOf(file_);
+    uint64_t changed = 0;
+    for (RecordedItem& item : items)
+        if (auto* block = std::get_if<RecordedTicks>(&item); block != nullptr && changed == 0)
+            for (RecordedTick& tick : block->ticks)
+                if (tick.tick == 40) {
+                    tick.hashes[6] ^= 1; // of the force
+                    changed = tick.tick;
+                }
+    ASSERT_EQ(changed, 40u);
+    writeItems(file_, items);
+    const Verdict bad = verify(*timelineOf(file_), shelf, progress);
+    EXPECT_FALSE(bad.equal());
+    EXPECT_NE(bad.text().find("tick 40 (0.010 s) differs first, in the stage 'force'; 1 of"),
+              std::string::npos)
+        << bad.text();
+}
+
+TEST_F(AgainTest, TheHandGlidesInAndOutAndTheDeviceFeelsNothingMeanwhile) {
+    StillHand own;
+    AgainHand hand(own);
+    const auto sampleAt = [&](double time) {
+        const DeviceSample sample = hand.sample(time);
+        hand.apply({});
+        return sample.position;
+    };
+    EXPECT_EQ(sampleAt(0.0), own.place);
+    const glm::dvec3 begin(0.1, 0.0, 0.0), end(0.1, 0.1, 0.0);
+    const auto path = std::make_shared<const RecordedPath>(
+        std::vector<RecordedPath::Sample>{{0.0, begin, true}, {0.5, end, true}});
+    hand.follow(path);
+    glm::dvec3 last = own.place;
+    double fastest = 0.0;
+    for (double time = 1e-3; time < 2.0; time += 1e-3) {
+        if (std::abs(time - 1.4) < 1e-6)
+            hand.follow(nullptr);
+        const glm::dvec3 now = sampleAt(time);
+        fastest = std::max(fastest, glm::distance(now, last) / 1e-3);
+        last = now;
+        if (std::abs(time - 0.401) < 1e-6) {
+            EXPECT_LT(glm::distance(now, begin), 1e-4);
+        }
+        if (std::abs(time - 0.651) < 1e-6) {
+            EXPECT_LT(glm::distance(now, glm::mix(begin, end, 0.5)), 1e-3);
+        }
+        if (std::abs(time - 1.3) < 1e-6) {
+            EXPECT_LT(glm::distance(now, end), 1e-12) << "rests where the recording ended";
+        }
+    }
+    EXPECT_EQ(last, own.place);
+    EXPECT_LT(fastest, 1.5 * 0.3 / AgainHand::kGlideTime) << "no jump";
+}
+
+TEST(RecordedPathTest, BeginsWhereWhatMovesWasAndGoesRound) {
+    const RecordedPath path({{0.0, glm::dvec3(0.0), true}, {1.0, glm::dvec3(0.01), true}},
+                            {.repeats = true, .period = 4.0, .phase = 11.0});
+    EXPECT_LT(path.secondsAt(5.0), 0.0) << "nobody has taken it up";
+    path.begin(5.0);
+    EXPECT_NEAR(path.begun(), 7.0, 1e-12);
+    EXPECT_EQ(path.at(6.0).position, glm::dvec3(0.0)) << "waits at its begin";
+    EXPECT_NEAR(path.at(7.25).position.x, 0.0025, 1e-12);
+    EXPECT_NEAR(path.secondsAt(7.0 + path.lap() + 0.25), 0.25, 1e-12);
+    EXPECT_NEAR(path.at(7.0 + 2.0 * path.lap() + 0.5).position.x, 0.005, 1e-12);
+    const glm::dvec3 back = path.at(8.0 + 0.5 * AgainHand::kGlideTime).position;
+    EXPECT_NEAR(back.x, 0.005, 1e-12) << "half of the way back";
+}
+
+/// What the window's turn does: lets the servo touch with the hand and looks at what comes of it.
+class AgainServo {
+  public:
+    explicit AgainServo(const HapticSettings& settings)
+        : rig_([this](double time) { return hand_.sample(time); },
+               {.rateHz = 1000.0, .ringCapacity = 1 << 14, .wantRealtime = false}) {
+        rig_.servo.setSettings(settings);
+        rig_.offer(touchedScene("doughnut.glb"));
+    }
+    TouchAgain::Means touch(const std::shared_ptr<const Timeline>& timeline, const TouchAgain::Part& part) {
+        TouchAgain again(hand_);
+        again.start(timeline, part);
+        size_t seen = 0;
+        TouchAgain::Means means;
+        while (again.running()) {
+            rig_.ticks(20);
+            for (; seen < rig_.records.size(); ++seen)
+                history_.add(rig_.records[seen], false);
+            again.update(history_, rig_.records.back().time);
+            if (again.means().ticks >= means.ticks)
+                means = again.means();
+        }
+        rig_.finish();
+        return means;
+    }
+
+  private:
+    StillHand own_;
+    AgainHand hand_{own_};
+    ForceHistory history_{10000};
+    RecordedServo rig_;
+};
+
+TEST_F(AgainTest, TheSameHandFeelsTheSameAndWithOtherSettingsSomethingElse) {
+    (void)record(); // 2.25 s
+    const auto timeline = timelineOf(file_);
+    const TouchAgain::Part part{.first = timeline->indexAt(0.5), .last = timeline->indexAt(1.6)};
+    const TouchAgain::Means same = AgainServo(HapticSettings{}).touch(timeline, part);
+    ASSERT_GT(same.ticks, 500u);
+    EXPECT_GT(same.recorded, 0.05);
+    EXPECT_NEAR(same.now, same.recorded, 0.1 * same.recorded);
+    HapticSettings soft;
+    soft.stiffness = 100.0;
+    const TouchAgain::Means softer = AgainServo(soft).touch(timeline, part);
+    EXPECT_LT(softer.now, 0.5 * softer.recorded);
+}
+
+} // namespace
+} // namespace touchstone::test

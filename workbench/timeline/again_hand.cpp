@@ -1,0 +1,82 @@
+#include "workbench/timeline/again_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+glm::dvec3 glide(const glm::dvec3& from, const glm::dvec3& to, double share) {
+    const double t = std::clamp(share, 0.0, 1.0);
+    return glm::mix(from, to, t * t * (3.0 - 2.0 * t));
+}
+
+} // namespace
+
+RecordedPath::RecordedPath(std::vector<Sample> samples, const Options& options)
+    : samples_(std::move(samples)), options_(options) {}
+
+double RecordedPath::lap() const noexcept {
+    return length() + AgainHand::kGlideTime;
+}
+
+void RecordedPath::begin(double earliest) const noexcept {
+    double begin = earliest;
+    if (options_.period > 0.0) {
+        const double wait = std::fmod(options_.phase - earliest, options_.period);
+        begin += wait < 0.0 ? wait + options_.period : wait;
+    }
+    begun_.store(begin, std::memory_order_relaxed);
+}
+
+double RecordedPath::secondsAt(double time) const noexcept {
+    const double seconds = time - begun();
+    return options_.repeats && seconds > 0.0 ? std::fmod(seconds, lap()) : seconds;
+}
+
+DeviceSample RecordedPath::at(double time) const noexcept {
+    const double seconds = secondsAt(time);
+    const auto after = std::upper_bound(samples_.begin(), samples_.end(), seconds,
+                                        [](double s, const Sample& sample) { return s < sample.seconds; });
+    DeviceSample out;
+    const Sample& before = after == samples_.begin() ? samples_.front() : *std::prev(after);
+    out.valid = before.valid;
+    out.position = before.position;
+    if (after == samples_.end() && options_.repeats)
+        out.position = glide(samples_.back().position, samples_.front().position,
+                             (seconds - length()) / AgainHand::kGlideTime);
+    else if (after != samples_.end() && after != samples_.begin() && after->valid)
+        out.position = glm::mix(before.position, after->position,
+                                (seconds - before.seconds) / (after->seconds - before.seconds));
+    return out;
+}
+
+DeviceSample AgainHand::sample(double time) noexcept {
+    const DeviceSample own = own_.sample(time);
+    const RecordedPath* path = path_.adopt();
+    if (path != followed_) {
+        followed_ = path;
+        gliding_ = started_;
+        glideFrom_ = last_;
+        glideStart_ = time;
+        if (path != nullptr)
+            path->begin(time + kGlideTime);
+    }
+    DeviceSample sample = path != nullptr ? path->at(time) : own;
+    if (gliding_) {
+        sample.position = glide(glideFrom_, sample.position, (time - glideStart_) / kGlideTime);
+        gliding_ = time - glideStart_ < kGlideTime;
+    }
+    if (sample.valid) {
+        last_ = sample.position;
+        started_ = true;
+    }
+    return sample;
+}
+
+void AgainHand::apply(const DeviceCommand& command) noexcept {
+    own_.apply(followed_ == nullptr && !gliding_ ? command : DeviceCommand{});
+}
+
+} // namespace touchstone
