@@ -19,9 +19,9 @@ struct Place {
     double fraction;
 };
 
-Place placeOf(double time, size_t knots) noexcept {
+Place placeOf(double time, size_t knots, double interval) noexcept {
     const double count = static_cast<double>(knots);
-    const double turns = time / (StrokePath::kKnotInterval * count);
+    const double turns = time / (interval * count);
     double at = (turns - std::floor(turns)) * count;
     if (!(at >= 0.0 && at < count))
         at = 0.0; // time is not finite, or rounding met the end
@@ -65,11 +65,19 @@ StrokePath StrokePath::around(std::span<const glm::dvec3> waypoints, double spee
         const double fraction = edgeLength > 0.0 ? std::clamp((at - edgeStart) / edgeLength, 0.0, 1.0) : 0.0;
         control.push_back(glm::mix(waypoints[edge], waypoints[(edge + 1) % count], fraction));
     }
-    return StrokePath(std::move(control));
+    return StrokePath(std::move(control), kKnotInterval);
+}
+
+StrokePath StrokePath::through(std::vector<glm::dvec3> control, double interval) {
+    if (control.empty() || !std::ranges::all_of(control, finite))
+        throw Error("stroke path", "", "a control point is missing or not finite", "give finite points");
+    if (!(interval > 0.0) || !std::isfinite(interval))
+        throw Error("stroke path", "", "the interval is not a positive number", "give one above 0 s");
+    return StrokePath(std::move(control), interval);
 }
 
 glm::dvec3 StrokePath::position(double time) const noexcept {
-    const auto [knot, t] = placeOf(time, control_.size());
+    const auto [knot, t] = placeOf(time, control_.size(), interval_);
     const double s = 1.0 - t;
     return (s * s * s * control(knot, 0) + (3.0 * t * t * (t - 2.0) + 4.0) * control(knot, 1) +
             (3.0 * s * s * (s - 2.0) + 4.0) * control(knot, 2) + t * t * t * control(knot, 3)) /
@@ -77,13 +85,13 @@ glm::dvec3 StrokePath::position(double time) const noexcept {
 }
 
 glm::dvec3 StrokePath::velocity(double time) const noexcept {
-    const auto [knot, t] = placeOf(time, control_.size());
+    const auto [knot, t] = placeOf(time, control_.size(), interval_);
     const double s = 1.0 - t;
     const double before = 0.5 * s * s, after = 0.5 * t * t;
     return (before * (control(knot, 1) - control(knot, 0)) +
             (1.0 - before - after) * (control(knot, 2) - control(knot, 1)) +
             after * (control(knot, 3) - control(knot, 2))) /
-           kKnotInterval;
+           interval_;
 }
 
 } // namespace touchstone

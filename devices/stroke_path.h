@@ -13,7 +13,7 @@
 
 namespace touchstone {
 
-/// How the hand strokes; lengths in m of the device frame.
+/// How the tour (strokeOver) goes; lengths in m of the device frame.
 struct StrokeOptions {
     double speed = 0.1; ///< m/s along the path, the bound as well. People explore texture at 0.02..0.2 m/s.
     double depth =
@@ -26,28 +26,33 @@ struct StrokeOptions {
 
 /// A closed path through space in time: a uniform cubic B-spline, so position, velocity and acceleration are
 /// continuous, and the speed nowhere exceeds the one asked for (its velocity is a convex combination of the
-/// chords between control points, which are at most speed * kKnotInterval long). It cuts corners by less than
-/// a control interval. Immutable; `position` and `velocity` may be called from any thread, allocate nothing.
+/// chords between control points, which are at most speed times their interval long). It cuts corners by less
+/// than a control interval. Immutable; `position` and `velocity` may be called from any thread, allocate
+/// nothing.
 class StrokePath {
   public:
-    /// s between control points; at 0.1 m/s they are 1 mm apart.
+    /// s between control points of `around`; at 0.1 m/s they are 1 mm apart.
     static constexpr double kKnotInterval = 0.010;
 
     /// Around the closed polygon of `waypoints` at `speed`, for ever. Throws Error without a finite waypoint.
     [[nodiscard]] static StrokePath around(std::span<const glm::dvec3> waypoints, double speed);
 
+    /// Through the neighbourhood of `control`, `interval` s after each other, for ever: each point is passed
+    /// within a sixth of its second difference. Throws Error without a finite point or interval.
+    [[nodiscard]] static StrokePath through(std::vector<glm::dvec3> control, double interval);
+
     [[nodiscard]] glm::dvec3 position(double time) const noexcept; ///< m, device frame; time in s
     [[nodiscard]] glm::dvec3 velocity(double time) const noexcept; ///< m/s
-    [[nodiscard]] double period() const {
-        return kKnotInterval * static_cast<double>(control_.size());
-    } ///< s
+    [[nodiscard]] double period() const { return interval_ * static_cast<double>(control_.size()); } ///< s
 
   private:
-    explicit StrokePath(std::vector<glm::dvec3> control) : control_(std::move(control)) {}
+    StrokePath(std::vector<glm::dvec3> control, double interval)
+        : control_(std::move(control)), interval_(interval) {}
     [[nodiscard]] const glm::dvec3& control(size_t knot, size_t offset) const noexcept {
         return control_[(knot + offset) % control_.size()];
     }
     std::vector<glm::dvec3> control_;
+    double interval_; // s
 };
 
 /// A stroke over whatever `scene` holds (rest pose), placed by `deviceFromScene`: from above the model down

@@ -91,18 +91,6 @@ Stroke bestStroke(const TriangleSource& triangles, const Bounds& bounds, const S
     return best;
 }
 
-/// True if the surface breaks off between two neighbouring hits: the height of the second, as seen from the
-/// first, is neither what the one's plane says nor the other's nor anything between (as over a crease).
-bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to, double tolerance) {
-    const glm::dvec3 way = view.viewed(to.point) - view.viewed(from.point);
-    const auto predicted = [&](const SurfaceHit& hit) {
-        const glm::dvec3 normal = view.viewed(view.centre + hit.normal);
-        return -(normal.x * way.x + normal.y * way.y) / std::max(normal.z, 1e-3);
-    };
-    const auto [low, high] = std::minmax({predicted(from), predicted(to)});
-    return way.z < low - tolerance || way.z > high + tolerance;
-}
-
 /// Down onto the first touching point, along all of them, through the air over gaps, steps and walls, and up.
 ///
 /// A hand that does not yield must not go through a step: 1 mm under the upper side it would be far inside
@@ -204,28 +192,11 @@ StrokePath plan(const TriangleSource& triangles, const StrokeOptions& options) {
 } // namespace
 
 StrokePath strokeOver(const Scene& scene, const Similarity& deviceFromScene, const StrokeOptions& options) {
-    return plan(
-        [&](const TriangleVisitor& visit) {
-            for (const Instance& instance : scene.instances) {
-                const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-                const auto corner = [&](size_t index) {
-                    const glm::dvec4 local(glm::dvec3(mesh.positions[mesh.indices[index]]), 1.0);
-                    return deviceFromScene.point(glm::dvec3(instance.sceneFromMesh * local));
-                };
-                for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-                    visit(corner(i), corner(i + 1), corner(i + 2));
-            }
-        },
-        options);
+    return plan(trianglesOf(scene, deviceFromScene), options);
 }
 
 StrokePath strokeOver(std::span<const glm::dvec3> corners, const StrokeOptions& options) {
-    return plan(
-        [&](const TriangleVisitor& visit) {
-            for (size_t i = 0; i + 2 < corners.size(); i += 3)
-                visit(corners[i], corners[i + 1], corners[i + 2]);
-        },
-        options);
+    return plan(trianglesOf(corners), options);
 }
 
 } // namespace touchstone

@@ -1,5 +1,7 @@
 #include "devices/surface_probe.h"
 
+#include "engine/scene/scene.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,6 +88,39 @@ constexpr double kFree = 0.25;
 
 } // namespace
 
+TriangleSource trianglesOf(const Scene& scene, const Similarity& deviceFromScene) {
+    return [&scene, deviceFromScene](const TriangleVisitor& visit) {
+        for (const Instance& instance : scene.instances) {
+            const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+            const auto corner = [&](size_t index) {
+                const glm::dvec4 local(glm::dvec3(mesh.positions[mesh.indices[index]]), 1.0);
+                return deviceFromScene.point(glm::dvec3(instance.sceneFromMesh * local));
+            };
+            for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+                visit(corner(i), corner(i + 1), corner(i + 2));
+        }
+    };
+}
+
+TriangleSource trianglesOf(std::span<const glm::dvec3> corners) {
+    return [corners](const TriangleVisitor& visit) {
+        for (size_t i = 0; i + 2 < corners.size(); i += 3)
+            visit(corners[i], corners[i + 1], corners[i + 2]);
+    };
+}
+
+std::vector<glm::dvec3> trianglesNear(const TriangleSource& triangles, const glm::dvec3& centre,
+                                      double half) {
+    std::vector<glm::dvec3> corners;
+    const glm::dvec3 low = centre - half, high = centre + half;
+    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        const glm::dvec3 least = glm::min(a, glm::min(b, c)), most = glm::max(a, glm::max(b, c));
+        if (glm::all(glm::lessThanEqual(least, high)) && glm::all(glm::greaterThanEqual(most, low)))
+            corners.insert(corners.end(), {a, b, c});
+    });
+    return corners;
+}
+
 View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
     View view;
     view.centre = bounds.centre();
@@ -100,7 +135,7 @@ View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
 }
 
 std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const View& view,
-                                             std::span<const glm::dvec2> points) {
+                                             std::span<const glm::dvec2> points, double ceiling) {
     std::vector<std::optional<SurfaceHit>> hits(points.size());
     if (points.empty())
         return hits;
@@ -121,7 +156,7 @@ std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, co
             if (wa < 0.0 || wb < 0.0 || wc < 0.0)
                 return;
             const double height = wa * a.z + wb * b.z + wc * c.z;
-            if (height <= highest[i])
+            if (height <= highest[i] || height > ceiling)
                 return;
             const glm::dvec3 normal = glm::cross(b3 - a3, c3 - a3);
             const double length = glm::length(normal);
@@ -173,6 +208,16 @@ std::vector<double> wallsBeside(const TriangleSource& triangles, const View& vie
             });
     });
     return highest;
+}
+
+bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to, double tolerance) {
+    const glm::dvec3 way = view.viewed(to.point) - view.viewed(from.point);
+    const auto predicted = [&](const SurfaceHit& hit) {
+        const glm::dvec3 normal = view.viewed(view.centre + hit.normal);
+        return -(normal.x * way.x + normal.y * way.y) / std::max(normal.z, 1e-3);
+    };
+    const auto [low, high] = std::minmax({predicted(from), predicted(to)});
+    return way.z < low - tolerance || way.z > high + tolerance;
 }
 
 } // namespace touchstone

@@ -6,15 +6,27 @@
 #include <glm/glm.hpp>
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace touchstone {
 
+struct Scene;
+
 using TriangleVisitor = std::function<void(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)>;
 /// Calls its visitor with every triangle, always in the same order. m, device frame.
 using TriangleSource = std::function<void(const TriangleVisitor&)>;
+
+/// The triangles of `scene` (rest pose) as `deviceFromScene` places them. The scene outlives it.
+[[nodiscard]] TriangleSource trianglesOf(const Scene& scene, const Similarity& deviceFromScene);
+/// Those given by their corners, three each, in the device frame; the corners outlive it.
+[[nodiscard]] TriangleSource trianglesOf(std::span<const glm::dvec3> corners);
+
+/// The corners of those triangles that come into the cube of `half` m to each side of `centre`.
+[[nodiscard]] std::vector<glm::dvec3> trianglesNear(const TriangleSource& triangles, const glm::dvec3& centre,
+                                                    double half);
 
 /// A view without perspective of what lies in some bounds. Coordinates (right, up, height) are m from the
 /// bounds' centre, height towards the viewer.
@@ -39,10 +51,11 @@ struct SurfaceHit {
     glm::dvec3 normal; ///< unit, of the flat triangle, facing the viewer
 };
 
-/// The first surface under each of `points` (right, up). Goes through the triangles once and keeps none of
-/// them, so that a model of ten million costs no memory here.
-[[nodiscard]] std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const View& view,
-                                                           std::span<const glm::dvec2> points);
+/// The first surface under each of `points` (right, up) that is not higher than `ceiling`. Goes through the
+/// triangles once and keeps none of them, so that a model of ten million costs no memory here.
+[[nodiscard]] std::vector<std::optional<SurfaceHit>>
+probe(const TriangleSource& triangles, const View& view, std::span<const glm::dvec2> points,
+      double ceiling = std::numeric_limits<double>::infinity());
 
 /// For each of `points` the height of the highest wall within `reach` m of its hit, or minus infinity: a wall
 /// is a triangle that rises beside the surface there by over 75 degrees or leans over it, however low it is.
@@ -50,5 +63,11 @@ struct SurfaceHit {
 [[nodiscard]] std::vector<double> wallsBeside(const TriangleSource& triangles, const View& view,
                                               std::span<const glm::dvec2> points,
                                               std::span<const std::optional<SurfaceHit>> hits, double reach);
+
+/// True if the surface breaks off between two neighbouring hits: the height of the second, as seen from the
+/// first, is by more than `tolerance` m neither what the one's plane says nor the other's nor anything
+/// between (as over a crease).
+[[nodiscard]] bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to,
+                             double tolerance);
 
 } // namespace touchstone

@@ -1,0 +1,301 @@
+// Which strokes there are, and how each goes: find the place, draw the curve, lay it on, move along it.
+
+#include "devices/stroke/stroke_library.h"
+
+#include "devices/stroke/stroke_motion.h"
+#include "devices/stroke/stroke_place.h"
+#include "engine/core/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+using Curve = std::vector<glm::dvec2>; ///< m in the site's view
+
+constexpr double kHover = 0.008;    ///< m over the surface, before and after
+constexpr double kLanding = 0.08;   ///< m/s at most, from there onto the surface and back
+constexpr double kSpacing = 2.5e-4; ///< m between the points that are laid
+constexpr double kDeepest = 0.1;    ///< of the model's diagonal: a small model is not pierced
+constexpr double kOfModel = 0.25;   ///< of the diagonal: no curve reaches farther from its middle
+constexpr double kSoftTime = 0.01;  ///< s over which a hand turns to another direction, at least
+constexpr std::array kSizes{1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05}; ///< of its full size, tried in turn
+constexpr std::array kEdgeSizes{1.0, 0.5, 0.25, 0.15};
+constexpr double kFewest = 16; ///< points of a curve however small
+
+/// `place(t)` for t from 0 to 1, about `length` m long.
+template <class Place>
+Curve drawn(double length, const Place& place) {
+    const double count = std::max(kFewest, std::ceil(length / kSpacing));
+    Curve curve;
+    for (double i = 0.0; i <= count; i += 1.0)
+        curve.push_back(place(i / count));
+    return curve;
+}
+
+Curve straight(double reach) {
+    return drawn(2.0 * reach, [&](double t) { return glm::dvec2(reach * (2.0 * t - 1.0), 0.0); });
+}
+
+Curve ring(double reach) {
+    const double round = 2.0 * std::numbers::pi;
+    Curve curve = drawn(round * reach, [&](double t) {
+        return reach * glm::dvec2(std::sin(round * t), std::cos(round * t));
+    });
+    curve.back() = curve.front();
+    return curve;
+}
+
+/// Outwards with a seventh of the reach between the turns.
+Curve spiral(double reach) {
+    constexpr double kTurns = 6.0, kStart = 1.0 / 7.0;
+    const double angle = 2.0 * std::numbers::pi * kTurns;
+    // Radius grows evenly with the angle; so the way does as radius squared.
+    return drawn(0.5 * (1.0 + kStart) * reach * angle, [&](double t) {
+        const double share = std::sqrt(kStart * kStart + t * (1.0 - kStart * kStart));
+        const double at = angle * (share - kStart) / (1.0 - kStart);
+        return reach * share * glm::dvec2(std::sin(at), std::cos(at));
+    });
+}
+
+/// Nine lines to and fro, joined by half circles: a scan of a field three to two.
+Curve raster(double reach) {
+    constexpr int kLines = 9;
+    const double high = reach * 2.0 / 3.0, step = 2.0 * high / (kLines - 1), bend = 0.5 * step;
+    const double wide = reach - bend, line = 2.0 * wide, turn = std::numbers::pi * bend;
+    const double length = kLines * line + (kLines - 1) * turn;
+    return drawn(length, [&](double t) {
+        const double way = t * length;
+        const int row = std::min(kLines - 1, static_cast<int>(way / (line + turn)));
+        const double rest = way - row * (line + turn), y = high - row * step,
+                     side = row % 2 == 0 ? 1.0 : -1.0;
+        if (rest <= line)
+            return glm::dvec2(side * (rest - wide), y);
+        const double angle = (rest - line) / bend;
+        return glm::dvec2(side * (wide + bend * std::sin(angle)), y - bend * (1.0 - std::cos(angle)));
+    });
+}
+
+/// What a stroke is told: its speed and depth, the depth as the model allows it.
+struct Told {
+    double speed = 0.0, depth = 0.0;
+};
+void land(StrokeMotion& motion) {
+    motion.liftTo(0.0, kLanding);
+}
+void leave(StrokeMotion& motion, const Told& told) {
+    motion.liftTo(told.depth + kHover, kLanding);
+    motion.rest(0.2);
+}
+
+/// Onto the surface, and from there in and out as one tries how hard something is.
+void press(StrokeMotion& motion, const LaidCurve&, const Told& told) {
+    motion.liftTo(told.depth, kLanding);
+    for (int i = 0; i < 3; ++i) {
+        motion.liftTo(0.0, told.speed);
+        motion.rest(0.3);
+        motion.liftTo(told.depth, told.speed);
+        motion.rest(0.2);
+    }
+    leave(motion, told);
+}
+
+/// Five times down and at once up again, twice a second.
+void tap(StrokeMotion& motion, const LaidCurve&, const Told& told) {
+    for (int i = 0; i < 5; ++i) {
+        motion.liftTo(0.0, told.speed);
+        motion.liftTo(told.depth + kHover, told.speed);
+        motion.rest(0.2);
+    }
+}
+
+void hold(StrokeMotion& motion, const LaidCurve&, const Told& told) {
+    constexpr double kTremor = 5e-5; // m; a finger that presses trembles by some hundredths of a millimetre
+    motion.liftTo(0.0, told.speed);
+    motion.tremble(4.0, kTremor);
+    leave(motion, told);
+}
+
+/// To and fro in reaches, as one feels for a bump.
+void rub(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
+    land(motion);
+    for (int i = 0; i < 3; ++i) {
+        motion.reachTo(curve.length(), told.speed);
+        motion.reachTo(0.0, told.speed);
+    }
+    leave(motion, told);
+}
+
+void round(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
+    land(motion);
+    motion.runTo(3.0 * curve.length(), told.speed);
+    leave(motion, told);
+}
+
+/// Over the edge and back, three times: the curve is a round, and there is in its middle.
+void cross(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
+    land(motion);
+    for (int i = 0; i < 6; ++i)
+        motion.reachTo(0.5 * (i + 1) * curve.length(), told.speed);
+    leave(motion, told);
+}
+
+/// To the end at one speed and back.
+void follow(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
+    land(motion);
+    motion.runTo(curve.length(), told.speed);
+    motion.runTo(0.0, told.speed);
+    leave(motion, told);
+}
+
+/// How a stroke of the table goes.
+struct StrokeKind {
+    StrokeInfo info;
+    double reach = 0.0;                    ///< m from the curve's middle, at full size
+    Curve (*draw)(double reach) = nullptr; ///< null: it stays on one point
+    void (*move)(StrokeMotion&, const LaidCurve&, const Told&) = nullptr; ///< null: the tour
+};
+
+// Speeds and forces as people explore with: 20 to 200 mm/s and 0.5 to 2 N (0.6 N a millimetre at 600 N/m).
+constexpr std::array kKinds{
+    StrokeKind{
+        {"tour", "round the model on the side that faces you, hopping over gaps and steps", 0.1, 0.001}},
+    StrokeKind{{"press", "into the surface and out again, to feel how stiff it is", 0.02, 0.003},
+               0.0,
+               nullptr,
+               press},
+    StrokeKind{{"tap", "five taps, down and at once up again", 0.15, 0.0015}, 0.0, nullptr, tap},
+    StrokeKind{{"slide", "straight to and fro over 30 mm", 0.1, 0.001}, 0.015, straight, rub},
+    StrokeKind{{"circle", "three times round a circle of 20 mm", 0.08, 0.001}, 0.01, ring, round},
+    StrokeKind{{"zigzag", "scans a field of 30 x 20 mm line by line", 0.08, 0.001}, 0.015, raster, follow},
+    StrokeKind{{"spiral", "out and back in a spiral of 24 mm", 0.06, 0.001}, 0.012, spiral, follow},
+    StrokeKind{{"hold", "rests on one point for 4 s, trembling at 8 to 12 Hz as hands do", 0.05, 0.0015},
+               0.0,
+               nullptr,
+               hold},
+    StrokeKind{{"edge", "to and fro across the model's sharpest edge", 0.05, 0.001}, 0.012, nullptr, cross},
+    StrokeKind{{"fast", "to and fro over 60 mm, as fast as one wipes", 0.5, 0.001}, 0.03, straight, rub},
+};
+
+const StrokeKind* findKind(std::string_view name) {
+    const auto found =
+        std::ranges::find_if(kKinds, [&](const StrokeKind& kind) { return kind.info.name == name; });
+    return found != kKinds.end() ? &*found : nullptr;
+}
+
+/// Over the sharpest edge that has room for it on both sides.
+std::optional<LaidCurve> laidAcrossEdge(const TriangleSource& triangles, const Bounds& bounds,
+                                        const glm::dvec3& front, double reach, double depth) {
+    for (const EdgeSite& edge : sharpestEdges(triangles, bounds, front)) {
+        const std::vector<glm::dvec3> around = trianglesNear(triangles, edge.point, 2.0 * (reach + depth));
+        for (const double size : kEdgeSizes)
+            if (auto curve = LaidCurve::acrossEdge(trianglesOf(around), edge, size * reach, depth))
+                return curve;
+    }
+    return std::nullopt;
+}
+
+/// The curve of `kind` at its place, as large as fits there.
+LaidCurve laid(const TriangleSource& triangles, const Bounds& bounds, const StrokeKind& kind,
+               const StrokeRequest& request, const Told& told) {
+    const double reach = std::min(kind.reach, kOfModel * bounds.diagonal());
+    if (kind.move == cross)
+        if (auto curve = laidAcrossEdge(triangles, bounds, request.front, reach, told.depth))
+            return *std::move(curve);
+    const std::vector<StrokeSite> sites = sitesOf(triangles, bounds, request);
+    const double soft = std::max(told.depth, kSoftTime * told.speed);
+    const auto draw = kind.draw != nullptr ? kind.draw : ring;
+    std::vector<std::vector<glm::dvec3>> around;
+    for (const StrokeSite& site : sites)
+        around.push_back(
+            trianglesNear(triangles, site.view.centre, 2.0 * (reach + site.ceiling + told.depth)));
+    if (reach > 0.0)
+        for (const double size : kSizes)
+            for (size_t i = 0; i < sites.size(); ++i)
+                if (auto curve = LaidCurve::over(trianglesOf(around[i]), sites[i].view, draw(size * reach),
+                                                 told.depth, soft, sites[i].ceiling + size * reach))
+                    return *std::move(curve);
+    return {sites[0].view.centre, sites[0].view.towards, told.depth};
+}
+
+double withinRange(double asked, double own, double least, double most, const char* what) {
+    if (asked == 0.0)
+        return own;
+    if (!(asked >= least && asked <= most))
+        throw Error("stroke", what, "is outside its range",
+                    std::to_string(least) + " .. " + std::to_string(most));
+    return asked;
+}
+
+StrokePath layKind(const TriangleSource& triangles, const StrokeKind& kind, const StrokeRequest& request,
+                   const Told& told) {
+    Bounds bounds;
+    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        bounds.include(a);
+        bounds.include(b);
+        bounds.include(c);
+    });
+    const Told allowed{told.speed, std::min(told.depth, kDeepest * bounds.diagonal())};
+    const LaidCurve curve = laid(triangles, bounds, kind, request, allowed);
+    StrokeMotion motion(curve, allowed.depth + kHover);
+    kind.move(motion, curve, allowed);
+    return motion.finish();
+}
+
+/// The kind that is asked for, with its speed and depth; throws where there is none.
+std::pair<const StrokeKind*, Told> understood(const StrokeRequest& request) {
+    const StrokeKind* const kind = findKind(request.name);
+    if (kind == nullptr)
+        throw Error("stroke", request.name, strokeProblem(request.name), "");
+    return {kind,
+            {withinRange(request.speed, kind->info.speed, kSlowestStroke, kFastestStroke, "speed (m/s)"),
+             withinRange(request.depth, kind->info.depth, kShallowestStroke, kDeepestStroke, "depth (m)")}};
+}
+
+} // namespace
+
+std::span<const StrokeInfo> strokeInfos() {
+    static const auto infos = [] {
+        std::array<StrokeInfo, kKinds.size()> all{};
+        std::ranges::transform(kKinds, all.begin(), [](const StrokeKind& kind) { return kind.info; });
+        return all;
+    }();
+    return infos;
+}
+
+const StrokeInfo* findStroke(std::string_view name) {
+    const auto infos = strokeInfos();
+    const auto found = std::ranges::find_if(infos, [&](const StrokeInfo& info) { return info.name == name; });
+    return found != infos.end() ? &*found : nullptr;
+}
+
+std::string strokeProblem(std::string_view name) {
+    if (findStroke(name) != nullptr)
+        return "";
+    std::string problem = "'" + std::string(name) + "' is no stroke; there are";
+    for (const StrokeInfo& info : strokeInfos())
+        problem += (info.name == strokeInfos().front().name ? " " : ", ") + std::string(info.name);
+    return problem;
+}
+
+StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, const StrokeRequest& request) {
+    const auto [kind, told] = understood(request);
+    if (kind->move == nullptr)
+        return strokeOver(scene, deviceFromScene,
+                          {.speed = told.speed, .depth = told.depth, .front = request.front});
+    return layKind(trianglesOf(scene, deviceFromScene), *kind, request, told);
+}
+
+StrokePath layStroke(std::span<const glm::dvec3> corners, const StrokeRequest& request) {
+    const auto [kind, told] = understood(request);
+    if (kind->move == nullptr)
+        return strokeOver(corners, {.speed = told.speed, .depth = told.depth, .front = request.front});
+    return layKind(trianglesOf(corners), *kind, request, told);
+}
+
+} // namespace touchstone

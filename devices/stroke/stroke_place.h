@@ -1,0 +1,30 @@
+#pragma once
+// Where on a model a stroke is laid.
+
+#include "devices/stroke/laid_curve.h"
+#include "devices/stroke/stroke_library.h"
+#include "devices/surface_probe.h"
+
+namespace touchstone {
+
+/// A view down onto the place of a stroke: its centre is on the surface, its axis points out of it.
+struct StrokeSite {
+    View view;
+    double ceiling = 0.0; ///< m over the centre: what is higher is another part of the model
+};
+
+/// At the place that was asked for, where the surface is within 5 mm of it; else some near the middle of what
+/// faces `front`, where a hand gets to them, the best first; else on the largest triangle. At least one.
+/// Throws Error without any triangle of some area.
+[[nodiscard]] std::vector<StrokeSite> sitesOf(const TriangleSource& triangles, const Bounds& bounds,
+                                              const StrokeRequest& request);
+
+/// The middles of the sharpest convex edges of the model, the sharpest first; of those within a degree the
+/// one that faces `front` most, at most kMostEdges, 5 mm apart. Corners nearer than 1e-6 of the model's
+/// diagonal are one. Edges between less than 0.2 degrees or shorter than a hundredth of the diagonal do not
+/// count.
+[[nodiscard]] std::vector<EdgeSite> sharpestEdges(const TriangleSource& triangles, const Bounds& bounds,
+                                                  const glm::dvec3& front);
+inline constexpr size_t kMostEdges = 48;
+
+} // namespace touchstone
