@@ -68,13 +68,7 @@ void waitFor(const Gpu::Impl& gpu, FrameSlot& slot, SceneRenderer::Statistics& s
     statistics.waitSeconds = secondsSince(start);
     if (!slot.timed)
         return;
-    const auto [result, ticks] = slot.timestamps.getResults<uint64_t>(
-        0, 2, 2 * sizeof(uint64_t), sizeof(uint64_t), vk::QueryResultFlagBits::e64);
-    if (result != vk::Result::eSuccess)
-        return;
-    const uint64_t mask = gpu.timestampBits >= 64 ? UINT64_MAX : (uint64_t{1} << gpu.timestampBits) - 1;
-    statistics.gpuSeconds =
-        1e-9 * gpu.limits.timestampPeriod * static_cast<double>((ticks[1] - ticks[0]) & mask);
+    statistics.gpuSeconds = secondsBetween(gpu, slot.timestamps).value_or(statistics.gpuSeconds);
 }
 
 } // namespace touchstone

@@ -98,6 +98,16 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
         vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
+std::optional<double> secondsBetween(const Gpu::Impl& gpu, const vk::raii::QueryPool& timestamps) {
+    const auto [result, ticks] = timestamps.getResults<uint64_t>(0, 2, 2 * sizeof(uint64_t), sizeof(uint64_t),
+                                                                 vk::QueryResultFlagBits::e64);
+    if (result != vk::Result::eSuccess)
+        return std::nullopt;
+    const uint64_t mask = gpu.timestampBits >= 64 ? UINT64_MAX : (uint64_t{1} << gpu.timestampBits) - 1;
+    return 1e-9 * static_cast<double>(gpu.limits.timestampPeriod) *
+           static_cast<double>((ticks[1] - ticks[0]) & mask);
+}
+
 Uploader::Uploader(const Gpu::Impl& gpu)
     : gpu_(gpu),
       staging_(createBuffer(gpu, kStagingSize, vk::BufferUsageFlagBits::eTransferSrc, MemoryUse::Upload)) {}

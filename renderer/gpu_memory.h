@@ -4,6 +4,7 @@
 #include "renderer/gpu_impl.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace touchstone {
@@ -45,6 +46,10 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
                 vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 stagesBefore,
                 vk::AccessFlags2 accessBefore, vk::PipelineStageFlags2 stagesAfter,
                 vk::AccessFlags2 accessAfter);
+
+/// Between the two timestamps of a pool that were written last; nothing before they are there.
+[[nodiscard]] std::optional<double> secondsBetween(const Gpu::Impl& gpu,
+                                                   const vk::raii::QueryPool& timestamps);
 
 /// Records into a fresh command buffer, submits it and waits.
 template <class Record>

@@ -6,9 +6,47 @@
 
 namespace touchstone {
 
+vk::raii::RenderPass makeWindowPass(const Gpu::Impl& gpu, const WindowPass& pass) {
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    const vk::AttachmentDescription attachment{.format = pass.format,
+                                               .loadOp = pass.load,
+                                               .storeOp = vk::AttachmentStoreOp::eStore,
+                                               .stencilLoadOp = vk::AttachmentLoadOp::eDontCare,
+                                               .stencilStoreOp = vk::AttachmentStoreOp::eDontCare,
+                                               .initialLayout = pass.before,
+                                               .finalLayout = pass.after};
+    const vk::AttachmentReference color{0, vk::ImageLayout::eColorAttachmentOptimal};
+    const vk::SubpassDescription subpass{.pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
+                                         .colorAttachmentCount = 1,
+                                         .pColorAttachments = &color};
+    // Before: the acquire semaphore, waited for at this stage, says that an image of the swapchain may be
+    // written; what keeps its content was written by the pass before and copied from. Behind: copies.
+    const std::array dependencies{
+        vk::SubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
+                              .dstSubpass = 0,
+                              .srcStageMask = Stage::eColorAttachmentOutput | Stage::eTransfer,
+                              .dstStageMask = Stage::eColorAttachmentOutput,
+                              .srcAccessMask = Access::eColorAttachmentWrite,
+                              .dstAccessMask = Access::eColorAttachmentRead | Access::eColorAttachmentWrite},
+        vk::SubpassDependency{.srcSubpass = 0,
+                              .dstSubpass = VK_SUBPASS_EXTERNAL,
+                              .srcStageMask = Stage::eColorAttachmentOutput,
+                              .dstStageMask = Stage::eTransfer | Stage::eBottomOfPipe,
+                              .srcAccessMask = Access::eColorAttachmentWrite,
+                              .dstAccessMask = Access::eTransferRead}};
+    return {gpu.device, vk::RenderPassCreateInfo{.attachmentCount = 1,
+                                                 .pAttachments = &attachment,
+                                                 .subpassCount = 1,
+                                                 .pSubpasses = &subpass,
+                                                 .dependencyCount = dependencies.size(),
+                                                 .pDependencies = dependencies.data()}};
+}
+
 Swapchain::Swapchain(const Gpu::Impl& gpu) : gpu_(gpu) {
     chooseFormat();
-    makeRenderPass();
+    renderPass_ = makeWindowPass(gpu_, {format_.format, vk::AttachmentLoadOp::eClear,
+                                        vk::ImageLayout::eUndefined, vk::ImageLayout::ePresentSrcKHR});
 }
 
 void Swapchain::chooseFormat() {
@@ -22,42 +60,6 @@ void Swapchain::chooseFormat() {
         }
     throw Error("Vulkan", "window", "the window takes no 8 bit RGBA pictures",
                 "choose another device with TOUCHSTONE_GPU");
-}
-
-void Swapchain::makeRenderPass() {
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    const vk::AttachmentDescription attachment{.format = format_.format,
-                                               .loadOp = vk::AttachmentLoadOp::eClear,
-                                               .storeOp = vk::AttachmentStoreOp::eStore,
-                                               .stencilLoadOp = vk::AttachmentLoadOp::eDontCare,
-                                               .stencilStoreOp = vk::AttachmentStoreOp::eDontCare,
-                                               .finalLayout = vk::ImageLayout::ePresentSrcKHR};
-    const vk::AttachmentReference color{0, vk::ImageLayout::eColorAttachmentOptimal};
-    const vk::SubpassDescription subpass{.pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
-                                         .colorAttachmentCount = 1,
-                                         .pColorAttachments = &color};
-    // The image may be written once the acquire semaphore, waited for at this stage, says so; and it may be
-    // copied for a capture after the pass.
-    const std::array dependencies{
-        vk::SubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
-                              .dstSubpass = 0,
-                              .srcStageMask = Stage::eColorAttachmentOutput,
-                              .dstStageMask = Stage::eColorAttachmentOutput,
-                              .dstAccessMask = Access::eColorAttachmentWrite},
-        vk::SubpassDependency{.srcSubpass = 0,
-                              .dstSubpass = VK_SUBPASS_EXTERNAL,
-                              .srcStageMask = Stage::eColorAttachmentOutput,
-                              .dstStageMask = Stage::eTransfer | Stage::eBottomOfPipe,
-                              .srcAccessMask = Access::eColorAttachmentWrite,
-                              .dstAccessMask = Access::eTransferRead}};
-    renderPass_ =
-        vk::raii::RenderPass(gpu_.device, vk::RenderPassCreateInfo{.attachmentCount = 1,
-                                                                   .pAttachments = &attachment,
-                                                                   .subpassCount = 1,
-                                                                   .pSubpasses = &subpass,
-                                                                   .dependencyCount = dependencies.size(),
-                                                                   .pDependencies = dependencies.data()});
 }
 
 void Swapchain::destroy() {
@@ -80,14 +82,16 @@ bool Swapchain::recreate(vk::Extent2D wanted) {
         destroy();
         return false;
     }
-    minImageCount_ = std::max(2u, can.minImageCount);
-    uint32_t count = minImageCount_ + 1;
+    uint32_t count = std::max(2u, can.minImageCount) + 1;
     if (can.maxImageCount > 0)
         count = std::min(count, can.maxImageCount);
     copyable_ = static_cast<bool>(can.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferSrc);
+    fillable_ = static_cast<bool>(can.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst);
     vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
     if (copyable_)
         usage |= vk::ImageUsageFlagBits::eTransferSrc;
+    if (fillable_)
+        usage |= vk::ImageUsageFlagBits::eTransferDst;
     vk::raii::SwapchainKHR old = std::move(swapchain_);
     destroy();
     using Alpha = vk::CompositeAlphaFlagBitsKHR;

@@ -8,6 +8,15 @@
 
 namespace touchstone {
 
+struct WindowPass {
+    vk::Format format;
+    vk::AttachmentLoadOp load;
+    vk::ImageLayout before, after;
+};
+/// A pass that draws what the window shows. All of one format are compatible: what was made for one draws in
+/// the others, too.
+[[nodiscard]] vk::raii::RenderPass makeWindowPass(const Gpu::Impl& gpu, const WindowPass& pass);
+
 class Swapchain {
   public:
     explicit Swapchain(const Gpu::Impl& gpu);
@@ -16,9 +25,9 @@ class Swapchain {
     [[nodiscard]] vk::RenderPass renderPass() const { return *renderPass_; }
     [[nodiscard]] vk::Extent2D extent() const { return extent_; }
     [[nodiscard]] bool usable() const { return *swapchain_ != vk::SwapchainKHR{}; }
+    [[nodiscard]] vk::Format format() const { return format_.format; }
     [[nodiscard]] bool copyable() const { return copyable_; } ///< images may be read back
-    [[nodiscard]] uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
-    [[nodiscard]] uint32_t minImageCount() const { return minImageCount_; }
+    [[nodiscard]] bool fillable() const { return fillable_; } ///< images may be copied to
     [[nodiscard]] vk::SwapchainKHR handle() const { return *swapchain_; }
     [[nodiscard]] vk::Image image(uint32_t index) const { return images_[index]; }
     [[nodiscard]] vk::Framebuffer framebuffer(uint32_t index) const { return *framebuffers_[index]; }
@@ -32,7 +41,6 @@ class Swapchain {
 
   private:
     void chooseFormat();
-    void makeRenderPass();
 
     const Gpu::Impl& gpu_;
     vk::SurfaceFormatKHR format_;
@@ -43,8 +51,7 @@ class Swapchain {
     std::vector<vk::raii::Framebuffer> framebuffers_;
     std::vector<vk::raii::Semaphore> drawn_;
     vk::Extent2D extent_;
-    uint32_t minImageCount_ = 2;
-    bool copyable_ = false;
+    bool copyable_ = false, fillable_ = false;
 };
 
 } // namespace touchstone

@@ -40,6 +40,12 @@ class WindowTarget {
     WindowTarget(const WindowTarget&) = delete;
     WindowTarget& operator=(const WindowTarget&) = delete;
 
+    /// The device is about to end, or is lost: destroys what the window has on it and gives up a frame that
+    /// was begun. Until takeDevice nothing below may be called but statistics; Dear ImGui's state stays.
+    void leaveDevice();
+    /// Goes on with another device of the same window. Throws Error.
+    void takeDevice(Gpu& gpu);
+
     /// Framebuffer size in pixels at the last beginFrame.
     [[nodiscard]] glm::ivec2 size() const;
 
@@ -49,7 +55,8 @@ class WindowTarget {
     [[nodiscard]] bool beginFrame();
 
     /// Ends the ImGui frame, draws the last images of `scene` (may be null) bilinearly into their places, the
-    /// ImGui windows over them, and presents. After every beginFrame that returned true.
+    /// ImGui windows over them, and presents. After every beginFrame that returned true. Where the CPU draws,
+    /// what lies outside where.main is drawn ten times a second only, except while the user is at it.
     void endFrame(SceneRenderer* scene, const EyePlaces& where);
 
     /// Ends the ImGui frame that was begun without drawing it; instead of endFrame, on errors.
@@ -62,7 +69,9 @@ class WindowTarget {
 
     struct Statistics {
         uint64_t framesPresented = 0;
+        uint64_t wholeFrames = 0; ///< of these, with all that is outside the picture
         uint64_t swapchainsMade = 0;
+        double gpuSeconds = 0.0;  ///< of the last finished frame as the device measured it; 0: it cannot
         double waitSeconds = 0.0; ///< that the last frame waited for the device and the window system
     };
     [[nodiscard]] const Statistics& statistics() const;

@@ -51,14 +51,14 @@ class WindowTargetTest : public ::testing::Test {
     }
 
     /// One frame: the scene in the right part of the window, a coloured rectangle of ImGui's in the left.
-    bool frame(glm::ivec2 sceneSize = {320, 180}) {
+    bool frame(glm::ivec2 sceneSize = {320, 180}, glm::ivec3 panel = kPanelColor) {
         glfwPollEvents();
         if (!target_->beginFrame())
             return false;
         const glm::ivec2 size = target_->size();
-        ImGui::GetBackgroundDrawList()->AddRectFilled(
-            ImVec2(0.0f, 0.0f), ImVec2(100.0f, static_cast<float>(size.y)),
-            IM_COL32(kPanelColor.x, kPanelColor.y, kPanelColor.z, 255));
+        ImGui::GetBackgroundDrawList()->AddRectFilled(ImVec2(0.0f, 0.0f),
+                                                      ImVec2(100.0f, static_cast<float>(size.y)),
+                                                      IM_COL32(panel.x, panel.y, panel.z, 255));
         const double aspect = static_cast<double>(size.x - 100) / size.y;
         renderer_->render(viewOf(cameraFor(*scene_, aspect), {}, aspect), Overlay{}, sceneSize.x,
                           sceneSize.y);
@@ -157,6 +157,55 @@ TEST_F(WindowTargetTest, DrawsNothingWhileMinimisedAndComesBack) {
     glfwRestoreWindow(window_);
     const uint64_t before = target_->statistics().framesPresented;
     EXPECT_TRUE(drawUntil([&] { return target_->statistics().framesPresented > before + 3; }));
+}
+
+TEST_F(WindowTargetTest, PanelsAreDrawnTenTimesASecondAndThePictureInEveryFrame) {
+    for (int i = 0; i < 5; ++i)
+        ASSERT_TRUE(frame());
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    ASSERT_TRUE(frame());
+    // At once: another panel and another model.
+    const glm::ivec3 other(200, 20, 90);
+    renderer_->setScene(nullptr);
+    target_->requestCapture();
+    const WindowTarget::Statistics before = target_->statistics();
+    ASSERT_TRUE(frame({540, 360}, other));
+    if (target_->statistics().wholeFrames == before.wholeFrames) { // it took less than a tenth of a second
+        const PixelData shown = target_->takeCapture().value();
+        EXPECT_EQ(at(shown, 50, 180), kPanelColor) << "not drawn again";
+        EXPECT_EQ(at(shown, 99, 180), kPanelColor);
+        int different = 0;
+        const PixelData drawn = renderer_->readPixels();
+        for (int x = 0; x < 540; ++x)
+            different += at(shown, 100 + x, 180) != at(drawn, x, 180);
+        EXPECT_EQ(different, 0) << "the picture is";
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    target_->requestCapture();
+    ASSERT_TRUE(frame({540, 360}, other));
+    EXPECT_EQ(at(target_->takeCapture().value(), 50, 180), other) << "a tenth of a second later";
+    EXPECT_LT(target_->statistics().wholeFrames, target_->statistics().framesPresented);
+}
+
+TEST_F(WindowTargetTest, GoesOnWithAnotherDevice) {
+    ASSERT_TRUE(frame());
+    const uint64_t before = target_->statistics().framesPresented;
+    ASSERT_TRUE(target_->beginFrame());
+    renderer_.reset();
+    target_->leaveDevice(); // in the middle of a frame
+    target_->leaveDevice();
+    gpu_.reset();
+    GpuOptions options;
+    options.validation = true;
+    options.log = log_;
+    gpu_ = createGpuForWindow(window_, options);
+    target_->takeDevice(*gpu_);
+    renderer_ = std::make_unique<SceneRenderer>(*gpu_);
+    renderer_->setScene(scene_);
+    for (int i = 0; i < 5; ++i)
+        ASSERT_TRUE(frame());
+    EXPECT_EQ(target_->statistics().framesPresented, before + 5);
+    EXPECT_EQ(at(capture(), 50, 180), kPanelColor);
 }
 
 TEST_F(WindowTargetTest, CaptureIsOnlyThereWhenAsked) {

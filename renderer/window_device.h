@@ -1,0 +1,87 @@
+#pragma once
+// What a window has on its device. Main thread only, private to renderer/.
+
+#include "renderer/gpu_memory.h"
+#include "renderer/swapchain.h"
+#include "renderer/window_canvas.h"
+#include "renderer/window_target.h"
+
+#include <array>
+#include <optional>
+
+namespace touchstone {
+
+struct FrameSlot;
+
+/// Swapchain, frames in flight and the pipeline that puts scene images into the window.
+class WindowDevice {
+  public:
+    static constexpr uint32_t kFramesInFlight = 2;
+
+    WindowDevice(const Gpu::Impl& gpu, GLFWwindow* window);
+    ~WindowDevice() { settle(); }
+    WindowDevice(const WindowDevice&) = delete;
+    WindowDevice& operator=(const WindowDevice&) = delete;
+
+    [[nodiscard]] const Gpu::Impl& gpu() const { return gpu_; }
+    [[nodiscard]] vk::RenderPass renderPass() const { return swapchain_.renderPass(); }
+    [[nodiscard]] vk::DescriptorPool descriptors() const { return *pool_; }
+    [[nodiscard]] vk::Extent2D extent() const { return swapchain_.extent(); }
+
+    /// Waits until nothing is drawn any more; a lost device draws nothing.
+    void settle() const;
+    /// Makes the swapchain follow the framebuffer's size. False while the window has no area.
+    bool followWindow(WindowTarget::Statistics& statistics);
+    /// A frame may draw a part only: there is a canvas, and it holds the rest.
+    [[nodiscard]] bool canKeep() const { return drawsOnCanvas() && canvas_.painted(); }
+    /// Draws the scene images (null: none) and ImGui's draw data, all or what lies within where.main, and
+    /// presents.
+    void present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
+                 WindowTarget::Statistics& statistics);
+
+    bool captureWanted = false;
+    [[nodiscard]] std::optional<PixelData> takeCapture();
+
+  private:
+    /// What a frame in flight needs of its own.
+    struct Frame {
+        vk::raii::CommandBuffer commands{nullptr};
+        vk::raii::Fence done{nullptr};
+        vk::raii::Semaphore acquired{nullptr};
+        vk::raii::QueryPool timestamps{nullptr};
+        bool timed = false;
+        std::array<vk::DescriptorSet, 2> sceneSets; ///< of each Eye
+    };
+
+    void createScenePipeline();
+    void createFrames();
+    [[nodiscard]] bool drawsOnCanvas() const { return gpu_.software && swapchain_.fillable(); }
+    [[nodiscard]] vk::Extent2D framebufferSize() const;
+    [[nodiscard]] std::optional<uint32_t> acquire(const Frame& frame);
+    void waitFor(const Frame& frame, WindowTarget::Statistics& statistics);
+    void record(Frame& frame, uint32_t image, const SceneRenderer* scene, const EyePlaces& where, bool whole);
+    void begin(const Frame& frame, uint32_t image, const EyePlaces& where, bool whole);
+    void drawScene(const Frame& frame, vk::DescriptorSet set, const FrameSlot& scene, const PixelRect& where);
+    void recordCapture(const Frame& frame, uint32_t image);
+    void submit(const Frame& frame, uint32_t image);
+
+    const Gpu::Impl& gpu_;
+    GLFWwindow* window_;
+    Swapchain swapchain_;
+    WindowCanvas canvas_;
+    vk::raii::Sampler sampler_{nullptr};
+    vk::raii::DescriptorSetLayout sceneSetLayout_{nullptr};
+    vk::raii::PipelineLayout sceneLayout_{nullptr};
+    vk::raii::Pipeline scenePipeline_{nullptr};
+    vk::raii::DescriptorPool pool_{nullptr}; ///< our sets and ImGui's font
+    std::array<Frame, kFramesInFlight> frames_;
+    size_t nextFrame_ = 0;
+    vk::Extent2D lastSize_;
+    bool outdated_ = true;
+
+    GpuBuffer captureBuffer_;
+    vk::Extent2D captureExtent_;
+    bool captured_ = false;
+};
+
+} // namespace touchstone
