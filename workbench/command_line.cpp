@@ -102,12 +102,16 @@ CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std:
         ->take_all();
 }
 
-void addSettings(CLI::App& app, HapticSettings& settings) {
+void addSettings(CLI::App& app, std::function<std::string(std::string_view, std::string_view)> assign) {
     addAssignments(app, "--set",
                    "Change a setting of the hand (listed at the end of --help); may be given again",
-                   [&settings](std::string_view name, std::string_view value) {
-                       return setSetting(settings, name, value);
-                   });
+                   std::move(assign));
+}
+
+void addSettings(CLI::App& app, HapticSettings& settings) {
+    addSettings(app, [&settings](std::string_view name, std::string_view value) {
+        return setSetting(settings, name, value);
+    });
 }
 
 CLI::Option* addPlant(CLI::App& app, PlantParameters& plant) {
@@ -180,7 +184,11 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
 
 void defineWindow(CLI::App& app, WindowOptions& options) {
     addScene(app, options.scene)->description("glTF model to open in a window; without it the doughnut");
-    addSettings(app, options.settings);
+    addSettings(app, [&options](std::string_view name, std::string_view value) {
+        HapticSettings tried; // whether it is one; it goes over what the last run left
+        options.settings.emplace_back(name, value);
+        return setSetting(tried, name, value);
+    });
     addRate(app, options.rateHz, "Servo rate [1000]");
     app.add_option_function<std::string>(
            "--hand", [&options](const std::string& hand) { options.simulatedHand = hand == "simulated"; },

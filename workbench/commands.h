@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
@@ -25,7 +26,8 @@ struct RecordingOptions {
 /// touchstone [SCENE]
 struct WindowOptions {
     std::filesystem::path scene; ///< empty: the default scene
-    HapticSettings settings;
+    /// NAME and VALUE of settings (setSetting), in order, over what the last run left; valid ones.
+    std::vector<std::pair<std::string, std::string>> settings;
     double rateHz = 1000.0;
     bool simulatedHand = false;       ///< start with the simulated hand instead of the mouse
     std::string device;               ///< start with this device (devices/device_choice.h); empty: none

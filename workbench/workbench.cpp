@@ -79,8 +79,10 @@ class Workbench {
           liveError_(options.rateHz), forces_(static_cast<size_t>(kChartSeconds * options.rateHz)),
           status_(options.statusJson) {
         // What the command line asks for goes before what the last run left.
-        state_.settings = state_.chosen =
-            options.settings == HapticSettings{} ? memory_.settings : options.settings;
+        state_.settings = memory_.settings;
+        for (const auto& [name, value] : options.settings)
+            (void)setSetting(state_.settings, name, value);
+        state_.chosen = state_.settings;
         state_.folds = memory_.folds;
         state_.introduced = memory_.introduced;
         state_.simulatedHand = options.simulatedHand;

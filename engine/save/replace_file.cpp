@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <system_error>
 
@@ -55,6 +56,13 @@ class TemporaryFile {
         if (rename(name_.c_str(), target_.c_str()) != 0)
             fail("cannot be replaced", "save under another name");
         renamed_ = true;
+        // The new name outlives a power cut, too; where the folder cannot be synchronised it is there anyway.
+        const int folder =
+            open(std::filesystem::path(target_).parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder >= 0) {
+            (void)fsync(folder);
+            (void)close(folder);
+        }
     }
 
   private:

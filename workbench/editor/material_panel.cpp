@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 
 namespace touchstone {
 
@@ -64,6 +66,18 @@ class MaterialPanel {
     void draw() {
         chooser();
         preset();
+        // The fields scroll; what is done with them stays in sight, whatever the window's height.
+        ImGui::BeginChild("fields", ImVec2(0.0f, -std::max(1.0f, state_.footer)));
+        fields();
+        ImGui::EndChild();
+        const float begin = ImGui::GetCursorPosY();
+        history();
+        saving();
+        state_.footer = ImGui::GetCursorPosY() - begin;
+    }
+
+  private:
+    void fields() {
         for (const NumberField& field : numberFields())
             if (field.name.find('.') == std::string_view::npos && field.name != "voxelSize")
                 number(field);
@@ -75,11 +89,8 @@ class MaterialPanel {
             number(*std::find_if(numberFields().begin(), numberFields().end(),
                                  [](const NumberField& field) { return field.name == "voxelSize"; }));
         shader();
-        history();
-        saving();
     }
 
-  private:
     /// The first material of the scene that is the file's material `index`.
     [[nodiscard]] const Material& materialOf(size_t index) const { return in_.scene->materials[index]; }
 
@@ -326,16 +337,21 @@ class MaterialPanel {
     void askTarget() {
         std::array<char, 1024> text{};
         std::snprintf(text.data(), text.size(), "%s", state_.target.c_str());
-        ImGui::PushItemWidth(-widgets_.units(64.0f));
+        ImGui::PushItemWidth(-widgets_.units(76.0f));
         const bool entered =
             ImGui::InputText("##target", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
         widgets_.mark("target");
         ImGui::PopItemWidth();
         state_.target = text.data();
         ImGui::SameLine();
-        const bool pressed = ImGui::Button("Save##as");
+        std::error_code ignored;
+        const bool replaces = std::filesystem::exists(state_.target, ignored) &&
+                              !std::filesystem::equivalent(state_.target, desk_.path(), ignored);
+        const bool pressed = ImGui::Button(replaces ? "Replace##as" : "Save##as");
         widgets_.mark("saveTarget");
-        if ((entered || pressed) && !state_.target.empty()) {
+        if (replaces)
+            ImGui::TextDisabled("this file is there already");
+        if ((pressed || (entered && !replaces)) && !state_.target.empty()) {
             desk_.saveAs(state_.target);
             state_.askTarget = false;
         }

@@ -22,6 +22,7 @@ struct MaterialPanelState {
     bool followProbe = true; ///< show what is touched
     std::string target;      ///< of "Save as"
     bool askTarget = false;
+    float footer = 0.0f; ///< window coordinates that the last frame's buttons took
 };
 
 /// Draws the editor into the current ImGui window and makes the changes at the desk. Widgets are called

@@ -1,8 +1,8 @@
 #include "workbench/editor/material_window.h"
 
+#include "workbench/window/keys.h"
+
 #include <imgui.h>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 
 #include <algorithm>
 
@@ -11,18 +11,15 @@ namespace touchstone {
 namespace {
 
 void materialKeys(MaterialDesk& desk, MaterialPanelState& state) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || !io.KeyCtrl)
-        return;
-    if (ImGui::IsKeyPressed(GLFW_KEY_Z, true)) {
-        if (io.KeyShift)
+    if (ctrlPressed(keyOf('z'), true)) {
+        if (ImGui::GetIO().KeyShift)
             desk.edits().redo();
         else
             desk.edits().undo();
     }
-    if (ImGui::IsKeyPressed(GLFW_KEY_Y, true))
+    if (ctrlPressed(keyOf('y'), true))
         desk.edits().redo();
-    if (ImGui::IsKeyPressed(GLFW_KEY_S, false) && desk.edits().edited()) {
+    if (ctrlPressed(keyOf('s')) && desk.edits().edited()) {
         if (desk.canSaveInPlace()) {
             desk.save();
         } else {

@@ -1,5 +1,6 @@
 #include "workbench/window/layout.h"
 
+#include "workbench/window/keys.h"
 #include "workbench/window/panels/budget_panel.h"
 #include "workbench/window/panels/error_panel.h"
 #include "workbench/window/panels/panels.h"
@@ -76,45 +77,43 @@ void toggle(Mode& mode, Mode& chosen, Mode off, Mode usual) {
 
 void effectKeys(PanelState& state) {
     HapticSettings &settings = state.settings, &chosen = state.chosen;
-    if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false))
+    if (keyPressed(GLFW_KEY_SPACE))
         settings.forceEnabled = !settings.forceEnabled;
-    if (ImGui::IsKeyPressed(GLFW_KEY_F5, false))
+    if (keyPressed(GLFW_KEY_F5))
         toggle(settings.forceShading, chosen.forceShading, ShadingMode::Off, ShadingMode::Material);
-    if (ImGui::IsKeyPressed(GLFW_KEY_F6, false))
+    if (keyPressed(GLFW_KEY_F6))
         toggle(settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
-    if (ImGui::IsKeyPressed(GLFW_KEY_F7, false))
+    if (keyPressed(GLFW_KEY_F7))
         toggle(settings.friction, chosen.friction, FrictionMode::Off, FrictionMode::Zilles);
 }
 
 void windowKeys(const PanelInput& input, PanelState& state) {
-    const ImGuiIO& io = ImGui::GetIO();
     PanelFolds& folds = state.folds;
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-    if (pressed(GLFW_KEY_F1) || (pressed(GLFW_KEY_SLASH) && io.KeyShift))
+    if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
         state.help = !state.help;
-    if (pressed(GLFW_KEY_ESCAPE))
+    if (keyPressed(GLFW_KEY_ESCAPE))
         state.help = false;
-    if (pressed(GLFW_KEY_F2))
+    if (keyPressed(GLFW_KEY_F2))
         foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);
-    if (pressed(GLFW_KEY_F3))
+    if (keyPressed(GLFW_KEY_F3))
         foldSide(folds, &PanelFolds::right, &PanelFolds::left, input);
-    if (pressed(GLFW_KEY_F4))
+    if (keyPressed(GLFW_KEY_F4))
         folds.bottom = !folds.bottom;
-    if (pressed(GLFW_KEY_TAB)) {
+    if (keyPressed(GLFW_KEY_TAB)) {
         const bool all = folds.left && folds.right && folds.bottom;
         folds = {!all, !all, !all};
     }
-    if (pressed(GLFW_KEY_F8) && input.canSimulate) {
+    if (keyPressed(GLFW_KEY_F8) && input.canSimulate) {
         state.simulatedHand = !state.simulatedHand || !state.device.empty();
         state.device.clear();
     }
-    if (pressed(GLFW_KEY_F9))
+    if (keyPressed(GLFW_KEY_F9))
         state.recordPressed = true;
-    if (pressed(GLFW_KEY_P))
+    if (keyPressed(keyOf('p')))
         state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
-    if (pressed(GLFW_KEY_E))
+    if (keyPressed(keyOf('e')))
         state.editMaterials = !state.editMaterials;
-    if (pressed(GLFW_KEY_Q) && io.KeyCtrl)
+    if (ctrlPressed(keyOf('q')))
         state.quitPressed = true;
 }
 
@@ -125,7 +124,7 @@ void topBar(const PanelInput& input, PanelState& state, const Rect& rect, Widget
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(7.0f)));
     ImGui::Begin("bar", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
     ImGui::PopStyleVar();
-    if (!ImGui::GetIO().WantTextInput && ImGui::GetIO().KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_O, false))
+    if (ctrlPressed(keyOf('o')))
         ImGui::OpenPopup("file");
     drawTopBar(input, state, widgets);
     ImGui::End();
@@ -180,10 +179,8 @@ PictureRect pictureRect(const PanelFolds& wanted, const glm::vec2& window, float
 std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     Widgets widgets(input.scale);
-    if (!ImGui::GetIO().WantTextInput) {
-        effectKeys(state);
-        windowKeys(input, state);
-    }
+    effectKeys(state);
+    windowKeys(input, state);
     const PictureRect picture = pictureRect(state.folds, {display.x, display.y}, input.scale);
     const float below = picture.y + picture.height, beyond = picture.x + picture.width;
     widgets.place("picture", {picture.x, picture.y, picture.width, picture.height});

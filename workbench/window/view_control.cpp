@@ -1,5 +1,7 @@
 #include "workbench/window/view_control.h"
 
+#include "workbench/window/keys.h"
+
 #include <glm/gtc/constants.hpp>
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -25,29 +27,42 @@ constexpr double kProbeDistance = 0.6;                 // scene radii, when the 
 constexpr double kClearance = 0.012;                   // m between model and resting hand
 constexpr double kFirstYaw = 0.45, kFirstPitch = 0.35; // rad: from the right and above, so depth shows
 
-bool pressed(std::initializer_list<int> keys) {
-    return std::any_of(keys.begin(), keys.end(), [](int key) { return ImGui::IsKeyPressed(key, false); });
-}
-
 /// The move that a key asks for, as Blender has them: 1, 3, 7, and with Ctrl the opposite side.
 std::optional<CameraMove> keyMove() {
     const bool opposite = ImGui::GetIO().KeyCtrl;
-    if (pressed({GLFW_KEY_HOME, GLFW_KEY_F}))
+    const auto side = [&](char digit, int pad) {
+        return opposite ? ctrlPressed(digit) || ctrlPressed(pad) : keyPressed({digit, pad});
+    };
+    if (keyPressed({GLFW_KEY_HOME, keyOf('f')}))
         return CameraMove::Fit;
-    if (pressed({GLFW_KEY_1, GLFW_KEY_KP_1}))
+    if (side('1', GLFW_KEY_KP_1))
         return opposite ? CameraMove::Back : CameraMove::Front;
-    if (pressed({GLFW_KEY_3, GLFW_KEY_KP_3}))
+    if (side('3', GLFW_KEY_KP_3))
         return opposite ? CameraMove::Left : CameraMove::Right;
-    if (pressed({GLFW_KEY_7, GLFW_KEY_KP_7}))
+    if (side('7', GLFW_KEY_KP_7))
         return opposite ? CameraMove::Bottom : CameraMove::Top;
-    if (pressed({GLFW_KEY_PERIOD, GLFW_KEY_KP_DECIMAL}))
+    if (keyPressed({keyOf('.'), GLFW_KEY_KP_DECIMAL}))
         return CameraMove::Probe;
     return std::nullopt;
 }
 
-/// -1, 0 or 1 of two keys that are held down.
-double axis(int less, int more) {
-    return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
+void optionKeys(ViewOptions& options) {
+    if (keyPressed(keyOf('t')))
+        options.turntable = !options.turntable;
+    if (keyPressed(keyOf('g')))
+        options.freeHand = !options.freeHand;
+    if (keyPressed(keyOf('v'))) {
+        const size_t step = ImGui::GetIO().KeyShift ? kViewModeNames.size() - 1 : 1;
+        options.mode =
+            static_cast<ViewMode>((static_cast<size_t>(options.mode) + step) % kViewModeNames.size());
+    }
+    if (keyPressed(keyOf('m')))
+        options.magnifier = !options.magnifier;
+    if (keyPressed(keyOf('o')))
+        options.overlays = options.overlays.probe ? ShownOverlays{false, false, false, false, false, false}
+                                                  : ShownOverlays{};
+    if (keyPressed(GLFW_KEY_F12))
+        options.savePicture = true;
 }
 
 } // namespace
@@ -94,28 +109,11 @@ void ViewControl::go(CameraMove move, const Situation& now) {
 }
 
 void ViewControl::update(const Situation& now, ViewOptions& options) {
-    if (!ImGui::GetIO().WantTextInput) {
-        if (const std::optional<CameraMove> move = keyMove())
-            options.move = move;
-        if (pressed({GLFW_KEY_T}))
-            options.turntable = !options.turntable;
-        if (pressed({GLFW_KEY_G}))
-            options.freeHand = !options.freeHand;
-        if (pressed({GLFW_KEY_V})) {
-            const size_t step = ImGui::GetIO().KeyShift ? kViewModeNames.size() - 1 : 1;
-            options.mode =
-                static_cast<ViewMode>((static_cast<size_t>(options.mode) + step) % kViewModeNames.size());
-        }
-        if (pressed({GLFW_KEY_M}))
-            options.magnifier = !options.magnifier;
-        if (pressed({GLFW_KEY_O}) && !ImGui::GetIO().KeyCtrl)
-            options.overlays = options.overlays.probe
-                                   ? ShownOverlays{false, false, false, false, false, false}
-                                   : ShownOverlays{};
-        if (pressed({GLFW_KEY_F12}))
-            options.savePicture = true;
+    if (const std::optional<CameraMove> move = keyMove())
+        options.move = move;
+    optionKeys(options);
+    if (!ImGui::GetIO().WantTextInput)
         turnWithKeys(now);
-    }
     if (options.move)
         go(*std::exchange(options.move, std::nullopt), now);
     if (options.turntable)
@@ -136,12 +134,15 @@ void ViewControl::letGo() {
 void ViewControl::turnWithKeys(const Situation& now) {
     if (ImGui::GetIO().WantCaptureKeyboard)
         return;
-    const double right = axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT), up = axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
+    const double right = keyAxis({GLFW_KEY_LEFT}, {GLFW_KEY_RIGHT}),
+                 up = keyAxis({GLFW_KEY_DOWN}, {GLFW_KEY_UP});
     if (ImGui::GetIO().KeyShift)
         camera_.pan(kKeyPan * now.seconds * glm::dvec2(-right, up), now.area.y);
     else
         camera_.orbit(kKeyOrbit * now.seconds * right, kKeyOrbit * now.seconds * up);
-    const double nearer = axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD);
+    // On an American keyboard plus is written with Shift on the key of the equals sign.
+    const double nearer = keyAxis({keyOf('-'), GLFW_KEY_KP_SUBTRACT},
+                                  {keyOf('+') == '+' ? keyOf('=') : keyOf('+'), GLFW_KEY_KP_ADD});
     if (nearer != 0.0)
         camera_.zoom(std::pow(kKeyZoom, nearer * now.seconds));
 }

@@ -46,5 +46,27 @@ TEST_F(EditorWindow, UnsavedMaterialsAreAskedForAndSavedBeforeTheEnd) {
     EXPECT_TRUE(readFile(model_) != before) << "it was saved";
 }
 
+TEST_F(EditorWindow, SavingUnderAnothersNameAsksFirst) {
+    edit();
+    const std::filesystem::path other = scratch_ / "other.glb";
+    std::filesystem::copy_file(TOUCHSTONE_ASSETS "/box.glb", other);
+    const std::string before = readFile(other);
+    display_.click(middleOf("saveAs"));
+    until("the name to be asked for", [](const Json& s) { return s["widgets"].contains("target"); });
+    later(); // the buttons have made room for it
+    display_.click(middleOf("target"));
+    display_.key("ctrl+a");
+    display_.xdotool({"type", "--delay", "20", other.string()});
+    later();
+    display_.key("Return");
+    later();
+    EXPECT_TRUE(readFile(other) == before) << "it is there already";
+    display_.click(middleOf("saveTarget"));
+    until("it to be saved",
+          [&](const Json& s) { return s["materials"]["notice"] == "saved to " + other.string(); });
+    EXPECT_TRUE(readFile(other) != before);
+    expectCleanEnd();
+}
+
 } // namespace
 } // namespace touchstone::test

@@ -96,6 +96,18 @@ TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
     EXPECT_FALSE(again["widgets"].contains("gotIt"));
     expectCleanEnd();
 
+    // What the command line says goes over that, also where it is the usual thing, and leaves the rest.
+    std::filesystem::remove(status_);
+    open(kDoughnut, {"--set", "texture=off"});
+    EXPECT_EQ(later()["settings"]["friction"], "off");
+    EXPECT_EQ(status()["settings"]["texture"], "off");
+    expectCleanEnd();
+    std::filesystem::remove(status_);
+    open(kDoughnut, {"--set", "friction=zilles"});
+    EXPECT_EQ(later()["settings"]["friction"], "zilles");
+    EXPECT_EQ(status()["settings"]["texture"], "off") << "kept from the run before";
+    expectCleanEnd();
+
     // A file that says nothing.
     std::ofstream(scratch_ / "state/touchstone/window.json") << "{ \"version\": 1, \"folded\": [";
     std::filesystem::remove(status_);
