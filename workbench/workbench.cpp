@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "haptics/servo/servo_loop.h"
-#include "renderer/adaptive_resolution.h"
+#include "renderer/draw_quality.h"
 #include "renderer/frame_pace.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/window_target.h"
@@ -52,6 +52,7 @@ constexpr double kFramePeriod = 1.0 / 30.0; // s
 constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU draws it
 constexpr int kHardwarePixels = 2560 * 1440;
 constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
+constexpr double kSoftwareError = 0.25; // pixels, by which simplified meshes differ where the CPU draws them
 constexpr double kChartSeconds = 10.0;
 
 double secondsNow() {
@@ -72,8 +73,9 @@ class Workbench {
           window_("Touchstone", firstSize(options.size, memory_.size)),
           gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
           target_(*gpu_, window_.handle(), [this] { applyStyle(window_.layoutScale()); }), renderer_(*gpu_),
-          resolution_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
-                       .smallestScale = kSmallestScale}),
+          quality_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
+                    .smallestScale = kSmallestScale,
+                    .finestError = gpu_->isSoftware() ? kSoftwareError : 0.0}),
           servo_(portOf(hand_), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
           liveError_(options.rateHz), forces_(static_cast<size_t>(kChartSeconds * options.rateHz)),
@@ -278,7 +280,7 @@ class Workbench {
 
     void draw() {
         const PixelRect area = pictureArea();
-        const PanelInput input = panelInput(resolution_.sceneSize({area.width, area.height}));
+        const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
         const HapticSettings before = state_.settings;
         const PanelFolds folds = state_.folds;
         auto widgets = drawPanels(input, state_);
@@ -311,6 +313,7 @@ class Workbench {
                                         .options = state_.view,
                                         .place = area,
                                         .sceneSize = input.sceneSize,
+                                        .allowedError = quality_.allowedError(),
                                         .pixelsPerPoint = static_cast<float>(points),
                                         .scale = window_.layoutScale(),
                                         .software = gpu_->isSoftware()};
@@ -449,8 +452,10 @@ class Workbench {
 
     /// Adapts the picture to the time it took and waits for the next frame's turn, handling events meanwhile.
     void pace(double start) {
-        resolution_.frameDone(secondsNow() - start);
-        longestFrame_ = std::max(longestFrame_, secondsNow() - start);
+        const double busy = secondsNow() - start;
+        quality_.frameDone(
+            std::max(busy, renderer_.statistics().gpuSeconds + target_.statistics().gpuSeconds));
+        longestFrame_ = std::max(longestFrame_, busy);
         window_.waitEvents(0.0);
         for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
             window_.waitEvents(left);
@@ -462,7 +467,7 @@ class Workbench {
     std::unique_ptr<Gpu> gpu_;
     WindowTarget target_;
     SceneRenderer renderer_;
-    AdaptiveResolution resolution_;
+    DrawQuality quality_;
     HandSwitch hand_;
     HeldDevice held_{hand_};
     uint32_t offered_ = 0; // number of the newest scene

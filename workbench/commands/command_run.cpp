@@ -6,7 +6,7 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "haptics/servo/servo_loop.h"
-#include "renderer/adaptive_resolution.h"
+#include "renderer/draw_quality.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
 #include "workbench/commands.h"
@@ -117,7 +117,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
     const Clock::time_point start = Clock::now();
     Clock::time_point next = start;
     Frames frames{.smallest = options.size};
-    AdaptiveResolution resolution({.largestPixels = options.size.x * options.size.y});
+    DrawQuality resolution({.largestPixels = options.size.x * options.size.y});
     Overlay overlay;
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();

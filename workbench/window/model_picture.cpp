@@ -9,12 +9,7 @@ namespace touchstone {
 namespace {
 
 constexpr double kMagnifierOverlayScale = 0.22; ///< of the overlays' sizes in it
-// Pixels by which the simplified mesh may differ while the camera rests and while it moves. The CPU
-// transforms every vertex, and its picture is coarser than the window.
-constexpr double kRestingError = 0.0, kMovingError = 0.7;
-constexpr double kSoftwareRestingError = 0.25, kSoftwareMovingError = 1.0;
-constexpr int kSettling = 8;                // frames without motion until the camera rests
-constexpr int kSoftwareMagnifierPeriod = 3; ///< frames: the CPU transforms every vertex for it once more
+constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames: the CPU transforms every vertex for it once more
 
 } // namespace
 
@@ -23,7 +18,7 @@ EyePlaces ModelPicture::draw(const Frame& frame) {
     const double aspect = static_cast<double>(frame.place.width) / std::max(frame.place.height, 1);
     View view = viewOf(frame.camera, frame.model.workspaceFromScene, aspect);
     view.mode = options.mode;
-    view.allowedError = allowedError(frame);
+    view.allowedError = frame.allowedError;
     overlay_.clear();
     EyePlaces places{.main = frame.place, .magnifier = {}};
     TickLook look{.shown = options.overlays};
@@ -53,15 +48,6 @@ EyePlaces ModelPicture::draw(const Frame& frame) {
     if (hasModel)
         drawViewLegend(legend_, low / frame.pixelsPerPoint + glm::vec2(margin, -margin), frame.scale);
     return places;
-}
-
-double ModelPicture::allowedError(const Frame& frame) {
-    const glm::dmat4 view = frame.camera.viewFromWorkspace();
-    stillFrames_ = view == lastView_ ? stillFrames_ + 1 : 0;
-    lastView_ = view;
-    const bool moving = stillFrames_ < kSettling;
-    return frame.software ? (moving ? kSoftwareMovingError : kSoftwareRestingError)
-                          : (moving ? kMovingError : kRestingError);
 }
 
 void ModelPicture::colorMaterials(const Frame& frame) {

@@ -24,6 +24,7 @@ class ModelPicture {
         ViewOptions& options;
         PixelRect place;             ///< of the framebuffer
         glm::ivec2 sceneSize{1};     ///< pixels that are drawn for it
+        double allowedError = 0.0;   ///< of these, by which simplified meshes may differ
         float pixelsPerPoint = 1.0f; ///< framebuffer pixels for one window coordinate
         float scale = 1.0f;          ///< window coordinates for one unit of the layout
         bool software = false;       ///< the device computes on the CPU
@@ -38,7 +39,6 @@ class ModelPicture {
 
   private:
     void colorMaterials(const Frame& frame);
-    [[nodiscard]] double allowedError(const Frame& frame);
     void drawMagnifier(const Frame& frame, const View& main, EyePlaces& places);
 
     SceneRenderer& renderer_;
@@ -48,8 +48,6 @@ class ModelPicture {
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan the colours show
     EffectColors colors_;
     int magnifierAge_ = 0; ///< frames since it was drawn
-    glm::dmat4 lastView_{0.0};
-    int stillFrames_ = 0; ///< since the camera moved
 };
 
 } // namespace touchstone
