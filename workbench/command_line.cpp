@@ -198,6 +198,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
         options.simulatedHand = device == "hand";
         options.device = device == "mouse" || device == "hand" ? "" : device;
     });
+    app.add_flag("--sound", options.sound, "Let the force be heard from the start");
     addSize(app, options.size, "Size of the window [1280x800]");
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")

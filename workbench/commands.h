@@ -29,6 +29,7 @@ struct WindowOptions {
     /// NAME and VALUE of settings (setSetting), in order, over what the last run left; valid ones.
     std::vector<std::pair<std::string, std::string>> settings;
     double rateHz = 1000.0;
+    bool sound = false;               ///< start with sound, whatever the last run did
     bool simulatedHand = false;       ///< start with the simulated hand instead of the mouse
     std::string device;               ///< start with this device (devices/device_choice.h); empty: none
     glm::ivec2 size{1280, 800};       ///< screen coordinates

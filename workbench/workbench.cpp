@@ -20,6 +20,7 @@
 #include "workbench/model/background_build.h"
 #include "workbench/model/default_scene.h"
 #include "workbench/model/opening.h"
+#include "workbench/sound/sound_desk.h"
 #include "workbench/state_folder.h"
 #include "workbench/window/layout.h"
 #include "workbench/window/leaving.h"
@@ -76,7 +77,7 @@ class Workbench {
           quality_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
                     .smallestScale = kSmallestScale,
                     .finestError = gpu_->isSoftware() ? kSoftwareError : 0.0}),
-          servo_(portOf(hand_), {.rateHz = options.rateHz, .stageTimes = true}),
+          servo_(portOf(sound_.hand()), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
           liveError_(options.rateHz), forces_(static_cast<size_t>(kChartSeconds * options.rateHz)),
           status_(options.statusJson) {
@@ -85,6 +86,8 @@ class Workbench {
         for (const auto& [name, value] : options.settings)
             (void)setSetting(state_.settings, name, value);
         state_.chosen = state_.settings;
+        state_.sound = memory_.sound;
+        state_.sound.on = state_.sound.on || options.sound;
         state_.folds = memory_.folds;
         state_.introduced = memory_.introduced;
         state_.simulatedHand = options.simulatedHand;
@@ -129,6 +132,7 @@ class Workbench {
             hand_.mouse().moveTo(*goal); // in every frame: a frozen window is a hand that is gone
         else
             hand_.mouse().release();
+        sound_.update(state_.sound);
         hand_.simulate(state_.simulatedHand);
         hand_.face(view_.workspaceFromView());
         held_.menu().renew(start);
@@ -273,6 +277,8 @@ class Workbench {
     void offerScene(SceneSwap swap = SceneSwap::Anew) {
         shown_.identity.limits = shown_.model.haptic->limits;
         sight_.show(shown_.model.haptic, shown_.model.scene);
+        if (swap == SceneSwap::Anew)
+            sound_.interrupt();
         offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene, swap);
         desk_.recorder().sceneOffered(offered_, shown_.identity);
         liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);
@@ -379,6 +385,7 @@ class Workbench {
         input.canSimulate = shown_.path != nullptr;
         input.devices = held_.menu().offers();
         input.deviceStatus = held_.menu().status();
+        input.sound = sound_.status();
         input.servo = &servoView_;
         input.forces = &forces_;
         input.framesPerSecond = pace_.rate();
@@ -431,6 +438,7 @@ class Workbench {
     void remember() {
         memory_.settings = state_.settings;
         memory_.settings.forceEnabled = true;
+        memory_.sound = state_.sound;
         memory_.folds = state_.folds;
         memory_.introduced = state_.introduced;
         memory_.size = glm::ivec2(glm::vec2(window_.size()) / window_.layoutScale()); // as it was asked for
@@ -470,6 +478,7 @@ class Workbench {
     DrawQuality quality_;
     HandSwitch hand_;
     HeldDevice held_{hand_};
+    SoundDesk sound_{hand_};
     uint32_t offered_ = 0; // number of the newest scene
     ServoLoop servo_;
     std::string notice_; // of the recorder

@@ -111,6 +111,8 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.recordPressed = true;
     if (keyPressed(keyOf('p')))
         state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
+    if (keyPressed(keyOf('s')))
+        state.sound.on = !state.sound.on;
     if (keyPressed(keyOf('e')))
         state.editMaterials = !state.editMaterials;
     if (ctrlPressed(keyOf('q')))
@@ -144,6 +146,7 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextDisabled("FELT NOW");
     ImGui::Separator();
     drawNow(input, state, widgets);
+    drawSound(input, state, widgets);
     widgets.section("WHAT A TICK COSTS");
     drawBudget(*input.servo, widgets);
     widgets.section("HOW FAR FROM EXACT");

@@ -45,6 +45,11 @@ WindowMemory memoryOf(const Json& json) {
         memory.folds = {flag(*folds, "scene", false), flag(*folds, "felt", false),
                         flag(*folds, "charts", false)};
     memory.introduced = flag(json, "introduced", false);
+    if (const auto sound = json.find("sound"); sound != json.end() && sound->is_object()) {
+        memory.sound.on = flag(*sound, "on", false);
+        if (const auto volume = sound->find("volume"); volume != sound->end() && volume->is_number())
+            memory.sound.volume = std::clamp(volume->get<float>(), 0.0f, 1.0f);
+    }
     if (const auto size = json.find("size"); size != json.end() && size->is_array() && size->size() == 2 &&
                                              (*size)[0].is_number_integer() && (*size)[1].is_number_integer())
         memory.size =
@@ -84,6 +89,7 @@ bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory) 
         {"settings", settingsJson(memory.settings)},
         {"folded",
          {{"scene", memory.folds.left}, {"felt", memory.folds.right}, {"charts", memory.folds.bottom}}},
+        {"sound", {{"on", memory.sound.on}, {"volume", memory.sound.volume}}},
         {"introduced", memory.introduced},
         {"size", {memory.size.x, memory.size.y}},
         {"recent", std::move(recent)},

@@ -12,6 +12,7 @@ namespace touchstone {
 struct WindowMemory {
     HapticSettings settings;
     PanelFolds folds;
+    SoundChoice sound;
     bool introduced = false;
     glm::ivec2 size{0};                        ///< screen coordinates; 0: not known
     std::vector<std::filesystem::path> recent; ///< files opened, newest first

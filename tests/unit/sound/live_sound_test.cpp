@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -82,6 +83,21 @@ TEST(LiveSound, PlaysWithoutGapsAndSoonAtEveryRateAndBlock) {
                                            2.0 * SoundPlayer::kCushion + Synthesizer::delay(1.0 / tickRate) +
                                            2.0 / tickRate);
         }
+}
+
+TEST(LiveSound, ATapIsHeardAsLateAsItSays) {
+    for (const size_t block : {128, 480, 1024}) {
+        Room room(1000.0, block);
+        room.pass(1.0, true, 0.0);
+        EXPECT_LT(loudest(room.heard), 1e-6);
+        room.feed.add({.force = {0.0, 3.0, 0.0}}); // a tap between the ticks
+        room.pass(0.2, true, 0.0);
+        const auto first = std::ranges::find_if(
+            room.heard, [](const SoundFrame& frame) { return std::abs(frame.left) > 0.2f; });
+        const double late = static_cast<double>(first - room.heard.begin()) / kRate - 1.0;
+        // Until the card takes the block it waits; within it, every frame is as late as the next one.
+        EXPECT_NEAR(late, room.player.figures().latency, 0.004) << block;
+    }
 }
 
 TEST(LiveSound, FollowsACardWhoseClockIsOff) {

@@ -30,6 +30,7 @@ TEST_F(WindowMemoryTest, ComesBackAsItWasButForTheForceSwitch) {
     ASSERT_EQ(setSetting(memory.settings, "friction", "ho"), "");
     memory.settings.forceEnabled = false;
     memory.folds = {true, false, true};
+    memory.sound = {true, 0.25f};
     memory.introduced = true;
     memory.size = {1111, 777};
     memory.recent = {"/models/a b.glb", "/models/\u00e4.gltf"};
@@ -51,10 +52,12 @@ TEST_F(WindowMemoryTest, KeepsWhatIsRightBesideWhatIsWrong) {
     const WindowMemory memory = readOf(
         "{\"version\": 1, \"introduced\": 3, \"folded\": {\"scene\": true, \"felt\": \"yes\"}, \"size\": "
         "[1e9, -4], "
-        "\"recent\": [7, \"/a.glb\", null], \"settings\": {\"friction\": \"ho\", \"stiffness\": \"-5\", "
+        "\"sound\": {\"on\": 1, \"volume\": 7}, \"recent\": [7, \"/a.glb\", null], \"settings\": "
+        "{\"friction\": \"ho\", \"stiffness\": \"-5\", "
         "\"proxyRadius\": 0.1, \"magic\": \"on\"}}");
     EXPECT_FALSE(memory.introduced);
     EXPECT_EQ(memory.folds, (PanelFolds{true, false, false}));
+    EXPECT_EQ(memory.sound, (SoundChoice{false, 1.0f}));
     EXPECT_EQ(memory.size, glm::ivec2(0)) << "no whole numbers";
     EXPECT_EQ(memory.recent, std::vector<std::filesystem::path>{"/a.glb"});
     EXPECT_EQ(memory.settings.friction, FrictionMode::Ho);

@@ -129,6 +129,7 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
         {"M and O", "magnifier; overlays"},
         {"F12", "saves the picture"},
         {"Space", "switches the force off and on"},
+        {"S", "lets the force be heard"},
         {"F5, F6, F7", "switch shading, texture and friction"},
         {"F8", "changes between mouse and simulated hand"},
         {"F9", "begins and ends a recording"},

@@ -5,6 +5,7 @@
 #include "haptics/effect_plan.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/camera.h"
+#include "workbench/sound/sound_choice.h"
 #include "workbench/window/force_history.h"
 #include "workbench/window/panels/widgets.h"
 #include "workbench/window/servo_view.h"
@@ -43,6 +44,7 @@ struct PanelInput {
     bool canSimulate = false; ///< there is a path for the simulated hand
     std::vector<DeviceOffer> devices;
     std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
+    SoundStatus sound;
     const ServoView* servo = nullptr;
     const ForceHistory* forces = nullptr;
     std::string picture; ///< what became of the last picture that was to be saved; empty: none yet
@@ -68,6 +70,7 @@ struct PanelState {
     HapticSettings chosen; ///< what the toggles return to when switched on again
     bool simulatedHand = false;
     std::string device; ///< what chooses it; empty: the mouse or the simulated hand
+    SoundChoice sound;
     ViewOptions view;
     PanelFolds folds;
     bool help = false;

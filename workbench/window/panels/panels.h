@@ -17,6 +17,8 @@ void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);
 
 /// The force and depth of now, and in what state the touch is.
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets);
+/// Sound on and off, its volume and what became of it.
+void drawSound(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Every choice of method.
 void drawRungs(PanelState& state, Widgets& widgets);
 /// How punctual the servo is, and the picture.

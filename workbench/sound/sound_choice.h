@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+namespace touchstone {
+
+/// What the user wants of the sound.
+struct SoundChoice {
+    bool on = false;
+    float volume = 0.5f; ///< 0..1 of the slider
+    bool operator==(const SoundChoice&) const = default;
+
+    /// Share of full scale that is never exceeded: equal steps of the slider are to sound alike.
+    [[nodiscard]] float level() const { return volume * volume; }
+};
+
+/// What has become of it.
+struct SoundStatus {
+    const char* state = "off"; ///< "off", "opening", "playing", "failed"
+    std::string problem;       ///< with its remedy, while it failed
+    std::string card;          ///< its name, while it plays
+    double latency = 0.0;      ///< s from a tick to the ear
+    float peak = 0.0f;         ///< 0..1, of the newest block
+    unsigned long runsDry = 0, leftOut = 0;
+};
+
+} // namespace touchstone
