@@ -132,6 +132,7 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
         {"S", "lets the force be heard"},
         {"F5, F6, F7", "switch shading, texture and friction"},
         {"F8", "changes between mouse and simulated hand"},
+        {"N; with Shift", "the simulated hand's next stroke; the one before"},
         {"F9", "begins and ends a recording"},
         {"E", "opens and closes the material editor"},
         {"Ctrl+Z, Ctrl+Shift+Z", "takes a change of a material back, makes it again"},
