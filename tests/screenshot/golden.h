@@ -53,12 +53,13 @@ inline double differenceFromGolden(const std::string& name, const PixelData& pix
 }
 
 /// With UPDATE_GOLDEN=1 in the environment the picture becomes the golden one: look at it before committing.
-inline void expectMatchesGolden(const std::string& name, const PixelData& pixels) {
+inline void expectMatchesGolden(const std::string& name, const PixelData& pixels,
+                                double most = kFailingShare) {
     if (std::getenv("UPDATE_GOLDEN") != nullptr)
         writePng(goldenFile(name), pixels);
     const double share = differenceFromGolden(name, pixels);
-    EXPECT_LE(share, kFailingShare) << name << " differs from its golden picture";
-    if (share > kFailingShare) {
+    EXPECT_LE(share, most) << name << " differs from its golden picture";
+    if (share > most) {
         const std::filesystem::path actual =
             std::filesystem::temp_directory_path() / ("actual_" + name + ".png");
         writePng(actual, pixels);
@@ -68,8 +69,8 @@ inline void expectMatchesGolden(const std::string& name, const PixelData& pixels
 
 /// A picture with a mistake in it must be told from the golden one, else the golden one guards nothing.
 inline void expectMutationIsSeen(const std::string& name, const std::string& mutation,
-                                 const PixelData& pixels) {
-    EXPECT_GT(differenceFromGolden(name, pixels), kFailingShare) << name << " does not notice: " << mutation;
+                                 const PixelData& pixels, double most = kFailingShare) {
+    EXPECT_GT(differenceFromGolden(name, pixels), most) << name << " does not notice: " << mutation;
 }
 
 } // namespace touchstone::test

@@ -1,3 +1,4 @@
+#include "workbench/window/panels/card.h"
 #include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
@@ -8,11 +9,6 @@ namespace touchstone {
 
 namespace {
 
-constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-
 /// A card on the picture: `x`, `y` say where on it and which of its own points lies there, 0..1.
 bool beginCard(const char* name, const WidgetRect& picture, float x, float y, const Widgets& widgets) {
     const float margin = widgets.units(14.0f);
@@ -20,10 +16,7 @@ bool beginCard(const char* name, const WidgetRect& picture, float x, float y, co
                                    picture.y + margin + y * (picture.height - 2.0f * margin)),
                             ImGuiCond_Always, ImVec2(x, y));
     ImGui::SetNextWindowBgAlpha(0.88f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
-    const bool open = ImGui::Begin(name, nullptr, kCard);
-    ImGui::PopStyleVar();
-    return open;
+    return beginCardWindow(name, widgets);
 }
 
 void loading(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
@@ -109,61 +102,6 @@ void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& pic
     problem(input, state, picture, widgets);
     unsaved(input, state, picture, widgets);
     introduction(input, state, picture, widgets);
-}
-
-void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
-    if (!state.help)
-        return;
-    constexpr const char* kLines[][2]{
-        {"Left button, drag", "touches what is pointed at, and strokes it"},
-        {"Wheel", "presses harder or more lightly"},
-        {"G", "the mouse moves its hand free in space: left drag, and the wheel in depth"},
-        {"Right or middle drag", "turns the view; with Shift shifts it, with Ctrl zooms"},
-        {"Alt + left drag", "turns the view, too"},
-        {"Ctrl + wheel, + and -", "zooms"},
-        {"Arrow keys; with Shift", "turn the view; shift it"},
-        {"Home or F", "shows all"},
-        {"1, 3, 7; with Ctrl", "from the front, the right, above; the other side"},
-        {". and T", "near the probe; turntable"},
-        {"V; with Shift", "the next view; the one before"},
-        {"M and O", "magnifier; overlays"},
-        {"F12", "saves the picture"},
-        {"Space", "switches the force off and on"},
-        {"S", "lets the force be heard"},
-        {"F5, F6, F7", "switch shading, texture and friction"},
-        {"F8", "changes between mouse and simulated hand"},
-        {"N; with Shift", "the simulated hand's next stroke; the one before"},
-        {"F9", "begins and ends a recording"},
-        {"E", "opens and closes the material editor"},
-        {"Ctrl+Z, Ctrl+Shift+Z", "takes a change of a material back, makes it again"},
-        {"Ctrl+S", "saves the materials into the file"},
-        {"P", "pauses the charts"},
-        {"F2, F3, F4; Tab", "fold the scene, what is felt, the charts; all"},
-        {"Ctrl + O", "opens a file by its path; one may be dropped here, too"},
-        {"Ctrl + Q", "quits"},
-        {"F1 or ?, Escape", "shows this; puts it away"},
-    };
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-    ImGui::SetNextWindowBgAlpha(1.0f);
-    ImGui::SetNextWindowFocus();
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
-    if (ImGui::Begin("help", nullptr, kCard)) {
-        ImGui::TextDisabled("POINTER AND KEYS");
-        ImGui::Separator();
-        for (const auto& [key, meaning] : kLines) {
-            ImGui::TextUnformatted(key);
-            ImGui::SameLine(widgets.units(200.0f));
-            ImGui::TextDisabled("%s", meaning);
-        }
-        ImGui::Separator();
-        ImGui::TextDisabled("%s, %d x %d", input.gpuName.c_str(), input.sceneSize.x, input.sceneSize.y);
-        if (ImGui::Button("Close"))
-            state.help = false;
-        widgets.mark("helpClose");
-    }
-    ImGui::End();
-    ImGui::PopStyleVar();
 }
 
 } // namespace touchstone
