@@ -51,6 +51,19 @@ std::string plantHelp() {
     return text.str();
 }
 
+/// Every `--stroke`, for the end of the help.
+std::string strokesHelp() {
+    std::ostringstream text;
+    text << "Strokes of the simulated hand for --stroke NAME (with their own speed and depth):\n";
+    for (const StrokeInfo& info : strokeInfos()) {
+        std::ostringstream line;
+        line << "  " << std::left << std::setw(8) << info.name << info.speed << " m/s, " << 1e3 * info.depth
+             << " mm";
+        text << std::left << std::setw(30) << line.str() << "  " << info.meaning << '\n';
+    }
+    return text.str();
+}
+
 constexpr const char* kExitHelp = "Exit status: 0 done, 1 bad input or a missing facility, 2 wrong usage.\n";
 
 /// "1280x720"
@@ -121,6 +134,19 @@ CLI::Option* addPlant(CLI::App& app, PlantParameters& plant) {
                           [&plant](std::string_view name, std::string_view value) {
                               return setPlantParameter(plant, name, value);
                           });
+}
+
+CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& meaning) {
+    CLI::Option* name = app.add_option("--stroke", stroke.name, meaning)
+                            ->type_name("NAME")
+                            ->check([](const std::string& text) { return strokeProblem(text); });
+    app.add_option("--stroke-speed", stroke.speed, "How fast it goes, at its fastest [the stroke's own]")
+        ->type_name("M/S")
+        ->check(CLI::Range(kSlowestStroke, kFastestStroke));
+    app.add_option("--stroke-depth", stroke.depth, "How deep it presses [the stroke's own]")
+        ->type_name("M")
+        ->check(CLI::Range(kShallowestStroke, kDeepestStroke));
+    return name;
 }
 
 void addRate(CLI::App& app, double& rate, const std::string& meaning) {
@@ -199,6 +225,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
         options.device = device == "mouse" || device == "hand" ? "" : device;
     });
     app.add_flag("--sound", options.sound, "Let the force be heard from the start");
+    addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
     addSize(app, options.size, "Size of the window [1280x800]");
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
@@ -221,11 +248,13 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
                                      "The hand follows its path whatever the force, as no hand can");
     CLI::Option* plant = addPlant(app, options.plant)->excludes(open);
+    CLI::Option* stroke =
+        addStroke(app, options.stroke, "How it strokes (listed at the end of --help) [tour]");
     addDevice(app, "hand (the simulated one, the default)",
               [&options](const std::string& device) { options.device = device; });
-    app.parse_complete_callback([&options, open, plant] {
+    app.parse_complete_callback([&options, open, plant, stroke] {
         const bool real = !options.device.empty() && options.device != "hand";
-        for (const CLI::Option* simulated : {open, plant})
+        for (const CLI::Option* simulated : {open, plant, stroke})
             if (real && simulated->count() > 0)
                 throw CLI::ValidationError(simulated->get_name(),
                                            "is of the simulated hand, and --device names another");
@@ -238,9 +267,22 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
 
 void defineTouch(CLI::App& app, TouchOptions& options) {
     addScene(app, options.scene)->required();
-    app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
-        ->type_name("HIP.csv")
-        ->required();
+    CLI::Option* path =
+        app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
+            ->type_name("HIP.csv");
+    CLI::Option* stroke =
+        addStroke(app, options.stroke, "In place of a path: a stroke (listed at the end of --help)")
+            ->excludes(path);
+    app.add_option("--seconds", options.seconds, "How long it strokes [once round]")
+        ->type_name("S")
+        ->check(CLI::Range(0.01, 86400.0))
+        ->needs(stroke);
+    for (const char* of : {"--stroke-speed", "--stroke-depth"})
+        app.get_option(of)->needs(stroke);
+    app.parse_complete_callback([path, stroke] {
+        if (path->count() == 0 && stroke->count() == 0)
+            throw CLI::RequiredError("--path or --stroke");
+    });
     app.add_option("--out", options.out, "Every tick: CSV")->type_name("TICKS.csv")->required();
     app.add_option("--json", options.json, "Write the figures here: step times, Embree's ray floor, contact")
         ->type_name("FILE");
@@ -258,7 +300,8 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
     app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
     app.add_option("--sound", options.sound, "Write how the force sounds, as WAV")->type_name("FILE.wav");
     addSettings(app, options.settings);
-    addRate(app, options.rateHz, "Resample the path at this rate; without it one tick a row");
+    addRate(app, options.rateHz,
+            "Resample the path at this rate; without it one tick a row (1000 for a stroke)");
 }
 
 void defineReplay(CLI::App& app, ReplayOptions& options) {
@@ -410,7 +453,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     CLI::App app{"Touchstone: open a glTF model, see it and touch it."};
     app.name("touchstone");
     app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
-    app.footer(settingsHelp() + "\n" + kExitHelp);
+    app.footer(settingsHelp() + "\n" + strokesHelp() + "\n" + kExitHelp);
     app.require_subcommand(0, 1);
 
     WindowOptions window;
@@ -464,9 +507,10 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
                                   compareApp, mergeApp, studyApp, devicesApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
-                command->footer(command == runApp || command == touchApp ? settingsHelp() + "\n" + plantHelp()
-                                : command == editApp                     ? hapticFieldHelp()
-                                                                         : kExitHelp);
+                command->footer(command == runApp || command == touchApp
+                                    ? settingsHelp() + "\n" + strokesHelp() + "\n" + plantHelp()
+                                : command == editApp ? hapticFieldHelp()
+                                                     : kExitHelp);
                 std::cout << command->help();
                 return std::nullopt;
             }

@@ -3,6 +3,7 @@
 // status and throw Error for bad input (status 1).
 
 #include "devices/plant/plant_parameters.h"
+#include "devices/stroke/stroke_library.h"
 #include "engine/scene/scene.h"
 #include "haptics/haptic_settings.h"
 
@@ -31,6 +32,7 @@ struct WindowOptions {
     double rateHz = 1000.0;
     bool sound = false;               ///< start with sound, whatever the last run did
     bool simulatedHand = false;       ///< start with the simulated hand instead of the mouse
+    StrokeRequest stroke;             ///< of the simulated hand
     std::string device;               ///< start with this device (devices/device_choice.h); empty: none
     glm::ivec2 size{1280, 800};       ///< screen coordinates
     std::filesystem::path statusJson; ///< written twice a second when given
@@ -49,15 +51,19 @@ struct RunOptions {
     std::string device = "hand"; ///< what is held: the simulated hand, or what devices/device_choice.h names
     std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
     RecordingOptions recording;
+    StrokeRequest stroke;  ///< of the simulated hand
     bool openLoop = false; ///< the hand follows its path whatever the force
     PlantParameters plant; ///< in the closed loop
     std::string gpu;
 };
 int runCommand(const RunOptions& options);
 
-/// touchstone touch SCENE --path HIP.csv --out TICKS.csv
+/// touchstone touch SCENE --path HIP.csv|--stroke NAME --out TICKS.csv
 struct TouchOptions {
-    std::filesystem::path scene, path, out;
+    std::filesystem::path scene, out;
+    std::filesystem::path path;   ///< empty: the stroke
+    StrokeRequest stroke;         ///< in place of a path
+    double seconds = 0.0;         ///< of the stroke; 0: one round
     std::filesystem::path json;   ///< empty: not asked for
     std::filesystem::path record; ///< empty: not asked for
     std::filesystem::path sound;  ///< WAV; empty: not asked for

@@ -16,6 +16,7 @@
 #include "workbench/hand/hand_switch.h"
 #include "workbench/hand/held_device.h"
 #include "workbench/hand/sight.h"
+#include "workbench/hand/stroke_desk.h"
 #include "workbench/model/animate.h"
 #include "workbench/model/background_build.h"
 #include "workbench/model/default_scene.h"
@@ -91,6 +92,7 @@ class Workbench {
         state_.folds = memory_.folds;
         state_.introduced = memory_.introduced;
         state_.simulatedHand = options.simulatedHand;
+        state_.stroke = options.stroke;
         state_.device = options.device;
         holdDevice();
         servo_.setSettings(state_.settings);
@@ -134,6 +136,7 @@ class Workbench {
             hand_.mouse().release();
         sound_.update(state_.sound);
         hand_.simulate(state_.simulatedHand);
+        layStroke();
         hand_.face(view_.workspaceFromView());
         held_.menu().renew(start);
         holdDevice();
@@ -178,6 +181,7 @@ class Workbench {
         materials_.open(shown_.model, isSample(shown_.model.scene->path));
         offerScene();
         hand_.offerPath(shown_.path);
+        strokes_.show(shown_.model.scene, shown_.model.workspaceFromScene, shown_.path);
         view_.lookAt(workspaceBounds(shown_.model), aspect());
         forces_.clear();
         memory_.opened(std::filesystem::absolute(shown_.model.scene->path));
@@ -250,6 +254,15 @@ class Workbench {
             state_.settings.textureGradient = TextureGradient::Central;
             servo_.setSettings(state_.settings);
         }
+    }
+
+    /// Lays the simulated hand's stroke where the hand was last.
+    void layStroke() {
+        const HapticOutput& felt = servo_.snapshot().output;
+        if (felt.contacts > 0 && servo_.snapshot().scene == offered_)
+            strokes_.touched({felt.proxy, felt.normal});
+        if (auto path = strokes_.update(state_.stroke, -view_.camera().forward(), state_.simulatedHand))
+            hand_.offerPath(std::move(path));
     }
 
     void holdDevice() {
@@ -383,6 +396,7 @@ class Workbench {
         input.recordingFile = desk_.recorder().file().string();
         input.recordedSeconds = static_cast<double>(desk_.recorder().ticks()) / servo_.rateHz();
         input.canSimulate = shown_.path != nullptr;
+        input.strokeNotice = strokes_.notice();
         input.devices = held_.menu().offers();
         input.deviceStatus = held_.menu().status();
         input.sound = sound_.status();
@@ -492,6 +506,7 @@ class Workbench {
     MaterialPanelState materialState_;
     ViewControl view_;
     Sight sight_;
+    StrokeDesk strokes_;
     PanelState state_;
     ServoView servoView_;
     ForceHistory forces_;

@@ -171,7 +171,8 @@ int runCommand(const RunOptions& options) {
         loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : simulatedLimits);
     printWarnings(model);
     prepareFor(model, options.settings);
-    SimulatedHand path(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
+    SimulatedHand path(
+        std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options.stroke)));
     YieldingHand yielding(path, options.plant);
     Device& simulated = options.openLoop ? static_cast<Device&>(path) : yielding;
     Device& hand = device != nullptr ? *device : simulated;
@@ -223,6 +224,8 @@ int runCommand(const RunOptions& options) {
             {"triangles", model.scene->triangleCount()},
             {"device", hand.name()},
             {"link", device != nullptr ? linkJson(device->report()) : nlohmann::ordered_json()},
+            {"stroke",
+             device != nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(options.stroke.name)},
             {"loop", options.openLoop || device != nullptr ? nlohmann::ordered_json("open")
                                                            : plantJson(yielding.plant())},
             {"settings", settingsJson(options.settings)},

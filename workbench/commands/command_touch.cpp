@@ -51,6 +51,20 @@ struct OfflineTick {
     double gap = 0.0;   // m, of the proxy; in contact and where a report was asked for
 };
 
+/// A stroke over the model as a path: once round, or as long as was asked for.
+HipPath strokePath(const Model& model, const TouchOptions& options) {
+    const StrokePath stroke = layStroke(*model.scene, model.workspaceFromScene, options.stroke);
+    const double rate = options.rateHz > 0.0 ? options.rateHz : 1000.0;
+    const double seconds = options.seconds > 0.0 ? options.seconds : stroke.period();
+    HipPath path;
+    const auto count = static_cast<size_t>(std::floor(seconds * rate * (1.0 + 1e-12))) + 1;
+    for (size_t i = 0; i < count; ++i) {
+        path.times.push_back(static_cast<double>(i) / rate);
+        path.positions.push_back(stroke.position(path.times.back()));
+    }
+    return path;
+}
+
 /// The ticks that the path asks for: one a row, or at a rate of its own straight between the rows.
 std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
     std::vector<PlannedTick> ticks;
@@ -214,11 +228,15 @@ nlohmann::ordered_json floorJson(const Samples& rays) {
 } // namespace
 
 int touchCommand(const TouchOptions& options) {
-    const HipPath path = readHipPath(options.path);
+    std::optional<HipPath> path;
+    if (!options.path.empty())
+        path = readHipPath(options.path);
     const Model model = loadModelToTouch(options.scene, options.fit,
                                          options.closedLoop ? limitsOf(options.plant) : DeviceLimits{});
     printWarnings(model);
     prepareFor(model, options.settings);
+    if (!path)
+        path = strokePath(model, options);
     OutputFile out(options.out);
     std::optional<OutputFile> report;
     if (!options.json.empty())
@@ -228,7 +246,7 @@ int touchCommand(const TouchOptions& options) {
     if (!options.record.empty())
         recorder.emplace(options, model);
     enterFloatMode();
-    const std::vector<PlannedTick> planned = plannedTicks(path, options.rateHz);
+    const std::vector<PlannedTick> planned = plannedTicks(*path, options.path.empty() ? 0.0 : options.rateHz);
     std::optional<WrittenSound> sound;
     if (!options.sound.empty()) {
         requireSound(options.sound, planned);
@@ -277,6 +295,8 @@ int touchCommand(const TouchOptions& options) {
             {"command", "touch"},
             {"scene", options.scene.string()},
             {"path", options.path.string()},
+            {"stroke",
+             options.path.empty() ? nlohmann::ordered_json(options.stroke.name) : nlohmann::ordered_json()},
             {"fit", options.fit == Fit::None ? "none" : "workspace"},
             {"loop", options.closedLoop ? plantJson(touch.plant()) : nlohmann::ordered_json("open")},
             {"settings", settingsJson(options.settings)},

@@ -34,21 +34,21 @@ DeviceSample HandSwitch::sample(double time) noexcept {
     const StrokePath* path = path_.adopt();
     if (!simulated_.load(std::memory_order_relaxed))
         path = nullptr;
-    if (path != nullptr) {
-        sample.position = path->position(time);
-        sample.age = 0.0;
-        sample.valid = true;
-    }
     const Held* held = held_.adopt();
     driven_ = held != nullptr ? held->device.get() : nullptr;
-    if (driven_ != nullptr)
-        sample = driven_->sample(time);
     const void* follows = driven_ != nullptr ? static_cast<const void*>(driven_) : path;
     if (follows != followed_) {
         followed_ = follows;
         gliding_ = started_;
         glideFrom_ = last_;
         glideStart_ = time;
+    }
+    if (driven_ != nullptr) {
+        sample = driven_->sample(time);
+    } else if (path != nullptr) { // it begins where it begins, once the hand is there
+        sample.position = path->position(std::max(0.0, time - glideStart_ - kGlideTime));
+        sample.age = 0.0;
+        sample.valid = true;
     }
     if (gliding_) {
         const double t = std::clamp((time - glideStart_) / kGlideTime, 0.0, 1.0);

@@ -107,6 +107,8 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.simulatedHand = !state.simulatedHand || !state.device.empty();
         state.device.clear();
     }
+    if (keyPressed(keyOf('n')) && input.canSimulate)
+        nextStroke(state, ImGui::GetIO().KeyShift ? -1 : 1);
     if (keyPressed(GLFW_KEY_F9))
         state.recordPressed = true;
     if (keyPressed(keyOf('p')))

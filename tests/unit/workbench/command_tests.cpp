@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -71,6 +72,9 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         {"run", kPlane, "--headless", "--rate", "50"},
         {"touch", kPlane},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--fit", "sideways"},
+        {"touch", kPlane, "--path", "a.csv", "--stroke", "tap", "--out", "b.csv"},
+        {"touch", kPlane, "--path", "a.csv", "--stroke-depth", "0.001", "--out", "b.csv"},
+        {"touch", kPlane, "--stroke", "tap", "--stroke-speed", "5", "--out", "b.csv"},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "stiffness"},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "stiffness=soft"},
         {"touch", kPlane, "--path", "a.csv", "--out", "b.csv", "--set", "nothing=1"},
@@ -176,6 +180,21 @@ TEST_F(Touch, WritesTheColumnsOfTheDesignOneRowATick) {
     EXPECT_EQ(ticks.rows, 400u);
     EXPECT_EQ(ticks["t"][399], 0.399);
     EXPECT_EQ(ticks["hip_y"][399], -0.002) << "full precision";
+}
+
+TEST_F(Touch, StrokesInPlaceOfAPath) {
+    const auto stroke = [&](const std::string& name) {
+        return runProgram({kProgram, "touch", kPlane, "--stroke", name, "--stroke-depth", "0.002", "--fit",
+                           "workspace", "--set", "friction=off", "--set", "texture=off", "--out", out()});
+    };
+    for (const char* name :
+         {"tour", "press", "tap", "slide", "circle", "zigzag", "spiral", "hold", "edge", "fast"}) {
+        ASSERT_EQ(stroke(name).status, 0) << name;
+        const std::vector<double> depth = readTable(out())["penetration"];
+        EXPECT_NEAR(*std::ranges::max_element(depth), 0.002, 1e-4) << name;
+        EXPECT_EQ(depth.front(), 0.0) << name;
+    }
+    expectRefused(stroke("caress"), 2, {"caress", "zigzag", "--help"});
 }
 
 TEST_F(Touch, OnAPlaneTheForceIsStiffnessTimesDepthAlongTheNormal) {

@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 namespace touchstone {
 
 namespace {
@@ -28,7 +30,53 @@ void devices(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::PopItemWidth();
 }
 
+/// Which stroke, how fast and how deep.
+void strokes(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    StrokeRequest& stroke = state.stroke;
+    const StrokeInfo& chosen = *findStroke(stroke.name);
+    ImGui::PushItemWidth(-1.0f);
+    if (ImGui::BeginCombo("##stroke", stroke.name.c_str(), ImGuiComboFlags_HeightLarge)) {
+        for (const StrokeInfo& info : strokeInfos()) {
+            if (ImGui::Selectable(std::string(info.name).c_str(), info.name == stroke.name))
+                stroke = {.name = std::string(info.name)};
+            if (ImGui::IsItemHovered())
+                ImGui::SetTooltip("%s", std::string(info.meaning).c_str());
+        }
+        ImGui::EndCombo();
+    }
+    widgets.mark("stroke");
+    const auto slider = [&](const char* name, double& value, double own, double most, double unit,
+                            const char* format) {
+        auto shown = static_cast<float>((value > 0.0 ? value : own) * unit);
+        constexpr float kLeastOfMost = 0.02f;
+        const auto high = static_cast<float>(most * unit);
+        ImGui::SliderFloat((std::string("##") + name).c_str(), &shown, kLeastOfMost * high, high, format,
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        // Laid anew when it is let go, not at every pixel of the way.
+        float& dragged = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(name), shown);
+        if (ImGui::IsItemActive())
+            dragged = shown;
+        if (ImGui::IsItemDeactivatedAfterEdit())
+            value = dragged / unit;
+        widgets.mark(name);
+    };
+    slider("strokeSpeed", stroke.speed, chosen.speed, 1.0, 1e3, "%.0f mm/s");
+    slider("strokeDepth", stroke.depth, chosen.depth, kDeepestStroke, 1e3, "%.1f mm deep");
+    ImGui::PopItemWidth();
+    if (!input.strokeNotice.empty())
+        ImGui::TextWrapped("%s", input.strokeNotice.c_str());
+}
+
 } // namespace
+
+void nextStroke(PanelState& state, int step) {
+    const auto infos = strokeInfos();
+    const auto count = static_cast<int>(infos.size());
+    const int at = static_cast<int>(findStroke(state.stroke.name) - infos.data());
+    if (state.simulatedHand && state.device.empty())
+        state.stroke = {.name = std::string(infos[static_cast<size_t>((at + step + count) % count)].name)};
+    letGo(state, true);
+}
 
 void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const bool held = !state.device.empty();
@@ -43,6 +91,8 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.mark("simulatedHand");
     if (!input.canSimulate)
         ImGui::EndDisabled();
+    if (!held && state.simulatedHand)
+        strokes(input, state, widgets);
     if (!held && !state.simulatedHand) {
         ImGui::Checkbox("free in space", &state.view.freeHand);
         widgets.mark("freeHand");

@@ -25,6 +25,7 @@ constexpr Line kTouch[]{
     {"S", "lets the force be heard"},
     {"F5, F6, F7", "switch shading, texture and friction"},
     {"F8", "changes between mouse and simulated hand"},
+    {"N; with Shift", "the hand's next stroke; the one before"},
 };
 constexpr Line kRecord[]{
     {"F9", "begins and ends a recording"},

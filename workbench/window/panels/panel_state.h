@@ -2,6 +2,7 @@
 // What the panels show and what they change. Plain values of the main thread.
 
 #include "devices/device_choice.h"
+#include "devices/stroke/stroke_library.h"
 #include "haptics/effect_plan.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/camera.h"
@@ -42,6 +43,7 @@ struct PanelInput {
     double loadFraction = 0.0;
     std::string loadActivity;
     bool canSimulate = false; ///< there is a path for the simulated hand
+    std::string strokeNotice; ///< that the stroke is being laid, or why it cannot be; empty: nothing to tell
     std::vector<DeviceOffer> devices;
     std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
     SoundStatus sound;
@@ -69,7 +71,8 @@ struct PanelState {
     HapticSettings settings;
     HapticSettings chosen; ///< what the toggles return to when switched on again
     bool simulatedHand = false;
-    std::string device; ///< what chooses it; empty: the mouse or the simulated hand
+    StrokeRequest stroke; ///< of the simulated hand; place and front are where it is laid
+    std::string device;   ///< what chooses it; empty: the mouse or the simulated hand
     SoundChoice sound;
     ViewOptions view;
     PanelFolds folds;
