@@ -266,6 +266,9 @@ std::vector<std::string> ValidationLog::messages() const {
 void throwVulkanError(const vk::SystemError& error, const char* whileDoing) {
     const int code = error.code().value();
     const auto is = [code](vk::Result result) { return code == static_cast<int>(result); };
+    if (is(vk::Result::eErrorDeviceLost) || is(vk::Result::eErrorSurfaceLostKHR))
+        throw DeviceLost(kFacility, whileDoing, error.what(),
+                         "update the graphics driver, or draw on the CPU: TOUCHSTONE_GPU=llvmpipe");
     std::string remedy = "update the graphics driver, or choose another device with TOUCHSTONE_GPU";
     if (is(vk::Result::eErrorOutOfDeviceMemory) || is(vk::Result::eErrorOutOfHostMemory))
         remedy = "close other programs, or load a smaller model";

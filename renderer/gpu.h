@@ -2,6 +2,8 @@
 // The Vulkan device. Create it before the servo thread starts and never on it: Mesa may change the affinity
 // of the thread that creates a device (the constructor restores it) and starts worker threads.
 
+#include "engine/core/error.h"
+
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,6 +21,13 @@ class ValidationLog {
   private:
     mutable std::mutex mutex_;
     std::vector<std::string> messages_;
+};
+
+/// The device is gone, or the surface of its window: thrown by whatever uses it. All that was made with it
+/// can then only be destroyed, before the Gpu; with another Gpu one may go on.
+class DeviceLost : public Error {
+  public:
+    using Error::Error;
 };
 
 struct GpuOptions {

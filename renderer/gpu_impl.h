@@ -31,6 +31,14 @@ struct Gpu::Impl {
     bool software = false;
     bool validation = false;
     std::string name, description, validationNote;
+
+    /// Waits until nothing is drawn any more; a lost device draws nothing and cannot be waited for.
+    void settle() const {
+        try {
+            device.waitIdle();
+        } catch (const vk::SystemError&) {
+        }
+    }
 };
 
 /// For window_target.cpp: instance extensions of the window system and the surface to present to.
@@ -42,7 +50,7 @@ struct SurfaceRequest {
 /// Makes instance, surface (if requested) and device. Throws Error.
 [[nodiscard]] std::unique_ptr<Gpu> createGpu(const GpuOptions& options, const SurfaceRequest* surface);
 
-/// Turns what vulkan.hpp throws inside `work` into Error: device lost, out of memory.
+/// Turns what vulkan.hpp throws inside `work` into Error: DeviceLost, out of memory.
 [[noreturn]] void throwVulkanError(const vk::SystemError& error, const char* whileDoing);
 
 template <class Work>

@@ -37,15 +37,11 @@ SceneRenderer::Impl::Impl(Gpu& owner) : gpu(owner.impl()), pipelines_(gpu), shap
 }
 
 SceneRenderer::Impl::~Impl() {
-    // A lost device cannot be waited for.
-    try {
-        gpu.device.waitIdle();
-    } catch (const vk::SystemError&) {
-    }
+    gpu.settle();
 }
 
 void SceneRenderer::Impl::clear() {
-    gpu.device.waitIdle();
+    gpu.settle();
     scene_.reset();
     coming_.reset();
     poses.clear();
@@ -238,6 +234,10 @@ bool SceneRenderer::continueScene(double seconds) {
 
 void SceneRenderer::abandonScene() {
     impl_->abandon();
+}
+
+bool SceneRenderer::hasScene() const {
+    return impl_->scene() != nullptr;
 }
 
 void SceneRenderer::setInstancePoses(std::span<const glm::dmat4> sceneFromMesh) {

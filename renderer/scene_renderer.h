@@ -41,6 +41,8 @@ class SceneRenderer {
     /// Forgets the scene that is being taken in; the one that is shown stays.
     void abandonScene();
 
+    [[nodiscard]] bool hasScene() const; ///< there is something to draw
+
     /// Where the instances are now, one `sceneFromMesh` for each of Scene::instances; holds until the next
     /// call. Throws std::invalid_argument on another count.
     void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
@@ -50,7 +52,7 @@ class SceneRenderer {
     void setMaterialColors(std::vector<glm::vec3> colors);
 
     /// Records and submits one frame; returns without waiting for it. width, height: pixels, 1..16384
-    /// (bounded by the device). Throws Error when the device is lost or out of memory.
+    /// (bounded by the device). Throws DeviceLost, and Error when the device is out of memory.
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye = Eye::Main);
 
     /// Waits for the last frame of the main eye and reads it: RGBA8, sRGB, rows from the top, alpha 255.

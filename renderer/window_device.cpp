@@ -37,14 +37,6 @@ WindowDevice::WindowDevice(const Gpu::Impl& gpu, GLFWwindow* window)
     createFrames();
 }
 
-void WindowDevice::settle() const {
-    // A lost device cannot be waited for.
-    try {
-        gpu_.device.waitIdle();
-    } catch (const vk::SystemError&) {
-    }
-}
-
 void WindowDevice::createScenePipeline() {
     sampler_ = vk::raii::Sampler(gpu_.device,
                                  vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,

@@ -19,7 +19,7 @@ class WindowDevice {
     static constexpr uint32_t kFramesInFlight = 2;
 
     WindowDevice(const Gpu::Impl& gpu, GLFWwindow* window);
-    ~WindowDevice() { settle(); }
+    ~WindowDevice() { gpu_.settle(); }
     WindowDevice(const WindowDevice&) = delete;
     WindowDevice& operator=(const WindowDevice&) = delete;
 
@@ -28,8 +28,6 @@ class WindowDevice {
     [[nodiscard]] vk::DescriptorPool descriptors() const { return *pool_; }
     [[nodiscard]] vk::Extent2D extent() const { return swapchain_.extent(); }
 
-    /// Waits until nothing is drawn any more; a lost device draws nothing.
-    void settle() const;
     /// Makes the swapchain follow the framebuffer's size. False while the window has no area.
     bool followWindow(WindowTarget::Statistics& statistics);
     /// A frame may draw a part only: there is a canvas, and it holds the rest.

@@ -63,6 +63,7 @@ struct WindowTarget::Impl {
     EyePlaces lastPlaces;
     Clock::time_point lastWhole;
     bool frameBegun = false;
+    bool captureWanted = false;
     WindowTarget::Statistics statistics;
 };
 
@@ -79,7 +80,7 @@ void WindowTarget::Impl::leaveDevice() {
     frameBegun = false;
     if (device == nullptr)
         return;
-    device->settle();
+    device->gpu().settle();
     gui.leaveDevice();
     device.reset();
 }
@@ -136,8 +137,10 @@ void WindowTarget::endFrame(SceneRenderer* scene, const EyePlaces& where) {
     const bool whole = impl_->wholeWanted(where);
     impl_->frameBegun = false;
     ImGui::Render();
-    translatingErrors("presenting a frame",
-                      [&] { impl_->onDevice().present(scene, where, whole, impl_->statistics); });
+    WindowDevice& device = impl_->onDevice();
+    device.captureWanted = impl_->captureWanted; // outlives a device
+    translatingErrors("presenting a frame", [&] { device.present(scene, where, whole, impl_->statistics); });
+    impl_->captureWanted = device.captureWanted;
     if (whole)
         impl_->lastWhole = Clock::now();
     impl_->lastPlaces = where;
@@ -150,7 +153,7 @@ void WindowTarget::cancelFrame() {
 }
 
 void WindowTarget::requestCapture() {
-    impl_->onDevice().captureWanted = true;
+    impl_->captureWanted = true;
 }
 
 std::optional<PixelData> WindowTarget::takeCapture() {

@@ -5,8 +5,6 @@
 #include "haptics/servo/servo_loop.h"
 #include "renderer/draw_quality.h"
 #include "renderer/frame_pace.h"
-#include "renderer/scene_renderer.h"
-#include "renderer/window_target.h"
 #include "workbench/commands.h"
 #include "workbench/editor/drawn_materials.h"
 #include "workbench/editor/material_window.h"
@@ -28,10 +26,9 @@
 #include "workbench/window/model_picture.h"
 #include "workbench/window/recording_desk.h"
 #include "workbench/window/saved_file.h"
+#include "workbench/window/screen.h"
 #include "workbench/window/status_file.h"
-#include "workbench/window/style.h"
 #include "workbench/window/view_control.h"
-#include "workbench/window/window.h"
 #include "workbench/window/window_memory.h"
 
 #include <imgui.h>
@@ -68,16 +65,18 @@ glm::ivec2 firstSize(const glm::ivec2& asked, const glm::ivec2& remembered) {
     return asked == WindowOptions{}.size && remembered.x > 0 ? remembered : asked;
 }
 
+DrawQuality qualityOn(const Gpu& gpu) {
+    return DrawQuality({.largestPixels = gpu.isSoftware() ? kSoftwarePixels : kHardwarePixels,
+                        .smallestScale = kSmallestScale,
+                        .finestError = gpu.isSoftware() ? kSoftwareError : 0.0});
+}
+
 class Workbench {
   public:
     explicit Workbench(const WindowOptions& options)
         : memory_(readMemory(stateFolder() / kMemoryFile)),
           window_("Touchstone", firstSize(options.size, memory_.size)),
-          gpu_(createGpuForWindow(window_.handle(), gpuOptions(options.gpu))),
-          target_(*gpu_, window_.handle(), [this] { applyStyle(window_.layoutScale()); }), renderer_(*gpu_),
-          quality_({.largestPixels = gpu_->isSoftware() ? kSoftwarePixels : kHardwarePixels,
-                    .smallestScale = kSmallestScale,
-                    .finestError = gpu_->isSoftware() ? kSoftwareError : 0.0}),
+          screen_(window_, gpuOptions(options.gpu)), quality_(qualityOn(screen_.gpu())),
           servo_(portOf(sound_.hand()), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
           liveError_(options.rateHz), forces_(static_cast<size_t>(kChartSeconds * options.rateHz)),
@@ -119,7 +118,7 @@ class Workbench {
     void frame() {
         const double start = secondsNow();
         pace_.begin(start);
-        takeModel();
+        onScreen([this] { takeModel(); });
         takeMaterials();
         prepareSettings();
         if (const auto dropped = window_.takeDropped())
@@ -128,8 +127,10 @@ class Workbench {
         servo_.updateSnapshot();
         servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, start);
         desk_.update();
-        if (target_.beginFrame())
-            draw();
+        onScreen([this] {
+            if (screen_.target().beginFrame())
+                draw();
+        });
         if (const auto goal = view_.handGoal())
             hand_.mouse().moveTo(*goal); // in every frame: a frozen window is a hand that is gone
         else
@@ -156,11 +157,38 @@ class Workbench {
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
 
   private:
+    /// Work that draws. Where its device is lost another is taken, and shows again what was shown.
+    template <class Work>
+    void onScreen(const Work& work) {
+        try {
+            work();
+        } catch (const DeviceLost& lost) {
+            takeAnotherDevice(lost);
+        }
+    }
+
+    void takeAnotherDevice(const DeviceLost& lost) {
+        problem_ = "The graphics device was lost (" + lost.problem() +
+                   "). What is felt went on; the picture is made anew.";
+        drawn_.takeDevice();
+        picture_.takeDevice();
+        for (std::optional<DeviceLost> why = lost; why;)
+            try {
+                screen_.renew(*std::exchange(why, std::nullopt), secondsNow());
+                quality_ = qualityOn(screen_.gpu());
+                opening_.takeDevice(screen_.renderer());
+            } catch (const DeviceLost& again) {
+                why = again;
+            }
+    }
+
     /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
     void takeModel() {
         try {
-            if (std::optional<LoadedModel> loaded = opening_.update(renderer_))
+            if (std::optional<LoadedModel> loaded = opening_.update(screen_.renderer()))
                 show(*std::move(loaded));
+        } catch (const DeviceLost&) {
+            throw;
         } catch (const Error& error) {
             if (!hasModel())
                 throw;
@@ -237,7 +265,9 @@ class Workbench {
         if (opening_.uploading())
             return drawn_.interrupt();
         try {
-            drawn_.update(renderer_, shown_.model.scene, state_.view.mode != ViewMode::Shaded);
+            drawn_.update(screen_.renderer(), shown_.model.scene, state_.view.mode != ViewMode::Shaded);
+        } catch (const DeviceLost&) {
+            throw;
         } catch (const std::exception& error) {
             problem_ = std::string("the view could not be made anew: ") + error.what();
         }
@@ -323,7 +353,7 @@ class Workbench {
 
         if (hasModel()) {
             showMaterials();
-            poseAt(servo_.snapshot().time, *shown_.model.scene, renderer_);
+            poseAt(servo_.snapshot().time, *shown_.model.scene, screen_.renderer());
         }
         const ModelPicture::Frame frame{.model = shown_.model,
                                         .tick = servo_.snapshot(),
@@ -335,13 +365,13 @@ class Workbench {
                                         .allowedError = quality_.allowedError(),
                                         .pixelsPerPoint = static_cast<float>(points),
                                         .scale = window_.layoutScale(),
-                                        .software = gpu_->isSoftware()};
-        target_.endFrame(&renderer_, picture_.draw(frame));
-        if (picture_.save(target_, frame))
+                                        .software = screen_.gpu().isSoftware()};
+        screen_.target().endFrame(&screen_.renderer(), picture_.draw(frame, screen_.renderer()));
+        if (picture_.save(screen_.target(), frame))
             notice_ = picture_.message();
-        if (chartPictures_.update(target_))
+        if (chartPictures_.update(screen_.target()))
             notice_ = chartPictures_.message();
-        status_.update(secondsNow(), input, state_, widgets, gpu_->validationMessages().size());
+        status_.update(secondsNow(), input, state_, widgets, screen_.validationMessages());
     }
 
     std::map<std::string, WidgetRect> drawMaterials(float scale) {
@@ -406,7 +436,7 @@ class Workbench {
         input.camera = view_.camera();
         input.picture = picture_.message();
         input.sceneSize = sceneSize;
-        input.gpuName = gpu_->name();
+        input.gpuName = screen_.gpu().name();
         input.scale = window_.layoutScale();
         return input;
     }
@@ -416,7 +446,7 @@ class Workbench {
         if (std::exchange(state_.recordPressed, false))
             desk_.toggle();
         if (std::exchange(state_.cancelPressed, false))
-            opening_.cancel(renderer_);
+            opening_.cancel(screen_.renderer());
         if (std::exchange(state_.dismissPressed, false))
             problem_.clear();
         if (std::exchange(state_.quitPressed, false))
@@ -425,7 +455,7 @@ class Workbench {
             leaveFor(*asked);
         if (const auto wanted = std::exchange(state_.chartWanted, std::nullopt)) {
             if (*wanted == ChartFile::Picture)
-                chartPictures_.request(target_, pixelsOf(widgets.at("charts")), "charts");
+                chartPictures_.request(screen_.target(), pixelsOf(widgets.at("charts")), "charts");
             else
                 saveChart();
         }
@@ -462,7 +492,7 @@ class Workbench {
     /// The part of the framebuffer that bar and panels leave, pixels.
     [[nodiscard]] PixelRect pictureArea() const {
         const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
-        const glm::vec2 size(target_.size());
+        const glm::vec2 size(screen_.target().size());
         const PictureRect rect = pictureRect(state_.folds, size, window_.layoutScale() * pixels);
         return {static_cast<int>(rect.x), static_cast<int>(rect.y),
                 std::max(16, static_cast<int>(rect.width)), std::max(16, static_cast<int>(rect.height))};
@@ -475,8 +505,7 @@ class Workbench {
     /// Adapts the picture to the time it took and waits for the next frame's turn, handling events meanwhile.
     void pace(double start) {
         const double busy = secondsNow() - start;
-        quality_.frameDone(
-            std::max(busy, renderer_.statistics().gpuSeconds + target_.statistics().gpuSeconds));
+        quality_.frameDone(std::max(busy, screen_.busy()));
         longestFrame_ = std::max(longestFrame_, busy);
         window_.waitEvents(0.0);
         for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
@@ -486,9 +515,7 @@ class Workbench {
     WindowMemory memory_;
     const std::vector<std::filesystem::path> samples_ = sampleScenes();
     Window window_;
-    std::unique_ptr<Gpu> gpu_;
-    WindowTarget target_;
-    SceneRenderer renderer_;
+    Screen screen_;
     DrawQuality quality_;
     HandSwitch hand_;
     HeldDevice held_{hand_};
@@ -510,7 +537,7 @@ class Workbench {
     PanelState state_;
     ServoView servoView_;
     ForceHistory forces_;
-    ModelPicture picture_{renderer_, stateFolder() / "pictures"};
+    ModelPicture picture_{stateFolder() / "pictures"};
     PictureDesk chartPictures_{stateFolder() / "pictures"};
     StatusFile status_;
     std::string problem_;

@@ -26,6 +26,8 @@ void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool
         }
         if (redrawn_ != nullptr && renderer.continueScene(kUploadTime))
             drawn_ = std::exchange(redrawn_, nullptr);
+    } catch (const DeviceLost&) {
+        throw;
     } catch (...) {
         redrawn_.reset();
         drawn_ = scene; // not again until something else is changed

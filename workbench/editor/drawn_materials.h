@@ -15,6 +15,11 @@ class DrawnMaterials {
     void shown(ScenePtr scene);
     /// The images of what is shown are others: draw them whatever the view.
     void renew() { drawn_.reset(); }
+    /// Another renderer draws from now on, and has nothing.
+    void takeDevice() {
+        drawn_.reset();
+        redrawn_.reset();
+    }
     /// Another model is being taken in.
     void interrupt() { redrawn_.reset(); }
     /// In every frame in which no other model is taken in. Throws what stopped it, once for a change.

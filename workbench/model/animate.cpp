@@ -5,6 +5,8 @@
 namespace touchstone {
 
 void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
+    if (!renderer.hasScene())
+        return; // it is still being taken in
     if (const Animation* animation = playedAnimation(scene))
         renderer.setInstancePoses(sceneFromMeshAt(scene, animation, loopedTime(*animation, time)));
 }

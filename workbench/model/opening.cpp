@@ -11,16 +11,24 @@ void Opening::start(const std::filesystem::path& path, const DeviceLimits& limit
 std::optional<LoadedModel> Opening::update(SceneRenderer& renderer) {
     try {
         if (std::optional<LoadedModel> loaded = loader_.take()) {
-            renderer.beginScene(std::move(loaded->prepared));
             uploading_ = std::move(loaded);
+            renderer.beginScene(uploading_->prepared);
         }
-        if (uploading_ && renderer.continueScene(kUploadTime))
-            return std::exchange(uploading_, std::nullopt);
-        return std::nullopt;
+        if (!uploading_ || !renderer.continueScene(kUploadTime))
+            return std::nullopt;
+        uploading_->prepared.reset();
+        return std::exchange(uploading_, std::nullopt);
+    } catch (const DeviceLost&) {
+        throw; // it goes on with another one
     } catch (...) {
         uploading_.reset();
         throw;
     }
+}
+
+void Opening::takeDevice(SceneRenderer& renderer) {
+    if (uploading_)
+        renderer.beginScene(uploading_->prepared);
 }
 
 void Opening::cancel(SceneRenderer& renderer) {

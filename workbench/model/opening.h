@@ -17,9 +17,11 @@ class Opening {
     /// A second one replaces the first.
     void start(const std::filesystem::path& path, const DeviceLimits& limits);
     /// In every frame: the model in the frame in which the renderer shows it. Throws what stopped it, Error
-    /// or std::bad_alloc; then it is over.
+    /// or std::bad_alloc; then it is over, but for DeviceLost.
     [[nodiscard]] std::optional<LoadedModel> update(SceneRenderer& renderer);
     void cancel(SceneRenderer& renderer);
+    /// Another renderer draws from now on: what the one before was taking in begins again.
+    void takeDevice(SceneRenderer& renderer);
 
     [[nodiscard]] bool busy() const { return loader_.loading() || uploading_.has_value(); }
     [[nodiscard]] bool uploading() const { return uploading_.has_value(); }

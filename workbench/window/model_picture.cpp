@@ -13,7 +13,7 @@ constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames: the CPU transforms 
 
 } // namespace
 
-EyePlaces ModelPicture::draw(const Frame& frame) {
+EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
     const ViewOptions& options = frame.options;
     const double aspect = static_cast<double>(frame.place.width) / std::max(frame.place.height, 1);
     View view = viewOf(frame.camera, frame.model.workspaceFromScene, aspect);
@@ -29,18 +29,18 @@ EyePlaces ModelPicture::draw(const Frame& frame) {
         drawTick(frame.tick, frame.settings, look, overlay_);
         if (options.overlays.shadow)
             view.probe = probeShadow(frame.tick, frame.settings);
-        colorMaterials(frame);
+        colorMaterials(frame, renderer);
     }
-    renderer_.render(view, overlay_, frame.sceneSize.x, frame.sceneSize.y);
+    renderer.render(view, overlay_, frame.sceneSize.x, frame.sceneSize.y);
     if (hasModel && options.magnifier) {
         overlay_.clear();
         look.scale = kMagnifierOverlayScale;
         drawTick(frame.tick, frame.settings, look, overlay_);
         view.probe.radius *= kMagnifierOverlayScale;
-        drawMagnifier(frame, view, places);
+        drawMagnifier(frame, view, renderer, places);
     }
     legend_.mode = options.mode;
-    legend_.scale = renderer_.falseColorScale();
+    legend_.scale = renderer.falseColorScale();
     legend_.kinds = options.mode == ViewMode::Effects ? colors_.kinds : std::vector<EffectColors::Kind>{};
     const float margin = 14.0f * frame.scale;
     const glm::vec2 low(static_cast<float>(frame.place.x),
@@ -50,15 +50,16 @@ EyePlaces ModelPicture::draw(const Frame& frame) {
     return places;
 }
 
-void ModelPicture::colorMaterials(const Frame& frame) {
+void ModelPicture::colorMaterials(const Frame& frame, SceneRenderer& renderer) {
     if (frame.options.mode != ViewMode::Effects || colored_ == frame.model.haptic)
         return;
     colored_ = frame.model.haptic;
     colors_ = effectColors(colored_->plan, frame.model.scene->materials.size());
-    renderer_.setMaterialColors(colors_.materials);
+    renderer.setMaterialColors(colors_.materials);
 }
 
-void ModelPicture::drawMagnifier(const Frame& frame, const View& main, EyePlaces& places) {
+void ModelPicture::drawMagnifier(const Frame& frame, const View& main, SceneRenderer& renderer,
+                                 EyePlaces& places) {
     places.magnifier = Magnifier::place(frame.place);
     const float size = static_cast<float>(places.magnifier.width) / frame.pixelsPerPoint;
     Magnifier::drawFrame(glm::vec2(places.magnifier.x, places.magnifier.y) / frame.pixelsPerPoint, size,
@@ -71,7 +72,7 @@ void ModelPicture::drawMagnifier(const Frame& frame, const View& main, EyePlaces
     near.mode = main.mode;
     near.allowedError = main.allowedError;
     near.probe = main.probe;
-    renderer_.render(near, overlay_, places.magnifier.width, places.magnifier.height, Eye::Magnifier);
+    renderer.render(near, overlay_, places.magnifier.width, places.magnifier.height, Eye::Magnifier);
 }
 
 bool ModelPicture::save(WindowTarget& target, const Frame& frame) {

@@ -13,8 +13,7 @@ namespace touchstone {
 class ModelPicture {
   public:
     /// Pictures that are saved go into `folder`.
-    ModelPicture(SceneRenderer& renderer, std::filesystem::path folder)
-        : renderer_(renderer), desk_(std::move(folder)) {}
+    explicit ModelPicture(std::filesystem::path folder) : desk_(std::move(folder)) {}
 
     struct Frame {
         const Model& model; ///< its scene may be null
@@ -31,17 +30,18 @@ class ModelPicture {
     };
     /// Draws into the renderer's images, and the legend into the ImGui frame at hand. Returns where the
     /// images belong.
-    [[nodiscard]] EyePlaces draw(const Frame& frame);
+    [[nodiscard]] EyePlaces draw(const Frame& frame, SceneRenderer& renderer);
+    /// Another renderer draws from now on.
+    void takeDevice() { colored_.reset(); }
 
     /// After endFrame: keeps the picture that `options` asked for. True when there is news in `message`.
     bool save(WindowTarget& target, const Frame& frame);
     [[nodiscard]] const std::string& message() const { return desk_.message(); }
 
   private:
-    void colorMaterials(const Frame& frame);
-    void drawMagnifier(const Frame& frame, const View& main, EyePlaces& places);
+    void colorMaterials(const Frame& frame, SceneRenderer& renderer);
+    void drawMagnifier(const Frame& frame, const View& main, SceneRenderer& renderer, EyePlaces& places);
 
-    SceneRenderer& renderer_;
     PictureDesk desk_;
     Overlay overlay_;
     ViewLegend legend_;
