@@ -21,6 +21,7 @@
 #include "workbench/model/opening.h"
 #include "workbench/sound/sound_desk.h"
 #include "workbench/state_folder.h"
+#include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/layout.h"
 #include "workbench/window/leaving.h"
 #include "workbench/window/model_picture.h"
@@ -39,6 +40,7 @@
 #include <chrono>
 #include <map>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +73,11 @@ DrawQuality qualityOn(const Gpu& gpu) {
                         .finestError = gpu.isSoftware() ? kSoftwareError : 0.0});
 }
 
+std::vector<std::filesystem::path> recordingFolders(const RecordingOptions& options) {
+    return {stateFolder() / "recordings",
+            options.flightFolder.empty() ? stateFolder() / "flight" : options.flightFolder};
+}
+
 class Workbench {
   public:
     explicit Workbench(const WindowOptions& options)
@@ -79,8 +86,8 @@ class Workbench {
           screen_(window_, gpuOptions(options.gpu)), quality_(qualityOn(screen_.gpu())),
           servo_(portOf(sound_.hand()), {.rateHz = options.rateHz, .stageTimes = true}),
           desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
-          liveError_(options.rateHz), forces_(static_cast<size_t>(kChartSeconds * options.rateHz)),
-          status_(options.statusJson) {
+          timeline_(again_, recordingFolders(options.recording)), liveError_(options.rateHz),
+          forces_(static_cast<size_t>(kChartSeconds * options.rateHz)), status_(options.statusJson) {
         // What the command line asks for goes before what the last run left.
         state_.settings = memory_.settings;
         for (const auto& [name, value] : options.settings)
@@ -94,12 +101,14 @@ class Workbench {
         state_.stroke = options.stroke;
         state_.device = options.device;
         holdDevice();
-        servo_.setSettings(state_.settings);
+        sendSettings();
         servo_.start();
     }
 
     void open(const std::filesystem::path& path) {
         problem_.clear();
+        if (isRecording(path))
+            return timeline_.open(path);
         longestFrame_ = 0.0;
         opening_.start(path, held_.limits());
     }
@@ -127,6 +136,7 @@ class Workbench {
         servo_.updateSnapshot();
         servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, start);
         desk_.update();
+        lookBack(start);
         onScreen([this] {
             if (screen_.target().beginFrame())
                 draw();
@@ -153,7 +163,7 @@ class Workbench {
         window_.stayOpen();
         return false;
     }
-    [[nodiscard]] bool loading() const { return opening_.busy(); }
+    [[nodiscard]] bool loading() const { return opening_.busy() || timeline_.opening(); }
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
 
   private:
@@ -246,7 +256,7 @@ class Workbench {
     }
 
     void leaveFor(const std::filesystem::path& path) {
-        if (leaving_.mayLeave(path, materials_, state_))
+        if (isRecording(path) || leaving_.mayLeave(path, materials_, state_))
             open(path);
     }
 
@@ -259,6 +269,37 @@ class Workbench {
             return open(*target);
         left_ = true;
         window_.close();
+    }
+
+    [[nodiscard]] const HapticSettings& shownSettings() const {
+        return timeline_.looking() && !timeline_.again().running() ? timeline_.settings() : state_.settings;
+    }
+
+    /// Sees to the recording that is looked at, and opens the model that it touched.
+    void lookBack(double now) {
+        timeline_.update({.now = now,
+                          .model = hasModel() ? &shown_.model : nullptr,
+                          .open = hasModel() ? &shown_.identity : nullptr,
+                          .live = &forces_,
+                          .servoTime = servo_.snapshot().time,
+                          .listed = state_.timeline.shown});
+        if (const std::string problem = timeline_.takeProblem(); !problem.empty())
+            problem_ = problem;
+        if (const auto model = timeline_.takeModelWanted())
+            leaveFor(*model);
+    }
+
+    /// What the picture and the panels show: the recording's tick while one is looked at.
+    [[nodiscard]] const TickRecord& shownTick() const {
+        return timeline_.looking() && !timeline_.again().running() ? timeline_.tick() : servo_.snapshot();
+    }
+
+    /// The settings as they are chosen; but the force is off while a recording is looked at.
+    void sendSettings() {
+        HapticSettings settings = state_.settings;
+        settings.forceEnabled = settings.forceEnabled && !timeline_.looking();
+        if (sent_ != settings)
+            servo_.setSettings(*(sent_ = settings));
     }
 
     void showMaterials() {
@@ -282,7 +323,7 @@ class Workbench {
             problem_ = std::string("the settings could not be prepared: ") + error.what();
             state_.settings.contact = ContactMethod::Sweep;
             state_.settings.textureGradient = TextureGradient::Central;
-            servo_.setSettings(state_.settings);
+            sendSettings();
         }
     }
 
@@ -330,34 +371,34 @@ class Workbench {
     void draw() {
         const PixelRect area = pictureArea();
         const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
-        const HapticSettings before = state_.settings;
         const PanelFolds folds = state_.folds;
         auto widgets = drawPanels(input, state_);
         widgets.merge(drawMaterials(input.scale));
         const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
         view_.update({.origin = glm::dvec2(area.x, area.y) / points,
                       .area = glm::dvec2(area.width, area.height) / points,
-                      .probe = servo_.snapshot().output.proxy,
+                      .probe = shownTick().output.proxy,
                       .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
-                      .mouseIsHand = state_.device.empty() && !state_.simulatedHand,
+                      .mouseIsHand = state_.device.empty() && !state_.simulatedHand && !timeline_.looking(),
+                      .looksBack = timeline_.looking(),
                       .look =
                           [this](const Ray& ray) {
                               return sight_.look(ray, servo_.snapshot().time, state_.settings);
                           }},
                      state_.view);
         doWhatWasAsked(widgets);
-        if (!(state_.settings == before))
-            servo_.setSettings(state_.settings);
+        sendSettings();
         if (!(state_.folds == folds))
             remember();
 
         if (hasModel()) {
             showMaterials();
-            poseAt(servo_.snapshot().time, *shown_.model.scene, screen_.renderer());
+            poseAt(shownTick().time, *shown_.model.scene, screen_.renderer());
         }
         const ModelPicture::Frame frame{.model = shown_.model,
-                                        .tick = servo_.snapshot(),
-                                        .settings = state_.settings,
+                                        .tick = shownTick(),
+                                        .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
+                                        .settings = shownSettings(),
                                         .camera = view_.camera(),
                                         .options = state_.view,
                                         .place = area,
@@ -392,7 +433,7 @@ class Workbench {
         return widgets.take();
     }
 
-    [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize) const {
+    [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize) {
         PanelInput input;
         if (hasModel()) {
             const Scene& scene = *shown_.model.scene;
@@ -418,9 +459,10 @@ class Workbench {
         input.materialsWorking = materials_.working();
         input.loading = loading();
         input.longestFrame = longestFrame_;
-        input.loadName = opening_.path().filename().string();
-        input.loadFraction = opening_.fraction();
-        input.loadActivity = opening_.activity();
+        const bool recording = timeline_.opening();
+        input.loadName = (recording ? timeline_.openingFile() : opening_.path()).filename().string();
+        input.loadFraction = recording ? timeline_.openingFraction() : opening_.fraction();
+        input.loadActivity = recording ? "reading the recording" : opening_.activity();
         input.notice = notice_;
         input.recording = desk_.recorder().recording();
         input.recordingFile = desk_.recorder().file().string();
@@ -431,6 +473,8 @@ class Workbench {
         input.deviceStatus = held_.menu().status();
         input.sound = sound_.status();
         input.servo = &servoView_;
+        input.timeline = &timeline_;
+        input.tick = timeline_.looking() ? &shownTick() : &servoView_.last;
         input.forces = &forces_;
         input.framesPerSecond = pace_.rate();
         input.camera = view_.camera();
@@ -446,13 +490,14 @@ class Workbench {
         if (std::exchange(state_.recordPressed, false))
             desk_.toggle();
         if (std::exchange(state_.cancelPressed, false))
-            opening_.cancel(screen_.renderer());
+            opening_.cancel(screen_.renderer()), timeline_.cancelOpening();
         if (std::exchange(state_.dismissPressed, false))
             problem_.clear();
         if (std::exchange(state_.quitPressed, false))
             window_.close();
-        if (const auto asked = std::exchange(state_.open, std::nullopt))
-            leaveFor(*asked);
+        for (auto* asked : {&state_.open, &state_.timeline.open})
+            if (const auto path = std::exchange(*asked, std::nullopt))
+                leaveFor(*path);
         if (const auto wanted = std::exchange(state_.chartWanted, std::nullopt)) {
             if (*wanted == ChartFile::Picture)
                 chartPictures_.request(screen_.target(), pixelsOf(widgets.at("charts")), "charts");
@@ -519,11 +564,14 @@ class Workbench {
     DrawQuality quality_;
     HandSwitch hand_;
     HeldDevice held_{hand_};
-    SoundDesk sound_{hand_};
+    AgainHand again_{hand_};
+    SoundDesk sound_{again_};
     uint32_t offered_ = 0; // number of the newest scene
     ServoLoop servo_;
     std::string notice_; // of the recorder
     RecordingDesk desk_;
+    TimelineDesk timeline_;
+    std::optional<HapticSettings> sent_; ///< to the servo
     study::LiveError liveError_;
     Opening opening_;
     LoadedModel shown_;

@@ -1,12 +1,14 @@
 // Bar, panels and cards of the window against golden pictures, drawn out of figures that stand still.
 
 #define GLFW_INCLUDE_NONE
+#include "devices/mouse_device.h"
 #include "renderer/window_target.h"
 #include "tests/screenshot/golden.h"
 #include "tests/support/lavapipe.h"
 #include "tests/support/virtual_display.h"
 #include "workbench/editor/material_window.h"
 #include "workbench/model/model.h"
+#include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/layout.h"
 #include "workbench/window/style.h"
 
@@ -98,6 +100,8 @@ class PanelGolden : public ::testing::Test {
         input_.canSimulate = true;
         input_.canSaveMaterials = true;
         input_.servo = &servo_;
+        input_.timeline = &timeline_;
+        input_.tick = &servo_.last;
         input_.forces = &forces_;
         input_.framesPerSecond = 30.0;
         input_.sceneSize = {704, 392};
@@ -183,6 +187,9 @@ class PanelGolden : public ::testing::Test {
     MaterialDesk desk_;
     ServoView servo_;
     ForceHistory forces_{10000};
+    MouseDevice hand_;
+    AgainHand again_{hand_};
+    TimelineDesk timeline_{again_, {}};
     PanelInput input_;
     PanelState state_;
     std::map<std::string, WidgetRect> rects_;

@@ -241,6 +241,12 @@ nlohmann::ordered_json TimelineDesk::json() const {
     json["end_tick"] = at.last();
     json["model_is_open"] = modelIsOpen();
     json["tick_complete"] = complete_;
+    const HapticOutput& shown = tick_.output;
+    json["tick"] = {{"number", tick_.tick},
+                    {"contacts", shown.contacts},
+                    {"planes", shown.planeCount},
+                    {"proxy", {shown.proxy.x, shown.proxy.y, shown.proxy.z}},
+                    {"force", {shown.force.x, shown.force.y, shown.force.z}}};
     json["force_n"] = timeline_->force()[at.cursor()];
     json["marks"] = timeline_->marks().size();
     json["notes"] = notes_;

@@ -1,5 +1,6 @@
 #include "workbench/window/layout.h"
 
+#include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/budget_panel.h"
 #include "workbench/window/panels/error_panel.h"
@@ -10,6 +11,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace touchstone {
 
@@ -75,10 +77,11 @@ void toggle(Mode& mode, Mode& chosen, Mode off, Mode usual) {
     mode = mode != off ? off : (chosen != off ? chosen : usual);
 }
 
-void effectKeys(PanelState& state) {
+void effectKeys(const PanelInput& input, PanelState& state) {
     HapticSettings &settings = state.settings, &chosen = state.chosen;
+    // While a recording is looked at the force is off, whatever this says: then it only stays off afterwards.
     if (keyPressed(GLFW_KEY_SPACE))
-        settings.forceEnabled = !settings.forceEnabled;
+        settings.forceEnabled = !settings.forceEnabled && !input.timeline->looking();
     if (keyPressed(GLFW_KEY_F5))
         toggle(settings.forceShading, chosen.forceShading, ShadingMode::Off, ShadingMode::Material);
     if (keyPressed(GLFW_KEY_F6))
@@ -91,8 +94,8 @@ void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
         state.help = !state.help;
-    if (keyPressed(GLFW_KEY_ESCAPE))
-        state.help = false;
+    if (keyPressed(GLFW_KEY_ESCAPE) && !std::exchange(state.help, false))
+        input.timeline->leave();
     if (keyPressed(GLFW_KEY_F2))
         foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);
     if (keyPressed(GLFW_KEY_F3))
@@ -159,6 +162,20 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     drawServo(input, widgets);
 }
 
+void bottomPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    constexpr unsigned kBlue = IM_COL32(97, 173, 255, 255);
+    bool& recording = state.timeline.shown;
+    if (widgets.lampButton("live", "Live", !recording, kBlue))
+        recording = false;
+    ImGui::SameLine();
+    if (widgets.lampButton("recorded", "Recorded", recording, kBlue))
+        recording = true;
+    if (recording)
+        return drawTimeline(*input.timeline, state.timeline, widgets);
+    ImGui::SameLine();
+    drawCharts(input, state, widgets);
+}
+
 } // namespace
 
 PanelFolds fittingFolds(const PanelFolds& folds, const glm::vec2& window, float scale) {
@@ -184,8 +201,11 @@ PictureRect pictureRect(const PanelFolds& wanted, const glm::vec2& window, float
 std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     Widgets widgets(input.scale);
-    effectKeys(state);
+    effectKeys(input, state);
+    timelineKeys(*input.timeline);
     windowKeys(input, state);
+    if (followDesk(*input.timeline, state.timeline))
+        state.folds.bottom = false;
     const PictureRect picture = pictureRect(state.folds, {display.x, display.y}, input.scale);
     const float below = picture.y + picture.height, beyond = picture.x + picture.width;
     widgets.place("picture", {picture.x, picture.y, picture.width, picture.height});
@@ -198,9 +218,10 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
               ImGuiDir_Left, ImGuiDir_Right, widgets, [&] { rightPanel(input, state, widgets); }))
         foldSide(state.folds, &PanelFolds::right, &PanelFolds::left, input);
     if (panel("charts", {picture.x, below, picture.width, display.y - below}, folds.bottom, ImGuiDir_Up,
-              ImGuiDir_Down, widgets, [&] { drawCharts(input, state, widgets); }))
+              ImGuiDir_Down, widgets, [&] { bottomPanel(input, state, widgets); }))
         state.folds.bottom = !state.folds.bottom;
     drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
+    drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawHelp(input, state, widgets);
     return widgets.take();
 }

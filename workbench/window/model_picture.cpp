@@ -21,13 +21,14 @@ EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
     view.allowedError = frame.allowedError;
     overlay_.clear();
     EyePlaces places{.main = frame.place, .magnifier = {}};
-    TickLook look{.shown = options.overlays};
+    TickLook look{.shown = frame.tickBelongs ? options.overlays
+                                             : ShownOverlays{false, false, false, false, false, false}};
     const bool hasModel = frame.model.scene != nullptr && frame.model.haptic != nullptr;
     if (hasModel) {
         look.frictionCoefficient =
             frictionCoefficientAt(frame.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
         drawTick(frame.tick, frame.settings, look, overlay_);
-        if (options.overlays.shadow)
+        if (look.shown.shadow)
             view.probe = probeShadow(frame.tick, frame.settings);
         colorMaterials(frame, renderer);
     }

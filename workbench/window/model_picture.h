@@ -18,6 +18,7 @@ class ModelPicture {
     struct Frame {
         const Model& model; ///< its scene may be null
         const TickRecord& tick;
+        bool tickBelongs = true; ///< to the model; else nothing of it is drawn
         const HapticSettings& settings;
         const OrbitCamera& camera;
         ViewOptions& options;

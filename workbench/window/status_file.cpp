@@ -3,6 +3,7 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "workbench/figures/settings_json.h"
+#include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/panels/error_panel.h"
 
 namespace touchstone {
@@ -55,6 +56,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"problem", input.problem},
         {"recording",
          {{"on", input.recording}, {"file", input.recordingFile}, {"seconds", input.recordedSeconds}}},
+        {"timeline", input.timeline->json()},
         {"notice", input.notice},
         {"materials",
          {{"edited", input.materialsEdited},

@@ -28,12 +28,12 @@ constexpr double kClearance = 0.012;                   // m between model and re
 constexpr double kFirstYaw = 0.45, kFirstPitch = 0.35; // rad: from the right and above, so depth shows
 
 /// The move that a key asks for, as Blender has them: 1, 3, 7, and with Ctrl the opposite side.
-std::optional<CameraMove> keyMove() {
+std::optional<CameraMove> keyMove(bool homeIsTaken) {
     const bool opposite = ImGui::GetIO().KeyCtrl;
     const auto side = [&](char digit, int pad) {
         return opposite ? ctrlPressed(digit) || ctrlPressed(pad) : keyPressed({digit, pad});
     };
-    if (keyPressed({GLFW_KEY_HOME, keyOf('f')}))
+    if (keyPressed(keyOf('f')) || (!homeIsTaken && keyPressed(GLFW_KEY_HOME)))
         return CameraMove::Fit;
     if (side('1', GLFW_KEY_KP_1))
         return opposite ? CameraMove::Back : CameraMove::Front;
@@ -109,7 +109,7 @@ void ViewControl::go(CameraMove move, const Situation& now) {
 }
 
 void ViewControl::update(const Situation& now, ViewOptions& options) {
-    if (const std::optional<CameraMove> move = keyMove())
+    if (const std::optional<CameraMove> move = keyMove(now.looksBack))
         options.move = move;
     optionKeys(options);
     if (!ImGui::GetIO().WantTextInput)
@@ -134,7 +134,7 @@ void ViewControl::letGo() {
 void ViewControl::turnWithKeys(const Situation& now) {
     if (ImGui::GetIO().WantCaptureKeyboard)
         return;
-    const double right = keyAxis({GLFW_KEY_LEFT}, {GLFW_KEY_RIGHT}),
+    const double right = now.looksBack ? 0.0 : keyAxis({GLFW_KEY_LEFT}, {GLFW_KEY_RIGHT}),
                  up = keyAxis({GLFW_KEY_DOWN}, {GLFW_KEY_UP});
     if (ImGui::GetIO().KeyShift)
         camera_.pan(kKeyPan * now.seconds * glm::dvec2(-right, up), now.area.y);

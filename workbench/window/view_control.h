@@ -28,6 +28,7 @@ class ViewControl {
         glm::dvec3 probe{0.0};   ///< workspace, m
         double seconds = 0.0;    ///< since the last call
         bool mouseIsHand = true; ///< else the left button and the wheel are the camera's, too
+        bool looksBack = false;  ///< at a recording: left, right and Home are its cursor's
         /// What a line of sight meets first; null: there is no model.
         std::function<std::optional<PointedSurface>(const Ray&)> look;
     };

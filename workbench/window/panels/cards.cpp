@@ -77,7 +77,7 @@ void problem(const PanelInput& input, PanelState& state, const WidgetRect& pictu
 /// Three lines, until they were read; they wait while something else lies where they would.
 void introduction(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
     if (state.introduced || input.loading || input.scene == nullptr || state.editMaterials ||
-        state.view.mode != ViewMode::Shaded)
+        state.timeline.looking || state.view.mode != ViewMode::Shaded)
         return;
     if (beginCard("introduction", picture, 0.5f, 1.0f, widgets)) {
         ImGui::PushTextWrapPos(std::min(widgets.units(440.0f), picture.width - widgets.units(34.0f)));

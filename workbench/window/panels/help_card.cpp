@@ -28,8 +28,10 @@ constexpr Line kTouch[]{
     {"N; with Shift", "the hand's next stroke; the one before"},
 };
 constexpr Line kRecord[]{
-    {"F9", "begins and ends a recording"},
-    {"P", "pauses the charts"},
+    {"F9", "begins and ends a recording"},        {"P", "pauses the charts"},
+    {"K", "plays a recording that is looked at"}, {"Left, Right; with Shift", "a tick back, on; 100 ms"},
+    {"Home, End", "its begin, its end"},          {"A, B; Shift+A", "a loop begins, ends; no loop"},
+    {"Escape", "back to the live hand"},
 };
 constexpr Line kEdit[]{
     {"E", "opens and closes the material editor"},
@@ -50,7 +52,7 @@ constexpr Line kLook[]{
 };
 constexpr Line kWindow[]{
     {"F2, F3, F4; Tab", "fold the scene, what is felt, the charts; all"},
-    {"Ctrl+O", "opens a file; one may be dropped here, too"},
+    {"Ctrl+O", "opens a model or a recording"},
     {"Ctrl+Q", "quits"},
     {"F1 or ?, Escape", "shows this; puts it away"},
 };

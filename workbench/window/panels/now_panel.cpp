@@ -1,3 +1,4 @@
+#include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
@@ -7,6 +8,9 @@ namespace touchstone {
 TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
     constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255), kGreen = IM_COL32(80, 200, 120, 255),
                     kAmber = IM_COL32(240, 180, 60, 255), kRed = IM_COL32(235, 75, 65, 255);
+    if (input.timeline->looking() && !input.timeline->again().running())
+        return input.tick->output.contacts > 0 ? TouchLamp{"Recorded: touching", kAmber}
+                                               : TouchLamp{"Recorded: in the air", kGrey};
     const HapticOutput& tick = input.servo->last.output;
     if (input.scene == nullptr)
         return {input.loading ? "Loading" : "Nothing to touch yet", kGrey};
@@ -14,6 +18,8 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
         return {"Force off after a fault: press space twice", kRed};
     if (!state.settings.forceEnabled)
         return {"Force off (space)", kAmber};
+    if (input.timeline->looking())
+        return {"Touched again, force off", kAmber};
     if (has(tick.flags, TickFlag::StartedInside))
         return {"Inside: move out to touch", kAmber};
     if (has(tick.flags, TickFlag::InputInvalid))
@@ -34,7 +40,7 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextUnformatted(lamp.text);
     widgets.mark("lamp");
 
-    const HapticOutput& tick = input.servo->last.output;
+    const HapticOutput& tick = input.tick->output;
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
     ImGui::Text("%.2f N", glm::length(tick.force));
     ImGui::PopFont();

@@ -7,6 +7,7 @@
 #include "haptics/haptic_settings.h"
 #include "renderer/camera.h"
 #include "workbench/sound/sound_choice.h"
+#include "workbench/timeline/timeline_panel.h"
 #include "workbench/window/force_history.h"
 #include "workbench/window/panels/widgets.h"
 #include "workbench/window/servo_view.h"
@@ -48,6 +49,8 @@ struct PanelInput {
     std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
     SoundStatus sound;
     const ServoView* servo = nullptr;
+    TimelineDesk* timeline = nullptr;
+    const TickRecord* tick = nullptr; ///< that is shown: the servo's newest, or the recording's at the cursor
     const ForceHistory* forces = nullptr;
     std::string picture; ///< what became of the last picture that was to be saved; empty: none yet
     double framesPerSecond = 0.0;
@@ -77,8 +80,9 @@ struct PanelState {
     ViewOptions view;
     PanelFolds folds;
     bool help = false;
-    bool editMaterials = false;                     ///< the material editor is open
-    bool introduced = false;                        ///< the first-run card was read
+    bool editMaterials = false; ///< the material editor is open
+    bool introduced = false;    ///< the first-run card was read
+    TimelinePanelState timeline;
     std::optional<ForceHistory> stopped;            ///< what the charts show while they are paused
     std::string openPath = std::string(1024, '\0'); ///< what is being typed
 

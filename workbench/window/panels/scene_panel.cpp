@@ -15,7 +15,7 @@ constexpr size_t kMostNodes = 300; // in the tree; more are told by their number
 
 /// The Scene node that is touched, or -1.
 int touchedNode(const PanelInput& input) {
-    const int object = input.servo->last.output.object;
+    const int object = input.tick->output.object;
     if (input.haptic == nullptr || object < 0 || static_cast<size_t>(object) >= input.haptic->objects.size())
         return -1;
     const int instance = input.haptic->objects[static_cast<size_t>(object)]->instance;

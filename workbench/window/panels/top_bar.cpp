@@ -54,7 +54,7 @@ void fileItem(const std::filesystem::path& file, bool withFolder, PanelState& st
 }
 
 void openByPath(PanelState& state, Widgets& widgets) {
-    ImGui::TextDisabled("a .glb or .gltf; it may be dropped on the window, too");
+    ImGui::TextDisabled("a .glb, a .gltf or a recording; it may be dropped on the window, too");
     ImGui::SetNextItemWidth(widgets.units(360.0f));
     if (ImGui::IsWindowAppearing())
         ImGui::SetKeyboardFocusHere();
@@ -80,6 +80,11 @@ void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!ImGui::BeginPopup("file"))
         return;
     openByPath(state, widgets);
+    if (ImGui::MenuItem("Recordings")) {
+        state.timeline.shown = state.timeline.list = true;
+        state.folds.bottom = false;
+    }
+    widgets.mark("menu:recordings");
     ImGui::Separator();
     ImGui::TextDisabled("samples");
     for (const std::filesystem::path& file : input.samples) {
@@ -148,11 +153,14 @@ void effects(PanelState& state, Widgets& widgets) {
 void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const bool latched = has(input.servo->last.output.flags, TickFlag::SafetyLatched);
     bool& on = state.settings.forceEnabled;
-    const char* label = latched ? "Force: fault" : on ? "Force on" : "Force off";
-    if (widgets.lampButton("forceEnabled", label, on, latched ? kRed : kGreen))
-        on = !on;
+    const bool looking = state.timeline.looking;
+    const char* label = latched ? "Force: fault" : on && !looking ? "Force on" : "Force off";
+    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen))
+        on = !on && !looking;
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Space");
+        ImGui::SetTooltip(!looking ? "Space"
+                          : on     ? "off while a recording is looked at; on again with the live hand"
+                                   : "stays off with the live hand");
 }
 
 void record(const PanelInput& input, PanelState& state, Widgets& widgets) {

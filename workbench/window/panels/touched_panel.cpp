@@ -13,7 +13,7 @@ namespace {
 /// Scene material under the probe; in the air the only one there is, else -1.
 int touchedMaterial(const PanelInput& input) {
     const auto& objects = input.haptic->objects;
-    const int object = input.servo->last.output.object;
+    const int object = input.tick->output.object;
     if (object >= 0 && static_cast<size_t>(object) < objects.size())
         return objects[static_cast<size_t>(object)]->material;
     return objects.size() == 1 ? objects.front()->material : -1;
