@@ -2,6 +2,8 @@
 
 #include "workbench/window/style.h"
 
+#include <cstdio>
+
 namespace touchstone {
 
 namespace {
@@ -20,7 +22,9 @@ Screen::Screen(Window& window, const GpuOptions& options)
       renderer_(std::make_unique<SceneRenderer>(*gpu_)) {}
 
 Screen::~Screen() {
-    drop();
+    drop(); // which the layer may have something to say about
+    for (const std::string& message : options_.log->messages())
+        std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
 }
 
 void Screen::drop() {

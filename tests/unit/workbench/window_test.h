@@ -20,13 +20,20 @@ using Json = nlohmann::json;
 
 class WindowTest : public testing::Test {
   protected:
+    /// Opens the window and waits for the model.
     void open(const std::string& scene, const std::vector<std::string>& more = {}) {
+        start(scene, more);
+        until("the model to be loaded",
+              [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
+    }
+    void start(const std::string& scene, const std::vector<std::string>& more = {}) {
         std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size",
                                            "1000x780",        "--status-json", status_.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
         environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
+        environment.insert(environment.end(), environment_.begin(), environment_.end());
         program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
         try {
             corner_ = display_.waitForWindow("Touchstone");
@@ -35,8 +42,6 @@ class WindowTest : public testing::Test {
                                      (program_->running() ? "" : "; it has ended") + ": " +
                                      readFile(scratch_ / "log"));
         }
-        until("the model to be loaded",
-              [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
     }
 
     /// The newest status; fails when the program has gone.
@@ -87,6 +92,7 @@ class WindowTest : public testing::Test {
     ScratchFolder scratch_;
     std::filesystem::path status_ = scratch_ / "status.json";
     VirtualDisplay display_{1280, 800};
+    Environment environment_; ///< of the program, besides what all have
     std::unique_ptr<BackgroundProgram> program_;
     VirtualDisplay::Place corner_;
 };
