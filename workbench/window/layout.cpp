@@ -26,7 +26,7 @@ constexpr float kFolded = 20.0f; // what is left of a folded panel: the arrow th
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoTitleBar |
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 struct Rect {
     float x, y, width, height;
@@ -90,6 +90,23 @@ void effectKeys(const PanelInput& input, PanelState& state) {
         toggle(settings.friction, chosen.friction, FrictionMode::Off, FrictionMode::Zilles);
 }
 
+/// F10 gives the arrows to the panels until Escape or F10: they walk from widget to widget, Enter presses,
+/// Ctrl+Tab goes to the next panel. Space stays what takes the force away.
+void walk(PanelState& state) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (state.walking && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !io.WantTextInput &&
+        !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+        state.walking = false;
+    if (keyPressed(GLFW_KEY_F10)) {
+        state.walking = !state.walking;
+        ImGui::SetWindowFocus(state.walking ? "scene" : nullptr);
+    }
+    if (state.walking)
+        io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    else
+        io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+}
+
 void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
@@ -102,7 +119,7 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         foldSide(folds, &PanelFolds::right, &PanelFolds::left, input);
     if (keyPressed(GLFW_KEY_F4))
         folds.bottom = !folds.bottom;
-    if (keyPressed(GLFW_KEY_TAB)) {
+    if (keyPressed(GLFW_KEY_TAB) && !state.walking) {
         const bool all = folds.left && folds.right && folds.bottom;
         folds = {!all, !all, !all};
     }
@@ -202,6 +219,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     Widgets widgets(input.scale);
     effectKeys(input, state);
+    walk(state);
     timelineKeys(*input.timeline);
     windowKeys(input, state);
     if (followDesk(*input.timeline, state.timeline))

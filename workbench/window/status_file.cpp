@@ -72,6 +72,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"folded",
          {{"scene", state.folds.left}, {"felt", state.folds.right}, {"charts", state.folds.bottom}}},
         {"help", state.help},
+        {"walking", state.walking},
         {"leaving", state.leaving.has_value()},
         {"introduced", state.introduced},
         {"charts_paused", state.stopped.has_value()},

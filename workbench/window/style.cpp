@@ -1,6 +1,8 @@
 #include "workbench/window/style.h"
 
 #include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 #include <filesystem>
 
@@ -42,6 +44,8 @@ void applyColors(ImGuiStyle& style) {
 void applyStyle(float scale) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // the layout is ours
+    // Where widgets are walked through by keys, Enter presses them: space takes the force away, always.
+    io.KeyMap[ImGuiKey_Space] = GLFW_KEY_ENTER;
     if (std::filesystem::exists(kFont)) {
         static const ImWchar kRanges[] = {0x20, 0xFF, 0x2013, 0x2026, 0x03BC, 0x03BC, 0, 0};
         for (const float size : {kFontSize, kLargeFontSize})

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -23,6 +24,23 @@ class LayoutTest : public WindowTest {
     Json settled(const std::function<bool(const Json&)>& holds) {
         std::this_thread::sleep_for(std::chrono::seconds(5));
         return until("figures that are settled", holds);
+    }
+    /// Arrow by arrow, each towards it from where the keyboard is; a slow frame may take one for two.
+    void walkTo(const std::string& widget) {
+        for (int i = 0; i < 40; ++i) {
+            const Json widgets = later()["widgets"];
+            const Json &to = widgets.at(widget), from = widgets.value("focused", Json::object());
+            if (from == to)
+                return;
+            const auto side = [&](const char* axis) {
+                return to[axis].get<double>() - from.value(axis, 0.0);
+            };
+            if (std::abs(side("y")) > 4.0)
+                display_.key(side("y") > 0.0 ? "Down" : "Up");
+            else
+                display_.key(side("x") > 0.0 ? "Right" : "Left");
+        }
+        FAIL() << "the arrows lead to no " << widget;
     }
     /// A file's path typed into the menu that Ctrl+O opens.
     void openByPath(const std::string& path) {
@@ -75,6 +93,26 @@ TEST_F(LayoutTest, PanelsFoldAwayAndThePictureTakesTheirRoom) {
     until("the help", [](const Json& s) { return s["help"] == true; });
     display_.key("Escape");
     until("no help", [](const Json& s) { return s["help"] == false; });
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, PanelsAreWalkedThroughByKeys) {
+    open(kDoughnut);
+    const auto yaw = [](const Json& s) { return s["view"]["yaw"].get<double>(); };
+    display_.key("F10");
+    until("the panels to have the arrows", [](const Json& s) { return s["walking"] == true; });
+    const double before = yaw(later());
+    walkTo("simulatedHand");
+    display_.key("Return");
+    until("another hand", [](const Json& s) { return s["hand"] == "simulated"; });
+    EXPECT_EQ(yaw(status()), before) << "the arrows belong to the panels";
+    display_.key("space");
+    until("the force to be off", [](const Json& s) { return s["settings"]["forceEnabled"] == "off"; });
+    EXPECT_EQ(status()["hand"], "simulated") << "space presses nothing";
+    display_.key("Escape");
+    until("the view to have the arrows", [](const Json& s) { return s["walking"] == false; });
+    display_.key("Right");
+    until("another view", [&](const Json& s) { return yaw(s) != before; });
     expectCleanEnd();
 }
 

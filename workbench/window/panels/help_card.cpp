@@ -52,7 +52,8 @@ constexpr Line kLook[]{
 };
 constexpr Line kWindow[]{
     {"F2, F3, F4; Tab", "fold the scene, what is felt, the charts; all"},
-    {"Ctrl+O", "opens a model or a recording"},
+    {"F10, Escape", "arrows and Enter work the panels; leaves them"},
+    {"Ctrl+O", "opens a model or a recording; drop it here, too"},
     {"Ctrl+Q", "quits"},
     {"F1 or ?, Escape", "shows this; puts it away"},
 };

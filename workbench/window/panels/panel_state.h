@@ -80,6 +80,7 @@ struct PanelState {
     ViewOptions view;
     PanelFolds folds;
     bool help = false;
+    bool walking = false;       ///< the arrow keys walk through the panels
     bool editMaterials = false; ///< the material editor is open
     bool introduced = false;    ///< the first-run card was read
     TimelinePanelState timeline;

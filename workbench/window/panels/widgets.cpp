@@ -7,6 +7,8 @@ namespace touchstone {
 void Widgets::mark(const char* name) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     rects_[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+    if (ImGui::IsItemFocused())
+        rects_["focused"] = rects_[name];
 }
 
 void Widgets::section(const char* title) const {

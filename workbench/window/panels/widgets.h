@@ -20,7 +20,7 @@ class Widgets {
     explicit Widgets(float scale) : scale_(scale) {}
 
     [[nodiscard]] float units(float n) const { return n * scale_; }
-    /// Notes where the last widget is.
+    /// Notes where the last widget is; the one that has the keyboard is "focused", too.
     void mark(const char* name);
     void place(const char* name, const WidgetRect& rect) { rects_[name] = rect; }
     [[nodiscard]] std::map<std::string, WidgetRect> take() { return std::move(rects_); }
