@@ -111,7 +111,7 @@ void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
         state.help = !state.help;
-    if (keyPressed(GLFW_KEY_ESCAPE) && !std::exchange(state.help, false))
+    if (keyPressed(GLFW_KEY_ESCAPE) && !state.walking && !std::exchange(state.help, false))
         input.timeline->leave();
     if (keyPressed(GLFW_KEY_F2))
         foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);
@@ -219,9 +219,10 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     Widgets widgets(input.scale);
     effectKeys(input, state);
-    walk(state);
-    timelineKeys(*input.timeline);
+    if (!state.walking)
+        timelineKeys(*input.timeline);
     windowKeys(input, state);
+    walk(state);
     if (followDesk(*input.timeline, state.timeline))
         state.folds.bottom = false;
     const PictureRect picture = pictureRect(state.folds, {display.x, display.y}, input.scale);
