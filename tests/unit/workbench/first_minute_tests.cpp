@@ -196,10 +196,38 @@ class FirstMinute : public WindowTest {
         EXPECT_GT(stroke().tangential, 0.4) << "saved: " << saved;
     }
 
+    /// Recorded while it is stroked, found in the list, played, and the same to the last bit.
+    void recordsAndReplays() {
+        display_.key("F9");
+        until("the recording", [](const Json& s) { return s["recording"]["on"].get<bool>(); });
+        stroke();
+        display_.key("F9");
+        const std::string file = until(
+            "its end", [](const Json& s) { return !s["recording"]["on"].get<bool>(); })["recording"]["file"];
+        EXPECT_TRUE(std::filesystem::exists(file));
+        display_.click(middleOf("recorded"));
+        const std::string row = "recording:" + std::filesystem::path(file).filename().string();
+        until("it in the list", [&](const Json& s) { return s["widgets"].contains(row); });
+        display_.click(middleOf(row));
+        until("the timeline", [](const Json& s) { return s["timeline"]["looking"].get<bool>(); });
+        const auto before = picture();
+        display_.click(middleOf("play"));
+        until("the cursor to go on", [](const Json& s) { return s["timeline"]["cursor_s"] > 1.5; });
+        EXPECT_GT(changed(before, picture()), 1e-4) << "the recorded hand is seen";
+        display_.click(middleOf("verify"));
+        const Json verified =
+            until("the verdict", [](const Json& s) { return s["timeline"]["verified"] != nullptr; });
+        EXPECT_EQ(verified["timeline"]["verified"]["equal"], true) << verified["timeline"].dump(2);
+        display_.key("Escape");
+        until("the live hand", [](const Json& s) { return !s["timeline"]["looking"].get<bool>(); });
+        const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
+        EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    }
+
     std::filesystem::path own_ = scratch_ / "mine.glb";
 };
 
-TEST_F(FirstMinute, OpensTouchesChangesSavesAndFindsItAgain) {
+TEST_F(FirstMinute, OpensTouchesChangesSavesReopensRecordsAndReplays) {
     welcomed();
     dropsTheirModel();
     looksAround();
@@ -207,6 +235,7 @@ TEST_F(FirstMinute, OpensTouchesChangesSavesAndFindsItAgain) {
     togglesEachEffect();
     editsFrictionAndSaves();
     reopens();
+    recordsAndReplays();
     expectCleanEnd();
 }
 
