@@ -209,7 +209,8 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
 }
 
 void defineWindow(CLI::App& app, WindowOptions& options) {
-    addScene(app, options.scene)->description("glTF model to open in a window; without it the doughnut");
+    addScene(app, options.scene)
+        ->description("glTF model or recording (.tsrec) to open in a window; without it the doughnut");
     addSettings(app, [&options](std::string_view name, std::string_view value) {
         HapticSettings tried; // whether it is one; it goes over what the last run left
         options.settings.emplace_back(name, value);

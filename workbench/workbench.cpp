@@ -275,7 +275,8 @@ class Workbench {
         return timeline_.looking() && !timeline_.again().running() ? timeline_.settings() : state_.settings;
     }
 
-    /// Sees to the recording that is looked at, and opens the model that it touched.
+    /// Sees to the recording that is looked at, and opens the model that it touched. Without any model,
+    /// throws where it cannot be opened.
     void lookBack(double now) {
         timeline_.update({.now = now,
                           .model = hasModel() ? &shown_.model : nullptr,
@@ -283,8 +284,11 @@ class Workbench {
                           .live = &forces_,
                           .servoTime = servo_.snapshot().time,
                           .listed = state_.timeline.shown});
-        if (const std::string problem = timeline_.takeProblem(); !problem.empty())
-            problem_ = problem;
+        if (const std::optional<Error> problem = timeline_.takeProblem()) {
+            if (!hasModel() && !opening_.busy())
+                throw *problem;
+            problem_ = problem->what();
+        }
         if (const auto model = timeline_.takeModelWanted())
             leaveFor(*model);
     }

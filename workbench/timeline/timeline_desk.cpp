@@ -1,6 +1,5 @@
 #include "workbench/timeline/timeline_desk.h"
 
-#include "engine/core/error.h"
 #include "haptics/scene/moving_objects.h"
 
 #include <nlohmann/json.hpp>
@@ -41,10 +40,12 @@ void TimelineDesk::takeOpened() {
         if (!pending_.empty() && !opening_.busy())
             opening_.start(
                 [file = std::exchange(pending_, {})](JobProgress& progress) { return read(file, progress); });
+    } catch (const Error& error) {
+        problem_ = error;
     } catch (const std::bad_alloc&) {
-        problem_ = openingFile_.filename().string() + ": there is not enough memory for it";
+        problem_ = Error(openingFile_.string(), "", "there is not enough memory for it", "");
     } catch (const std::exception& error) {
-        problem_ = error.what();
+        problem_ = Error(openingFile_.string(), "", error.what(), "");
     }
 }
 
@@ -60,7 +61,7 @@ void TimelineDesk::retire() {
     againProblem_.clear();
     notes_.clear();
     tick_ = TickRecord{};
-    complete_ = false;
+    complete_.reset();
     fit_ = ModelFit::None;
 }
 
@@ -140,9 +141,10 @@ void TimelineDesk::showTick() {
     } catch (const std::exception& error) {
         lensProblem_ = error.what();
     }
-    if (!lens_->show(playback_->cursor(), tick_))
+    const size_t cursor = playback_->cursor();
+    if (!lens_->show(cursor, tick_))
         return;
-    complete_ = lens_->complete(playback_->cursor());
+    complete_ = lens_->complete(cursor) ? std::optional(cursor) : std::nullopt;
     HapticOutput& output = tick_.output;
     for (glm::dvec3* place : {&output.hip, &output.proxy, &output.stictionPoint})
         *place = openFromRecorded_.point(*place);
@@ -240,7 +242,7 @@ nlohmann::ordered_json TimelineDesk::json() const {
     json["begin_tick"] = at.first();
     json["end_tick"] = at.last();
     json["model_is_open"] = modelIsOpen();
-    json["tick_complete"] = complete_;
+    json["tick_complete"] = tickComplete();
     const HapticOutput& shown = tick_.output;
     json["tick"] = {{"number", tick_.tick},
                     {"contacts", shown.contacts},

@@ -2,6 +2,7 @@
 // Everything about looking at a recording, without a pixel of it: which one is open, where the cursor is,
 // what was felt there, and what touching it again comes to.
 
+#include "engine/core/error.h"
 #include "workbench/model/model.h"
 #include "workbench/timeline/lens.h"
 #include "workbench/timeline/playback.h"
@@ -54,7 +55,7 @@ class TimelineDesk {
         return std::exchange(modelWanted_, std::nullopt);
     }
     /// Why a recording could not be opened; told once.
-    [[nodiscard]] std::string takeProblem() { return std::exchange(problem_, {}); }
+    [[nodiscard]] std::optional<Error> takeProblem() { return std::exchange(problem_, std::nullopt); }
 
     // While looking:
     [[nodiscard]] const Timeline& timeline() const { return *timeline_; }
@@ -63,7 +64,8 @@ class TimelineDesk {
     /// The tick under the cursor, in the workspace of the model that is open; the last one that was known
     /// while it is being read.
     [[nodiscard]] const TickRecord& tick() const { return tick_; }
-    [[nodiscard]] bool tickComplete() const { return complete_; } ///< with what a recording does not keep
+    /// It is that of the cursor, with what a recording does not keep.
+    [[nodiscard]] bool tickComplete() const { return complete_ == playback_->cursor(); }
     [[nodiscard]] const HapticSettings& settings() const {
         return timeline_->settingsOf(playback_->cursor());
     }
@@ -120,12 +122,12 @@ class TimelineDesk {
     std::vector<std::unique_ptr<Lens>> retired_; // still at work
     std::string lensProblem_;
     TickRecord tick_;
-    bool complete_ = false;
+    std::optional<size_t> complete_; // the tick that tick_ is, where nothing of it is missing
     ModelFit fit_ = ModelFit::None;
     Similarity openFromRecorded_; // workspaces
     double period_ = 0.0;         // s, of what moves in the open model
     std::optional<std::filesystem::path> modelWanted_;
-    std::string problem_;
+    std::optional<Error> problem_;
     std::vector<std::string> notes_;
     BackgroundJob<Verdict> verifying_;
     bool verifyWanted_ = false;

@@ -111,7 +111,9 @@ void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
         state.help = !state.help;
-    if (keyPressed(GLFW_KEY_ESCAPE) && !state.walking && !std::exchange(state.help, false))
+    constexpr auto kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+    if (keyPressed(GLFW_KEY_ESCAPE) && !state.walking && !ImGui::IsPopupOpen("", kAnyPopup) &&
+        !std::exchange(state.help, false))
         input.timeline->leave();
     if (keyPressed(GLFW_KEY_F2))
         foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);

@@ -49,7 +49,11 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const glm::dvec3 along = tick.force - glm::dot(tick.force, tick.normal) * tick.normal;
     ImGui::BeginGroup();
     ImGui::TextDisabled("%.2f mm deep", 1e3 * tick.penetration);
-    ImGui::TextDisabled("%.2f N along the surface", tick.contacts > 0 ? glm::length(along) : 0.0);
+    // A recorded tick that cannot be touched again has no normal.
+    if (tick.contacts > 0 && tick.normal == glm::dvec3(0.0))
+        ImGui::TextDisabled("its direction is not recorded");
+    else
+        ImGui::TextDisabled("%.2f N along the surface", tick.contacts > 0 ? glm::length(along) : 0.0);
     ImGui::EndGroup();
 
     PassivityMode& passivity = state.settings.passivity;
