@@ -64,6 +64,7 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene&
         bounds.include(glm::dvec3(position));
     if (!bounds.empty()) {
         prepared.centre = bounds.centre();
+        prepared.halfSize = 0.5 * bounds.extent();
     }
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         out.vertices.push_back(packVertex(mesh, i, prepared.centre));

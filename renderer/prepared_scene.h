@@ -24,6 +24,7 @@ struct PreparedMesh {
     int32_t firstVertex = 0;
     glm::dvec3 centre{0.0};        ///< mesh frame; the packed positions are relative to it
     double radius = 0.0;           ///< of a ball about the centre that holds all vertices
+    glm::dvec3 halfSize{0.0};      ///< of the box about the centre, mesh axes
     std::vector<DrawLevel> levels; ///< the full mesh, and from there each coarser than the one before
 };
 

@@ -47,7 +47,34 @@ double largestStretch(const glm::dmat3& linear) {
     return std::sqrt(largest);
 }
 
+/// Of the mesh's box, along the line from the eye to its centre.
+double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm::dvec3& origin) {
+    const double distance = glm::length(origin);
+    if (!(distance > 0.0))
+        return 0.0;
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        sum += std::abs(glm::dot(origin, linear[axis])) / distance * halfSize[axis];
+    return sum;
+}
+
 } // namespace
+
+/// Each side is as far as it lies, so that what is within a glass comes between its far and its near side.
+void SceneRenderer::Impl::addBlended(DrawItem item, const glm::dvec3& origin, double halfDepth) {
+    const Scene& scene = scene_->scene();
+    const Mesh& mesh =
+        scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(item.instance)].mesh)];
+    const double distance = glm::length(origin);
+    if (scene.materials[static_cast<size_t>(mesh.material)].doubleSided) {
+        item.sides = DrawItem::Sides::Far;
+        item.distance = distance + halfDepth;
+        draws_.push_back(item);
+    }
+    item.sides = DrawItem::Sides::Near;
+    item.distance = distance - halfDepth;
+    draws_.push_back(item);
+}
 
 void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent) {
     draws_.clear();
@@ -69,19 +96,22 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         DrawItem item;
         item.instance = static_cast<int>(i);
         item.features = drawn.features | light;
-        item.distance = glm::length(origin);
+        const double distance = glm::length(origin);
         if (!setConstants(linear, origin, item))
             continue;
         const double stretch = largestStretch(linear);
         // The nearest that the mesh can be to the eye: there an error of one metre is so many pixels.
-        const double nearest = item.distance - stretch * mesh.radius;
+        const double nearest = distance - stretch * mesh.radius;
         const double allowed = view.allowedError > 0.0 && nearest > 0.0 && stretch > 0.0
                                    ? view.allowedError * nearest / (pixelsAtUnitDepth * stretch)
                                    : 0.0;
         const DrawLevel& level = levelWithin(mesh, allowed);
         item.firstIndex = level.firstIndex;
         item.indexCount = level.indexCount;
-        draws_.push_back(item);
+        if (view.mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0)
+            addBlended(item, origin, halfDepth(linear, mesh.halfSize, origin));
+        else
+            draws_.push_back(item);
     }
     // Few state changes for what is opaque; what is blended comes last, from the farthest.
     std::stable_sort(draws_.begin(), draws_.end(), [](const DrawItem& a, const DrawItem& b) {
@@ -110,20 +140,15 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
         vk::PipelineBindPoint::eGraphics, layout, 1,
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
     const bool bothSides = scene.materials[static_cast<size_t>(materialIndex)].doubleSided;
-    // What shines through shows its far side first, then its near side.
-    const bool twice = shaded && bothSides && (item.features & shared::kIsBlended) != 0;
     commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     commands.pushConstants<shared::ObjectConstants>(layout, vk::ShaderStageFlagBits::eVertex, 0,
                                                     item.constants);
     using Cull = vk::CullModeFlagBits;
-    for (const Cull cull : {Cull::eFront, bothSides && !twice ? Cull::eNone : Cull::eBack}) {
-        if (cull == Cull::eFront && !twice)
-            continue;
-        commands.setCullMode(cull);
-        commands.drawIndexed(item.indexCount, 1, item.firstIndex, mesh.firstVertex, 0);
-        statistics.drawnTriangles += item.indexCount / 3;
-        ++statistics.drawCalls;
-    }
+    const bool all = item.sides == DrawItem::Sides::All && bothSides;
+    commands.setCullMode(all ? Cull::eNone : item.sides == DrawItem::Sides::Far ? Cull::eFront : Cull::eBack);
+    commands.drawIndexed(item.indexCount, 1, item.firstIndex, mesh.firstVertex, 0);
+    statistics.drawnTriangles += item.indexCount / 3;
+    ++statistics.drawCalls;
 }
 
 void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,

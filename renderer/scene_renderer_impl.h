@@ -19,6 +19,8 @@ struct DrawItem {
     int instance = 0;
     uint32_t firstIndex = 0, indexCount = 0;
     uint32_t features = 0;
+    /// Of what shines through: how far, and which of its sides. All: as the material says.
+    enum class Sides : uint8_t { All, Far, Near } sides = Sides::All;
     double distance = 0.0;
     bool mirrored = false;
     shared::ObjectConstants constants;
@@ -52,6 +54,7 @@ struct SceneRenderer::Impl {
   private:
     void warmUp(int instance);
     void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent);
+    void addBlended(DrawItem item, const glm::dvec3& origin, double halfDepth);
     void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
                        vk::Extent2D extent);
     void writeOverlay(FrameSlot& slot, const OverlayDraw& draw);

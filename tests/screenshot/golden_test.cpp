@@ -54,6 +54,14 @@ TEST_F(Golden, FeatureBoard) {
         expectMutationIsSeen("features", "tile " + std::to_string(tile), draw(featureBoard(tile), view));
 }
 
+TEST_F(Golden, GlassBoard) {
+    const auto scene = glassBoard();
+    const View view = frontViewOf(*scene);
+    expectMatchesGolden("glass", draw(scene, view));
+    for (int wrong = 0; wrong < 5; ++wrong)
+        expectMutationIsSeen("glass", "mistake " + std::to_string(wrong), draw(glassBoard(wrong), view));
+}
+
 TEST_F(Golden, FalseColorHeight) {
     const auto scene = torusScene();
     View view = viewFor(*scene);

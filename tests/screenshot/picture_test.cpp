@@ -263,6 +263,56 @@ TEST_F(Picture, WhatShinesThroughIsSeenBehindItsOwnNearSide) {
     EXPECT_NEAR(seen(2), 137, 2);
 }
 
+TEST_F(Picture, WhatIsWithinAGlassIsSeenBetweenItsFarAndItsNearSide) {
+    View view = squareView();
+    view.background = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    const auto scene = std::make_shared<Scene>();
+    const auto glass = [&](const glm::dvec3& color, bool blended) {
+        Material material;
+        material.baseColor = {0.0f, 0.0f, 0.0f, blended ? 0.5f : 1.0f};
+        material.metallic = 0.0f;
+        material.emissive = glm::vec3(color);
+        material.alphaMode = blended ? AlphaMode::Blend : AlphaMode::Opaque;
+        material.doubleSided = true;
+        scene->materials.push_back(material);
+        return static_cast<int>(scene->materials.size()) - 1;
+    };
+    const auto seen = [&] {
+        const glm::ivec3 bytes = at(draw(scene, view, {}, 33, 33), 16, 16);
+        const auto linear = [](int byte) {
+            const double c = byte / 255.0;
+            return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        };
+        return glm::dvec3(linear(bytes.x), linear(bytes.y), linear(bytes.z));
+    };
+    const auto over = [](const glm::dvec3& color, const glm::dvec3& behind) {
+        return 0.5 * (color + behind);
+    };
+    const glm::dvec3 outer(0.6, 0.0, 0.0), inner(0.0, 0.6, 0.0), core(0.0, 0.0, 0.6);
+    // The inner one is listed first, and nearer than the outer one's middle.
+    const int innerGlass = glass(inner, true), outerGlass = glass(outer, true), solid = glass(core, false);
+    place(*scene, sphereMesh(0.1, 32, 16), innerGlass,
+          glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.1)));
+    place(*scene, sphereMesh(0.3, 32, 16), outerGlass);
+    glm::dvec3 expected = over(outer, over(inner, over(inner, over(outer, glm::dvec3(0.0)))));
+    EXPECT_LT(glm::length(seen() - expected), 0.01);
+    // A solid one in the inner hides the far sides of both.
+    place(*scene, sphereMesh(0.05, 32, 16), solid,
+          glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.1)));
+    EXPECT_LT(glm::length(seen() - over(outer, over(inner, core))), 0.01);
+    // A pane behind them is behind them, and one in front is in front, from whichever side it is seen.
+    for (const double turned : {0.0, 3.14159265358979}) {
+        for (const double z : {-0.35, 0.35}) {
+            place(*scene, quadMesh(0.5), innerGlass,
+                  glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, z)) *
+                      glm::rotate(glm::dmat4(1.0), turned, glm::dvec3(0.0, 1.0, 0.0)));
+            const glm::dvec3 spheres = over(outer, over(inner, core));
+            EXPECT_LT(glm::length(seen() - (z > 0.0 ? over(inner, spheres) : spheres)), 0.01) << z;
+            scene->instances.pop_back();
+        }
+    }
+}
+
 TEST_F(Picture, DistanceFromTheOriginChangesNothing) {
     const auto near = torusScene();
     const PixelData reference = draw(near, viewFor(*near), touchOverlay());

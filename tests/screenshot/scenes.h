@@ -172,6 +172,49 @@ inline std::shared_ptr<Scene> hapticBoard(bool swapped = false) {
     return scene;
 }
 
+/// What lets see through it: glass with something solid and with glass within, a two-sided mask, vertex
+/// colours with alpha, and a pane before it all. `wrong` makes a mistake: 0 the glass is single-sided, 1
+/// nothing is blended, 2 the mask is single-sided, 3 the vertices have no colours, 4 the cutoff is another.
+inline std::shared_ptr<Scene> glassBoard(int wrong = -1) {
+    auto scene = std::make_shared<Scene>();
+    scene->images.push_back(
+        checkerImage("holes", 8, glm::vec4(0.95f, 0.75f, 0.3f, 0.9f), {0.2f, 0.5f, 0.7f, 0.3f}));
+    const auto material = [&](const glm::vec4& color, AlphaMode mode, bool bothSides) {
+        Material made;
+        made.baseColor = color;
+        made.metallic = 0.0f;
+        made.roughness = 0.15f;
+        made.alphaMode = wrong == 1 && mode == AlphaMode::Blend ? AlphaMode::Opaque : mode;
+        made.doubleSided = bothSides;
+        scene->materials.push_back(made);
+        return static_cast<int>(scene->materials.size()) - 1;
+    };
+    const auto at = [](double x, double y, double z) {
+        return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
+    };
+    const int blue = material({0.3f, 0.5f, 0.95f, 0.4f}, AlphaMode::Blend, wrong != 0);
+    const int green = material({0.2f, 0.9f, 0.3f, 0.4f}, AlphaMode::Blend, wrong != 0);
+    const int red = material({0.8f, 0.1f, 0.08f, 1.0f}, AlphaMode::Opaque, false);
+    place(*scene, sphereMesh(0.028, 40, 24), blue, at(-0.07, 0.02, 0.0));
+    place(*scene, sphereMesh(0.014, 40, 24), red, at(-0.07, 0.02, 0.0));
+    place(*scene, sphereMesh(0.028, 40, 24), blue, at(0.0, 0.02, 0.0));
+    place(*scene, sphereMesh(0.016, 40, 24), green, at(0.004, 0.02, 0.004));
+    const int mask = material(glm::vec4(1.0f), AlphaMode::Mask, wrong != 2);
+    scene->materials.back().baseColorTexture = texture(0);
+    scene->materials.back().alphaCutoff = wrong == 4 ? 0.2f : 0.5f;
+    place(*scene, sphereMesh(0.028, 40, 24), mask, at(0.07, 0.02, 0.0));
+    const int fading = material(glm::vec4(1.0f), AlphaMode::Blend, true);
+    Mesh sheet = quadMesh(0.03, 8);
+    for (const glm::vec3& p : sheet.positions)
+        sheet.colors.emplace_back(
+            wrong == 3 ? glm::vec4(1.0f)
+                       : glm::vec4(0.5f + 16.0f * p.x, 0.5f - 16.0f * p.x, 0.9f, 0.5f + 16.0f * p.y));
+    place(*scene, std::move(sheet), fading, at(-0.04, -0.035, 0.0));
+    place(*scene, sphereMesh(0.02, 40, 24), red, at(0.04, -0.035, 0.0));
+    place(*scene, quadMesh(0.03), green, at(0.05, -0.03, 0.03));
+    return scene;
+}
+
 inline OrbitCamera frontCamera(const Scene& scene, double aspect) {
     OrbitCamera camera;
     camera.frame(scene.bounds, aspect);

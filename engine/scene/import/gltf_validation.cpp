@@ -13,11 +13,13 @@ namespace {
 using nlohmann::json;
 
 // Read in full, or drawn and felt without: then the file still shows what it is, and we say so.
-constexpr std::array<std::string_view, 10> kReadExtensions = {
-    "KHR_mesh_quantization",          "KHR_texture_transform", "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression",        "EXT_texture_webp",      "TOUCHSTONE_materials_haptic",
-    "MPEG_haptic_material",           "MPEG_material_haptic",  "KHR_physics_rigid_bodies",
-    "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 11> kReadExtensions = {
+    "KHR_mesh_quantization",      "KHR_texture_transform",
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+    "EXT_texture_webp",           "TOUCHSTONE_materials_haptic",
+    "MPEG_haptic_material",       "MPEG_material_haptic",
+    "KHR_physics_rigid_bodies",   "KHR_materials_emissive_strength",
+    "KHR_materials_transmission"};
 /// Optional extensions whose absence changes what is there to touch or see, and how.
 constexpr std::pair<std::string_view, const char*> kMissedExtensions[] = {
     {"EXT_mesh_gpu_instancing", "its copies of meshes are not placed"},
