@@ -83,15 +83,35 @@ void WindowDevice::createFrames() {
             frame.timestamps = vk::raii::QueryPool(
                 gpu_.device,
                 vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2});
-        const vk::DescriptorSetLayout layout = *sceneSetLayout_;
         for (vk::DescriptorSet& set : frame.sceneSets)
-            set = (*gpu_.device)
-                      .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_,
-                                                                            .descriptorSetCount = 1,
-                                                                            .pSetLayouts = &layout},
-                                              *gpu_.device.getDispatcher())
-                      .front();
+            set = newSet();
     }
+}
+
+vk::DescriptorSet WindowDevice::newSet() const {
+    const vk::DescriptorSetLayout layout = *sceneSetLayout_;
+    return (*gpu_.device)
+        .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_,
+                                                              .descriptorSetCount = 1,
+                                                              .pSetLayouts = &layout},
+                                *gpu_.device.getDispatcher())
+        .front();
+}
+
+void WindowDevice::point(vk::DescriptorSet set, vk::ImageView image) const {
+    const vk::DescriptorImageInfo info{*sampler_, image, vk::ImageLayout::eShaderReadOnlyOptimal};
+    gpu_.device.updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = set,
+                               .descriptorCount = 1,
+                               .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                               .pImageInfo = &info},
+        {});
+}
+
+vk::DescriptorSet WindowDevice::makeSet(vk::ImageView image) const {
+    const vk::DescriptorSet set = newSet();
+    point(set, image);
+    return set;
 }
 
 vk::Extent2D WindowDevice::framebufferSize() const {
@@ -120,29 +140,28 @@ bool WindowDevice::followWindow(WindowTarget::Statistics& statistics) {
     return true;
 }
 
-void WindowDevice::drawScene(const Frame& frame, vk::DescriptorSet set, const FrameSlot& scene,
-                             const PixelRect& where) {
-    const vk::DescriptorImageInfo image{*sampler_, *scene.colorBytes,
-                                        vk::ImageLayout::eShaderReadOnlyOptimal};
-    gpu_.device.updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = set,
-                               .descriptorCount = 1,
-                               .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                               .pImageInfo = &image},
-        {});
+void WindowDevice::drawScene(vk::DescriptorSet set, const FrameSlot& scene, const PixelRect& where) const {
+    point(set, *scene.colorBytes);
+    drawImage(set,
+              {.x = static_cast<float>(where.x),
+               .y = static_cast<float>(where.y),
+               .width = static_cast<float>(where.width),
+               .height = static_cast<float>(where.height),
+               .maxDepth = 1.0f},
+              where);
+}
+
+void WindowDevice::drawImage(vk::DescriptorSet image, const vk::Viewport& viewport,
+                             const PixelRect& where) const {
     const vk::Rect2D visible = within(where, swapchain_.extent());
     if (visible.extent.width == 0 || visible.extent.height == 0)
         return;
-    const vk::raii::CommandBuffer& commands = frame.commands;
+    const vk::raii::CommandBuffer& commands = *recording_;
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *scenePipeline_);
     commands.setCullMode(vk::CullModeFlagBits::eNone);
     commands.setFrontFace(vk::FrontFace::eCounterClockwise);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *sceneLayout_, 0, set, {});
-    commands.setViewport(0, vk::Viewport{.x = static_cast<float>(where.x),
-                                         .y = static_cast<float>(where.y),
-                                         .width = static_cast<float>(where.width),
-                                         .height = static_cast<float>(where.height),
-                                         .maxDepth = 1.0f});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *sceneLayout_, 0, image, {});
+    commands.setViewport(0, viewport);
     commands.setScissor(0, visible);
     commands.draw(3, 1, 0, 0);
 }
@@ -201,15 +220,17 @@ void WindowDevice::record(Frame& frame, uint32_t image, const SceneRenderer* sce
         commands.writeTimestamp2(vk::PipelineStageFlagBits2::eTopOfPipe, *frame.timestamps, 0);
     }
     begin(frame, image, where, whole);
+    recording_ = &commands;
     const std::array places{where.main, where.magnifier};
     for (size_t eye = 0; scene != nullptr && eye < places.size(); ++eye) {
         const FrameSlot* slot = scene->impl().lastFrame(static_cast<Eye>(eye));
         if (slot != nullptr && places[eye].width > 0 && places[eye].height > 0)
-            drawScene(frame, frame.sceneSets[eye], *slot, places[eye]);
+            drawScene(frame.sceneSets[eye], *slot, places[eye]);
     }
     if (!whole)
         keepWithin(*ImGui::GetDrawData(), where.main);
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), *commands);
+    recording_ = nullptr;
     commands.endRenderPass();
     if (drawsOnCanvas())
         canvas_.copyTo(commands, swapchain_.image(image));

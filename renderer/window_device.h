@@ -37,6 +37,11 @@ class WindowDevice {
     void present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
                  WindowTarget::Statistics& statistics);
 
+    /// A set of our own pipeline for an image in layout ShaderReadOnlyOptimal; it lasts as long as this.
+    [[nodiscard]] vk::DescriptorSet makeSet(vk::ImageView image) const;
+    /// While ImGui's draw data are recorded: the image over the viewport, of which `visible` is seen.
+    void drawImage(vk::DescriptorSet image, const vk::Viewport& viewport, const PixelRect& visible) const;
+
     bool captureWanted = false;
     [[nodiscard]] std::optional<PixelData> takeCapture();
 
@@ -59,7 +64,9 @@ class WindowDevice {
     void waitFor(const Frame& frame, WindowTarget::Statistics& statistics);
     void record(Frame& frame, uint32_t image, const SceneRenderer* scene, const EyePlaces& where, bool whole);
     void begin(const Frame& frame, uint32_t image, const EyePlaces& where, bool whole);
-    void drawScene(const Frame& frame, vk::DescriptorSet set, const FrameSlot& scene, const PixelRect& where);
+    [[nodiscard]] vk::DescriptorSet newSet() const;
+    void point(vk::DescriptorSet set, vk::ImageView image) const;
+    void drawScene(vk::DescriptorSet set, const FrameSlot& scene, const PixelRect& where) const;
     void recordCapture(const Frame& frame, uint32_t image);
     void submit(const Frame& frame, uint32_t image);
 
@@ -74,6 +81,7 @@ class WindowDevice {
     vk::raii::DescriptorPool pool_{nullptr}; ///< our sets and ImGui's font
     std::array<Frame, kFramesInFlight> frames_;
     size_t nextFrame_ = 0;
+    const vk::raii::CommandBuffer* recording_ = nullptr;
     vk::Extent2D lastSize_;
     bool outdated_ = true;
 

@@ -1,6 +1,7 @@
 #include "renderer/window_target.h"
 
 #include "engine/core/error.h"
+#include "renderer/gui_pictures.h"
 #include "renderer/imgui_backend.h"
 #include "renderer/window_device.h"
 
@@ -60,6 +61,7 @@ struct WindowTarget::Impl {
     GLFWwindow* window;
     ImGuiBackend gui;
     std::unique_ptr<WindowDevice> device; ///< before ImGui's half of it
+    GuiPictures pictures;
     EyePlaces lastPlaces;
     Clock::time_point lastWhole;
     bool frameBegun = false;
@@ -71,6 +73,7 @@ void WindowTarget::Impl::takeDevice(Gpu& gpu) {
     if (!*gpu.impl().surface)
         throw std::invalid_argument("this Gpu was not made for a window");
     device = std::make_unique<WindowDevice>(gpu.impl(), window);
+    pictures.takeDevice(*device);
     gui.takeDevice(gpu.impl(), device->renderPass(), device->descriptors(), WindowDevice::kFramesInFlight);
 }
 
@@ -82,6 +85,7 @@ void WindowTarget::Impl::leaveDevice() {
         return;
     device->gpu().settle();
     gui.leaveDevice();
+    pictures.leaveDevice();
     device.reset();
 }
 
@@ -139,7 +143,11 @@ void WindowTarget::endFrame(SceneRenderer* scene, const EyePlaces& where) {
     ImGui::Render();
     WindowDevice& device = impl_->onDevice();
     device.captureWanted = impl_->captureWanted; // outlives a device
-    translatingErrors("presenting a frame", [&] { device.present(scene, where, whole, impl_->statistics); });
+    translatingErrors("presenting a frame", [&] {
+        impl_->pictures.upload();
+        device.present(scene, where, whole, impl_->statistics);
+    });
+    impl_->pictures.forgetShown();
     impl_->captureWanted = device.captureWanted;
     if (whole)
         impl_->lastWhole = Clock::now();
@@ -149,7 +157,16 @@ void WindowTarget::endFrame(SceneRenderer* scene, const EyePlaces& where) {
 void WindowTarget::cancelFrame() {
     if (impl_->frameBegun)
         ImGui::EndFrame();
+    impl_->pictures.forgetShown();
     impl_->frameBegun = false;
+}
+
+void WindowTarget::setPicture(size_t place, const PixelData& pixels) {
+    impl_->pictures.set(place, pixels);
+}
+
+void WindowTarget::showPicture(size_t place, const glm::vec2& from, const glm::vec2& to) {
+    impl_->pictures.show(place, from, to);
 }
 
 void WindowTarget::requestCapture() {

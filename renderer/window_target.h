@@ -62,6 +62,15 @@ class WindowTarget {
     /// Ends the ImGui frame that was begun without drawing it; instead of endFrame, on errors.
     void cancelFrame();
 
+    /// Small pictures that ImGui's windows may show, in `kPictures` places: RGBA8, sRGB, opaque. A place
+    /// keeps what was set last, on another device too. Throws std::invalid_argument for another size.
+    static constexpr size_t kPictures = 32;
+    static constexpr int kPictureWidth = 208, kPictureHeight = 130;
+    void setPicture(size_t place, const PixelData& pixels);
+    /// Between beginFrame and endFrame, over what is in the current ImGui window so far, corners in its
+    /// coordinates. Shows nothing where nothing was set.
+    void showPicture(size_t place, const glm::vec2& from, const glm::vec2& to);
+
     /// The next endFrame keeps a copy of what it presents.
     void requestCapture();
     /// The copy: RGBA8, sRGB; empty until a requested frame was presented. Waits for that frame.
