@@ -8,6 +8,7 @@
 #include "workbench/commands.h"
 #include "workbench/editor/drawn_materials.h"
 #include "workbench/editor/material_window.h"
+#include "workbench/gallery/gallery.h"
 #include "workbench/gpu_options.h"
 #include "workbench/guards/interrupt.h"
 #include "workbench/hand/device_port.h"
@@ -107,6 +108,7 @@ class Workbench {
 
     void open(const std::filesystem::path& path) {
         problem_.clear();
+        state_.gallery = false;
         if (isRecording(path))
             return timeline_.open(path);
         longestFrame_ = 0.0;
@@ -373,6 +375,7 @@ class Workbench {
     }
 
     void draw() {
+        gallery_.update(state_.gallery, samples_, memory_.recent, screen_.target());
         const PixelRect area = pictureArea();
         const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
         const PanelFolds folds = state_.folds;
@@ -455,6 +458,10 @@ class Workbench {
                 input.warnings.emplace_back("the neighbourhood watch is being prepared: swept until then");
         }
         input.problem = problem_;
+        input.gallery = gallery_.entries();
+        input.showPicture = [this](size_t place, const glm::vec2& from, const glm::vec2& to) {
+            screen_.target().showPicture(place, from, to);
+        };
         input.recent = memory_.recent;
         input.samples = samples_;
         input.materialNotice = materials_.notice();
@@ -499,6 +506,10 @@ class Workbench {
             problem_.clear();
         if (std::exchange(state_.quitPressed, false))
             window_.close();
+        if (const auto gone = std::exchange(state_.forget, std::nullopt)) {
+            memory_.forget(*gone);
+            remember();
+        }
         for (auto* asked : {&state_.open, &state_.timeline.open})
             if (const auto path = std::exchange(*asked, std::nullopt))
                 leaveFor(*path);
@@ -583,6 +594,7 @@ class Workbench {
     DrawnMaterials drawn_;
     MaterialDesk materials_;
     MaterialPanelState materialState_;
+    Gallery gallery_;
     ViewControl view_;
     Sight sight_;
     StrokeDesk strokes_;

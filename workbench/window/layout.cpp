@@ -139,6 +139,8 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.sound.on = !state.sound.on;
     if (keyPressed(keyOf('e')))
         state.editMaterials = !state.editMaterials;
+    if (ctrlPressed(keyOf('g')))
+        state.gallery = !state.gallery;
     if (ctrlPressed(keyOf('q')))
         state.quitPressed = true;
 }
@@ -243,6 +245,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
         state.folds.bottom = !state.folds.bottom;
     drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);
+    drawGallery(input, state, {0.0f, picture.y, display.x, display.y - picture.y}, widgets);
     drawHelp(input, state, widgets);
     return widgets.take();
 }

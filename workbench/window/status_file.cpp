@@ -36,6 +36,17 @@ nlohmann::ordered_json errorJson(const study::LiveErrorFigures& error) {
             {"below_perception", belowPerception(error)}};
 }
 
+nlohmann::ordered_json galleryJson(const PanelInput& input, const PanelState& state) {
+    constexpr const char* kStates[]{"waiting", "shown", "broken", "missing"}; // by GalleryState
+    nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+    for (const GalleryEntry& entry : input.gallery)
+        entries.push_back({{"file", entry.file.string()},
+                           {"note", entry.note},
+                           {"sample", entry.sample},
+                           {"state", kStates[static_cast<size_t>(entry.state)]}});
+    return {{"open", state.gallery}, {"at", state.galleryAt}, {"entries", std::move(entries)}};
+}
+
 } // namespace
 
 void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
@@ -72,7 +83,11 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"folded",
          {{"scene", state.folds.left}, {"felt", state.folds.right}, {"charts", state.folds.bottom}}},
         {"help", state.help},
+<<<<<<< HEAD
         {"walking", state.walking},
+=======
+        {"gallery", galleryJson(input, state)},
+>>>>>>> 6444004 (Offer our scenes and what was opened before as pictures, drawn by a process of their own)
         {"leaving", state.leaving.has_value()},
         {"introduced", state.introduced},
         {"charts_paused", state.stopped.has_value()},

@@ -20,6 +20,7 @@ struct WindowMemory {
 
     static constexpr size_t kMostRecent = 8;
     void opened(const std::filesystem::path& file);
+    void forget(const std::filesystem::path& file) { std::erase(recent, file); }
 };
 
 /// What `file` holds of it; the rest as it comes. A file that is not there, is broken or of another version

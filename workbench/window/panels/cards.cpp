@@ -76,7 +76,7 @@ void problem(const PanelInput& input, PanelState& state, const WidgetRect& pictu
 
 /// Three lines, until they were read; they wait while something else lies where they would.
 void introduction(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
-    if (state.introduced || input.loading || input.scene == nullptr || state.editMaterials ||
+    if (state.introduced || input.loading || input.scene == nullptr || state.editMaterials || state.gallery ||
         state.timeline.looking || state.view.mode != ViewMode::Shaded)
         return;
     if (beginCard("introduction", picture, 0.5f, 1.0f, widgets)) {
@@ -91,6 +91,10 @@ void introduction(const PanelInput& input, PanelState& state, const WidgetRect& 
         if (ImGui::Button("Got it"))
             state.introduced = true;
         widgets.mark("gotIt");
+        ImGui::SameLine();
+        if (ImGui::Button("Other models (Ctrl+G)"))
+            state.gallery = true;
+        widgets.mark("otherModels");
     }
     ImGui::End();
 }

@@ -6,6 +6,7 @@
 #include "haptics/effect_plan.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/camera.h"
+#include "workbench/gallery/gallery_entry.h"
 #include "workbench/sound/sound_choice.h"
 #include "workbench/timeline/timeline_panel.h"
 #include "workbench/window/force_history.h"
@@ -14,6 +15,7 @@
 #include "workbench/window/view_options.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +31,9 @@ struct PanelInput {
     const Scene* scene = nullptr;      ///< what is shown; null: nothing yet
     const HapticScene* haptic = nullptr;
     std::span<const std::filesystem::path> recent, samples; ///< to open
+    std::span<const GalleryEntry> gallery;
+    /// Shows the picture of an entry of the gallery between two corners, window coordinates.
+    std::function<void(size_t, const glm::vec2&, const glm::vec2&)> showPicture;
     std::vector<std::string> warnings;
     std::string problem; ///< of the last load, with its remedy; empty: none
     std::string notice;  ///< of the recorder: what went wrong, or what was kept
@@ -80,7 +85,12 @@ struct PanelState {
     ViewOptions view;
     PanelFolds folds;
     bool help = false;
+<<<<<<< HEAD
     bool walking = false;       ///< the arrow keys walk through the panels
+=======
+    bool gallery = false; ///< is open
+    size_t galleryAt = 0; ///< entry that Enter opens
+>>>>>>> 6444004 (Offer our scenes and what was opened before as pictures, drawn by a process of their own)
     bool editMaterials = false; ///< the material editor is open
     bool introduced = false;    ///< the first-run card was read
     TimelinePanelState timeline;
@@ -94,7 +104,7 @@ struct PanelState {
     enum class Leave : uint8_t { Undecided, Save, Discard, Stay } leave = Leave::Undecided; ///< in this frame
     bool recordPressed = false, cancelPressed = false, dismissPressed = false, quitPressed = false;
     std::optional<ChartFile> chartWanted;
-    std::optional<std::filesystem::path> open;
+    std::optional<std::filesystem::path> open, forget; ///< forget: that it was opened
 };
 
 } // namespace touchstone

@@ -31,6 +31,8 @@ void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets);
 
 /// What lies over the picture: loading, what went wrong, how to touch.
 void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets);
+/// Pictures of our own scenes and of what was opened before, to open one; over all but the bar.
+void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& place, Widgets& widgets);
 /// Every key and what the pointer does.
 void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets);
 

@@ -86,6 +86,10 @@ void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     }
     widgets.mark("menu:recordings");
     ImGui::Separator();
+    if (ImGui::MenuItem("Gallery", "Ctrl+G"))
+        state.gallery = true;
+    widgets.mark("gallery");
+    ImGui::Separator();
     ImGui::TextDisabled("samples");
     for (const std::filesystem::path& file : input.samples) {
         fileItem(file, false, state);

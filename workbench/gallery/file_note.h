@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace touchstone {
+
+/// What a glTF file says about itself in `asset.extras.description`: a line; empty where it says nothing, is
+/// broken or has more than 16 MiB of JSON. Reads no more than the JSON. Any thread.
+[[nodiscard]] std::string fileNote(const std::filesystem::path& model);
+
+} // namespace touchstone

@@ -1,0 +1,68 @@
+#include "workbench/gallery/gallery.h"
+
+#include "renderer/window_target.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace touchstone {
+
+static_assert(ThumbnailMaker::kWidth == WindowTarget::kPictureWidth &&
+              ThumbnailMaker::kHeight == WindowTarget::kPictureHeight);
+
+void Gallery::fill(std::span<const std::filesystem::path> samples,
+                   std::span<const std::filesystem::path> recent) {
+    // What was in a place is shown until it is known anew.
+    const std::vector<GalleryEntry> before = std::exchange(entries_, {});
+    const auto add = [&](const std::filesystem::path& file, bool sample) {
+        const size_t place = entries_.size();
+        if (place >= WindowTarget::kPictures ||
+            std::ranges::find(entries_, file, &GalleryEntry::file) != entries_.end())
+            return;
+        if (place < before.size() && before[place].file == file)
+            entries_.push_back(before[place]);
+        else
+            entries_.push_back({.file = file, .note = {}, .sample = sample});
+    };
+    for (const std::filesystem::path& file : samples)
+        add(file, true);
+    for (const std::filesystem::path& file : recent)
+        add(file, false);
+    recent_.assign(recent.begin(), recent.end());
+    if (maker_ == nullptr)
+        maker_ = std::make_unique<ThumbnailMaker>(std::filesystem::read_symlink("/proc/self/exe"),
+                                                  ThumbnailCache(ThumbnailCache::usualFolder()));
+    maker_->cancel();
+    while (maker_->take()) { // of another order
+    }
+    for (const GalleryEntry& entry : entries_)
+        maker_->request(entry.file);
+}
+
+void Gallery::update(bool open, std::span<const std::filesystem::path> samples,
+                     std::span<const std::filesystem::path> recent, WindowTarget& target) {
+    const bool opened = open && !open_;
+    open_ = open;
+    if (!open) {
+        if (maker_ != nullptr)
+            maker_->cancel();
+        return;
+    }
+    if (opened || !std::ranges::equal(recent_, recent))
+        fill(samples, recent);
+    // One a frame: reaching the device takes a while.
+    const std::optional<Thumbnail> made = maker_->take();
+    if (!made)
+        return;
+    const auto entry = std::ranges::find(entries_, made->file, &GalleryEntry::file);
+    if (entry == entries_.end())
+        return;
+    entry->note = made->note;
+    entry->state = made->missing                 ? GalleryState::Missing
+                   : made->picture.bytes.empty() ? GalleryState::Broken
+                                                 : GalleryState::Shown;
+    if (entry->state == GalleryState::Shown)
+        target.setPicture(static_cast<size_t>(entry - entries_.begin()), made->picture);
+}
+
+} // namespace touchstone

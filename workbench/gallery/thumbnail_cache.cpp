@@ -1,0 +1,74 @@
+#include "workbench/gallery/thumbnail_cache.h"
+
+#include "engine/core/checksum.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+constexpr int kVersion = 1; ///< of how thumbnails look: another one finds none of the old
+
+} // namespace
+
+std::filesystem::path ThumbnailCache::usualFolder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::filesystem::path(value != nullptr ? value : "");
+    };
+    std::filesystem::path cache = std::filesystem::temp_directory_path();
+    if (const std::filesystem::path asked = variable("XDG_CACHE_HOME"); asked.is_absolute())
+        cache = asked;
+    else if (const std::filesystem::path home = variable("HOME"); home.is_absolute())
+        cache = home / ".cache";
+    return cache / "touchstone" / "thumbnails";
+}
+
+std::filesystem::path ThumbnailCache::pictureOf(const std::filesystem::path& model) const {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::canonical(model, error);
+    if (error || !std::filesystem::is_regular_file(whole, error))
+        return {};
+    const auto time = std::filesystem::last_write_time(whole, error);
+    const uintmax_t size = std::filesystem::file_size(whole, error);
+    if (error)
+        return {};
+    Hash64 hash;
+    hash.add(kVersion);
+    const std::string name = whole.string();
+    hash.addBytes(std::as_bytes(std::span(name)));
+    hash.add(time.time_since_epoch().count());
+    hash.add(size);
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%016llx.png", static_cast<unsigned long long>(hash.value()));
+    return folder_ / text.data();
+}
+
+bool ThumbnailCache::makeRoom() const {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error)
+        return false;
+    struct Kept {
+        std::filesystem::file_time_type time;
+        std::filesystem::path file;
+    };
+    std::vector<Kept> kept;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
+        if (entry.path().extension() == ".png")
+            kept.push_back({entry.last_write_time(error), entry.path()});
+    if (kept.size() >= kMost) {
+        std::ranges::sort(kept, std::greater<>{}, &Kept::time);
+        for (size_t i = kMost - 1; i < kept.size(); ++i)
+            std::filesystem::remove(kept[i].file, error);
+    }
+    return true;
+}
+
+} // namespace touchstone
