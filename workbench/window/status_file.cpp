@@ -83,11 +83,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"folded",
          {{"scene", state.folds.left}, {"felt", state.folds.right}, {"charts", state.folds.bottom}}},
         {"help", state.help},
-<<<<<<< HEAD
         {"walking", state.walking},
-=======
         {"gallery", galleryJson(input, state)},
->>>>>>> 6444004 (Offer our scenes and what was opened before as pictures, drawn by a process of their own)
         {"leaving", state.leaving.has_value()},
         {"introduced", state.introduced},
         {"charts_paused", state.stopped.has_value()},

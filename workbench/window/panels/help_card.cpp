@@ -52,13 +52,9 @@ constexpr Line kLook[]{
 };
 constexpr Line kWindow[]{
     {"F2, F3, F4; Tab", "fold the scene, what is felt, the charts; all"},
-<<<<<<< HEAD
     {"F10, Escape", "arrows and Enter work the panels; leaves them"},
     {"Ctrl+O", "opens a model or a recording; drop it here, too"},
-=======
-    {"Ctrl+O", "opens a model or a recording"},
-    {"Ctrl+G", "shows our scenes and what was opened before"},
->>>>>>> 6444004 (Offer our scenes and what was opened before as pictures, drawn by a process of their own)
+    {"Ctrl+G", "our scenes and what was opened before"},
     {"Ctrl+Q", "quits"},
     {"F1 or ?, Escape", "shows this; puts it away"},
 };

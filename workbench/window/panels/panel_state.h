@@ -85,12 +85,9 @@ struct PanelState {
     ViewOptions view;
     PanelFolds folds;
     bool help = false;
-<<<<<<< HEAD
     bool walking = false;       ///< the arrow keys walk through the panels
-=======
-    bool gallery = false; ///< is open
-    size_t galleryAt = 0; ///< entry that Enter opens
->>>>>>> 6444004 (Offer our scenes and what was opened before as pictures, drawn by a process of their own)
+    bool gallery = false;       ///< is open
+    size_t galleryAt = 0;       ///< entry that Enter opens
     bool editMaterials = false; ///< the material editor is open
     bool introduced = false;    ///< the first-run card was read
     TimelinePanelState timeline;
