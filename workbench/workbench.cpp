@@ -2,7 +2,6 @@
 // second.
 
 #include "engine/core/error.h"
-#include "haptics/servo/servo_loop.h"
 #include "renderer/draw_quality.h"
 #include "renderer/frame_pace.h"
 #include "workbench/commands.h"
@@ -11,22 +10,15 @@
 #include "workbench/gallery/gallery.h"
 #include "workbench/gpu_options.h"
 #include "workbench/guards/interrupt.h"
-#include "workbench/hand/device_port.h"
-#include "workbench/hand/hand_switch.h"
-#include "workbench/hand/held_device.h"
-#include "workbench/hand/sight.h"
-#include "workbench/hand/stroke_desk.h"
 #include "workbench/model/animate.h"
-#include "workbench/model/background_build.h"
 #include "workbench/model/default_scene.h"
 #include "workbench/model/opening.h"
-#include "workbench/sound/sound_desk.h"
 #include "workbench/state_folder.h"
 #include "workbench/timeline/timeline_desk.h"
+#include "workbench/touch/live_touch.h"
 #include "workbench/window/layout.h"
 #include "workbench/window/leaving.h"
 #include "workbench/window/model_picture.h"
-#include "workbench/window/recording_desk.h"
 #include "workbench/window/saved_file.h"
 #include "workbench/window/screen.h"
 #include "workbench/window/status_file.h"
@@ -55,7 +47,6 @@ constexpr int kSoftwarePixels = 800 * 450;  // of the scene image where the CPU 
 constexpr int kHardwarePixels = 2560 * 1440;
 constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
 constexpr double kSoftwareError = 0.25; // pixels, by which simplified meshes differ where the CPU draws them
-constexpr double kChartSeconds = 10.0;
 
 double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -85,10 +76,8 @@ class Workbench {
         : memory_(readMemory(stateFolder() / kMemoryFile)),
           window_("Touchstone", firstSize(options.size, memory_.size)),
           screen_(window_, gpuOptions(options.gpu)), quality_(qualityOn(screen_.gpu())),
-          servo_(portOf(sound_.hand()), {.rateHz = options.rateHz, .stageTimes = true}),
-          desk_(servo_, options.recording, "window", [this](const std::string& text) { notice_ = text; }),
-          timeline_(again_, recordingFolders(options.recording)), liveError_(options.rateHz),
-          forces_(static_cast<size_t>(kChartSeconds * options.rateHz)), status_(options.statusJson) {
+          touch_(options, [this](const std::string& text) { notice_ = text; }),
+          timeline_(touch_.again(), recordingFolders(options.recording)), status_(options.statusJson) {
         // What the command line asks for goes before what the last run left.
         state_.settings = memory_.settings;
         for (const auto& [name, value] : options.settings)
@@ -103,7 +92,7 @@ class Workbench {
         state_.device = options.device;
         holdDevice();
         sendSettings();
-        servo_.start();
+        touch_.start();
     }
 
     void open(const std::filesystem::path& path) {
@@ -112,16 +101,10 @@ class Workbench {
         if (isRecording(path))
             return timeline_.open(path);
         longestFrame_ = 0.0;
-        opening_.start(path, held_.limits());
+        opening_.start(path, touch_.limits());
     }
 
-    /// Ends what is recorded as it should.
-    ~Workbench() {
-        servo_.stop();
-        servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, secondsNow());
-        desk_.finish();
-        remember();
-    }
+    ~Workbench() { remember(); }
     Workbench(const Workbench&) = delete;
     Workbench& operator=(const Workbench&) = delete;
 
@@ -135,23 +118,14 @@ class Workbench {
         if (const auto dropped = window_.takeDropped())
             leaveFor(*dropped);
         leave();
-        servo_.updateSnapshot();
-        servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, start);
-        desk_.update();
+        touch_.update(start);
         lookBack(start);
         onScreen([this] {
             if (screen_.target().beginFrame())
                 draw();
         });
-        if (const auto goal = view_.handGoal())
-            hand_.mouse().moveTo(*goal); // in every frame: a frozen window is a hand that is gone
-        else
-            hand_.mouse().release();
-        sound_.update(state_.sound);
-        hand_.simulate(state_.simulatedHand);
-        layStroke();
-        hand_.face(view_.workspaceFromView());
-        held_.menu().renew(start);
+        moveHand();
+        touch_.devices().renew(start);
         holdDevice();
         pace(start);
     }
@@ -166,7 +140,7 @@ class Workbench {
         return false;
     }
     [[nodiscard]] bool loading() const { return opening_.busy() || timeline_.opening(); }
-    [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
+    [[nodiscard]] bool hasModel() const { return touch_.hasModel(); }
 
   private:
     /// Work that draws. Where its device is lost another is taken, and shows again what was shown.
@@ -213,48 +187,28 @@ class Workbench {
     }
 
     void show(LoadedModel loaded) {
-        loaded.model.haptic =
-            limited(*loaded.model.haptic); // another hand may be held than when it was begun
-        shown_ = std::move(loaded);
-        drawn_.shown(shown_.model.scene);
-        shown_.identity.generated = shown_.model.scene->path == defaultScene().string();
-        materials_.open(shown_.model, isSample(shown_.model.scene->path));
-        offerScene();
-        hand_.offerPath(shown_.path);
-        strokes_.show(shown_.model.scene, shown_.model.workspaceFromScene, shown_.path);
-        view_.lookAt(workspaceBounds(shown_.model), aspect());
-        forces_.clear();
-        memory_.opened(std::filesystem::absolute(shown_.model.scene->path));
+        const ScenePtr scene = loaded.model.scene;
+        touch_.show(std::move(loaded), scene->path == defaultScene().string());
+        drawn_.shown(scene);
+        materials_.open(touch_.shown().model, isSample(scene->path));
+        view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
+        memory_.opened(std::filesystem::absolute(scene->path));
         remember();
-        window_.setTitle(shown_.model.scene->path + " – Touchstone");
+        window_.setTitle(scene->path + " – Touchstone");
     }
 
     /// Touches what the material editor has made, and goes on touching where it may.
     void takeMaterials() {
         if (!hasModel())
             return;
-        if (const std::optional<FileStamp> saved = materials_.takeSaved()) {
-            const std::filesystem::path& path = materials_.path();
-            shown_.identity.path = path.string();
-            shown_.identity.absolutePath = std::filesystem::absolute(path).string();
-            shown_.identity.generated = false;
-            shown_.identity.fileSize = saved->size;
-            shown_.identity.fileHash = saved->hash;
-            shown_.identity.edits = textOf(materials_.edits().patches());
-            desk_.recorder().sceneOffered(offered_, shown_.identity);
-        }
-        const std::optional<MadeMaterials> made = materials_.update(shown_.model);
+        if (const std::optional<FileStamp> saved = materials_.takeSaved())
+            touch_.saved(materials_.path(), *saved, textOf(materials_.edits().patches()));
+        const std::optional<MadeMaterials> made = materials_.update(touch_.shown().model);
         if (!made)
             return;
-        if (made->scene != nullptr)
-            shown_.model.scene = made->scene;
         if (made->read)
             drawn_.renew(); // it has other images
-        made->haptic->limits = held_.limits();
-        shown_.model.haptic = made->haptic;
-        shown_.identity.feltHash = made->feltHash;
-        shown_.identity.edits = made->edits;
-        offerScene(made->touchGoesOn ? SceneSwap::SameGeometry : SceneSwap::Anew);
+        touch_.change(*made);
     }
 
     void leaveFor(const std::filesystem::path& path) {
@@ -281,10 +235,10 @@ class Workbench {
     /// throws where it cannot be opened.
     void lookBack(double now) {
         timeline_.update({.now = now,
-                          .model = hasModel() ? &shown_.model : nullptr,
-                          .open = hasModel() ? &shown_.identity : nullptr,
-                          .live = &forces_,
-                          .servoTime = servo_.snapshot().time,
+                          .model = hasModel() ? &touch_.shown().model : nullptr,
+                          .open = hasModel() ? &touch_.shown().identity : nullptr,
+                          .live = &touch_.forces(),
+                          .servoTime = touch_.tick().time,
                           .listed = state_.timeline.shown});
         if (const std::optional<Error> problem = timeline_.takeProblem()) {
             if (!hasModel() && !opening_.busy())
@@ -297,22 +251,22 @@ class Workbench {
 
     /// What the picture and the panels show: the recording's tick while one is looked at.
     [[nodiscard]] const TickRecord& shownTick() const {
-        return timeline_.looking() && !timeline_.again().running() ? timeline_.tick() : servo_.snapshot();
+        return timeline_.looking() && !timeline_.again().running() ? timeline_.tick() : touch_.tick();
     }
 
     /// The settings as they are chosen; but the force is off while a recording is looked at.
     void sendSettings() {
         HapticSettings settings = state_.settings;
         settings.forceEnabled = settings.forceEnabled && !timeline_.looking();
-        if (sent_ != settings)
-            servo_.setSettings(*(sent_ = settings));
+        touch_.send(settings);
     }
 
     void showMaterials() {
         if (opening_.uploading())
             return drawn_.interrupt();
         try {
-            drawn_.update(screen_.renderer(), shown_.model.scene, state_.view.mode != ViewMode::Shaded);
+            drawn_.update(screen_.renderer(), touch_.shown().model.scene,
+                          state_.view.mode != ViewMode::Shaded);
         } catch (const DeviceLost&) {
             throw;
         } catch (const std::exception& error) {
@@ -321,10 +275,8 @@ class Workbench {
     }
 
     void prepareSettings() {
-        if (!hasModel())
-            return;
         try {
-            build_.update(shown_.model.haptic, state_.settings);
+            touch_.prepare(state_.settings);
         } catch (const std::exception& error) {
             problem_ = std::string("the settings could not be prepared: ") + error.what();
             state_.settings.contact = ContactMethod::Sweep;
@@ -333,45 +285,22 @@ class Workbench {
         }
     }
 
-    /// Lays the simulated hand's stroke where the hand was last.
-    void layStroke() {
-        const HapticOutput& felt = servo_.snapshot().output;
-        if (felt.contacts > 0 && servo_.snapshot().scene == offered_)
-            strokes_.touched({felt.proxy, felt.normal});
-        if (auto path = strokes_.update(state_.stroke, -view_.camera().forward(), state_.simulatedHand))
-            hand_.offerPath(std::move(path));
+    /// Tells the hand where it is to be, whichever it is.
+    void moveHand() {
+        HandSwitch& hand = touch_.hand();
+        if (const auto goal = view_.handGoal())
+            hand.mouse().moveTo(*goal); // in every frame: a frozen window is a hand that is gone
+        else
+            hand.mouse().release();
+        hand.simulate(state_.simulatedHand);
+        hand.face(view_.workspaceFromView());
+        touch_.sound().update(state_.sound);
+        touch_.layStroke(state_.stroke, -view_.camera().forward(), state_.simulatedHand);
     }
 
     void holdDevice() {
-        if (held_.choose(state_.device) && hasModel())
-            try {
-                shown_.model.haptic = limited(*shown_.model.haptic);
-                offerScene();
-            } catch (const std::bad_alloc&) {
-                held_.drop(state_.device);
-                problem_ = "there is not enough memory for the device's limits: nothing is held";
-            }
-        if (!hasModel() || servo_.snapshot().scene == offered_)
-            held_.limitsHold();
-    }
-
-    /// The same scene within the hand's limits.
-    [[nodiscard]] std::shared_ptr<HapticScene> limited(const HapticScene& scene) const {
-        std::shared_ptr<HapticScene> copy = copyOf(scene);
-        copy->limits = held_.limits();
-        copy->warnings = scene.warnings;
-        return copy;
-    }
-
-    /// To the servo, and to what records it.
-    void offerScene(SceneSwap swap = SceneSwap::Anew) {
-        shown_.identity.limits = shown_.model.haptic->limits;
-        sight_.show(shown_.model.haptic, shown_.model.scene);
-        if (swap == SceneSwap::Anew)
-            sound_.interrupt();
-        offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene, swap);
-        desk_.recorder().sceneOffered(offered_, shown_.identity);
-        liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);
+        if (!touch_.hold(state_.device))
+            problem_ = "there is not enough memory for the device's limits: nothing is held";
     }
 
     void draw() {
@@ -388,10 +317,7 @@ class Workbench {
                       .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
                       .mouseIsHand = state_.device.empty() && !state_.simulatedHand && !timeline_.looking(),
                       .looksBack = timeline_.looking(),
-                      .look =
-                          [this](const Ray& ray) {
-                              return sight_.look(ray, servo_.snapshot().time, state_.settings);
-                          }},
+                      .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
                      state_.view);
         doWhatWasAsked(widgets);
         sendSettings();
@@ -400,9 +326,9 @@ class Workbench {
 
         if (hasModel()) {
             showMaterials();
-            poseAt(shownTick().time, *shown_.model.scene, screen_.renderer());
+            poseAt(shownTick().time, *touch_.shown().model.scene, screen_.renderer());
         }
-        const ModelPicture::Frame frame{.model = shown_.model,
+        const ModelPicture::Frame frame{.model = touch_.shown().model,
                                         .tick = shownTick(),
                                         .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
                                         .settings = shownSettings(),
@@ -426,10 +352,11 @@ class Workbench {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         MaterialPanelInput input;
         if (hasModel()) {
-            input.scene = shown_.model.scene.get();
-            input.deviceStiffness = shown_.model.haptic->limits.recommendedStiffness;
-            const int object = servo_.snapshot().output.object;
-            const auto& objects = shown_.model.haptic->objects;
+            const Model& model = touch_.shown().model;
+            input.scene = model.scene.get();
+            input.deviceStiffness = model.haptic->limits.recommendedStiffness;
+            const int object = touch_.tick().output.object;
+            const auto& objects = model.haptic->objects;
             if (object >= 0 && static_cast<size_t>(object) < objects.size())
                 input.probed = objects[static_cast<size_t>(object)]->material;
         }
@@ -443,18 +370,18 @@ class Workbench {
     [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize) {
         PanelInput input;
         if (hasModel()) {
-            const Scene& scene = *shown_.model.scene;
+            const Scene& scene = *touch_.shown().model.scene;
             input.scene = &scene;
-            input.haptic = shown_.model.haptic.get();
+            input.haptic = touch_.shown().model.haptic.get();
             input.modelName = std::filesystem::path(scene.path).filename().string();
             input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
                                (scene.touchable() ? "" : ": nothing to touch");
-            for (const auto* warnings : {&scene.warnings, &shown_.model.haptic->warnings})
+            for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
                 for (const Warning& warning : *warnings)
                     input.warnings.push_back(warning.place + ": " + warning.message);
             for (std::string& warning : settingWarnings(state_.settings))
                 input.warnings.push_back(std::move(warning));
-            if (has(servoView_.last.output.flags, TickFlag::NeighbourhoodMissing))
+            if (has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
                 input.warnings.emplace_back("the neighbourhood watch is being prepared: swept until then");
         }
         input.problem = problem_;
@@ -475,18 +402,19 @@ class Workbench {
         input.loadFraction = recording ? timeline_.openingFraction() : opening_.fraction();
         input.loadActivity = recording ? "reading the recording" : opening_.activity();
         input.notice = notice_;
-        input.recording = desk_.recorder().recording();
-        input.recordingFile = desk_.recorder().file().string();
-        input.recordedSeconds = static_cast<double>(desk_.recorder().ticks()) / servo_.rateHz();
-        input.canSimulate = shown_.path != nullptr;
-        input.strokeNotice = strokes_.notice();
-        input.devices = held_.menu().offers();
-        input.deviceStatus = held_.menu().status();
-        input.sound = sound_.status();
-        input.servo = &servoView_;
+        const ServoRecorder& recorder = touch_.recording().recorder();
+        input.recording = recorder.recording();
+        input.recordingFile = recorder.file().string();
+        input.recordedSeconds = static_cast<double>(recorder.ticks()) / touch_.rateHz();
+        input.canSimulate = touch_.shown().path != nullptr;
+        input.strokeNotice = touch_.strokeNotice();
+        input.devices = touch_.devices().offers();
+        input.deviceStatus = touch_.devices().status();
+        input.sound = touch_.sound().status();
+        input.servo = &touch_.figures();
         input.timeline = &timeline_;
-        input.tick = timeline_.looking() ? &shownTick() : &servoView_.last;
-        input.forces = &forces_;
+        input.tick = timeline_.looking() ? &shownTick() : &touch_.figures().last;
+        input.forces = &touch_.forces();
         input.framesPerSecond = pace_.rate();
         input.camera = view_.camera();
         input.picture = picture_.message();
@@ -499,7 +427,7 @@ class Workbench {
     /// What the buttons and menus of this frame asked for.
     void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {
         if (std::exchange(state_.recordPressed, false))
-            desk_.toggle();
+            touch_.recording().toggle();
         if (std::exchange(state_.cancelPressed, false))
             opening_.cancel(screen_.renderer()), timeline_.cancelOpening();
         if (std::exchange(state_.dismissPressed, false))
@@ -524,7 +452,7 @@ class Workbench {
     void saveChart() {
         try {
             const std::filesystem::path file = savedFile("charts", ".csv");
-            writeChart(file, state_.stopped ? *state_.stopped : forces_);
+            writeChart(file, state_.stopped ? *state_.stopped : touch_.forces());
             notice_ = "saved " + file.string();
         } catch (const std::exception& error) {
             problem_ = error.what();
@@ -577,30 +505,16 @@ class Workbench {
     Window window_;
     Screen screen_;
     DrawQuality quality_;
-    HandSwitch hand_;
-    HeldDevice held_{hand_};
-    AgainHand again_{hand_};
-    SoundDesk sound_{again_};
-    uint32_t offered_ = 0; // number of the newest scene
-    ServoLoop servo_;
     std::string notice_; // of the recorder
-    RecordingDesk desk_;
+    LiveTouch touch_;
     TimelineDesk timeline_;
-    std::optional<HapticSettings> sent_; ///< to the servo
-    study::LiveError liveError_;
     Opening opening_;
-    LoadedModel shown_;
-    BackgroundBuild build_;
     DrawnMaterials drawn_;
     MaterialDesk materials_;
     MaterialPanelState materialState_;
     Gallery gallery_;
     ViewControl view_;
-    Sight sight_;
-    StrokeDesk strokes_;
     PanelState state_;
-    ServoView servoView_;
-    ForceHistory forces_;
     ModelPicture picture_{stateFolder() / "pictures"};
     PictureDesk chartPictures_{stateFolder() / "pictures"};
     StatusFile status_;

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "haptics/servo/servo_loop.h"
+#include "study/live/live_error.h"
+#include "workbench/commands.h"
+#include "workbench/editor/live_materials.h"
+#include "workbench/hand/hand_switch.h"
+#include "workbench/hand/held_device.h"
+#include "workbench/hand/sight.h"
+#include "workbench/hand/stroke_desk.h"
+#include "workbench/model/background_build.h"
+#include "workbench/model/model_loader.h"
+#include "workbench/sound/sound_desk.h"
+#include "workbench/timeline/again_hand.h"
+#include "workbench/window/force_history.h"
+#include "workbench/window/recording_desk.h"
+#include "workbench/window/servo_view.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace touchstone {
+
+/// The touch of the window: the hand that is held, the servo, what records it, lets it be heard and compares
+/// it with the most exact way, and the model that all of them have. Main thread; the ticks are the servo's
+/// own.
+class LiveTouch {
+  public:
+    /// `tell` gets what a person is to know of recordings. Errors as RecordingDesk. The servo stands still
+    /// until `start`.
+    LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell);
+    /// Ends what is recorded as it should.
+    ~LiveTouch();
+    LiveTouch(const LiveTouch&) = delete;
+    LiveTouch& operator=(const LiveTouch&) = delete;
+    void start() { servo_.start(); }
+
+    [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
+    [[nodiscard]] const LoadedModel& shown() const { return shown_; } ///< empty before the first model
+    /// Touches another model, within the limits of the hand of now. `generated`: our own, made anew anywhere.
+    void show(LoadedModel loaded, bool generated);
+    /// Goes on with other materials of the same model; touch goes on where it may.
+    void change(const MadeMaterials& made);
+    /// The model's file has been written, with these edits in it.
+    void saved(const std::filesystem::path& path, const FileStamp& stamp, std::string edits);
+
+    /// In every frame: takes what the servo has made. `now`: s, any steady clock.
+    void update(double now);
+    /// In every frame: what holds from the next tick on.
+    void send(const HapticSettings& settings);
+    /// In every frame: builds on a worker what the settings call for. Throws what stopped that, once.
+    void prepare(const HapticSettings& settings);
+    /// In every frame: takes up the device that was chosen (HeldDevice). False where there is not enough
+    /// memory for its limits; then `choice` is empty and nothing is held.
+    [[nodiscard]] bool hold(std::string& choice);
+    /// In every frame: lays the simulated hand's stroke where the hand was last. `facing`: unit vector
+    /// towards the eye, workspace.
+    void layStroke(const StrokeRequest& stroke, const glm::dvec3& facing, bool simulated);
+
+    /// Of the hand that is held or will be next.
+    [[nodiscard]] DeviceLimits limits() const { return held_.limits(); }
+    /// What lies on a ray of the workspace now.
+    [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
+        return sight_.look(ray, tick().time, settings);
+    }
+    [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); } ///< the newest at `update`
+    [[nodiscard]] double rateHz() const { return servo_.rateHz(); }
+    [[nodiscard]] const ServoView& figures() const { return servoView_; }
+    [[nodiscard]] const ForceHistory& forces() const { return forces_; }
+    [[nodiscard]] HandSwitch& hand() { return hand_; }
+    [[nodiscard]] DeviceMenu& devices() { return held_.menu(); }
+    [[nodiscard]] AgainHand& again() { return again_; }
+    [[nodiscard]] SoundDesk& sound() { return sound_; }
+    [[nodiscard]] RecordingDesk& recording() { return desk_; }
+    [[nodiscard]] std::string strokeNotice() const { return strokes_.notice(); }
+
+  private:
+    [[nodiscard]] std::shared_ptr<HapticScene> limited(const HapticScene& scene) const;
+    void offerScene(SceneSwap swap = SceneSwap::Anew);
+
+    HandSwitch hand_;
+    HeldDevice held_{hand_};
+    AgainHand again_{hand_};
+    SoundDesk sound_{again_};
+    ServoLoop servo_;
+    RecordingDesk desk_;
+    study::LiveError liveError_;
+    ServoView servoView_;
+    ForceHistory forces_;
+    LoadedModel shown_;
+    uint32_t offered_ = 0;               // number of the newest scene
+    std::optional<HapticSettings> sent_; // to the servo
+    BackgroundBuild build_;
+    Sight sight_;
+    StrokeDesk strokes_;
+};
+
+} // namespace touchstone
