@@ -28,6 +28,11 @@ class WindowDevice {
     [[nodiscard]] vk::DescriptorPool descriptors() const { return *pool_; }
     [[nodiscard]] vk::Extent2D extent() const { return swapchain_.extent(); }
 
+    /// Whether a frame may draw a part only.
+    void keepPanels(bool may) {
+        keepsPanels_ = may;
+        outdated_ = true; // with a canvas or without
+    }
     /// Makes the swapchain follow the framebuffer's size. False while the window has no area.
     bool followWindow(WindowTarget::Statistics& statistics);
     /// A frame may draw a part only: there is a canvas, and it holds the rest.
@@ -58,7 +63,7 @@ class WindowDevice {
 
     void createScenePipeline();
     void createFrames();
-    [[nodiscard]] bool drawsOnCanvas() const { return gpu_.software && swapchain_.fillable(); }
+    [[nodiscard]] bool drawsOnCanvas() const { return keepsPanels_ && swapchain_.fillable(); }
     [[nodiscard]] vk::Extent2D framebufferSize() const;
     [[nodiscard]] std::optional<uint32_t> acquire(const Frame& frame);
     void waitFor(const Frame& frame, WindowTarget::Statistics& statistics);
@@ -84,6 +89,7 @@ class WindowDevice {
     const vk::raii::CommandBuffer* recording_ = nullptr;
     vk::Extent2D lastSize_;
     bool outdated_ = true;
+    bool keepsPanels_ = false;
 
     GpuBuffer captureBuffer_;
     vk::Extent2D captureExtent_;

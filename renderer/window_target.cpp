@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 
 // GLFW declares this only when it includes Vulkan itself.
@@ -66,6 +67,7 @@ struct WindowTarget::Impl {
     Clock::time_point lastWhole;
     bool frameBegun = false;
     bool captureWanted = false;
+    std::optional<bool> keepsPanels; ///< nothing: as suits the device
     WindowTarget::Statistics statistics;
 };
 
@@ -73,6 +75,7 @@ void WindowTarget::Impl::takeDevice(Gpu& gpu) {
     if (!*gpu.impl().surface)
         throw std::invalid_argument("this Gpu was not made for a window");
     device = std::make_unique<WindowDevice>(gpu.impl(), window);
+    device->keepPanels(keepsPanels.value_or(gpu.impl().software));
     pictures.takeDevice(*device);
     gui.takeDevice(gpu.impl(), device->renderPass(), device->descriptors(), WindowDevice::kFramesInFlight);
 }
@@ -118,6 +121,11 @@ void WindowTarget::takeDevice(Gpu& gpu) {
 
 void WindowTarget::leaveDevice() {
     impl_->leaveDevice();
+}
+
+void WindowTarget::keepPanels(bool may) {
+    impl_->keepsPanels = may;
+    impl_->onDevice().keepPanels(may);
 }
 
 glm::ivec2 WindowTarget::size() const {

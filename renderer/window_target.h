@@ -46,6 +46,10 @@ class WindowTarget {
     /// Goes on with another device of the same window. Throws Error.
     void takeDevice(Gpu& gpu);
 
+    /// Whether what lies outside the picture may be drawn less often than it; where the CPU draws it may, at
+    /// first. Before a beginFrame.
+    void keepPanels(bool may);
+
     /// Framebuffer size in pixels at the last beginFrame.
     [[nodiscard]] glm::ivec2 size() const;
 
@@ -55,8 +59,8 @@ class WindowTarget {
     [[nodiscard]] bool beginFrame();
 
     /// Ends the ImGui frame, draws the last images of `scene` (may be null) bilinearly into their places, the
-    /// ImGui windows over them, and presents. After every beginFrame that returned true. Where the CPU draws,
-    /// what lies outside where.main is drawn ten times a second only, except while the user is at it.
+    /// ImGui windows over them, and presents. After every beginFrame that returned true. Where panels are
+    /// kept, what lies outside where.main is drawn ten times a second only, except while the user is at it.
     void endFrame(SceneRenderer* scene, const EyePlaces& where);
 
     /// Ends the ImGui frame that was begun without drawing it; instead of endFrame, on errors.

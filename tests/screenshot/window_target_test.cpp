@@ -19,7 +19,8 @@ namespace {
 
 constexpr glm::ivec3 kPanelColor(20, 200, 40); ///< of the ImGui rectangle, bytes
 
-class WindowTargetTest : public ::testing::Test {
+/// The parameter: panels are kept, or all is drawn in every frame, as on a GPU.
+class WindowTargetTest : public ::testing::TestWithParam<bool> {
   protected:
     void SetUp() override {
         useLavapipe();
@@ -34,6 +35,7 @@ class WindowTargetTest : public ::testing::Test {
         gpu_ = createGpuForWindow(window_, options);
         ASSERT_TRUE(gpu_->validationActive()) << gpu_->validationNote();
         target_ = std::make_unique<WindowTarget>(*gpu_, window_);
+        target_->keepPanels(GetParam());
         scene_ = torusScene(64, 24);
         renderer_ = std::make_unique<SceneRenderer>(*gpu_);
         renderer_->setScene(scene_);
@@ -102,7 +104,7 @@ class WindowTargetTest : public ::testing::Test {
     std::unique_ptr<SceneRenderer> renderer_;
 };
 
-TEST_F(WindowTargetTest, ShowsPanelAndSceneByteForByte) {
+TEST_P(WindowTargetTest, ShowsPanelAndSceneByteForByte) {
     for (int i = 0; i < 5; ++i)
         ASSERT_TRUE(frame());
     // Scene image and its place in the window have the same size: no filtering between them.
@@ -124,7 +126,7 @@ TEST_F(WindowTargetTest, ShowsPanelAndSceneByteForByte) {
     EXPECT_NE(at(drawn, 270, 180), at(drawn, 5, 5)) << "there is something to see";
 }
 
-TEST_F(WindowTargetTest, FollowsAResizeThatOnlyTheFramebufferSizeTells) {
+TEST_P(WindowTargetTest, FollowsAResizeThatOnlyTheFramebufferSizeTells) {
     ASSERT_TRUE(frame());
     const uint64_t made = target_->statistics().swapchainsMade;
     glfwSetWindowSize(window_, 900, 500);
@@ -145,7 +147,7 @@ TEST_F(WindowTargetTest, FollowsAResizeThatOnlyTheFramebufferSizeTells) {
     EXPECT_TRUE(drawUntil([&] { return target_->size() == glm::ivec2(780, 490); }));
 }
 
-TEST_F(WindowTargetTest, DrawsNothingWhileMinimisedAndComesBack) {
+TEST_P(WindowTargetTest, DrawsNothingWhileMinimisedAndComesBack) {
     ASSERT_TRUE(frame());
     glfwHideWindow(window_);
     glfwIconifyWindow(window_);
@@ -159,11 +161,15 @@ TEST_F(WindowTargetTest, DrawsNothingWhileMinimisedAndComesBack) {
     EXPECT_TRUE(drawUntil([&] { return target_->statistics().framesPresented > before + 3; }));
 }
 
-TEST_F(WindowTargetTest, PanelsAreDrawnTenTimesASecondAndThePictureInEveryFrame) {
+TEST_P(WindowTargetTest, PanelsAreDrawnTenTimesASecondAndThePictureInEveryFrame) {
     for (int i = 0; i < 5; ++i)
         ASSERT_TRUE(frame());
     std::this_thread::sleep_for(std::chrono::milliseconds(110));
     ASSERT_TRUE(frame());
+    if (!GetParam()) {
+        EXPECT_EQ(target_->statistics().wholeFrames, target_->statistics().framesPresented);
+        return;
+    }
     // At once: another panel and another model.
     const glm::ivec3 other(200, 20, 90);
     renderer_->setScene(nullptr);
@@ -187,7 +193,7 @@ TEST_F(WindowTargetTest, PanelsAreDrawnTenTimesASecondAndThePictureInEveryFrame)
     EXPECT_LT(target_->statistics().wholeFrames, target_->statistics().framesPresented);
 }
 
-TEST_F(WindowTargetTest, GoesOnWithAnotherDevice) {
+TEST_P(WindowTargetTest, GoesOnWithAnotherDevice) {
     ASSERT_TRUE(frame());
     const uint64_t before = target_->statistics().framesPresented;
     ASSERT_TRUE(target_->beginFrame());
@@ -208,14 +214,14 @@ TEST_F(WindowTargetTest, GoesOnWithAnotherDevice) {
     EXPECT_EQ(at(capture(), 50, 180), kPanelColor);
 }
 
-TEST_F(WindowTargetTest, CaptureIsOnlyThereWhenAsked) {
+TEST_P(WindowTargetTest, CaptureIsOnlyThereWhenAsked) {
     ASSERT_TRUE(frame());
     EXPECT_FALSE(target_->takeCapture().has_value());
     EXPECT_GT(capture().width, 0);
     EXPECT_FALSE(target_->takeCapture().has_value());
 }
 
-TEST_F(WindowTargetTest, AFrameCanBeGivenUpAndSceneMayBeMissing) {
+TEST_P(WindowTargetTest, AFrameCanBeGivenUpAndSceneMayBeMissing) {
     ASSERT_TRUE(target_->beginFrame());
     target_->cancelFrame();
     ASSERT_TRUE(target_->beginFrame());
@@ -223,7 +229,7 @@ TEST_F(WindowTargetTest, AFrameCanBeGivenUpAndSceneMayBeMissing) {
     EXPECT_TRUE(frame());
 }
 
-TEST_F(WindowTargetTest, ScenesAndModesChangeBetweenFrames) {
+TEST_P(WindowTargetTest, ScenesAndModesChangeBetweenFrames) {
     ASSERT_TRUE(frame());
     renderer_->setScene(nullptr);
     ASSERT_TRUE(frame());
@@ -231,6 +237,9 @@ TEST_F(WindowTargetTest, ScenesAndModesChangeBetweenFrames) {
     ASSERT_TRUE(frame({64, 64}));
     ASSERT_TRUE(frame({512, 256}));
 }
+
+INSTANTIATE_TEST_SUITE_P(Panels, WindowTargetTest, testing::Bool(),
+                         [](const auto& kept) { return std::string(kept.param ? "Kept" : "InEveryFrame"); });
 
 } // namespace
 } // namespace touchstone::test

@@ -170,6 +170,7 @@ TEST_F(DeviceLossWindowTest, ItSaysSoAndGoesOn) {
         EXPECT_GT(told["servo"]["ticks"], before["servo"]["ticks"]) << kind;
         const Json after = until("a touch", [](const Json& s) { return s["tick"]["contacts"] > 0; });
         EXPECT_EQ(after["model"], "doughnut.glb");
+        later(); // a card takes its place in its second frame
         display_.click(middleOf("dismiss"));
         until("the word to be taken back", [](const Json& s) { return s["problem"] == ""; });
         pause(5000); // three within ten seconds would be too many
