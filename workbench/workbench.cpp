@@ -240,6 +240,9 @@ class Workbench {
                           .live = &touch_.forces(),
                           .servoTime = touch_.tick().time,
                           .listed = state_.timeline.shown});
+        // Off and on again clears a latch, which nobody must do unawares: the force then stays off.
+        if (timeline_.looking() && has(servo_.snapshot().output.flags, TickFlag::SafetyLatched))
+            state_.settings.forceEnabled = false;
         if (const std::optional<Error> problem = timeline_.takeProblem()) {
             if (!hasModel() && !opening_.busy())
                 throw *problem;

@@ -61,6 +61,8 @@ class AgainHand final : public Device {
 
     /// Owner thread. Null: the own hand.
     void follow(std::shared_ptr<const RecordedPath> path) { path_.offer(std::move(path)); }
+    /// Frees what the servo has let go.
+    void collect() { path_.collect(); }
 
     [[nodiscard]] std::string name() const override { return own_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return own_.limits(); }

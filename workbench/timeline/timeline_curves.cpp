@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -196,11 +197,14 @@ class Strip {
     /// Where what the mark says begins to hold; a gap from the last tick that is known.
     void marks() {
         const float flag = widgets_.units(4.0f);
+        std::array<float, 4> last{-1e9f, -1e9f, -1e9f, -1e9f}; // of each kind
         for (const TimelineMark& mark : line_.marks()) {
             const double at = line_.seconds(std::min(mark.index, line_.size() - 1));
             const float x = xOf(at);
-            if (x < left_ - flag || x > right_ + flag)
+            float& before = last[static_cast<size_t>(mark.kind)];
+            if (x < left_ - flag || x > right_ + flag || x - before < 1.0f)
                 continue;
+            before = x;
             const ImU32 color = colorOf(mark.kind);
             if (mark.kind == TimelineMark::Kind::Gap && mark.index > 0 && mark.index < line_.size()) {
                 const float from = xOf(line_.seconds(mark.index - 1));
@@ -227,6 +231,7 @@ class Strip {
         widgets_.mark(name);
         const float x = ImGui::GetIO().MousePos.x;
         if (ImGui::IsItemActive()) {
+            desk_.stopTouchingAgain();
             desk_.playback().play(false);
             desk_.playback().seek(secondsAt(std::clamp(x, left_, right_)));
         } else if (ImGui::IsItemHovered()) {

@@ -250,6 +250,7 @@ void timelineKeys(TimelineDesk& desk) {
     Playback& at = desk.playback();
     const bool shift = io.KeyShift;
     const auto stepOnce = [&](int direction) {
+        desk.stopTouchingAgain();
         at.play(false);
         if (shift)
             at.stepSeconds(direction * kShiftStep);

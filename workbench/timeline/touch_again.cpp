@@ -80,6 +80,7 @@ void TouchAgain::clear() {
 }
 
 void TouchAgain::update(const ForceHistory& live, double servoTime) {
+    hand_.collect();
     if (std::optional<PathPtr> path = reading_.take()) {
         path_ = std::move(*path);
         seen_ = servoTime;
