@@ -5,6 +5,8 @@
 #include "renderer/window_target.h"
 #include "tests/screenshot/golden.h"
 #include "tests/support/lavapipe.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_servo.h"
 #include "tests/support/virtual_display.h"
 #include "workbench/editor/material_window.h"
 #include "workbench/model/model.h"
@@ -21,6 +23,8 @@
 #include <functional>
 #include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace touchstone::test {
 namespace {
@@ -222,6 +226,59 @@ TEST_F(PanelGolden, Charts) {
         for (int i = 0; i < 2000; ++i)
             forces_.add(tick, false);
     });
+}
+
+/// Eight seconds that touch now and then; at 3 s friction is switched off, at 5 s half a second is missing.
+std::vector<RecordedItem> recorded() {
+    HapticSettings smooth;
+    smooth.friction = FrictionMode::Off;
+    RecordedScene scene{1, {}};
+    scene.identity.path = scene.identity.absolutePath = "/nowhere/cup.glb";
+    std::vector<RecordedItem> items{recordingOrigin("window", 1000.0), scene, RecordedSettings{1, {}},
+                                    RecordedSettings{2, smooth}};
+    RecordedTicks block;
+    for (uint64_t i = 0; i < 8000; ++i) {
+        if (i == 5000) {
+            items.emplace_back(std::exchange(block, {}));
+            items.emplace_back(RecordedLoss{500});
+            i = 5500;
+        }
+        RecordedTick tick;
+        tick.tick = i;
+        tick.time = 1e-3 * static_cast<double>(i);
+        tick.dt = 1e-3;
+        tick.settings = i < 3000 ? 1 : 2;
+        tick.scene = 1;
+        tick.sample.valid = true;
+        const double newton = std::max(0.0, std::sin(2.3 * tick.time)) * (i < 3000 ? 1.0 : 0.7);
+        tick.force = {0.0, newton, 0.0};
+        tick.contacts = newton > 0.0 ? 1 : 0;
+        block.ticks.push_back(tick);
+        if (block.ticks.size() == 1000)
+            items.emplace_back(std::exchange(block, {}));
+    }
+    items.emplace_back(block);
+    items.emplace_back(RecordedEnd{7500});
+    return items;
+}
+
+TEST_F(PanelGolden, ARecordingThatIsLookedAt) {
+    const ScratchFolder scratch;
+    writeItems(scratch / "r.tsrec", recorded());
+    timeline_.open(scratch / "r.tsrec");
+    const auto turn = [&] { timeline_.update({.live = &forces_}); };
+    while (!timeline_.looking())
+        turn();
+    timeline_.playback().seek(2.0);
+    timeline_.playback().markBegin();
+    timeline_.playback().seek(4.0);
+    timeline_.playback().markEnd();
+    timeline_.playback().seek(2.6);
+    while (timeline_.tick().tick != timeline_.playback().cursor())
+        turn();
+    input_.tick = &timeline_.tick();
+    expectPanel("recording", Part::Bottom, [&] { timeline_.playback().seek(7.0); });
+    expectPanel("recording_card", Part::Picture, [&] { timeline_.leave(); });
 }
 
 TEST_F(PanelGolden, FirstRun) {

@@ -3,6 +3,7 @@
 #include "workbench/timeline/timeline_curves.h"
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/keys.h"
+#include "workbench/window/panels/card.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -217,17 +218,12 @@ void drawTimeline(TimelineDesk& desk, TimelinePanelState& state, Widgets& widget
 void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& widgets) {
     if (!desk.looking())
         return;
-    constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
     const float margin = widgets.units(12.0f);
     ImGui::SetNextWindowPos(ImVec2(picture.x + 0.5f * picture.width, picture.y + picture.height - margin),
                             ImGuiCond_Always, ImVec2(0.5f, 1.0f));
     ImGui::SetNextWindowBgAlpha(0.88f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(8.0f)));
-    if (ImGui::Begin("looking", nullptr, kCard)) {
+    if (beginCardWindow("looking", widgets)) {
         ImGui::AlignTextToFramePadding();
         ImGui::TextColored(ImColor(kAmber), desk.again().running()
                                                 ? "The recorded hand touches again; the force is off"
@@ -240,7 +236,7 @@ void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& wid
             ImGui::SetTooltip("Escape");
     }
     ImGui::End();
-    ImGui::PopStyleVar(2);
+    ImGui::PopStyleVar();
 }
 
 void timelineKeys(TimelineDesk& desk) {
