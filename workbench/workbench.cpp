@@ -241,7 +241,7 @@ class Workbench {
                           .servoTime = touch_.tick().time,
                           .listed = state_.timeline.shown});
         // Off and on again clears a latch, which nobody must do unawares: the force then stays off.
-        if (timeline_.looking() && has(servo_.snapshot().output.flags, TickFlag::SafetyLatched))
+        if (timeline_.looking() && has(touch_.tick().output.flags, TickFlag::SafetyLatched))
             state_.settings.forceEnabled = false;
         if (const std::optional<Error> problem = timeline_.takeProblem()) {
             if (!hasModel() && !opening_.busy())
