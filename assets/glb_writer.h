@@ -41,6 +41,8 @@ class GlbWriter {
         std::vector<float> values;
     };
     void animate(const Track& track);
+    /// A line about the file, as asset.extras.description.
+    void describe(const std::string& line) { gltf_["asset"]["extras"]["description"] = line; }
     void useExtension(const std::string& extension);
 
     /// The finished file. Call once.

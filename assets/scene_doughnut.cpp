@@ -28,6 +28,7 @@ double waves(double u, double v) {
 
 SceneFile doughnut() {
     GlbWriter glb("doughnut", Packing::Meshopt);
+    glb.describe("a glaze: grooves and friction");
     const int normal =
         glb.addTexture("waves, normals", png(normalMap(waves, kMapSize, kTileWidth, kWaveHeight)));
     const int height = glb.addTexture("waves, heights", png(heightMap(waves, kMapSize)));

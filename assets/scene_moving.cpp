@@ -23,6 +23,7 @@ Json paint(const char* name, std::array<double, 3> color, double roughness) {
 
 SceneFile moving() {
     GlbWriter glb("moving");
+    glb.describe("a box that rises and turns");
     const int plate =
         glb.addMesh("plate", box(kPlate), glb.addMaterial(paint("slate", {0.40, 0.47, 0.53}, 0.5)));
     const int lift =

@@ -19,9 +19,11 @@ Json paint(const char* name, double red, double green, double blue, bool doubleS
     return material;
 }
 
-SceneFile bare(const std::string& name, const Shape& shape, const Json& material,
+SceneFile bare(const std::string& name, const Shape& shape, const Json& material, const std::string& line,
                Packing packing = Packing::Plain) {
     GlbWriter glb(name, packing);
+    if (!line.empty())
+        glb.describe(line);
     glb.addNode(name, glb.addMesh(name, shape, glb.addMaterial(material)));
     return {name + ".glb", glb.finish()};
 }
@@ -59,30 +61,34 @@ Shape tessellated(const std::string& shape, size_t triangles) {
 
 std::vector<SceneFile> tableOneObjects() {
     return {
-        bare("table1_object1", boxWithSharedCorners(glm::dvec3(0.1)), paint("object 1", 0.25, 0.45, 0.70)),
+        bare("table1_object1", boxWithSharedCorners(glm::dvec3(0.1)), paint("object 1", 0.25, 0.45, 0.70),
+             "a cube of 12 triangles"),
         // Table I's counts (239, 695, 456) fit no closed surface; ours is a torus with as many polygons.
-        bare("table1_object2", torus(0.060, 0.025, 38, 6), paint("object 2", 0.30, 0.60, 0.40)),
-        bare("table1_object3", sphere(0.050, 30, 30), paint("object 3", 0.75, 0.60, 0.25)),
+        bare("table1_object2", torus(0.060, 0.025, 38, 6), paint("object 2", 0.30, 0.60, 0.40),
+             "a ring of 456 triangles"),
+        bare("table1_object3", sphere(0.050, 30, 30), paint("object 3", 0.75, 0.60, 0.25),
+             "a ball of 1,800 triangles"),
         bare("table1_object4", sphere(0.050, 180, 180), paint("object 4", 0.65, 0.35, 0.55),
-             Packing::Meshopt),
+             "a ball of 64,800 triangles", Packing::Meshopt),
     };
 }
 
 std::vector<SceneFile> plainShapes() {
     const Json slate = paint("slate", 0.40, 0.47, 0.53);
     return {
-        bare("torus_64800", torus(0.060, 0.025, 180, 180), slate, Packing::Meshopt),
-        bare("prism_flat", prism(10, 0.050, 0.15, false), slate),
-        bare("prism_smooth", prism(10, 0.050, 0.15, true), slate),
-        bare("plane", plane(0.15, 0.15), paint("slate", 0.40, 0.47, 0.53, true)),
-        bare("box", box(glm::dvec3(0.1)), slate),
+        bare("torus_64800", torus(0.060, 0.025, 180, 180), slate, "64,800 triangles, smooth",
+             Packing::Meshopt),
+        bare("prism_flat", prism(10, 0.050, 0.15, false), slate, "ten sides, facets felt"),
+        bare("prism_smooth", prism(10, 0.050, 0.15, true), slate, "ten sides, shaded round"),
+        bare("plane", plane(0.15, 0.15), paint("slate", 0.40, 0.47, 0.53, true), "one flat square"),
+        bare("box", box(glm::dvec3(0.1)), slate, "flat faces, edges, corners"),
     };
 }
 
 SceneFile bareShape(const std::string& shape, size_t triangles) {
     if (triangles < 2 || triangles > 20'000'000)
         throw std::invalid_argument("between 2 and 20,000,000 triangles can be made");
-    return bare(shape, tessellated(shape, triangles), paint("slate", 0.40, 0.47, 0.53));
+    return bare(shape, tessellated(shape, triangles), paint("slate", 0.40, 0.47, 0.53), "");
 }
 
 std::vector<SceneFile> allScenes() {

@@ -147,6 +147,7 @@ SceneFile swatches() {
     // One closed box whose front (+z) is cut into tiles and the frame between them, each tile a primitive
     // with its own material: a stroke from tile to tile meets no edge, only another material.
     GlbWriter glb("swatches");
+    glb.describe("ten materials side by side");
     const std::vector<double> x = cuts(kColumns), y = cuts(kRows), z{-0.5 * kThickness, 0.5 * kThickness};
     const Face front{2, 1.0, z[1], x, y};
     const auto isTile = [](size_t i, size_t j) { return i % 2 == 1 && j % 2 == 1; };

@@ -24,6 +24,7 @@ double bump(double u, double v) {
 
 SceneFile virtualBump() {
     GlbWriter glb("virtual bump");
+    glb.describe("flat, and feels curved");
     const int height = glb.addTexture("bump, heights", png(heightMap(bump, kMapSize)));
     // No roughness is stated, so that no friction is derived: what pushes sideways is the bump alone.
     const int material = glb.addMaterial(

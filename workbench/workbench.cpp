@@ -7,6 +7,7 @@
 #include "workbench/commands.h"
 #include "workbench/editor/drawn_materials.h"
 #include "workbench/editor/material_window.h"
+#include "workbench/gallery/file_note.h"
 #include "workbench/gallery/gallery.h"
 #include "workbench/gpu_options.h"
 #include "workbench/guards/interrupt.h"
@@ -394,6 +395,7 @@ class Workbench {
         };
         input.recent = memory_.recent;
         input.samples = samples_;
+        input.sampleNotes = sampleNotes_;
         input.materialNotice = materials_.notice();
         input.canSaveMaterials = materials_.canSaveInPlace();
         input.materialsEdited = materials_.edits().edited();
@@ -505,6 +507,7 @@ class Workbench {
 
     WindowMemory memory_;
     const std::vector<std::filesystem::path> samples_ = sampleScenes();
+    const std::vector<std::string> sampleNotes_ = notesOf(samples_);
     Window window_;
     Screen screen_;
     DrawQuality quality_;

@@ -59,4 +59,10 @@ std::string fileNote(const std::filesystem::path& model) {
     return note;
 }
 
+std::vector<std::string> notesOf(std::span<const std::filesystem::path> models) {
+    std::vector<std::string> notes(models.size());
+    std::ranges::transform(models, notes.begin(), fileNote);
+    return notes;
+}
+
 } // namespace touchstone

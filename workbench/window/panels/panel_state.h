@@ -31,6 +31,7 @@ struct PanelInput {
     const Scene* scene = nullptr;      ///< what is shown; null: nothing yet
     const HapticScene* haptic = nullptr;
     std::span<const std::filesystem::path> recent, samples; ///< to open
+    std::span<const std::string> sampleNotes;               ///< what there is to feel in each sample
     std::span<const GalleryEntry> gallery;
     /// Shows the picture of an entry of the gallery between two corners, window coordinates.
     std::function<void(size_t, const glm::vec2&, const glm::vec2&)> showPicture;

@@ -17,37 +17,10 @@ void beneath() {
     ImGui::SetNextWindowPos(ImVec2(ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + 4.0f));
 }
 
-/// What there is to feel in our own scenes.
-const char* sampleMeaning(const std::string& name) {
-    struct Sample {
-        const char *name, *meaning;
-    };
-    constexpr Sample kSamples[]{
-        {"box.glb", "flat faces, edges and corners"},
-        {"doughnut.glb", "a glaze: grooves and friction"},
-        {"moving.glb", "a box that rises and turns"},
-        {"plane.glb", "one flat square"},
-        {"prism_flat.glb", "a ten-sided prism, facets felt"},
-        {"prism_smooth.glb", "the same, shaded round"},
-        {"swatches.glb", "materials side by side"},
-        {"table1_object1.glb", "a cube of 12 triangles"},
-        {"table1_object2.glb", "a ring of 456 triangles"},
-        {"table1_object3.glb", "a ball of 1,800 triangles"},
-        {"table1_object4.glb", "a ball of 64,800 triangles"},
-        {"torus_64800.glb", "64,800 triangles, smooth"},
-        {"virtual_bump.glb", "a flat plane that feels curved"},
-    };
-    for (const Sample& sample : kSamples)
-        if (name == sample.name)
-            return sample.meaning;
-    return "";
-}
-
-/// A file as a line of a menu, its folder behind it.
-void fileItem(const std::filesystem::path& file, bool withFolder, PanelState& state) {
+/// A file as a line of a menu.
+void fileItem(const std::filesystem::path& file, const std::string& beside, PanelState& state) {
     ImGui::PushID(file.c_str());
-    const std::string name = file.filename().string(),
-                      beside = withFolder ? file.parent_path().string() : sampleMeaning(name);
+    const std::string name = file.filename().string();
     if (ImGui::MenuItem(name.c_str(), beside.c_str()))
         state.open = file;
     ImGui::PopID();
@@ -91,15 +64,16 @@ void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.mark("gallery");
     ImGui::Separator();
     ImGui::TextDisabled("samples");
-    for (const std::filesystem::path& file : input.samples) {
-        fileItem(file, false, state);
+    for (size_t i = 0; i < input.samples.size(); ++i) {
+        const std::filesystem::path& file = input.samples[i];
+        fileItem(file, input.sampleNotes[i], state);
         widgets.mark(("sample:" + file.filename().string()).c_str());
     }
     if (!input.recent.empty()) {
         ImGui::Separator();
         ImGui::TextDisabled("opened before");
         for (const std::filesystem::path& file : input.recent)
-            fileItem(file, true, state);
+            fileItem(file, file.parent_path().string(), state);
     }
     ImGui::Separator();
     if (ImGui::MenuItem("Save the picture", "F12"))
