@@ -2,12 +2,15 @@
 // the servo of now.
 
 #include "tests/unit/workbench/timeline/recordings.h"
+#include "workbench/hand/device_port.h"
 #include "workbench/timeline/lens.h"
 #include "workbench/timeline/touch_again.h"
 #include "workbench/timeline/verification.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -19,10 +22,12 @@ class StillHand final : public Device {
     std::string name() const override { return "still"; }
     DeviceLimits limits() const override { return {}; }
     DeviceSample sample(double) noexcept override { return at(place); }
-    void apply(const DeviceCommand&) noexcept override { ++applied; }
+    void apply(const DeviceCommand& command) noexcept override {
+        most = std::max(most.load(), glm::length(command.force()));
+    }
 
     glm::dvec3 place{0.0, 0.0, 0.2};
-    int applied = 0;
+    std::atomic<double> most{0.0}; ///< N, that it was sent
 };
 
 void pause() {
@@ -122,7 +127,7 @@ TEST_F(AgainTest, VerifyingNamesTheTickThatDiffersAndItsStage) {
         << bad.text();
 }
 
-TEST_F(AgainTest, TheHandGlidesInAndOutAndTheDeviceFeelsNothingMeanwhile) {
+TEST_F(AgainTest, TheHandGlidesInAndOut) {
     StillHand own;
     AgainHand hand(own);
     const auto sampleAt = [&](double time) {
@@ -155,6 +160,29 @@ TEST_F(AgainTest, TheHandGlidesInAndOutAndTheDeviceFeelsNothingMeanwhile) {
     }
     EXPECT_EQ(last, own.place);
     EXPECT_LT(fastest, 1.5 * 0.3 / AgainHand::kGlideTime) << "no jump";
+}
+
+TEST_F(AgainTest, ADeviceThatIsHeldFeelsNothingOfWhatIsTouchedAgain) {
+    const TouchedScene scene = touchedScene("doughnut.glb");
+    StillHand own; // in the air, with the force on
+    AgainHand hand(own);
+    ServoLoop servo(portOf(hand), {.rateHz = 1000.0, .wantRealtime = false});
+    servo.offerScene(scene.haptic, scene.source);
+    std::vector<RecordedPath::Sample> samples;
+    for (int i = 0; i < 1000; ++i)
+        samples.push_back({1e-3 * i, overTheDoughnut(1e-3 * i), true});
+    hand.follow(std::make_shared<const RecordedPath>(std::move(samples)));
+    servo.start();
+    double most = 0.0;
+    while (servo.counters().ticks < 2000) {
+        TickRecord record;
+        while (servo.popRecord(record))
+            most = std::max(most, glm::length(record.output.command.force()));
+        pause();
+    }
+    servo.stop();
+    EXPECT_GT(most, 0.1) << "the servo would have pushed";
+    EXPECT_EQ(own.most, 0.0);
 }
 
 TEST(RecordedPathTest, BeginsWhereWhatMovesWasAndGoesRound) {
