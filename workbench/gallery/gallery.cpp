@@ -1,6 +1,7 @@
 #include "workbench/gallery/gallery.h"
 
 #include "renderer/window_target.h"
+#include "workbench/gallery/file_note.h"
 
 #include <algorithm>
 #include <utility>
@@ -22,7 +23,7 @@ void Gallery::fill(std::span<const std::filesystem::path> samples,
         if (place < before.size() && before[place].file == file)
             entries_.push_back(before[place]);
         else
-            entries_.push_back({.file = file, .note = {}, .sample = sample});
+            entries_.push_back({.file = file, .note = sample ? fileNote(file) : "", .sample = sample});
     };
     for (const std::filesystem::path& file : samples)
         add(file, true);

@@ -9,7 +9,7 @@ namespace touchstone {
 /// for what a file was, by its path, time and size, so a file that has changed has none. Any one thread.
 class ThumbnailCache {
   public:
-    /// The newest that are kept: some 40 kB each.
+    /// The newest that are kept: some 12 kB each.
     static constexpr size_t kMost = 200;
 
     explicit ThumbnailCache(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -28,8 +28,8 @@ class ThumbnailMaker {
   public:
     static constexpr int kWidth = 208, kHeight = 130;
     static constexpr unsigned kMostSeconds = 60;
-    /// Among our own threads and the system's: behind the window, the loader and whatever else runs.
-    static constexpr int kNiceness = 15;
+    /// Among our own threads and the system's: behind the window, as the loader.
+    static constexpr int kNiceness = 10;
 
     /// `program`: what draws, a touchstone.
     ThumbnailMaker(std::filesystem::path program, ThumbnailCache cache);

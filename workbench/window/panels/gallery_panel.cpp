@@ -13,7 +13,7 @@ namespace touchstone {
 namespace {
 
 // Units of layout. A picture is as large as it is made, so that no filter blurs it.
-constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 56.0f, kGap = 14.0f, kInset = 4.0f,
+constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 50.0f, kGap = 14.0f, kInset = 4.0f,
                 kMargin = 24.0f;
 constexpr ImU32 kGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255),
                 kChosen = IM_COL32(97, 173, 255, 255), kSign = IM_COL32(240, 180, 60, 255);
