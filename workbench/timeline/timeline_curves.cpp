@@ -54,11 +54,12 @@ double niceCeiling(double most) {
 /// A stretch of the recording on a strip of the window.
 class Strip {
   public:
-    Strip(TimelineDesk& desk, double begin, double end, float height, Widgets& widgets)
+    /// `near`: forces that are never near zero fill the strip.
+    Strip(TimelineDesk& desk, double begin, double end, bool near, float height, Widgets& widgets)
         : desk_(desk), line_(desk.timeline()), widgets_(widgets), draw_(*ImGui::GetWindowDrawList()),
           corner_(ImGui::GetCursorScreenPos()), left_(corner_.x + widgets.units(kLabelWidth)),
           right_(corner_.x + ImGui::GetContentRegionAvail().x), height_(height), begin_(begin),
-          end_(std::max(end, begin + 1e-6)) {}
+          end_(std::max(end, begin + 1e-6)), near_(near) {}
 
     /// Curve, contact, marks and cursor; scrubs. True while it is being dragged.
     bool draw(const char* name) {
@@ -74,6 +75,10 @@ class Strip {
         char text[24];
         std::snprintf(text, sizeof text, "%g N", most_);
         draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), top()), kLabel, text);
+        std::snprintf(text, sizeof text, "%g", least_);
+        if (least_ > 0.0)
+            draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), bottom() - ImGui::GetTextLineHeight()), kLabel,
+                          text);
         return scrub(name);
     }
     /// A line of the column on the left, from above.
@@ -97,7 +102,9 @@ class Strip {
         return left_ + width() * static_cast<float>((seconds - begin_) / (end_ - begin_));
     }
     [[nodiscard]] float yOf(double newton) const {
-        return bottom() - 1.0f - (height_ - 3.0f) * static_cast<float>(std::clamp(newton / most_, 0.0, 1.0));
+        return bottom() - 1.0f -
+               (height_ - 3.0f) *
+                   static_cast<float>(std::clamp((newton - least_) / (most_ - least_), 0.0, 1.0));
     }
     [[nodiscard]] int columns() const { return static_cast<int>(width()); }
 
@@ -112,12 +119,21 @@ class Strip {
     }
 
     void findScale() {
-        const size_t first = line_.indexAt(begin_), last = line_.indexAt(end_) + 1;
-        double most = static_cast<double>(line_.force().over(first, last).most);
+        MinMax all = line_.force().over(line_.indexAt(begin_), line_.indexAt(end_) + 1);
         feltAgain();
         for (const std::optional<MinMax>& column : again_)
-            most = std::max(most, column ? static_cast<double>(column->most) : 0.0);
-        most_ = niceCeiling(std::max(kLeastTop, most));
+            if (column)
+                all = {std::min(all.least, column->least), std::max(all.most, column->most)};
+        most_ = niceCeiling(std::max(kLeastTop, static_cast<double>(all.most)));
+        least_ = 0.0;
+        // Nothing but contact: the differences are what is looked at.
+        constexpr double kSteps = 4.0;
+        if (!near_ || static_cast<double>(all.least) < 0.3 * most_)
+            return;
+        const double step = niceCeiling(
+            std::max(0.02, static_cast<double>(all.most) - static_cast<double>(all.least)) / kSteps);
+        least_ = step * std::floor(static_cast<double>(all.least) / step);
+        most_ = step * std::ceil(static_cast<double>(all.most) / step + 1e-6);
     }
 
     /// What was felt again, by column. Of more ticks than this in a strip it is not drawn: the near view has
@@ -157,7 +173,7 @@ class Strip {
 
     /// From the least to the most of each column: no peak is lost, however long it is.
     void curve() {
-        float before = yOf(0.0);
+        float before = yOf(least_);
         for (int c = 0; c < columns(); ++c) {
             const auto [first, last] = ticksOf(c);
             const float x = left_ + static_cast<float>(c);
@@ -263,14 +279,15 @@ class Strip {
     float left_, right_, height_;
     double begin_, end_;
     std::vector<std::optional<MinMax>> again_;
-    double most_ = 1.0; // N, what the height of the strip stands for
+    bool near_;                       // the scale fits what is shown
+    double least_ = 0.0, most_ = 1.0; // N, at its lower and its upper edge
 };
 
 } // namespace
 
 void drawOverview(TimelineDesk& desk, float height, Widgets& widgets) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    Strip strip(desk, 0.0, desk.timeline().length(), height, widgets);
+    Strip strip(desk, 0.0, desk.timeline().length(), false, height, widgets);
     (void)strip.draw("timeline");
     char text[48];
     std::snprintf(text, sizeof text, "%.3f s", desk.playback().seconds());
@@ -292,7 +309,7 @@ void drawNear(TimelineDesk& desk, TimelinePanelState& state, float height, Widge
     if (!dragged && (offset < 0.02 || offset > 0.98))
         state.nearBegin = at.seconds() - (at.playing() || desk.again().running() ? 0.1 : 0.5) * state.span;
     state.nearBegin = std::clamp(state.nearBegin, 0.0, std::max(0.0, length - state.span));
-    Strip strip(desk, state.nearBegin, std::min(length, state.nearBegin + state.span), height, widgets);
+    Strip strip(desk, state.nearBegin, std::min(length, state.nearBegin + state.span), true, height, widgets);
     (void)strip.draw("near");
     const float wheel = ImGui::GetIO().MouseWheel;
     if (ImGui::IsItemHovered() && wheel != 0.0f) {
