@@ -13,8 +13,8 @@
 
 namespace touchstone {
 
-/// Triangles of a mesh that differ from the full ones by about `error`, in the mesh's units:
-/// libmeshoptimizer's mean over the surface (quadrics). The worst place of a torus is six times as far.
+/// Triangles of a mesh of which 99 of 100 places are within about `error` of the full ones, in the mesh's
+/// units (measured on tori and ToyCar: 0.9 to 1.6 times that).
 struct DrawLevel {
     uint32_t firstIndex = 0, indexCount = 0;
     double error = 0.0;
