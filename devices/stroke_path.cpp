@@ -65,15 +65,15 @@ StrokePath StrokePath::around(std::span<const glm::dvec3> waypoints, double spee
         const double fraction = edgeLength > 0.0 ? std::clamp((at - edgeStart) / edgeLength, 0.0, 1.0) : 0.0;
         control.push_back(glm::mix(waypoints[edge], waypoints[(edge + 1) % count], fraction));
     }
-    return StrokePath(std::move(control), kKnotInterval);
+    return StrokePath(std::move(control), kKnotInterval, waypoints[0]);
 }
 
-StrokePath StrokePath::through(std::vector<glm::dvec3> control, double interval) {
+StrokePath StrokePath::through(std::vector<glm::dvec3> control, double interval, const glm::dvec3& place) {
     if (control.empty() || !std::ranges::all_of(control, finite))
         throw Error("stroke path", "", "a control point is missing or not finite", "give finite points");
     if (!(interval > 0.0) || !std::isfinite(interval))
         throw Error("stroke path", "", "the interval is not a positive number", "give one above 0 s");
-    return StrokePath(std::move(control), interval);
+    return StrokePath(std::move(control), interval, place);
 }
 
 glm::dvec3 StrokePath::position(double time) const noexcept {

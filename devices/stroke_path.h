@@ -39,20 +39,25 @@ class StrokePath {
 
     /// Through the neighbourhood of `control`, `interval` s after each other, for ever: each point is passed
     /// within a sixth of its second difference. Throws Error without a finite point or interval.
-    [[nodiscard]] static StrokePath through(std::vector<glm::dvec3> control, double interval);
+    /// `place`: where on the surface it is laid.
+    [[nodiscard]] static StrokePath through(std::vector<glm::dvec3> control, double interval,
+                                            const glm::dvec3& place);
 
     [[nodiscard]] glm::dvec3 position(double time) const noexcept; ///< m, device frame; time in s
     [[nodiscard]] glm::dvec3 velocity(double time) const noexcept; ///< m/s
+    /// m: what stays where it is when the hand's workspace is zoomed; of a tour, where it begins.
+    [[nodiscard]] const glm::dvec3& place() const { return place_; }
     [[nodiscard]] double period() const { return interval_ * static_cast<double>(control_.size()); } ///< s
 
   private:
-    StrokePath(std::vector<glm::dvec3> control, double interval)
-        : control_(std::move(control)), interval_(interval) {}
+    StrokePath(std::vector<glm::dvec3> control, double interval, const glm::dvec3& place)
+        : control_(std::move(control)), interval_(interval), place_(place) {}
     [[nodiscard]] const glm::dvec3& control(size_t knot, size_t offset) const noexcept {
         return control_[(knot + offset) % control_.size()];
     }
     std::vector<glm::dvec3> control_;
     double interval_; // s
+    glm::dvec3 place_;
 };
 
 /// A stroke over whatever `scene` holds (rest pose), placed by `deviceFromScene`: from above the model down

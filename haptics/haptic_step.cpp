@@ -219,7 +219,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Shading);
 
     // 5. Texture: what the maps say there.
-    const glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
+    glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
     SurfaceFeel feel;
     bool plain = true;
     if (rest.contactCount > 0) {
@@ -248,8 +248,12 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     settleClearance(proxy, state);
 
     // 7. Force.
+    if (output.zoom > 1.0)
+        velocity /= output.zoom;
     output.force = workspaceFromAnchor.direction(plain ? plainForce(feel, velocity)
                                                        : springDamperForce(feel, stretch, velocity));
+    if (output.zoom > 1.0)
+        output.force *= bearableShare(feel.stiffness, output.zoom, settings, scene.limits);
     output.flags |= rest.flags;
     publishProxy(workspaceFromAnchor, state, rest, output);
     // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
@@ -329,8 +333,9 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
 
         // 1. Sample.
         const DeviceSample& sample = input.devices[i];
-        const Similarity& workspaceFromDevice = input.workspaceFromDevice;
-        const bool sampled = takeSample(sample, workspaceFromDevice, input.dt, state, output.flags);
+        const Similarity& workspaceFromDevice = sample.mapping.workspaceFromDevice;
+        const bool sampled = takeSample(sample, input.dt, state, output.flags);
+        output.zoom = workspaceFromDevice.scale;
         output.hip = output.proxy = state.hip;
         output.hipVelocity = state.velocity;
         stopwatch.lap(Stage::Sample);
@@ -350,7 +355,8 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
                                   .late = input.late,
                                   .passivity = settings.passivity,
                                   .position = sample.position,
-                                  .springLength = output.penetration / workspaceFromDevice.scale};
+                                  .springLength = output.penetration / workspaceFromDevice.scale,
+                                  .coupling = sample.mapping.coupling};
         output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
                                              state.limiter, output.flags);
         output.energyBalance = state.limiter.passivity.balance;

@@ -27,7 +27,6 @@ struct TickInput {
     double dt = 1e-3;                      ///< s, > 0
     bool late = false;                     ///< the previous tick ended after its next deadline
     std::span<const DeviceSample> devices; ///< one per device
-    Similarity workspaceFromDevice;        ///< clutch and zoom
     /// Poses at this tick; empty: every object rests where HapticScene placed it.
     ObjectMotions objects;
 };
@@ -37,6 +36,7 @@ struct WorldState {};
 
 /// What one device gets from one tick. Workspace frame, SI, unless said otherwise.
 struct HapticOutput {
+    double zoom = 1.0;           ///< m in the workspace for one m of the device
     glm::dvec3 hip{0.0};         ///< haptic interface point
     glm::dvec3 hipVelocity{0.0}; ///< m/s, filtered
     glm::dvec3 proxy{0.0};       ///< centre of the proxy sphere (IHIP, god-object)

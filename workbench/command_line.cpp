@@ -1,5 +1,6 @@
 #include "workbench/command_line.h"
 
+#include "devices/workspace_map.h"
 #include "haptics/servo/servo_loop.h"
 #include "renderer/view.h"
 #include "workbench/editor/haptic_fields.h"
@@ -149,6 +150,14 @@ CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& 
     return name;
 }
 
+void addZoom(CLI::App& app, double& zoom) {
+    app.add_option(
+           "--workspace-scale", zoom,
+           "How far the hand goes in the model for each metre of the device, or of the simulated hand [1]")
+        ->type_name("FACTOR")
+        ->check(CLI::Range(kLeastZoom, kMostZoom));
+}
+
 void addRate(CLI::App& app, double& rate, const std::string& meaning) {
     app.add_option("--rate", rate, meaning)
         ->type_name("HZ")
@@ -227,6 +236,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     });
     app.add_flag("--sound", options.sound, "Let the force be heard from the start");
     addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
+    addZoom(app, options.zoom);
     addSize(app, options.size, "Size of the window [1280x800]");
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
@@ -251,6 +261,7 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     CLI::Option* plant = addPlant(app, options.plant)->excludes(open);
     CLI::Option* stroke =
         addStroke(app, options.stroke, "How it strokes (listed at the end of --help) [tour]");
+    addZoom(app, options.zoom);
     addDevice(app, "hand (the simulated one, the default)",
               [&options](const std::string& device) { options.device = device; });
     app.parse_complete_callback([&options, open, plant, stroke] {

@@ -33,6 +33,7 @@ struct WindowOptions {
     bool sound = false;               ///< start with sound, whatever the last run did
     bool simulatedHand = false;       ///< start with the simulated hand instead of the mouse
     StrokeRequest stroke;             ///< of the simulated hand
+    double zoom = 1.0;                ///< m in the workspace for one m of a device or the simulated hand
     std::string device;               ///< start with this device (devices/device_choice.h); empty: none
     glm::ivec2 size{1280, 800};       ///< screen coordinates
     std::filesystem::path statusJson; ///< written twice a second when given
@@ -52,6 +53,7 @@ struct RunOptions {
     std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
     RecordingOptions recording;
     StrokeRequest stroke;  ///< of the simulated hand
+    double zoom = 1.0;     ///< m in the workspace for one m of what is held
     bool openLoop = false; ///< the hand follows its path whatever the force
     PlantParameters plant; ///< in the closed loop
     std::string gpu;

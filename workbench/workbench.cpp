@@ -90,6 +90,7 @@ class Workbench {
         state_.introduced = memory_.introduced;
         state_.simulatedHand = options.simulatedHand;
         state_.stroke = options.stroke;
+        state_.workspace.zoom = options.zoom;
         state_.device = options.device;
         holdDevice();
         sendSettings();
@@ -297,6 +298,9 @@ class Workbench {
         else
             hand.mouse().release();
         hand.simulate(state_.simulatedHand);
+        hand.workspace(state_.workspace);
+        if (std::exchange(state_.centrePressed, false))
+            hand.centre();
         hand.face(view_.workspaceFromView());
         touch_.sound().update(state_.sound);
         touch_.layStroke(state_.stroke, -view_.camera().forward(), state_.simulatedHand);

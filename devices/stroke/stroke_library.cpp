@@ -244,7 +244,7 @@ StrokePath layKind(const TriangleSource& triangles, const StrokeKind& kind, cons
     const LaidCurve curve = laid(triangles, bounds, kind, request, allowed);
     StrokeMotion motion(curve, allowed.depth + kHover);
     kind.move(motion, curve, allowed);
-    return motion.finish();
+    return motion.finish(curve.at(0.0, allowed.depth));
 }
 
 /// The kind that is asked for, with its speed and depth; throws where there is none.

@@ -83,8 +83,8 @@ void StrokeMotion::tremble(double seconds, double amplitude) {
     });
 }
 
-StrokePath StrokeMotion::finish() const {
-    return StrokePath::through(control_, kInterval);
+StrokePath StrokeMotion::finish(const glm::dvec3& place) const {
+    return StrokePath::through(control_, kInterval, place);
 }
 
 } // namespace touchstone

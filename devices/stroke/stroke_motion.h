@@ -28,7 +28,8 @@ class StrokeMotion {
     void tremble(double seconds, double amplitude);
 
     /// What was written, for ever. It should have come back to where it began.
-    [[nodiscard]] StrokePath finish() const;
+    /// `place`: on the surface.
+    [[nodiscard]] StrokePath finish(const glm::dvec3& place) const;
 
   private:
     void add(double way, double lift) { control_.push_back(curve_.at(way, lift)); }

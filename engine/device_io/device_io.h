@@ -1,6 +1,8 @@
 #pragma once
 // The two plain structs through which the haptic step and a device talk. Neither side links the other.
 
+#include "engine/math/similarity.h"
+
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -10,6 +12,14 @@ namespace touchstone {
 
 class ForceLimiter;
 
+/// What clutch and zoom make of a place of the device: part of a tick's input. Forces are turned back by it
+/// and not scaled.
+struct DeviceMapping {
+    Similarity workspaceFromDevice;
+    double coupling = 1.0; ///< 0..1: share of the force that reaches the hand. Less while the clutch is held
+                           ///< and until its force has come back
+};
+
 /// Inputs in the device frame: m, right-handed, y up, z towards the user.
 struct DeviceSample {
     glm::dvec3 position{0.0};
@@ -17,6 +27,10 @@ struct DeviceSample {
     uint32_t buttons = 0;
     double age = 0.0;   ///< s since the device measured it
     bool valid = false; ///< false: nothing is known of the hand (unplugged, not started)
+    DeviceMapping mapping{};
+
+    /// The haptic interface point, workspace.
+    [[nodiscard]] glm::dvec3 inWorkspace() const { return mapping.workspaceFromDevice.point(position); }
 };
 
 /// What may be sent to a device, in the device frame. Only the safety stage can make one that is not zero.

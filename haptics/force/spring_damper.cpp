@@ -20,4 +20,10 @@ glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& friction
     return elastic + feel.stiffness * frictionStretch + damping * n - feel.viscousFriction * along;
 }
 
+double bearableShare(double stiffness, double zoom, const HapticSettings& settings,
+                     const DeviceLimits& limits) noexcept {
+    const double most = std::max(settings.stiffness, limits.maxStiffness), felt = stiffness * zoom;
+    return felt > most ? most / felt : 1.0;
+}
+
 } // namespace touchstone

@@ -16,4 +16,10 @@ namespace touchstone {
 [[nodiscard]] glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
                                            const glm::dvec3& velocity) noexcept;
 
+/// What is left of a force where the workspace is `zoom` > 1 times as large as the device's: the device feels
+/// `stiffness` (N/m, workspace) times zoom, and gets no more than it bears (limits.maxStiffness), or what was
+/// asked for in so many words. In (0, 1].
+[[nodiscard]] double bearableShare(double stiffness, double zoom, const HapticSettings& settings,
+                                   const DeviceLimits& limits) noexcept;
+
 } // namespace touchstone

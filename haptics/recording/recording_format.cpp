@@ -145,20 +145,88 @@ void get(ByteReader& bytes, RecordedTick& tick) {
         throw Error("", "tick " + std::to_string(tick.tick), "has no time", "");
 }
 
+bool same(const DeviceMapping& a, const DeviceMapping& b) {
+    const Similarity &s = a.workspaceFromDevice, &t = b.workspaceFromDevice;
+    return s.scale == t.scale && s.rotation == t.rotation && s.translation == t.translation &&
+           a.coupling == b.coupling;
+}
+
+/// Behind the ticks, where there is any other than the identity: those that differ from that of the tick
+/// before.
+void putMappings(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
+    std::vector<uint32_t> changes;
+    DeviceMapping last;
+    for (uint32_t i = 0; i < ticks.size(); ++i) {
+        if (same(ticks[i].sample.mapping, last))
+            continue;
+        last = ticks[i].sample.mapping;
+        changes.push_back(i);
+    }
+    if (changes.empty())
+        return;
+    bytes.put(static_cast<uint32_t>(changes.size()));
+    for (const uint32_t i : changes) {
+        const DeviceMapping& mapping = ticks[i].sample.mapping;
+        bytes.put(i);
+        bytes.put(mapping.workspaceFromDevice.scale);
+        bytes.put(mapping.workspaceFromDevice.rotation);
+        bytes.put(mapping.workspaceFromDevice.translation);
+        bytes.put(mapping.coupling);
+    }
+}
+
+/// The step bears any mapping, but we write none that is not finite.
+bool meant(const DeviceMapping& mapping) {
+    const Similarity& map = mapping.workspaceFromDevice;
+    const glm::dquat& q = map.rotation;
+    bool finite = map.scale > 0.0 && mapping.coupling >= 0.0 && mapping.coupling <= 1.0;
+    for (const double number :
+         {map.scale, q.x, q.y, q.z, q.w, map.translation.x, map.translation.y, map.translation.z})
+        finite = finite && std::isfinite(number);
+    return finite;
+}
+
+void getMappings(ByteReader& bytes, std::vector<RecordedTick>& ticks) {
+    uint32_t changes = 0, next = 0;
+    bytes.get(changes);
+    DeviceMapping mapping;
+    const auto upTo = [&](uint32_t end) {
+        for (; next < end; ++next)
+            ticks[next].sample.mapping = mapping;
+    };
+    for (uint32_t change = 0; change < changes; ++change) {
+        uint32_t at = 0;
+        bytes.get(at);
+        if (at < next || at >= ticks.size())
+            throw Error("", "", "has the mapping of a tick that it does not have", "");
+        upTo(at);
+        bytes.get(mapping.workspaceFromDevice.scale);
+        bytes.get(mapping.workspaceFromDevice.rotation);
+        bytes.get(mapping.workspaceFromDevice.translation);
+        bytes.get(mapping.coupling);
+        if (!meant(mapping))
+            throw Error("", "tick " + std::to_string(ticks[at].tick), "has a mapping that cannot be", "");
+    }
+    upTo(static_cast<uint32_t>(ticks.size()));
+}
+
 void put(ByteWriter& bytes, const RecordedTicks& ticks) {
     bytes.put(static_cast<uint32_t>(ticks.ticks.size()));
     for (const RecordedTick& tick : ticks.ticks)
         put(bytes, tick);
+    putMappings(bytes, ticks.ticks);
 }
 
 void get(ByteReader& bytes, RecordedTicks& ticks) {
     uint32_t count = 0;
     bytes.get(count);
-    if (bytes.left() != count * kTickSize)
+    if (bytes.left() < size_t{count} * kTickSize)
         throw Error("", "", "holds another number of ticks than it says", "");
     ticks.ticks.resize(count);
     for (RecordedTick& tick : ticks.ticks)
         get(bytes, tick);
+    if (bytes.left() > 0)
+        getMappings(bytes, ticks.ticks);
 }
 
 void put(ByteWriter& bytes, const RecordedLoss& loss) {

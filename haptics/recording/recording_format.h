@@ -57,6 +57,7 @@ struct RecordedTick {
     glm::dvec3 command{0.0};           ///< N, device frame
     uint32_t contacts = 0, flags = 0;
 };
+/// With the mapping of each sample; where it is the identity throughout, nothing stands for it.
 struct RecordedTicks {
     std::vector<RecordedTick> ticks;
 };

@@ -47,7 +47,8 @@ bool usable(const SafetyInputs& inputs) {
 }
 
 /// What the last command did on the way here. The contact's springs hold as much of their energy as the ramp
-/// lets pass.
+/// lets pass. The clutch takes none of it away: the point that it holds keeps its springs stretched, with
+/// work that the hand has done, and they are what the hand gets back when it lets the clutch go.
 void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterState& state, uint32_t& flags) {
     if (inputs.passivity == PassivityMode::Off) {
         state.passivity = PassivityState{}; // nobody keeps the account: none is left to be settled later
@@ -63,13 +64,18 @@ void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterSt
         flags = flags | TickFlag::EnergyGiven;
 }
 
+double coupled(const SafetyInputs& inputs) {
+    return inputs.coupling > 0.0 ? std::min(inputs.coupling, 1.0) : 0.0; // also where it is no number
+}
+
 /// What the passivity controller leaves of `target`, where it is asked for and force is given at all.
 glm::dvec3 madePassive(const glm::dvec3& target, const SafetyInputs& inputs, const ForceLimiterState& state,
                        uint32_t& flags, bool& cut) {
     if (inputs.passivity != PassivityMode::Control || !inputs.inputValid || !inputs.forceEnabled ||
         state.latched)
         return target;
-    const glm::dvec3 passive = passiveForce(target, inputs.dt, inputs.limits, state.passivity, state.ramp);
+    const glm::dvec3 passive =
+        passiveForce(target, inputs.dt, inputs.limits, state.passivity, state.ramp * coupled(inputs));
     if (passive == target || !finite(passive))
         return target;
     flags = flags | TickFlag::EnergyDamped;
@@ -109,15 +115,15 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
     const DeviceLimits& limits = inputs.limits;
     bool cut = false;
     if (fresh && !state.latched) {
-        state.heldForce = shortened(forceInDevice, limits.maxForce, cut);
-        state.heldTorque = shortened(torqueInDevice, limits.maxTorque, cut);
+        state.heldForce = coupled(inputs) * shortened(forceInDevice, limits.maxForce, cut);
+        state.heldTorque = coupled(inputs) * shortened(torqueInDevice, limits.maxTorque, cut);
         state.ramp = std::min(1.0, state.ramp + inputs.dt / kForceRampInTime);
     } else {
         state.ramp = std::max(0.0, state.ramp - inputs.dt / kForceRampOutTime);
     }
     if (!inputs.forceEnabled)
         state.ramp = 0.0; // the force-off key does not wait for a fade
-    if (state.ramp < 1.0)
+    if (state.ramp < 1.0 || inputs.coupling < 1.0)
         flags = flags | TickFlag::ForceRamping;
 
     const glm::dvec3 target = madePassive(state.ramp * state.heldForce, inputs, state, flags, cut);

@@ -48,6 +48,7 @@ struct SafetyInputs {
     PassivityMode passivity = PassivityMode::Off;
     glm::dvec3 position{0.0};  ///< m, device frame, while inputValid
     double springLength = 0.0; ///< m: half of it times the force is what the contact's spring has stored
+    double coupling = 1.0;     ///< 0..1: share of the force that the clutch lets pass
 };
 
 /// Makes every DeviceCommand there is. What always holds, for any input whatever:
@@ -56,6 +57,9 @@ struct SafetyInputs {
 ///   force, a dt or a limit that is not a finite number is a fault, and a fault drops the command to zero at
 ///   once; where limits.maxForce has become smaller (another scene's limits) the command is cut to it at once
 ///   (torque likewise);
+/// - a coupling of 0 makes the force go to zero at that rate, whatever it was; a coupling that is no number
+/// counts
+///   as 0;
 /// - the passivity controller's force is under the same limits, and off wherever the force is off.
 class ForceLimiter {
   public:

@@ -20,20 +20,19 @@ bool usable(const glm::dvec3& p) {
 
 } // namespace
 
-bool takeSample(const DeviceSample& sample, const Similarity& workspaceFromDevice, double dt,
-                DeviceState& state, uint32_t& flags) noexcept {
-    if (!sample.valid || !usable(sample.position)) {
+bool takeSample(const DeviceSample& sample, double dt, DeviceState& state, uint32_t& flags) noexcept {
+    const glm::dvec3 hip = sample.inWorkspace();
+    if (!sample.valid || !usable(sample.position) || !usable(hip)) {
         flags = flags | TickFlag::InputInvalid;
         state.sampled = false; // the velocity starts anew: a gap is not one tick long
         state.unsampled = std::min(kForceRampOutTime, state.unsampled + dt);
         return false;
     }
-    const glm::dvec3 hip = workspaceFromDevice.point(sample.position);
     state.travel = glm::dvec3(0.0);
     if (state.sampled) {
         state.travel = hip - state.hip;
         const glm::dvec3 velocity = state.travel / dt;
-        if (glm::length(velocity) > kFastestHand)
+        if (glm::length(velocity) > kFastestHand * sample.mapping.workspaceFromDevice.scale)
             flags = flags | TickFlag::Teleported;
         constexpr double kTwoPi = 6.283185307179586;
         const double share = 1.0 - std::exp(-kTwoPi * kVelocityCutoff * dt);

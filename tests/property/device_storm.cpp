@@ -113,7 +113,7 @@ StormFigures storm(const std::string& sceneFile, uint64_t seed, uint64_t ticks) 
     WorldState world;
     DeviceState state;
     NoStopwatch none;
-    Similarity workspaceFromDevice;
+    DeviceMapping mapping;
     StormFigures figures;
     glm::dvec3 previous(0.0);
     double time = 0.0;
@@ -123,19 +123,21 @@ StormFigures storm(const std::string& sceneFile, uint64_t seed, uint64_t ticks) 
             settings.forceEnabled = !device.chance(0.1);
         }
         if (device.chance(0.0005))
-            workspaceFromDevice = device.chance(0.5) ? Similarity{} : someClutch(device);
+            mapping.workspaceFromDevice = device.chance(0.5) ? Similarity{} : someClutch(device);
+        if (device.chance(0.01))
+            mapping.coupling = device.number();
         if (device.chance(0.0005)) { // as at a scene swap
             state.forgetTouch();
             ForceLimiter::restartRamp(state.limiter);
         }
-        const DeviceSample sample = device.next();
+        DeviceSample sample = device.next();
+        sample.mapping = mapping;
         TickInput input;
         input.tick = figures.ticks;
         input.dt = device.nextDt();
         input.time = time += input.dt;
         input.late = device.chance(0.1);
         input.devices = {&sample, 1};
-        input.workspaceFromDevice = workspaceFromDevice;
         input.objects = moving.at(input.time);
         HapticOutput output;
         hapticStep(*scene, settings, input, world, {&state, 1}, {&output, 1}, none);

@@ -105,8 +105,8 @@ TEST(Places, AWorkspaceZoomedInContactNeitherKicksNorLetsThrough) {
         run.side([](const glm::dvec3& p) { return glm::length(p) - kInscribed * 0.05; });
         const glm::dvec3 device = run.bench.output.hip;
         const auto zoomTo = [&](double scale) {
-            run.bench.workspaceFromDevice.scale = scale;
-            run.bench.workspaceFromDevice.translation = (1.0 - scale) * glm::dvec3(0.01, 0.06, 0.0);
+            run.bench.mapping.workspaceFromDevice.scale = scale;
+            run.bench.mapping.workspaceFromDevice.translation = (1.0 - scale) * glm::dvec3(0.01, 0.06, 0.0);
             run.bench.step(device);
             run.take();
         };
@@ -115,7 +115,7 @@ TEST(Places, AWorkspaceZoomedInContactNeitherKicksNorLetsThrough) {
         for (const double scale : {2.0, 1.0, 0.1, 1.0, 10.0, 0.5, 1.0})
             for (int i = 0; i < 20; ++i)
                 zoomTo(scale);
-        run.bench.workspaceFromDevice = Similarity{};
+        run.bench.mapping = DeviceMapping{};
         run.hold();
         run.leave(0.1);
     }

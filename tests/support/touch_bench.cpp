@@ -62,13 +62,13 @@ const HapticOutput& TouchBench::step(const glm::dvec3& hip) {
     DeviceSample sample;
     sample.position = hip;
     sample.valid = true;
+    sample.mapping = mapping;
     TickInput input;
     input.tick = tick;
     input.time = static_cast<double>(tick) * dt;
     input.dt = dt;
     input.devices = {&sample, 1};
     input.objects = motions;
-    input.workspaceFromDevice = workspaceFromDevice;
     NoStopwatch none;
     hapticStep(*scene, settings, input, world, state, {&output, 1}, none);
     ++tick;

@@ -1,5 +1,6 @@
 // The same loops as in the window, without one: the simulated hand strokes the model in real time.
 
+#include "devices/mapped_device.h"
 #include "devices/plant/yielding_hand.h"
 #include "devices/simulated_hand.h"
 #include "engine/core/error.h"
@@ -175,7 +176,8 @@ int runCommand(const RunOptions& options) {
         std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options.stroke)));
     YieldingHand yielding(path, options.plant);
     Device& simulated = options.openLoop ? static_cast<Device&>(path) : yielding;
-    Device& hand = device != nullptr ? *device : simulated;
+    MappedDevice hand(device != nullptr ? *device : simulated, options.zoom,
+                      device != nullptr ? glm::dvec3(0.0) : path.path().place());
     std::optional<OutputFile> report;
     if (!options.json.empty())
         report.emplace(options.json);
@@ -226,6 +228,7 @@ int runCommand(const RunOptions& options) {
             {"link", device != nullptr ? linkJson(device->report()) : nlohmann::ordered_json()},
             {"stroke",
              device != nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(options.stroke.name)},
+            {"workspace_scale", options.zoom},
             {"loop", options.openLoop || device != nullptr ? nlohmann::ordered_json("open")
                                                            : plantJson(yielding.plant())},
             {"settings", settingsJson(options.settings)},

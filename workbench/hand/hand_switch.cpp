@@ -1,6 +1,9 @@
 #include "workbench/hand/hand_switch.h"
 
+#include "devices/mapped_device.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace touchstone {
 
@@ -29,6 +32,37 @@ void HandSwitch::apply(const DeviceCommand& command) noexcept {
         mouse_.apply(followed_ == nullptr && !gliding_ ? command : DeviceCommand{});
 }
 
+/// Turns to another hand, or to another path.
+void HandSwitch::follow(const StrokePath* path, double time) noexcept {
+    const void* follows = driven_ != nullptr ? static_cast<const void*>(driven_) : path;
+    if (follows == followed_)
+        return;
+    followed_ = follows;
+    gliding_ = started_;
+    glideStart_ = time;
+    centre_ = path != nullptr ? path->place() : glm::dvec3(0.0);
+    const Similarity before = map_.mapping().workspaceFromDevice;
+    map_.begin(followed_ != nullptr ? wish() : WorkspaceWish{}, centre_);
+    const Similarity& now = map_.mapping().workspaceFromDevice;
+    // It comes from where the HIP was. In the new hand's frame that is another place, and between the two
+    // lies no way: nothing is known for a tick.
+    changed_ = before.scale != now.scale || before.translation != now.translation;
+    if (started_)
+        glideFrom_ = now.inversePoint(lastHip_);
+}
+
+/// Clutch and zoom.
+void HandSwitch::place(DeviceSample& sample, double time) noexcept {
+    constexpr double kLongestStep = 0.010; // s
+    WorkspaceWish wished = wish();
+    wished.clutch = wished.clutch || (driven_ != nullptr && (sample.buttons & kClutchButton) != 0);
+    if (const uint32_t asked = centres_.load(std::memory_order_relaxed); asked != centred_) {
+        centred_ = asked;
+        map_.centre(centre_);
+    }
+    map_.apply(sample, wished, std::clamp(time - lastTime_, 0.0, kLongestStep));
+}
+
 DeviceSample HandSwitch::sample(double time) noexcept {
     DeviceSample sample = mouse_.sample(time);
     const StrokePath* path = path_.adopt();
@@ -36,13 +70,7 @@ DeviceSample HandSwitch::sample(double time) noexcept {
         path = nullptr;
     const Held* held = held_.adopt();
     driven_ = held != nullptr ? held->device.get() : nullptr;
-    const void* follows = driven_ != nullptr ? static_cast<const void*>(driven_) : path;
-    if (follows != followed_) {
-        followed_ = follows;
-        gliding_ = started_;
-        glideFrom_ = last_;
-        glideStart_ = time;
-    }
+    follow(driven_ != nullptr ? nullptr : path, time);
     if (driven_ != nullptr) {
         sample = driven_->sample(time);
     } else if (path != nullptr) { // it begins where it begins, once the hand is there
@@ -55,8 +83,13 @@ DeviceSample HandSwitch::sample(double time) noexcept {
         sample.position = glm::mix(glideFrom_, sample.position, t * t * (3.0 - 2.0 * t));
         gliding_ = t < 1.0;
     }
+    if (std::exchange(changed_, false))
+        sample.valid = false;
+    if (followed_ != nullptr)
+        place(sample, time);
+    lastTime_ = time;
     if (sample.valid) {
-        last_ = sample.position;
+        lastHip_ = sample.inWorkspace();
         started_ = true;
     }
     return sample;

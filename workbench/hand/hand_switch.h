@@ -3,6 +3,7 @@
 #include "devices/link/linked_device.h"
 #include "devices/mouse_device.h"
 #include "devices/stroke_path.h"
+#include "devices/workspace_map.h"
 #include "engine/exchange/handover.h"
 
 #include <atomic>
@@ -12,7 +13,7 @@ namespace touchstone {
 
 /// The window's hand: the mouse, a simulated hand on a path that comes with the model, or a device. Changing
 /// over glides from where the hand is to where the other one is, so that nothing is struck at the speed of a
-/// jump.
+/// jump. Device and simulated hand have clutch and zoom (WorkspaceMap), the mouse is where the pointer says.
 class HandSwitch final : public Device {
   public:
     /// s that changing over takes.
@@ -26,6 +27,13 @@ class HandSwitch final : public Device {
     void hold(std::shared_ptr<LinkedDevice> device);
     /// How the user looks at the workspace: LinkedDevice::face.
     void face(const glm::dquat& deviceFromView);
+    /// Besides the device's own button. No effect on the mouse.
+    void workspace(const WorkspaceWish& wish) noexcept {
+        zoom_.store(wish.zoom, std::memory_order_relaxed);
+        clutch_.store(wish.clutch, std::memory_order_relaxed);
+    }
+    /// The device's origin becomes the workspace's again, at once and without touch.
+    void centre() noexcept { centres_.fetch_add(1, std::memory_order_relaxed); }
     /// Frees what the servo has let go.
     void collect() { held_.collect(); }
     [[nodiscard]] MouseDevice& mouse() { return mouse_; }
@@ -40,16 +48,30 @@ class HandSwitch final : public Device {
         std::shared_ptr<LinkedDevice> device; // null: none
     };
 
+    [[nodiscard]] WorkspaceWish wish() const noexcept {
+        return {zoom_.load(std::memory_order_relaxed), clutch_.load(std::memory_order_relaxed)};
+    }
+    void follow(const StrokePath* path, double time) noexcept;
+    void place(DeviceSample& sample, double time) noexcept;
+
     MouseDevice mouse_;
     std::shared_ptr<LinkedDevice> device_; // owner thread
     Handover<Held> held_;
     std::atomic<bool> simulated_{false};
     Handover<StrokePath> path_;
+    std::atomic<double> zoom_{1.0};
+    std::atomic<bool> clutch_{false};
+    std::atomic<uint32_t> centres_{0};
     // Servo thread:
-    const void* followed_ = nullptr; // the path or the device; null: the mouse
-    LinkedDevice* driven_ = nullptr; // in this tick
-    glm::dvec3 last_{0.0}, glideFrom_{0.0};
+    const void* followed_ = nullptr;           // the path or the device; null: the mouse
+    LinkedDevice* driven_ = nullptr;           // in this tick
+    glm::dvec3 lastHip_{0.0}, glideFrom_{0.0}; // workspace; device
     double glideStart_ = 0.0;
+    WorkspaceMap map_;
+    glm::dvec3 centre_{0.0}; // of what is followed
+    double lastTime_ = 0.0;
+    uint32_t centred_ = 0; // of centres_
+    bool changed_ = false; // another hand, in another place of the workspace: nothing is known in this tick
     bool started_ = false, gliding_ = false;
 };
 

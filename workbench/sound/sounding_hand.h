@@ -8,7 +8,7 @@ namespace touchstone {
 /// What a tick is to the ear. `dt`: s since the one before.
 [[nodiscard]] inline SoundTick soundTick(double dt, const DeviceSample& sample,
                                          const DeviceCommand& command) {
-    return {.dt = dt, .position = sample.position, .force = command.force(), .handKnown = sample.valid};
+    return {.dt = dt, .position = sample.inWorkspace(), .force = command.force(), .handKnown = sample.valid};
 }
 
 /// A hand whose force is heard, too: the servo holds it in the place of `hand`, and what goes to that goes to

@@ -65,11 +65,13 @@ DeviceSample AgainHand::sample(double time) noexcept {
     }
     DeviceSample sample = path != nullptr ? path->at(time) : own;
     if (gliding_) {
-        sample.position = glide(glideFrom_, sample.position, (time - glideStart_) / kGlideTime);
+        // In the workspace: one's own hand may have it clutched and zoomed.
+        const glm::dvec3 hip = glide(glideFrom_, sample.inWorkspace(), (time - glideStart_) / kGlideTime);
+        sample.position = sample.mapping.workspaceFromDevice.inversePoint(hip);
         gliding_ = time - glideStart_ < kGlideTime;
     }
     if (sample.valid) {
-        last_ = sample.position;
+        last_ = sample.inWorkspace();
         started_ = true;
     }
     return sample;

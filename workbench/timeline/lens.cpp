@@ -98,13 +98,13 @@ TickRecord recordOf(const RecordedTick& tick) {
     record.settings = tick.settings;
     record.scene = tick.scene;
     record.sample = tick.sample;
-    record.output.hip = tick.sample.position;
+    record.output.hip = tick.sample.inWorkspace();
     record.output.proxy = tick.proxy;
     record.output.force = tick.force;
     record.output.contacts = tick.contacts;
     record.output.flags = tick.flags;
     if (tick.contacts > 0)
-        record.output.penetration = glm::distance(tick.proxy, tick.sample.position);
+        record.output.penetration = glm::distance(tick.proxy, tick.sample.inWorkspace());
     return record;
 }
 

@@ -88,7 +88,7 @@ void TimelineMaker::take(const RecordedTick& tick) {
     time_ = tick.time;
     force_.push_back(shown(glm::length(tick.force)));
     // Where no sample was usable there is no HIP to be deep.
-    depth_.push_back(tick.contacts > 0 ? shown(glm::distance(tick.proxy, tick.sample.position)) : 0.0f);
+    depth_.push_back(tick.contacts > 0 ? shown(glm::distance(tick.proxy, tick.sample.inWorkspace())) : 0.0f);
     if ((tick.contacts > 0) != touching_) {
         line_.contactEdges_.push_back(line_.size() - 1);
         touching_ = !touching_;

@@ -40,7 +40,7 @@ PathPtr readPath(const Timeline& timeline, const TouchAgain::Part& part, JobProg
         for (const RecordedTick& tick : block->ticks) {
             if (index >= part.first && index <= part.last)
                 samples.push_back({.seconds = timeline.seconds(index) - timeline.seconds(part.first),
-                                   .position = part.deviceFromRecorded.point(tick.sample.position),
+                                   .position = part.deviceFromRecorded.point(tick.sample.inWorkspace()),
                                    .valid = usable(tick.sample)});
             if (index == part.first)
                 phase = tick.time;

@@ -107,6 +107,21 @@ void walk(PanelState& state) {
         io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
+/// Clutch and zoom of the hand's workspace. The clutch is held as long as its key is.
+void zoomKeys(PanelState& state) {
+    constexpr double kStep = 1.25;
+    const ImGuiIO& io = ImGui::GetIO();
+    double& zoom = state.workspace.zoom;
+    const int clutch = keyOf('c');
+    state.workspace.clutch = !io.WantTextInput && !io.KeyCtrl && !io.KeyShift && ImGui::IsKeyDown(clutch);
+    if (keyPressed(clutch) && io.KeyShift)
+        state.centrePressed = true;
+    if (keyPressed(GLFW_KEY_PAGE_UP))
+        zoom = std::min(zoom * kStep, kMostZoom);
+    if (keyPressed(GLFW_KEY_PAGE_DOWN))
+        zoom = std::max(zoom / kStep, kLeastZoom);
+}
+
 void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
@@ -129,6 +144,7 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.simulatedHand = !state.simulatedHand || !state.device.empty();
         state.device.clear();
     }
+    zoomKeys(state);
     if (keyPressed(keyOf('n')) && input.canSimulate)
         nextStroke(state, ImGui::GetIO().KeyShift ? -1 : 1);
     if (keyPressed(GLFW_KEY_F9))

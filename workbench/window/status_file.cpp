@@ -5,6 +5,7 @@
 #include "workbench/figures/settings_json.h"
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/panels/error_panel.h"
+#include "workbench/window/panels/panels.h"
 
 namespace touchstone {
 
@@ -74,6 +75,12 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"working", input.materialsWorking},
           {"notice", input.materialNotice}}},
         {"hand", state.simulatedHand ? "simulated" : "mouse"},
+        {"workspace",
+         {{"wanted_zoom", state.workspace.zoom},
+          {"zoom", servo.last.sample.mapping.workspaceFromDevice.scale},
+          {"clutch", servo.last.sample.mapping.coupling < 1.0},
+          {"coupling", servo.last.sample.mapping.coupling},
+          {"text", workspaceText(servo.last.sample.mapping)}}},
         {"stroke",
          {{"name", state.stroke.name},
           {"speed", state.stroke.speed},

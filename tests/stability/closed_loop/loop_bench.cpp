@@ -48,7 +48,12 @@ void LoopBench::release(const glm::dvec3& position, const glm::dvec3& velocity) 
 
 const HapticOutput& LoopBench::tick() {
     ++ticks_;
-    const HapticOutput& output = bench.step(hand_.sample(time()).position);
+    DeviceSample sample = hand_.sample(time());
+    if (map) {
+        map(sample);
+        bench.mapping = sample.mapping;
+    }
+    const HapticOutput& output = bench.step(sample.position);
     hand_.push(output.command.force() + weight);
     return output;
 }

@@ -31,6 +31,8 @@ class LoopBench {
     const HapticOutput& tick();
 
     std::function<glm::dvec3(double)> intention = [](double) { return glm::dvec3(0.0); }; ///< of time in s
+    /// Clutch and zoom; null: bench.mapping as it is.
+    std::function<void(DeviceSample&)> map;
     glm::dvec3 weight{0.0}; ///< N, constant, on the device
     [[nodiscard]] const Plant& plant() const { return hand_.plant(); }
     [[nodiscard]] double time() const { return static_cast<double>(ticks_) / rate_; }

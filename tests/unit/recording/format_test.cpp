@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -44,6 +45,60 @@ RecordedTick someTick() {
     tick.contacts = 2;
     tick.flags = 0x80000001;
     return tick;
+}
+
+/// Three ticks: as without clutch and zoom, with some, and with the same.
+RecordedTicks mappedTicks() {
+    RecordedTicks ticks{{someTick(), someTick(), someTick()}};
+    DeviceMapping& mapping = ticks.ticks[1].sample.mapping;
+    mapping.workspaceFromDevice.scale = 2.5;
+    mapping.workspaceFromDevice.rotation = glm::dquat(0.5, 0.5, -0.5, 0.5);
+    mapping.workspaceFromDevice.translation = {0.1, -0.2, 0.3};
+    mapping.coupling = 0.25;
+    ticks.ticks[2].sample.mapping = mapping;
+    return ticks;
+}
+
+TEST(RecordingFormat, AMappingStandsBehindTheTicksWhereThereIsOne) {
+    const RecordedTicks plain{{someTick(), someTick(), someTick()}};
+    const size_t without = encode(plain).size();
+    EXPECT_EQ(without, 4 + 3 * kTickSize) << "as before there was any";
+    const std::vector<std::byte> bytes = encode(mappedTicks());
+    ASSERT_EQ(bytes.size(), without + 4 + 4 + 9 * 8) << "once for both ticks";
+    EXPECT_EQ(numberAt<uint32_t>(bytes, without), 1u);
+    EXPECT_EQ(numberAt<uint32_t>(bytes, without + 4), 1u);
+    EXPECT_EQ(numberAt<double>(bytes, without + 8), 2.5);
+    EXPECT_EQ(numberAt<double>(bytes, without + 72), 0.25);
+    const auto ticks = std::get<RecordedTicks>(decode(4, bytes)).ticks;
+    EXPECT_EQ(ticks[0].sample.mapping.workspaceFromDevice.scale, 1.0);
+    EXPECT_EQ(ticks[0].sample.mapping.coupling, 1.0);
+    for (const size_t i : {size_t{1}, size_t{2}}) {
+        const DeviceMapping& mapping = ticks[i].sample.mapping;
+        EXPECT_EQ(mapping.workspaceFromDevice.scale, 2.5);
+        EXPECT_EQ(mapping.workspaceFromDevice.rotation, glm::dquat(0.5, 0.5, -0.5, 0.5));
+        EXPECT_EQ(mapping.workspaceFromDevice.translation, glm::dvec3(0.1, -0.2, 0.3));
+        EXPECT_EQ(mapping.coupling, 0.25);
+    }
+    EXPECT_EQ(encode(RecordedTicks{ticks}), bytes);
+}
+
+TEST(RecordingFormat, RefusesMappingsThatCannotBe) {
+    const std::vector<std::byte> whole = encode(mappedTicks());
+    const size_t at = 4 + 3 * kTickSize;
+    const auto with = [&](size_t place, auto number) {
+        std::vector<std::byte> bytes = whole;
+        std::memcpy(bytes.data() + place, &number, sizeof number);
+        return bytes;
+    };
+    EXPECT_THROW((void)decode(4, with(at, 2u)), Error) << "more than there are";
+    EXPECT_THROW((void)decode(4, with(at + 4, 3u)), Error) << "of no tick";
+    for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL})
+        EXPECT_THROW((void)decode(4, with(at + 8, scale)), Error) << scale;
+    EXPECT_THROW((void)decode(4, with(at + 16, std::nan(""))), Error);
+    EXPECT_THROW((void)decode(4, with(at + 48, HUGE_VAL)), Error);
+    for (const double coupling : {-0.1, 1.1, std::nan("")})
+        EXPECT_THROW((void)decode(4, with(at + 72, coupling)), Error) << coupling;
+    EXPECT_THROW((void)decode(4, std::span(whole).first(whole.size() - 1)), Error);
 }
 
 std::vector<RecordedItem> oneOfEach() {

@@ -1,6 +1,7 @@
 // A replay of a real servo's recording meets every bit; of a recording that was changed it names tick and
 // stage.
 
+#include "devices/workspace_map.h"
 #include "engine/core/error.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"
@@ -67,6 +68,40 @@ TEST_F(ReplayTest, FromTheMiddleOfARun) {
     expectEqualReplay(report);
     EXPECT_GT(report.ticks, 4000u) << "it begins with the next tick, not with the next second";
     EXPECT_LT(report.ticks, rig.servo.counters().ticks - 5000u);
+}
+
+TEST_F(ReplayTest, ClutchAndZoomInContact) {
+    // The hand goes round in contact while its workspace is zoomed and clutched at will.
+    struct Hand {
+        WorkspaceMap map;
+        double last = 0.0;
+    };
+    const auto hand = std::make_shared<Hand>();
+    RecordedServo rig([hand](double time) {
+        DeviceSample sample = doughnutHand(time);
+        hand->map.apply(
+            sample,
+            {.zoom = time < 0.3 ? 1.0 : std::exp(std::sin(5.0 * time)), .clutch = std::fmod(time, 0.7) > 0.6},
+            time - hand->last);
+        hand->last = time;
+        return sample;
+    });
+    rig.recorder.start(file_, "test");
+    rig.offer(touchedScene("doughnut.glb"));
+    rig.ticks(12000);
+    rig.finish();
+    const ReplayReport report = replayOf(file_, rig.scenes);
+    expectEqualReplay(report);
+    EXPECT_EQ(report.ticks, rig.servo.counters().ticks);
+    rig.expectWithinLimits();
+    EXPECT_GT(rig.inContact(), 1000u);
+    size_t mapped = 0, clutched = 0;
+    for (const TickRecord& record : rig.records) {
+        mapped += record.sample.mapping.workspaceFromDevice.scale != 1.0;
+        clutched += record.sample.mapping.coupling == 0.0;
+    }
+    EXPECT_GT(mapped, 8000u);
+    EXPECT_GT(clutched, 200u);
 }
 
 TEST_F(ReplayTest, ObjectsThatMoveAndASceneThatIsSwappedInContact) {

@@ -2,6 +2,10 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <string>
 
 namespace touchstone {
@@ -67,7 +71,51 @@ void strokes(const PanelInput& input, PanelState& state, Widgets& widgets) {
         ImGui::TextWrapped("%s", input.strokeNotice.c_str());
 }
 
+/// Clutch and zoom of what has a workspace of its own.
+void workspace(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const DeviceMapping& mapping = input.servo->last.sample.mapping;
+    auto zoom = static_cast<float>(state.workspace.zoom);
+    ImGui::PushItemWidth(-1.0f);
+    if (ImGui::SliderFloat("##zoom", &zoom, static_cast<float>(kLeastZoom), static_cast<float>(kMostZoom),
+                           "zoom %.2fx", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        state.workspace.zoom = static_cast<double>(zoom);
+    widgets.mark("zoom");
+    ImGui::PopItemWidth();
+    ImGui::Button("Clutch (hold C)");
+    if (ImGui::IsItemActive())
+        state.workspace.clutch = true;
+    widgets.mark("clutch");
+    ImGui::SameLine();
+    if (ImGui::Button("Centre"))
+        state.centrePressed = true;
+    widgets.mark("centre");
+    const std::string text = workspaceText(mapping);
+    if (!text.empty())
+        ImGui::TextColored(ImVec4(0.95f, 0.72f, 0.25f, 1.0f), "%s", text.c_str());
+    const double scale = mapping.workspaceFromDevice.scale;
+    if (scale > 1.0 && input.haptic != nullptr) {
+        const DeviceLimits& limits = input.haptic->limits;
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextWrapped("600 N/m feel like %.0f; the device bears %.0f",
+                           std::min(600.0 * scale, limits.maxStiffness), limits.maxStiffness);
+        ImGui::PopStyleColor();
+    }
+}
+
 } // namespace
+
+std::string workspaceText(const DeviceMapping& mapping) {
+    std::string text = mapping.coupling >= 1.0   ? ""
+                       : mapping.coupling <= 0.0 ? "clutch"
+                                                 : "clutch: force fades";
+    const double zoom = mapping.workspaceFromDevice.scale;
+    if (std::abs(zoom - 1.0) > 1e-3) {
+        std::array<char, 32> number{};
+        std::snprintf(number.data(), number.size(), "zoom %.3gx", zoom);
+        text += (text.empty() ? "" : ", ") + std::string(number.data());
+    }
+    return text;
+}
 
 void nextStroke(PanelState& state, int step) {
     const auto infos = strokeInfos();
@@ -101,6 +149,8 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     }
     if (held || !input.devices.empty())
         devices(input, state, widgets);
+    if (held || state.simulatedHand)
+        workspace(input, state, widgets);
     if (!input.deviceStatus.empty())
         ImGui::TextWrapped("%s", input.deviceStatus.c_str());
 }

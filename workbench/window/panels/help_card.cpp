@@ -26,6 +26,8 @@ constexpr Line kTouch[]{
     {"F5, F6, F7", "switch shading, texture and friction"},
     {"F8", "changes between mouse and simulated hand"},
     {"N; with Shift", "the hand's next stroke; the one before"},
+    {"C held; Shift+C", "the device's clutch; centres the device"},
+    {"Page Up, Down", "zoom of the device: farther, finer"},
 };
 constexpr Line kRecord[]{
     {"F9", "begins and ends a recording"},        {"P", "pauses the charts"},

@@ -24,6 +24,8 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
         return {"Inside: move out to touch", kAmber};
     if (has(tick.flags, TickFlag::InputInvalid))
         return {"No hand", kGrey};
+    if (const double coupling = input.servo->last.sample.mapping.coupling; coupling < 1.0)
+        return {coupling > 0.0 ? "Clutch: the force fades" : "Clutched: the hand stays here", kAmber};
     if (has(tick.flags, TickFlag::ForceRamping) && tick.contacts > 0)
         return {"Force fades in", kAmber};
     return tick.contacts > 0 ? TouchLamp{"Touching", kGreen} : TouchLamp{"In the air", kGrey};

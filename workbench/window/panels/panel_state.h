@@ -3,6 +3,7 @@
 
 #include "devices/device_choice.h"
 #include "devices/stroke/stroke_library.h"
+#include "devices/workspace_map.h"
 #include "haptics/effect_plan.h"
 #include "haptics/haptic_settings.h"
 #include "renderer/camera.h"
@@ -80,6 +81,8 @@ struct PanelState {
     HapticSettings settings;
     HapticSettings chosen; ///< what the toggles return to when switched on again
     bool simulatedHand = false;
+    WorkspaceWish workspace; ///< clutch and zoom
+    bool centrePressed = false;
     StrokeRequest stroke; ///< of the simulated hand; place and front are where it is laid
     std::string device;   ///< what chooses it; empty: the mouse or the simulated hand
     SoundChoice sound;
