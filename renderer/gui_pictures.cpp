@@ -98,8 +98,9 @@ void GuiPictures::drawCommand(const ImDrawList*, const ImDrawCmd* command) {
     shown.pictures->draw(shown, *command);
 }
 
-/// The whole image is laid out so that the place, but for half a texel at its rim (which the filter would mix
-/// with the neighbour), fills what it is shown in; the rest is cut away.
+/// The whole image is laid out so that the place fills what it is shown in; the rest is cut away. Enlarged, a
+/// rim of less than half a texel is left out, which the filter would mix with the neighbour: the outermost
+/// pixels then show the middles of the outermost texels.
 void GuiPictures::draw(const Shown& shown, const ImDrawCmd& command) const {
     const ImDrawData& data = *ImGui::GetDrawData();
     const auto pixels = [&](const glm::vec2& at) {
@@ -111,10 +112,12 @@ void GuiPictures::draw(const Shown& shown, const ImDrawCmd& command) const {
                     clipTo = glm::min(to, pixels({command.ClipRect.z, command.ClipRect.w}));
     if (!(clipTo.x > clipFrom.x && clipTo.y > clipFrom.y))
         return;
-    const glm::vec2 texel = (to - from) / glm::vec2(kWidth - 1, kHeight - 1); // pixels each
+    const glm::vec2 texels(kWidth, kHeight);
+    const glm::vec2 rim = glm::max(glm::vec2(0.0f), 0.5f - 0.5f * texels / (to - from)); // texels
+    const glm::vec2 texel = (to - from) / (texels - 2.0f * rim);                         // pixels each
     const glm::vec2 corner = from - texel * (glm::vec2(static_cast<float>(shown.place % kColumns * kWidth),
                                                        static_cast<float>(shown.place / kColumns * kHeight)) +
-                                             0.5f);
+                                             rim);
     const auto rounded = [](float x) { return static_cast<int>(x + 0.5f); };
     device_->drawImage(set_,
                        {.x = corner.x,

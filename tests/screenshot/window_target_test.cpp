@@ -214,6 +214,82 @@ TEST_P(WindowTargetTest, GoesOnWithAnotherDevice) {
     EXPECT_EQ(at(capture(), 50, 180), kPanelColor);
 }
 
+/// Red and green are the place in the picture, blue tells which.
+PixelData smallPicture(int which) {
+    PixelData picture{WindowTarget::kPictureWidth, WindowTarget::kPictureHeight, 4, ComponentType::U8, {}};
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            for (const int value : {x, y, which, 255})
+                picture.bytes.push_back(static_cast<std::byte>(value));
+    return picture;
+}
+
+TEST_P(WindowTargetTest, SmallPicturesAreShownByteForByteOnEveryDevice) {
+    constexpr size_t kLast = WindowTarget::kPictures - 1;
+    const glm::ivec2 corner{10, 20};
+    // Two of them in an ImGui window, which cuts off half of the second, and a rectangle over the first.
+    const auto pictured = [&] {
+        glfwPollEvents();
+        if (!target_->beginFrame())
+            return false;
+        ImGui::SetNextWindowPos(ImVec2(0.0f, 0.0f));
+        ImGui::SetNextWindowSize(ImVec2(330.0f, 200.0f));
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+        ImGui::Begin("pictures", nullptr, ImGuiWindowFlags_NoDecoration);
+        ImGui::PopStyleVar(2);
+        const glm::vec2 from(corner), size(WindowTarget::kPictureWidth, WindowTarget::kPictureHeight);
+        target_->showPicture(0, from, from + size);
+        ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(10.0f, 20.0f), ImVec2(30.0f, 40.0f),
+                                                  IM_COL32(20, 200, 40, 255));
+        target_->showPicture(kLast, from + glm::vec2(size.x + 10.0f, 0.0f),
+                             from + glm::vec2(2.0f * size.x + 10.0f, size.y));
+        target_->showPicture(5, from, from + size); // never set
+        ImGui::End();
+        target_->endFrame(nullptr, {});
+        return true;
+    };
+    const auto expectPictures = [&](int first, const char* when) {
+        for (int i = 0; i < 3; ++i)
+            ASSERT_TRUE(pictured());
+        std::this_thread::sleep_for(std::chrono::milliseconds(150)); // panels are drawn ten times a second
+        target_->requestCapture();
+        ASSERT_TRUE(pictured());
+        const std::optional<PixelData> shown = target_->takeCapture();
+        ASSERT_TRUE(shown.has_value());
+        EXPECT_EQ(at(*shown, 15, 25), kPanelColor) << when << ": what comes later lies over it";
+        int different = 0;
+        for (int y = 0; y < WindowTarget::kPictureHeight; ++y)
+            for (int x = 0; x < WindowTarget::kPictureWidth; ++x) {
+                if (x >= 20 || y >= 20)
+                    different += at(*shown, corner.x + x, corner.y + y) != glm::ivec3(x, y, first);
+                const int second = corner.x + WindowTarget::kPictureWidth + 10 + x;
+                if (second < 330)
+                    different += at(*shown, second, corner.y + y) != glm::ivec3(x, y, 200);
+                else
+                    EXPECT_NE(at(*shown, second, corner.y + y).z, 200) << when << ": beyond the window";
+            }
+        EXPECT_EQ(different, 0) << when;
+    };
+    target_->setPicture(0, smallPicture(100));
+    target_->setPicture(kLast, smallPicture(200));
+    expectPictures(100, "at first");
+    target_->setPicture(0, smallPicture(150));
+    expectPictures(150, "another one in its place");
+    EXPECT_THROW(target_->setPicture(0, PixelData{}), std::invalid_argument);
+    EXPECT_THROW(target_->setPicture(WindowTarget::kPictures, smallPicture(0)), std::out_of_range);
+
+    renderer_.reset();
+    target_->leaveDevice();
+    gpu_.reset();
+    GpuOptions options;
+    options.validation = true;
+    options.log = log_;
+    gpu_ = createGpuForWindow(window_, options);
+    target_->takeDevice(*gpu_);
+    expectPictures(150, "on another device");
+}
+
 TEST_P(WindowTargetTest, CaptureIsOnlyThereWhenAsked) {
     ASSERT_TRUE(frame());
     EXPECT_FALSE(target_->takeCapture().has_value());
