@@ -47,6 +47,34 @@ TEST(ForceLimiter, PassesAForceWithinTheLimitsUnchanged) {
     EXPECT_EQ(ticker.flags, 0u);
 }
 
+TEST(ForceLimiter, LetsAsMuchPassAsTheClutchDoes) {
+    Ticker ticker;
+    const glm::dvec3 force{0.0, 4.0, 0.0};
+    ticker.settle(force);
+    for (const double coupling : {1.0, 0.75, 0.5, 0.25, 0.0, 0.4}) {
+        ticker.inputs.coupling = coupling;
+        EXPECT_NEAR(ticker.tick(force).y, 4.0 * coupling, 1e-12);
+        EXPECT_EQ(has(ticker.flags, TickFlag::ForceRamping), coupling < 1.0);
+    }
+    // Of a force that is too large, it is the share of what the device can do: it fades from the first tick
+    // on.
+    ticker.inputs.coupling = 1.0;
+    ticker.settle(10.0 * force);
+    const double most = ticker.inputs.limits.maxForce;
+    ticker.inputs.coupling = 0.9;
+    EXPECT_NEAR(ticker.tick(10.0 * force).y, 0.9 * most, 1e-9);
+    // No faster than the slew, and what is no share is none.
+    ticker.inputs.limits.maxForceRate = 100.0;
+    for (const double coupling : {0.0, kNaN, -1.0}) {
+        ticker.inputs.coupling = 1.0;
+        const double before = ticker.settle(force, 0.2).y;
+        EXPECT_EQ(before, 4.0);
+        ticker.inputs.coupling = coupling;
+        EXPECT_NEAR(ticker.tick(force).y, before - 0.1, 1e-9);
+        EXPECT_EQ(ticker.settle(force).y, 0.0) << coupling;
+    }
+}
+
 TEST(ForceLimiter, FadesInAfterTheStart) {
     Ticker ticker;
     const glm::dvec3 force{0.0, 4.0, 0.0};
