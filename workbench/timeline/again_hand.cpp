@@ -70,15 +70,16 @@ DeviceSample AgainHand::sample(double time) noexcept {
         sample.position = sample.mapping.workspaceFromDevice.inversePoint(hip);
         gliding_ = time - glideStart_ < kGlideTime;
     }
+    constexpr double kLongestStep = 0.010; // s
+    const double dt = std::clamp(time - lastTime_, 0.0, kLongestStep);
+    lastTime_ = time;
+    coupling_ = path != nullptr || gliding_ ? 0.0 : std::min(1.0, coupling_ + dt / kCouplingTime);
+    sample.mapping.coupling *= coupling_;
     if (sample.valid) {
         last_ = sample.inWorkspace();
         started_ = true;
     }
     return sample;
-}
-
-void AgainHand::apply(const DeviceCommand& command) noexcept {
-    own_.apply(followed_ == nullptr && !gliding_ ? command : DeviceCommand{});
 }
 
 } // namespace touchstone

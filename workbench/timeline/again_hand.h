@@ -52,10 +52,13 @@ class RecordedPath {
 };
 
 /// Stands before the window's hand: while a recording is touched again its samples take the place of the
-/// hand's own, and the device that is held gets no force, since it is somewhere else. Going over glides.
+/// hand's own, and the device that is held gets no force, since it is somewhere else: the samples say that
+/// nothing is coupled (DeviceMapping), and the safety stage takes the force away and gives it back as it does
+/// for the clutch. Going over glides.
 class AgainHand final : public Device {
   public:
-    static constexpr double kGlideTime = 0.4; ///< s
+    static constexpr double kGlideTime = 0.4;      ///< s
+    static constexpr double kCouplingTime = 0.050; ///< s, from no force to all of it
 
     explicit AgainHand(Device& own) : own_(own) {}
 
@@ -67,7 +70,7 @@ class AgainHand final : public Device {
     [[nodiscard]] std::string name() const override { return own_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return own_.limits(); }
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
-    void apply(const DeviceCommand& command) noexcept override;
+    void apply(const DeviceCommand& command) noexcept override { own_.apply(command); }
 
   private:
     Device& own_;
@@ -75,7 +78,8 @@ class AgainHand final : public Device {
     // Servo thread:
     const RecordedPath* followed_ = nullptr;
     glm::dvec3 last_{0.0}, glideFrom_{0.0};
-    double glideStart_ = 0.0;
+    double glideStart_ = 0.0, lastTime_ = 0.0;
+    double coupling_ = 1.0;
     bool started_ = false, gliding_ = false;
 };
 

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <span>
 #include <thread>
 
 namespace touchstone::test {
@@ -177,12 +179,59 @@ TEST_F(AgainTest, ADeviceThatIsHeldFeelsNothingOfWhatIsTouchedAgain) {
     while (servo.counters().ticks < 2000) {
         TickRecord record;
         while (servo.popRecord(record))
-            most = std::max(most, glm::length(record.output.command.force()));
+            most = std::max(most, glm::length(record.output.force));
         pause();
     }
     servo.stop();
-    EXPECT_GT(most, 0.1) << "the servo would have pushed";
+    EXPECT_GT(most, 0.1) << "it touches";
     EXPECT_EQ(own.most, 0.0);
+}
+
+/// A device that is held within the model when the recorded hand has gone: its force comes back, no faster
+/// than it may.
+TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
+    const TouchedScene scene = touchedScene("doughnut.glb");
+    const auto haptic = copyOf(*scene.haptic);
+    haptic->limits = scene.haptic->limits;
+    haptic->limits.maxForceRate = 20.0; // N/s
+    constexpr double kTick = 1e-3;
+    StillHand own;
+    AgainHand hand(own);
+    WorldState world;
+    DeviceState state;
+    NoStopwatch stopwatch;
+    glm::dvec3 before(0.0);
+    double steepest = 0.0, last = 0.0;
+    uint64_t tick = 0;
+    const auto run = [&](int ticks, const std::function<glm::dvec3(int)>& place) {
+        for (int i = 0; i < ticks; ++i, ++tick) {
+            own.place = place(i);
+            const double time = kTick * static_cast<double>(tick);
+            const DeviceSample sample = hand.sample(time);
+            HapticOutput output;
+            hapticStep(
+                *haptic, {},
+                {.tick = tick, .time = time, .dt = kTick, .devices = std::span(&sample, 1), .objects = {}},
+                world, std::span(&state, 1), std::span(&output, 1), stopwatch);
+            hand.apply(output.command);
+            const glm::dvec3 force = output.command.force();
+            steepest = std::max(steepest, glm::length(force - before) / kTick);
+            last = glm::length(force);
+            before = force;
+        }
+    };
+    const glm::dvec3 pressed = overTheDoughnut(0.47);
+    run(470, [](int i) { return overTheDoughnut(kTick * i); });
+    const double held = last;
+    EXPECT_GT(held, 0.1);
+    hand.follow(std::make_shared<const RecordedPath>(
+        std::vector<RecordedPath::Sample>{{0.0, pressed, true}, {0.5, pressed, true}}));
+    run(1000, [&](int) { return pressed; });
+    EXPECT_EQ(last, 0.0) << "nothing of what is touched again";
+    hand.follow(nullptr);
+    run(1000, [&](int) { return pressed; });
+    EXPECT_GT(last, 0.5 * held) << "it is back";
+    EXPECT_LE(steepest, 1.001 * haptic->limits.maxForceRate);
 }
 
 TEST(RecordedPathTest, BeginsWhereWhatMovesWasAndGoesRound) {
