@@ -1,0 +1,274 @@
+#include "workbench/options/command_options.h"
+
+#include "haptics/servo/servo_loop.h"
+#include "renderer/view.h"
+#include "workbench/editor/haptic_fields.h"
+#include "workbench/editor/presets.h"
+#include "workbench/options/shared_options.h"
+
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+/// "2/8"
+void parseShard(const std::string& text, StudyCommandOptions& options) {
+    const size_t slash = text.find('/');
+    int shard = 0, shards = 0;
+    const auto whole = [](std::string_view part, int& number) {
+        const auto read = std::from_chars(part.data(), part.data() + part.size(), number);
+        return read.ec == std::errc{} && read.ptr == part.data() + part.size();
+    };
+    if (slash == std::string::npos || !whole(std::string_view(text).substr(0, slash), shard) ||
+        !whole(std::string_view(text).substr(slash + 1), shards) || shard < 1 || shard > shards)
+        throw CLI::ValidationError("--shard", "'" + text + "' is no share; write I/N, I from 1 to N");
+    options.shard = shard;
+    options.shards = shards;
+}
+
+} // namespace
+
+void defineDevices(CLI::App& app, DevicesOptions& options) {
+    CLI::Option* test =
+        app.add_option("--test", options.test,
+                       "Try one: how often it reports, how old samples are, where it is. As in --device")
+            ->type_name("DEVICE");
+    app.add_option("--seconds", options.seconds, "How long [3]")
+        ->type_name("S")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->needs(test);
+    constexpr double kMostForce = 2.0; // N; a hand that holds the device loosely keeps it
+    app.add_option(
+           "--force", options.force,
+           "Push this hard along each axis in turn; without it no force is ever sent. Hold the device!")
+        ->type_name("N")
+        ->check(CLI::Range(0.0, kMostForce))
+        ->needs(test);
+    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE")->needs(test);
+}
+
+void defineWindow(CLI::App& app, WindowOptions& options) {
+    addScene(app, options.scene)
+        ->description("glTF model or recording (.tsrec) to open in a window; without it the doughnut");
+    addSettings(app, [&options](std::string_view name, std::string_view value) {
+        HapticSettings tried; // whether it is one; it goes over what the last run left
+        options.settings.emplace_back(name, value);
+        return setSetting(tried, name, value);
+    });
+    addRate(app, options.rateHz, "Servo rate [1000]");
+    app.add_option_function<std::string>(
+           "--hand", [&options](const std::string& hand) { options.simulatedHand = hand == "simulated"; },
+           "Who moves the hand at first [mouse]")
+        ->check(CLI::IsMember({"mouse", "simulated"}));
+    addDevice(app, "mouse (the default), hand (the simulated one)", [&options](const std::string& device) {
+        options.simulatedHand = device == "hand";
+        options.device = device == "mouse" || device == "hand" ? "" : device;
+    });
+    app.add_flag("--sound", options.sound, "Let the force be heard from the start");
+    addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
+    addZoom(app, options.zoom);
+    addSize(app, options.size, "Size of the window [1280x800]");
+    app.add_option("--status-json", options.statusJson,
+                   "Keep this file up to date with what the window shows: servo, force, settings, widgets")
+        ->type_name("FILE");
+    addRecording(app, options.recording);
+    addGpu(app, options.gpu);
+}
+
+void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
+    addScene(app, options.scene)->required();
+    app.add_flag("--headless", headless, "No window (this is what `run` is for)")->required();
+    app.add_option("--seconds", options.seconds, "How long [10]")
+        ->type_name("S")
+        ->check(CLI::Range(0.1, 86400.0));
+    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
+    app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
+        ->type_name("FILE");
+    app.add_option("--record-ticks", options.recordTicks, "Write every tick here, as CSV")->type_name("FILE");
+    addRecording(app, options.recording);
+    CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
+                                     "The hand follows its path whatever the force, as no hand can");
+    CLI::Option* plant = addPlant(app, options.plant)->excludes(open);
+    CLI::Option* stroke =
+        addStroke(app, options.stroke, "How it strokes (listed at the end of --help) [tour]");
+    addZoom(app, options.zoom);
+    addDevice(app, "hand (the simulated one, the default)",
+              [&options](const std::string& device) { options.device = device; });
+    app.parse_complete_callback([&options, open, plant, stroke] {
+        const bool real = !options.device.empty() && options.device != "hand";
+        for (const CLI::Option* simulated : {open, plant, stroke})
+            if (real && simulated->count() > 0)
+                throw CLI::ValidationError(simulated->get_name(),
+                                           "is of the simulated hand, and --device names another");
+    });
+    addSize(app, options.size, "Size of the picture [800x450]");
+    addSettings(app, options.settings);
+    addRate(app, options.rateHz, "Servo rate [1000]");
+    addGpu(app, options.gpu);
+}
+
+void defineTouch(CLI::App& app, TouchOptions& options) {
+    addScene(app, options.scene)->required();
+    CLI::Option* path =
+        app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
+            ->type_name("HIP.csv");
+    CLI::Option* stroke =
+        addStroke(app, options.stroke, "In place of a path: a stroke (listed at the end of --help)")
+            ->excludes(path);
+    app.add_option("--seconds", options.seconds, "How long it strokes [once round]")
+        ->type_name("S")
+        ->check(CLI::Range(0.01, 86400.0))
+        ->needs(stroke);
+    for (const char* of : {"--stroke-speed", "--stroke-depth"})
+        app.get_option(of)->needs(stroke);
+    app.parse_complete_callback([path, stroke] {
+        if (path->count() == 0 && stroke->count() == 0)
+            throw CLI::RequiredError("--path or --stroke");
+    });
+    app.add_option("--out", options.out, "Every tick: CSV")->type_name("TICKS.csv")->required();
+    app.add_option("--json", options.json, "Write the figures here: step times, Embree's ray floor, contact")
+        ->type_name("FILE");
+    app.add_option_function<std::string>(
+           "--fit",
+           [&options](const std::string& fit) {
+               options.fit = fit == "workspace" ? Fit::Workspace : Fit::None;
+           },
+           "Scene metres as workspace metres, or fitted to the device's workspace [none]")
+        ->check(CLI::IsMember({"none", "workspace"}));
+    CLI::Option* closed =
+        app.add_flag("--closed-loop", options.closedLoop,
+                     "The path is what the hand intends: it holds a simulated device, and both yield");
+    addPlant(app, options.plant)->needs(closed);
+    app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
+    app.add_option("--sound", options.sound, "Write how the force sounds, as WAV")->type_name("FILE.wav");
+    addSettings(app, options.settings);
+    addRate(app, options.rateHz,
+            "Resample the path at this rate; without it one tick a row (1000 for a stroke)");
+}
+
+void defineReplay(CLI::App& app, ReplayOptions& options) {
+    app.add_option("FILE", options.recording,
+                   "A recording: of --record, of the window's button, or of the flight recorder")
+        ->type_name("")
+        ->required();
+    app.add_option("--out", options.out, "Every tick as it came out now: CSV")->type_name("TICKS.csv");
+    app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
+    app.add_option("--scene", options.scenes,
+                   "Touch this model in place of the recorded one; may be given again for the next one")
+        ->type_name("SCENE")
+        ->expected(1)
+        ->take_all();
+}
+
+void defineEdit(CLI::App& app, EditOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--material", options.materials,
+                   "Which one: its name, its index in the file, or all; may be given again. Not needed where "
+                   "the file has only one")
+        ->type_name("NAME")
+        ->expected(1)
+        ->take_all();
+    std::vector<std::string> presets;
+    for (const MaterialPreset& preset : materialPresets())
+        presets.emplace_back(preset.name);
+    app.add_option("--preset", options.preset, "Numbers to begin with; maps stay as they are")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(presets));
+    app.add_flag("--reset", options.reset, "First take out all that the file says of how it feels");
+    app.add_option("--reset-field", options.resetFields, "Take out one field; may be given again")
+        ->type_name("NAME")
+        ->expected(1)
+        ->take_all()
+        ->check([](const std::string& name) {
+            return name == "shader" ? std::string() : hapticFieldProblem(name);
+        });
+    addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
+                   [&options](std::string_view name, std::string_view value) {
+                       options.fields.emplace_back(name, value);
+                       return hapticFieldProblem(name);
+                   });
+    app.add_option("--out", options.out, "Save here; without it into the model's own file")
+        ->type_name("FILE");
+}
+
+void defineRender(CLI::App& app, RenderOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--out", options.out, "The picture, as PNG")->type_name("FILE")->required();
+    addSize(app, options.size, "Size of the picture [1280x720]");
+    std::vector<std::string> views;
+    for (const std::string_view name : kViewModeNames)
+        views.emplace_back(name);
+    app.add_option("--view", options.view, "What is shown: the look, or a map of what is felt [shaded]")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(views));
+    addGpu(app, options.gpu);
+}
+
+void defineInspect(CLI::App& app, InspectOptions& options) {
+    addScene(app, options.scene)->required();
+    app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
+}
+
+void defineBench(CLI::App& app, BenchOptions& options) {
+    app.add_option(
+           "WHAT", options.what,
+           "fast: the bounds of a tick in rays; growth: its time over the number of triangles; moving: "
+           "a thousand objects that move, and objects that close on the hand; all without it")
+        ->type_name("")
+        ->check(CLI::IsMember({"fast", "growth", "moving"}));
+    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
+    app.add_option("--largest", options.largestTriangles,
+                   "Leave out what has more triangles [1000000]; 10000000 takes 2.5 GB and half a minute")
+        ->type_name("N");
+    app.add_option("--rounds", options.rounds, "Turns of 1000 ticks for each case [20]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    app.add_flag("--check", options.check, "Exit status 1 where a bound is missed");
+}
+
+void defineStudy(CLI::App& app, StudyCommandOptions& options) {
+    app.add_option(
+           "WHAT", options.what,
+           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), glTF files, folders of them "
+           "and `rate`, the servo's; without any, every shape and the rate")
+        ->type_name("");
+    app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
+    app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")
+        ->type_name("NAME")
+        ->expected(1)
+        ->take_all();
+    app.add_option("--rounds", options.rounds, "Turns that every rung takes [150]")
+        ->type_name("N")
+        ->check(CLI::Range(2, 10000));
+    app.add_flag("--quick", options.quick, "A rougher answer in less time");
+    app.add_flag("--list", options.list, "Print the ladders and shapes");
+    app.add_option_function<std::string>(
+           "--shard", [&options](const std::string& text) { parseShard(text, options); },
+           "Study every N-th of what is asked for only, from the I-th, and leave plots to `study merge`: for "
+           "GNU parallel and job arrays")
+        ->type_name("I/N");
+    app.parse_complete_callback([&app, &options] {
+        if (options.out.empty() && !options.list && app.get_subcommands().empty())
+            throw CLI::RequiredError("--out");
+    });
+}
+
+void defineCompare(CLI::App& app, StudyCompareOptions& options) {
+    app.add_option("A", options.first, "study.json of one run")->type_name("")->required();
+    app.add_option("B", options.second, "study.json of another")->type_name("")->required();
+}
+
+void defineMerge(CLI::App& app, StudyMergeOptions& options) {
+    app.add_option("PART", options.parts, "Folders that `study --shard` wrote (or study.json files)")
+        ->type_name("")
+        ->required();
+    app.add_option("--out", options.out, "Folder for the whole study and its plots")
+        ->type_name("DIR")
+        ->required();
+}
+
+} // namespace touchstone
