@@ -28,7 +28,8 @@ CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std:
 /// --set, that may be given again.
 void addSettings(CLI::App& app, std::function<std::string(std::string_view, std::string_view)> assign);
 void addSettings(CLI::App& app, HapticSettings& settings);
-/// --plant, --stroke with its speed and depth, --zoom, --rate, --gpu, --record with its fellows, SCENE.
+/// --plant, --stroke with its speed and depth, --workspace-scale, --rate, --gpu, --record with its fellows,
+/// SCENE.
 CLI::Option* addPlant(CLI::App& app, PlantParameters& plant);
 CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& meaning);
 void addZoom(CLI::App& app, double& zoom);
