@@ -101,36 +101,56 @@ void examination(TimelineDesk& desk, Widgets& widgets) {
         desk.wantModel();
 }
 
-/// What came of it, or what is to be known, in one line.
-void news(const TimelineDesk& desk, Widgets& widgets) {
+struct News {
+    std::string text;
+    ImU32 color;
+};
+
+/// What came of it, or what is to be known.
+News newsOf(const TimelineDesk& desk) {
     const TouchAgain::Means means = desk.again().means();
     char text[160];
-    if (desk.again().running() || means.ticks > 0) {
-        if (means.ticks > 0)
-            std::snprintf(text, sizeof text, "then %.3f N, again %.3f N, on average in contact",
-                          means.recorded, means.now);
-        else
-            std::snprintf(text, sizeof text, "the hand is on its way to where the recording begins");
-        ImGui::TextColored(ImColor(kBlue), "%s", text);
-    } else if (!desk.verdict().empty()) {
-        ImGui::TextColored(ImColor(desk.verdictEqual() ? kGreen : kRed), "%s", desk.verdict().c_str());
-    } else if (!desk.notes().empty()) {
-        ImGui::TextColored(ImColor(kAmber), "%s%s", desk.notes().front().c_str(),
-                           desk.notes().size() > 1 ? " …" : "");
-    } else {
-        const RecordingOrigin& origin = desk.timeline().origin();
-        ImGui::TextDisabled("%s, made by %s, %zu ticks", desk.timeline().file().filename().c_str(),
-                            origin.command.c_str(), desk.timeline().size());
+    if (means.ticks > 0) {
+        std::snprintf(text, sizeof text, "then %.3f N, again %.3f N, on average in contact", means.recorded,
+                      means.now);
+        return {text, kBlue};
     }
+    if (desk.again().running())
+        return {"the hand is on its way to where the recording begins", kBlue};
+    if (!desk.verdict().empty())
+        return {desk.verdict(), desk.verdictEqual() ? kGreen : kRed};
+    if (!desk.notes().empty())
+        return {desk.notes().front() + (desk.notes().size() > 1 ? " …" : ""), kAmber};
+    const Timeline& timeline = desk.timeline();
+    return {timeline.file().filename().string() + ", made by " + timeline.origin().command + ", " +
+                std::to_string(timeline.size()) + " ticks",
+            ImGui::GetColorU32(ImGuiCol_TextDisabled)};
+}
+
+/// As many lines as it needs, two at most: what is more is cut off, and in the tooltip.
+float heightOf(const News& news) {
+    const float wrap = ImGui::GetContentRegionAvail().x;
+    return std::min(ImGui::CalcTextSize(news.text.c_str(), nullptr, false, wrap).y,
+                    2.0f * ImGui::GetTextLineHeight());
+}
+
+void tell(const News& news, const TimelineDesk& desk, Widgets& widgets) {
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, heightOf(news));
+    const ImVec4 clip(at.x, at.y, at.x + size.x, at.y + size.y);
+    ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, news.color,
+                                        news.text.c_str(), nullptr, size.x, &clip);
+    ImGui::Dummy(size);
     widgets.mark("recordingNews");
     if (!ImGui::IsItemHovered())
         return;
     ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(widgets.units(600.0f));
     ImGui::TextUnformatted(desk.timeline().file().c_str());
     if (!desk.verdict().empty())
         ImGui::TextUnformatted(desk.verdict().c_str());
     for (const std::string& note : desk.notes())
         ImGui::TextUnformatted(note.c_str());
+    ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
 
@@ -206,13 +226,14 @@ void drawTimeline(TimelineDesk& desk, TimelinePanelState& state, Widgets& widget
         state.list = true;
     ImGui::PopStyleVar();
     const float gap = ImGui::GetStyle().ItemSpacing.y;
-    const float room = ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - 2.0f * gap;
+    const News news = newsOf(desk);
+    const float room = ImGui::GetContentRegionAvail().y - heightOf(news) - 2.0f * gap;
     const float overview = std::clamp(0.5f * room, widgets.units(24.0f), widgets.units(44.0f));
     drawOverview(desk, overview, widgets);
     ImGui::Dummy(ImVec2(0.0f, 0.0f));
     drawNear(desk, state, std::max(room - overview, widgets.units(24.0f)), widgets);
     ImGui::Dummy(ImVec2(0.0f, 0.0f));
-    news(desk, widgets);
+    tell(news, desk, widgets);
 }
 
 void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& widgets) {

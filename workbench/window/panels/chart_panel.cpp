@@ -17,7 +17,8 @@ using Entry = ForceHistory::Entry;
 
 constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52, 58, 255),
                 kLabel = IM_COL32(140, 147, 155, 255), kCursor = IM_COL32(228, 231, 234, 160),
-                kRecorded = IM_COL32(225, 75, 65, 255), kText = IM_COL32(228, 231, 234, 255);
+                kRecorded = IM_COL32(225, 75, 65, 255), kText = IM_COL32(228, 231, 234, 255),
+                kGround = IM_COL32(22, 24, 27, 210); ///< of a label, over a curve
 
 struct Chart {
     const char *name, *unit;
@@ -135,7 +136,9 @@ class Charts {
         draw_.AddText(ImVec2(left_ - widgets_.units(8.0f) - ImGui::CalcTextSize(text).x, middle), kText,
                       text);
         std::snprintf(text, sizeof text, chart.fromZero ? "%g" : "±%g", top);
-        draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), y), kLabel, text);
+        const ImVec2 at(left_ + widgets_.units(4.0f), y), size = ImGui::CalcTextSize(text);
+        draw_.AddRectFilled(ImVec2(at.x - 2.0f, at.y), ImVec2(at.x + size.x + 2.0f, at.y + size.y), kGround);
+        draw_.AddText(at, kLabel, text);
     }
 
     /// Seconds back from the newest tick, and when a recording ran.

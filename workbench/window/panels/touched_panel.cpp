@@ -61,7 +61,7 @@ void effects(const EffectPlan& plan, int material) {
 void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (input.haptic == nullptr)
         return;
-    if (ImGui::SmallButton("Edit materials (E)"))
+    if (ImGui::Button("Edit materials (E)"))
         state.editMaterials = !state.editMaterials;
     widgets.mark("editMaterials");
     const int index = touchedMaterial(input);
