@@ -20,6 +20,13 @@ void checkResult(VkResult result) {
         vk::throwResultException(static_cast<vk::Result>(result), "Dear ImGui");
 }
 
+/// A key went down or up since the last frame.
+bool keysChanged(const ImGuiIO& io) {
+    return !std::equal(std::begin(io.KeysDownDuration), std::end(io.KeysDownDuration),
+                       std::begin(io.KeysDownDurationPrev),
+                       [](float now, float before) { return (now >= 0.0f) == (before >= 0.0f); });
+}
+
 } // namespace
 
 ImGuiBackend::ImGuiBackend(GLFWwindow* window, const std::function<void()>& setUp) {
@@ -51,17 +58,15 @@ void ImGuiBackend::takeDevice(const Gpu::Impl& gpu, vk::RenderPass pass, vk::Des
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.CheckVkResultFn = &checkResult;
     ImGui_ImplVulkan_Init(&info, pass);
-    onDevice_ = true;
     runOnce(gpu,
             [](const vk::raii::CommandBuffer& commands) { ImGui_ImplVulkan_CreateFontsTexture(*commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 }
 
 void ImGuiBackend::leaveDevice() {
-    if (!onDevice_)
-        return;
-    onDevice_ = false;
-    ImGui_ImplVulkan_Shutdown();
+    // Its own word: it is also there where it was set up in part and an error flew.
+    if (ImGui::GetIO().BackendRendererUserData != nullptr)
+        ImGui_ImplVulkan_Shutdown();
 }
 
 void ImGuiBackend::beginFrame() {
@@ -72,7 +77,7 @@ void ImGuiBackend::beginFrame() {
 
 bool userIsAtPanels(const PixelRect& picture) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || ImGui::IsAnyItemActive())
+    if (io.WantTextInput || ImGui::IsAnyItemActive() || keysChanged(io))
         return true;
     const bool pressed =
         std::any_of(std::begin(io.MouseDown), std::end(io.MouseDown), [](bool b) { return b; });

@@ -26,13 +26,11 @@ class ImGuiBackend {
     void leaveDevice();
 
     void beginFrame();
-
-  private:
-    bool onDevice_ = false;
 };
 
-/// The user does something in a window of ImGui's, or did until now, that should be seen at once. `picture`:
-/// where the pointer and the keys belong to the model, framebuffer pixels. Between NewFrame and EndFrame.
+/// The user does something in a window of ImGui's, or did until now, that should be seen at once; any key
+/// that goes down or up may be such. `picture`: where the pointer belongs to the model, framebuffer pixels.
+/// Between NewFrame and EndFrame.
 [[nodiscard]] bool userIsAtPanels(const PixelRect& picture);
 
 /// Leaves of what is to be drawn only what lies in `area`, framebuffer pixels.

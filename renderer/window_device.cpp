@@ -130,6 +130,7 @@ bool WindowDevice::followWindow(WindowTarget::Statistics& statistics) {
     // A semaphore of an acquire that was never submitted stays signalled; fresh ones cost nothing.
     for (Frame& frame : frames_)
         frame.acquired = vk::raii::Semaphore(gpu_.device, vk::SemaphoreCreateInfo{});
+    outdated_ = true; // until there is one: it may fail, or find no area, and the size come back
     if (!swapchain_.recreate(size))
         return false;
     if (drawsOnCanvas())
@@ -262,7 +263,7 @@ std::optional<uint32_t> WindowDevice::acquire(const Frame& frame) {
     return image;
 }
 
-void WindowDevice::present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
+bool WindowDevice::present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
                            WindowTarget::Statistics& statistics) {
     const auto start = std::chrono::steady_clock::now();
     Frame& frame = frames_[nextFrame_];
@@ -270,12 +271,13 @@ void WindowDevice::present(const SceneRenderer* scene, const EyePlaces& where, b
     const std::optional<uint32_t> image = acquire(frame);
     statistics.waitSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!image)
-        return;
+        return false;
     record(frame, *image, scene, where, whole);
     submit(frame, *image);
     nextFrame_ = (nextFrame_ + 1) % frames_.size();
     ++statistics.framesPresented;
     statistics.wholeFrames += whole;
+    return true;
 }
 
 void WindowDevice::submit(const Frame& frame, uint32_t image) {

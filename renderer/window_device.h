@@ -30,16 +30,16 @@ class WindowDevice {
 
     /// Whether a frame may draw a part only.
     void keepPanels(bool may) {
+        outdated_ |= keepsPanels_ != may; // with a canvas or without
         keepsPanels_ = may;
-        outdated_ = true; // with a canvas or without
     }
     /// Makes the swapchain follow the framebuffer's size. False while the window has no area.
     bool followWindow(WindowTarget::Statistics& statistics);
     /// A frame may draw a part only: there is a canvas, and it holds the rest.
     [[nodiscard]] bool canKeep() const { return drawsOnCanvas() && canvas_.painted(); }
     /// Draws the scene images (null: none) and ImGui's draw data, all or what lies within where.main, and
-    /// presents.
-    void present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
+    /// presents. False where the window system took no frame.
+    bool present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
                  WindowTarget::Statistics& statistics);
 
     /// A set of our own pipeline for an image in layout ShaderReadOnlyOptimal; it lasts as long as this.

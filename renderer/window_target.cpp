@@ -23,8 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of the panels, where drawing them costs the CPU a third of a frame: numbers are not read faster.
-constexpr std::chrono::duration<double> kPanelPeriod{0.1};
+/// That panels are drawn after the user was at them: what a key or a click changes they tell a frame later,
+/// and they find their size in one more.
+constexpr int kWholeAfter = 3;
 
 bool same(const PixelRect& a, const PixelRect& b) {
     return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
@@ -53,11 +54,14 @@ std::unique_ptr<Gpu> createGpuForWindow(GLFWwindow* window, const GpuOptions& op
 
 struct WindowTarget::Impl {
     Impl(GLFWwindow* target, const std::function<void()>& setUp) : window(target), gui(target, setUp) {}
+    ~Impl() { leaveDevice(); }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
     void takeDevice(Gpu& gpu);
     void leaveDevice();
     [[nodiscard]] WindowDevice& onDevice();
-    [[nodiscard]] bool wholeWanted(const EyePlaces& where) const;
+    [[nodiscard]] bool wholeWanted(const EyePlaces& where);
 
     GLFWwindow* window;
     ImGuiBackend gui;
@@ -65,6 +69,9 @@ struct WindowTarget::Impl {
     GuiPictures pictures;
     EyePlaces lastPlaces;
     Clock::time_point lastWhole;
+    /// Numbers are not read faster, and drawing panels costs the CPU a third of a frame.
+    std::chrono::duration<double> panelPeriod{WindowTarget::kPanelPeriod};
+    int wholeLeft = 0; ///< frames, as the user was at the panels
     bool frameBegun = false;
     bool captureWanted = false;
     std::optional<bool> keepsPanels; ///< nothing: as suits the device
@@ -98,9 +105,11 @@ WindowDevice& WindowTarget::Impl::onDevice() {
     return *device;
 }
 
-bool WindowTarget::Impl::wholeWanted(const EyePlaces& where) const {
-    return !device->canKeep() || !same(where.main, lastPlaces.main) ||
-           Clock::now() - lastWhole >= kPanelPeriod || userIsAtPanels(where.main);
+bool WindowTarget::Impl::wholeWanted(const EyePlaces& where) {
+    if (userIsAtPanels(where.main))
+        wholeLeft = kWholeAfter;
+    return !device->canKeep() || !same(where.main, lastPlaces.main) || wholeLeft > 0 ||
+           Clock::now() - lastWhole >= panelPeriod;
 }
 
 WindowTarget::WindowTarget(Gpu& gpu, GLFWwindow* window, const std::function<void()>& setUp)
@@ -108,9 +117,7 @@ WindowTarget::WindowTarget(Gpu& gpu, GLFWwindow* window, const std::function<voi
     takeDevice(gpu);
 }
 
-WindowTarget::~WindowTarget() {
-    impl_->leaveDevice();
-}
+WindowTarget::~WindowTarget() = default;
 
 void WindowTarget::takeDevice(Gpu& gpu) {
     translatingErrors("setting up the window", [&] {
@@ -123,8 +130,9 @@ void WindowTarget::leaveDevice() {
     impl_->leaveDevice();
 }
 
-void WindowTarget::keepPanels(bool may) {
+void WindowTarget::keepPanels(bool may, double period) {
     impl_->keepsPanels = may;
+    impl_->panelPeriod = std::chrono::duration<double>(period);
     impl_->onDevice().keepPanels(may);
 }
 
@@ -151,22 +159,18 @@ void WindowTarget::endFrame(SceneRenderer* scene, const EyePlaces& where) {
     ImGui::Render();
     WindowDevice& device = impl_->onDevice();
     device.captureWanted = impl_->captureWanted; // outlives a device
-    translatingErrors("presenting a frame", [&] {
+    const bool presented = translatingErrors("presenting a frame", [&] {
         impl_->pictures.upload();
-        device.present(scene, where, whole, impl_->statistics);
+        return device.present(scene, where, whole, impl_->statistics);
     });
     impl_->pictures.forgetShown();
     impl_->captureWanted = device.captureWanted;
+    if (!presented)
+        return;
     if (whole)
         impl_->lastWhole = Clock::now();
+    impl_->wholeLeft -= impl_->wholeLeft > 0;
     impl_->lastPlaces = where;
-}
-
-void WindowTarget::cancelFrame() {
-    if (impl_->frameBegun)
-        ImGui::EndFrame();
-    impl_->pictures.forgetShown();
-    impl_->frameBegun = false;
 }
 
 void WindowTarget::setPicture(size_t place, const PixelData& pixels) {

@@ -47,8 +47,9 @@ class WindowTarget {
     void takeDevice(Gpu& gpu);
 
     /// Whether what lies outside the picture may be drawn less often than it; where the CPU draws it may, at
-    /// first. Before a beginFrame.
-    void keepPanels(bool may);
+    /// first: once in `period` seconds, ten times a second when nothing else is said. Before a beginFrame.
+    static constexpr double kPanelPeriod = 0.1;
+    void keepPanels(bool may, double period = kPanelPeriod);
 
     /// Framebuffer size in pixels at the last beginFrame.
     [[nodiscard]] glm::ivec2 size() const;
@@ -60,11 +61,9 @@ class WindowTarget {
 
     /// Ends the ImGui frame, draws the last images of `scene` (may be null) bilinearly into their places, the
     /// ImGui windows over them, and presents. After every beginFrame that returned true. Where panels are
-    /// kept, what lies outside where.main is drawn ten times a second only, except while the user is at it.
+    /// kept, what lies outside where.main is drawn once in their period only, except while the user is at it,
+    /// by pointer or key, and shortly after.
     void endFrame(SceneRenderer* scene, const EyePlaces& where);
-
-    /// Ends the ImGui frame that was begun without drawing it; instead of endFrame, on errors.
-    void cancelFrame();
 
     /// Small pictures that ImGui's windows may show, in `kPictures` places: RGBA8, sRGB, opaque. A place
     /// keeps what was set last, on another device too. Throws std::invalid_argument for another size.

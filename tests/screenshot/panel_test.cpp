@@ -12,17 +12,16 @@
 #include "workbench/model/model.h"
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/layout.h"
+#include "workbench/window/picture_desk.h"
 #include "workbench/window/style.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -45,6 +44,7 @@ class PanelGolden : public ::testing::Test {
         glfwSetCursorPos(window_, 550.0, 300.0); // over the picture: nothing is hovered
         gpu_ = createGpuForWindow(window_, {});
         target_ = std::make_unique<WindowTarget>(*gpu_, window_, [] { applyStyle(1.0f); });
+        target_->keepPanels(true, 0.0); // all in every frame
         model_ = loadModel(TOUCHSTONE_ASSETS "/doughnut.glb", Fit::Workspace, DeviceLimits{});
         desk_.open(model_, false);
         touchForTenSeconds();
@@ -113,13 +113,11 @@ class PanelGolden : public ::testing::Test {
         state_.introduced = true;
     }
 
-    /// The window after some frames, with which ImGui's sizes have come to rest, and a pause after which what
-    /// is around the picture is drawn anew.
+    /// The window after some frames, with which ImGui's sizes have come to rest.
     PixelData window(const std::function<void(Widgets&)>& more = {}) {
         constexpr int kFrames = 4;
         for (int i = 0; i < kFrames; ++i)
             frame(more);
-        std::this_thread::sleep_for(std::chrono::milliseconds(250));
         target_->requestCapture();
         for (int i = 0; i < 100; ++i) {
             frame(more);
@@ -279,6 +277,27 @@ TEST_F(PanelGolden, ARecordingThatIsLookedAt) {
     input_.tick = &timeline_.tick();
     expectPanel("recording", Part::Bottom, [&] { timeline_.playback().seek(7.0); });
     expectPanel("recording_card", Part::Picture, [&] { timeline_.leave(); });
+}
+
+/// Of one frame both desks want a part, and the device goes before either has it.
+TEST_F(PanelGolden, APictureComesThoughItsFrameIsLostOrAnotherDeskTakesIt) {
+    const ScratchFolder scratch;
+    PictureDesk model(scratch / "model"), charts(scratch / "charts");
+    model.request(*target_, {.width = 40, .height = 30}, "a");
+    charts.request(*target_, {.width = 20, .height = 10}, "b");
+    frame({});
+    target_->leaveDevice(); // with the copy of that frame
+    gpu_.reset();
+    gpu_ = createGpuForWindow(window_, {});
+    target_->takeDevice(*gpu_);
+    bool modelCame = false, chartsCame = false;
+    for (int i = 0; i < 1000 && !(modelCame && chartsCame); ++i) {
+        modelCame |= model.update(*target_);
+        chartsCame |= charts.update(*target_);
+        frame({});
+    }
+    EXPECT_EQ(model.message(), "saved " + (scratch / "model/a-1.png").string());
+    EXPECT_EQ(charts.message(), "saved " + (scratch / "charts/b-1.png").string());
 }
 
 TEST_F(PanelGolden, FirstRun) {

@@ -31,11 +31,14 @@ void PictureDesk::request(WindowTarget& target, const PixelRect& part, const std
 }
 
 bool PictureDesk::update(WindowTarget& target) {
-    if (part_)
+    if (part_) {
         if (std::optional<PixelData> pixels = target.takeCapture()) {
             saving_ = std::async(std::launch::async, saved, folder_, stem_, cropped(*pixels, *part_));
             part_.reset();
+        } else {
+            target.requestCapture(); // no frame yet, another desk took it, or it was lost with its device
         }
+    }
     if (!saving_.valid() || saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return false;
     message_ = saving_.get();
