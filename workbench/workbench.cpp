@@ -103,7 +103,7 @@ class Workbench {
         if (isRecording(path))
             return timeline_.open(path);
         longestFrame_ = 0.0;
-        opening_.start(path, touch_.limits());
+        opening_.start(path, touch_.limits(), screen_.renderer());
     }
 
     ~Workbench() { remember(); }
@@ -125,6 +125,8 @@ class Workbench {
         onScreen([this] {
             if (screen_.target().beginFrame())
                 draw();
+            else
+                view_.letGo(); // nobody sees what is pressed
         });
         moveHand();
         touch_.devices().renew(start);
@@ -172,6 +174,10 @@ class Workbench {
 
     /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
     void takeModel() {
+        // What was changed while it was read is asked for, too.
+        if (opening_.arriving() && hasModel() &&
+            (materials_.saving() || !leaving_.mayLeave(opening_.path(), materials_, state_)))
+            return;
         try {
             if (std::optional<LoadedModel> loaded = opening_.update(screen_.renderer()))
                 show(*std::move(loaded));
@@ -192,6 +198,7 @@ class Workbench {
         const ScenePtr scene = loaded.model.scene;
         touch_.show(std::move(loaded), scene->path == defaultScene().string());
         drawn_.shown(scene);
+        leaving_.begin();
         materials_.open(touch_.shown().model, isSample(scene->path));
         view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
         memory_.opened(std::filesystem::absolute(scene->path));
@@ -220,11 +227,16 @@ class Workbench {
 
     /// Goes where the user wanted to go, once unsaved materials are seen to.
     void leave() {
-        const std::optional<Leaving::Target> target = leaving_.update(materials_, state_, problem_);
-        if (!target)
+        const std::optional<Leaving::Answer> answer = leaving_.update(materials_, state_, problem_);
+        if (!answer)
             return;
-        if (!target->empty())
-            return open(*target);
+        const bool arriving = opening_.arriving() && answer->target == opening_.path();
+        if (arriving && !answer->go)
+            opening_.cancel(screen_.renderer());
+        if (arriving || !answer->go)
+            return;
+        if (!answer->target.empty())
+            return open(answer->target);
         left_ = true;
         window_.close();
     }
@@ -325,6 +337,7 @@ class Workbench {
                       .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
                       .mouseIsHand = state_.device.empty() && !state_.simulatedHand && !timeline_.looking(),
                       .looksBack = timeline_.looking(),
+                      .covered = state_.gallery || state_.leaving.has_value(),
                       .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
                      state_.view);
         doWhatWasAsked(widgets);

@@ -68,8 +68,6 @@ std::optional<MadeMaterials> MaterialDesk::update(const Model& model) {
 }
 
 void MaterialDesk::saveAs(const std::filesystem::path& target) {
-    if (saving_.valid())
-        return;
     edits_.endGesture();
     wanted_ = target;
 }

@@ -29,7 +29,7 @@ class MaterialDesk {
     [[nodiscard]] double seconds() const { return seconds_; } ///< that the last change took to be touchable
 
     /// Into the file that is open, or another one, which then is the one that is open; once the last change
-    /// is felt.
+    /// is felt and the save before has ended.
     void save() { saveAs(path_); }
     void saveAs(const std::filesystem::path& target);
     [[nodiscard]] bool saving() const { return saving_.valid() || !wanted_.empty(); }

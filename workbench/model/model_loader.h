@@ -41,6 +41,11 @@ class ModelLoader {
     [[nodiscard]] std::optional<LoadedModel> take();
 
     [[nodiscard]] bool loading() const { return worker_.joinable(); }
+    /// There is something to take.
+    [[nodiscard]] bool finished() const {
+        return worker_.joinable() && finished_.load(std::memory_order_acquire) &&
+               !cancelled_.load(std::memory_order_relaxed);
+    }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] double fraction() const { return fraction_.load(std::memory_order_relaxed); } ///< 0..1
     [[nodiscard]] std::string activity() const;

@@ -4,7 +4,8 @@
 
 namespace touchstone {
 
-void Opening::start(const std::filesystem::path& path, const DeviceLimits& limits) {
+void Opening::start(const std::filesystem::path& path, const DeviceLimits& limits, SceneRenderer& renderer) {
+    cancel(renderer);
     loader_.start(path, limits);
 }
 

@@ -15,7 +15,7 @@ namespace touchstone {
 class Opening {
   public:
     /// A second one replaces the first.
-    void start(const std::filesystem::path& path, const DeviceLimits& limits);
+    void start(const std::filesystem::path& path, const DeviceLimits& limits, SceneRenderer& renderer);
     /// In every frame: the model in the frame in which the renderer shows it. Throws what stopped it, Error
     /// or std::bad_alloc; then it is over, but for DeviceLost.
     [[nodiscard]] std::optional<LoadedModel> update(SceneRenderer& renderer);
@@ -24,6 +24,8 @@ class Opening {
     void takeDevice(SceneRenderer& renderer);
 
     [[nodiscard]] bool busy() const { return loader_.loading() || uploading_.has_value(); }
+    /// It has been read: the next updates will show it.
+    [[nodiscard]] bool arriving() const { return loader_.finished() || uploading_.has_value(); }
     [[nodiscard]] bool uploading() const { return uploading_.has_value(); }
     [[nodiscard]] const std::filesystem::path& path() const { return loader_.path(); }
     [[nodiscard]] double fraction() const { return loader_.fraction(); } ///< 0..1

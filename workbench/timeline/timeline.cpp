@@ -210,8 +210,10 @@ std::string settingsDifference(const HapticSettings& before, const HapticSetting
 bool isRecording(const std::filesystem::path& file) {
     std::array<char, kRecordingMagic.size()> begin{};
     std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) // reading a pipe would wait for its writer
+        return false;
     std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, error))
+    if (!in)
         return false;
     in.read(begin.data(), begin.size());
     return std::string_view(begin.data(), static_cast<size_t>(in.gcount())) == kRecordingMagic ||

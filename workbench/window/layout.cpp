@@ -90,21 +90,52 @@ void effectKeys(const PanelInput& input, PanelState& state) {
         toggle(settings.friction, chosen.friction, FrictionMode::Off, FrictionMode::Zilles);
 }
 
-/// F10 gives the arrows to the panels until Escape or F10: they walk from widget to widget, Enter presses,
-/// Ctrl+Tab goes to the next panel. Space stays what takes the force away.
+constexpr auto kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+
+/// F10 gives the arrows to the panels until Escape, F10 or a click on the picture: they walk from widget to
+/// widget, Enter presses, Ctrl+Tab goes to the next panel. Space stays what takes the force away.
 void walk(PanelState& state) {
     ImGuiIO& io = ImGui::GetIO();
-    if (state.walking && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !io.WantTextInput &&
-        !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
-        state.walking = false;
     if (keyPressed(GLFW_KEY_F10)) {
         state.walking = !state.walking;
         ImGui::SetWindowFocus(state.walking ? "scene" : nullptr);
     }
+    if (state.gallery || (ImGui::IsMouseClicked(0) && !io.WantCaptureMouse))
+        state.walking = false;
     if (state.walking)
         io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     else
         io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+}
+
+/// Escape puts one thing away: what lies on top.
+void escape(const PanelInput& input, PanelState& state) {
+    if (!keyPressed(GLFW_KEY_ESCAPE) || ImGui::IsPopupOpen("", kAnyPopup))
+        return;
+    if (state.help)
+        state.help = false;
+    else if (state.leaving)
+        state.leave = PanelState::Leave::Stay;
+    else if (state.gallery)
+        state.gallery = false;
+    else if (state.walking)
+        state.walking = false;
+    else if (input.loading)
+        state.cancelPressed = true;
+    else if (!input.problem.empty())
+        state.dismissPressed = true;
+    else
+        input.timeline->leave();
+}
+
+/// The question what becomes of unsaved materials.
+void answerKeys(const PanelInput& input, PanelState& state) {
+    if (!state.leaving)
+        return;
+    if (keyPressed({GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER}) && input.canSaveMaterials)
+        state.leave = PanelState::Leave::Save;
+    if (keyPressed(keyOf('d')))
+        state.leave = PanelState::Leave::Discard;
 }
 
 /// Clutch and zoom of the hand's workspace. The clutch is held as long as its key is.
@@ -122,14 +153,25 @@ void zoomKeys(PanelState& state) {
         zoom = std::max(zoom / kStep, kLeastZoom);
 }
 
+/// What acts beneath a card that has the keys, and so rests while there is one.
+void coveredKeys(const PanelInput& input, PanelState& state) {
+    zoomKeys(state);
+    if (keyPressed(keyOf('n')) && input.canSimulate)
+        nextStroke(state, ImGui::GetIO().KeyShift ? -1 : 1);
+    if (keyPressed(GLFW_KEY_F9))
+        state.recordPressed = true;
+    if (keyPressed(keyOf('p')))
+        state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
+    if (keyPressed(keyOf('s')))
+        state.sound.on = !state.sound.on;
+    if (keyPressed(keyOf('e')))
+        state.editMaterials = !state.editMaterials;
+}
+
 void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
         state.help = !state.help;
-    constexpr auto kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-    if (keyPressed(GLFW_KEY_ESCAPE) && !state.walking && !ImGui::IsPopupOpen("", kAnyPopup) &&
-        !std::exchange(state.help, false))
-        input.timeline->leave();
     if (keyPressed(GLFW_KEY_F2))
         foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);
     if (keyPressed(GLFW_KEY_F3))
@@ -144,17 +186,6 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.simulatedHand = !state.simulatedHand || !state.device.empty();
         state.device.clear();
     }
-    zoomKeys(state);
-    if (keyPressed(keyOf('n')) && input.canSimulate)
-        nextStroke(state, ImGui::GetIO().KeyShift ? -1 : 1);
-    if (keyPressed(GLFW_KEY_F9))
-        state.recordPressed = true;
-    if (keyPressed(keyOf('p')))
-        state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
-    if (keyPressed(keyOf('s')))
-        state.sound.on = !state.sound.on;
-    if (keyPressed(keyOf('e')))
-        state.editMaterials = !state.editMaterials;
     if (ctrlPressed(keyOf('g')))
         state.gallery = !state.gallery;
     if (ctrlPressed(keyOf('q')))
@@ -239,9 +270,16 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     Widgets widgets(input.scale);
     effectKeys(input, state);
-    if (!state.walking)
-        timelineKeys(*input.timeline);
+    escape(input, state);
+    answerKeys(input, state);
     windowKeys(input, state);
+    if (!state.gallery && !state.leaving) {
+        coveredKeys(input, state);
+        if (!state.walking)
+            timelineKeys(*input.timeline);
+    } else {
+        state.workspace.clutch = false; // its key is not looked at
+    }
     walk(state);
     if (followDesk(*input.timeline, state.timeline))
         state.folds.bottom = false;

@@ -5,29 +5,42 @@
 namespace touchstone {
 
 bool Leaving::mayLeave(const Target& target, const MaterialDesk& materials, PanelState& state) {
-    if (!materials.edits().edited())
+    if (!materials.edits().edited() || discarded_ == materials.edits().revision())
         return true;
+    if (!state.leaving)
+        state.gallery = state.help = false; // nothing lies over the question
     state.leaving = target;
     return false;
 }
 
-std::optional<Leaving::Target> Leaving::update(MaterialDesk& materials, PanelState& state,
+std::optional<Leaving::Answer> Leaving::update(MaterialDesk& materials, PanelState& state,
                                                std::string& problem) {
     using enum PanelState::Leave;
     const PanelState::Leave answer = std::exchange(state.leave, Undecided);
-    if (!state.leaving || (answer == Undecided && !saves_))
+    if (!state.leaving)
         return std::nullopt;
+    const auto answered = [&](bool go) {
+        saves_ = false;
+        return Answer{go, *std::exchange(state.leaving, std::nullopt)};
+    };
+    if (answer == Stay)
+        return answered(false);
+    if (answer == Discard) {
+        discarded_ = materials.edits().revision();
+        return answered(true);
+    }
     if (answer == Save) {
         materials.save();
         saves_ = true;
     }
-    if (saves_ && materials.saving())
+    if (!saves_ || materials.saving())
         return std::nullopt;
-    const bool failed = std::exchange(saves_, false) && materials.failed();
-    if (failed)
+    if (materials.failed()) {
         problem = materials.notice();
-    const Target target = *std::exchange(state.leaving, std::nullopt);
-    return failed || answer == Stay ? std::nullopt : std::optional(target);
+        return answered(false);
+    }
+    saves_ = false;
+    return materials.edits().edited() ? std::nullopt : std::optional(answered(true));
 }
 
 } // namespace touchstone

@@ -3,6 +3,7 @@
 #include "workbench/editor/material_desk.h"
 #include "workbench/window/panels/panel_state.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,16 +15,23 @@ class Leaving {
   public:
     /// Where to go; nowhere, an empty path, is the end.
     using Target = std::filesystem::path;
+    struct Answer {
+        bool go = false; ///< false: the user stays
+        Target target;
+    };
 
     /// True where it may be left for at once; else the question is put.
     [[nodiscard]] bool mayLeave(const Target& target, const MaterialDesk& materials, PanelState& state);
-    /// In every frame: where to go, once the user has said what becomes of the materials. A save that fails
-    /// keeps them, and `problem` says why.
-    [[nodiscard]] std::optional<Target> update(MaterialDesk& materials, PanelState& state,
+    /// In every frame: what the user has said becomes of the materials, once that is done. A save that fails
+    /// keeps them, and `problem` says why; what is changed while it is saved is asked for anew.
+    [[nodiscard]] std::optional<Answer> update(MaterialDesk& materials, PanelState& state,
                                                std::string& problem);
+    /// Another model: what was discarded of the one before says nothing of it.
+    void begin() { discarded_.reset(); }
 
   private:
-    bool saves_ = false; // the user waits for a save, to go on after it
+    bool saves_ = false;                // the user waits for a save, to go on after it
+    std::optional<uint64_t> discarded_; // the revision that may be lost
 };
 
 } // namespace touchstone

@@ -109,11 +109,13 @@ void ViewControl::go(CameraMove move, const Situation& now) {
 }
 
 void ViewControl::update(const Situation& now, ViewOptions& options) {
-    if (const std::optional<CameraMove> move = keyMove(now.looksBack))
-        options.move = move;
-    optionKeys(options);
-    if (!ImGui::GetIO().WantTextInput)
-        turnWithKeys(now);
+    if (!now.covered) {
+        if (const std::optional<CameraMove> move = keyMove(now.looksBack))
+            options.move = move;
+        optionKeys(options);
+        if (!ImGui::GetIO().WantTextInput)
+            turnWithKeys(now);
+    }
     if (options.move)
         go(*std::exchange(options.move, std::nullopt), now);
     if (options.turntable)
@@ -124,7 +126,6 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
         letGo();
 }
 
-/// The button came up over a panel or in another window: nobody presses any more.
 void ViewControl::letGo() {
     pressing_ = false;
     hand_.pointAt({.point = over_, .normal = glm::dvec3(0.0)}, {.force = 0.0});

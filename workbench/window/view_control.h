@@ -29,9 +29,12 @@ class ViewControl {
         double seconds = 0.0;    ///< since the last call
         bool mouseIsHand = true; ///< else the left button and the wheel are the camera's, too
         bool looksBack = false;  ///< at a recording: left, right and Home are its cursor's
+        bool covered = false;    ///< by something that has the keys
         /// What a line of sight meets first; null: there is no model.
         std::function<std::optional<PointedSurface>(const Ray&)> look;
     };
+    /// The button that pressed came up over a panel or in another window: nobody presses any more.
+    void letGo();
     /// Once a frame, within an ImGui frame. Does what `options` ask for and what keys and pointer do.
     void update(const Situation& now, ViewOptions& options);
 
@@ -52,7 +55,6 @@ class ViewControl {
     void moveFreeHand(const Situation& now);
     void pointHand(const Situation& now, const ViewOptions& options);
     [[nodiscard]] static PointedSurface withRoom(const Situation& now, const PointedSurface& surface);
-    void letGo();
     void liftWhereBlocked(const Situation& now, const glm::dvec3& to);
 
     OrbitCamera camera_;

@@ -10,13 +10,14 @@ namespace touchstone {
 namespace {
 
 /// A card on the picture: `x`, `y` say where on it and which of its own points lies there, 0..1.
-bool beginCard(const char* name, const WidgetRect& picture, float x, float y, const Widgets& widgets) {
+bool beginCard(const char* name, const WidgetRect& picture, float x, float y, const Widgets& widgets,
+               ImGuiWindowFlags flags = kCardFlags) {
     const float margin = widgets.units(14.0f);
     ImGui::SetNextWindowPos(ImVec2(picture.x + margin + x * (picture.width - 2.0f * margin),
                                    picture.y + margin + y * (picture.height - 2.0f * margin)),
                             ImGuiCond_Always, ImVec2(x, y));
     ImGui::SetNextWindowBgAlpha(0.88f);
-    return beginCardWindow(name, widgets);
+    return beginCardWindow(name, widgets, flags);
 }
 
 void loading(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
@@ -38,8 +39,7 @@ void loading(const PanelInput& input, PanelState& state, const WidgetRect& pictu
 void unsaved(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
     if (!state.leaving)
         return;
-    ImGui::SetNextWindowFocus(); // over the editor
-    if (beginCard("unsaved", picture, 0.5f, 0.5f, widgets)) {
+    if (beginCard("unsaved", picture, 0.5f, 0.5f, widgets, kAnsweredCard)) {
         ImGui::Text("What was changed in the materials of %s is not saved.", input.modelName.c_str());
         const auto answer = [&](const char* label, const char* name, PanelState::Leave choice) {
             if (ImGui::Button(label))
@@ -48,9 +48,9 @@ void unsaved(const PanelInput& input, PanelState& state, const WidgetRect& pictu
             ImGui::SameLine();
         };
         if (input.canSaveMaterials)
-            answer("Save", "leaveSave", PanelState::Leave::Save);
-        answer("Discard", "leaveDiscard", PanelState::Leave::Discard);
-        answer("Stay", "leaveStay", PanelState::Leave::Stay);
+            answer("Save (Enter)", "leaveSave", PanelState::Leave::Save);
+        answer("Discard (D)", "leaveDiscard", PanelState::Leave::Discard);
+        answer("Stay (Escape)", "leaveStay", PanelState::Leave::Stay);
         ImGui::NewLine();
     }
     ImGui::End();

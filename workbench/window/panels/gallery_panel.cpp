@@ -165,15 +165,14 @@ void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& p
     ImGui::SetNextWindowPos(ImVec2(place.x + 0.5f * place.width, place.y + margin), ImGuiCond_Always,
                             ImVec2(0.5f, 0.0f));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, place.height - 2.0f * margin));
-    ImGui::SetNextWindowFocus(); // over the editor
-    if (beginCardWindow("gallery", widgets)) {
+    if (beginCardWindow("gallery", widgets, kAnsweredCard)) {
         ImGui::TextUnformatted("What would you like to touch?");
         ImGui::SameLine();
         ImGui::TextDisabled(
             "Arrow keys and Enter, or a click; Escape goes back. A file may be dropped here, too.");
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("x").x -
                         2.0f * ImGui::GetStyle().FramePadding.x);
-        if (ImGui::Button("x") || keyPressed(GLFW_KEY_ESCAPE))
+        if (ImGui::Button("x"))
             state.gallery = false;
         widgets.mark("galleryClose");
         if (grid.count > 0) {

@@ -87,8 +87,7 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
     // In a window too small for all of it, it scrolls.
     ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), display);
     ImGui::SetNextWindowBgAlpha(1.0f);
-    ImGui::SetNextWindowFocus();
-    if (beginCardWindow("help", widgets, ImGuiWindowFlags_HorizontalScrollbar)) {
+    if (beginCardWindow("help", widgets, kAnsweredCard | ImGuiWindowFlags_HorizontalScrollbar)) {
         drawTopics(kLeft, widgets);
         ImGui::SameLine(0.0f, widgets.units(28.0f));
         drawTopics(kRight, widgets);

@@ -196,6 +196,10 @@ void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets) {
     force(input, state, widgets);
     ImGui::SameLine();
     record(input, state, widgets);
+    if (state.walking) {
+        ImGui::SameLine(0.0f, gap);
+        ImGui::TextColored(ImColor(kAmber), "Arrows work the panels (Escape)");
+    }
     servoLamp(input, state, widgets);
 }
 
