@@ -5,6 +5,7 @@
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/material_desk.h"
 #include "workbench/editor/presets.h"
+#include "workbench/window/leaving.h"
 
 #include <gtest/gtest.h>
 
@@ -272,6 +273,77 @@ TEST_F(Desk, AFileThatSomebodyElseChangedIsNotWrittenOver) {
     EXPECT_TRUE(desk_.failed());
     EXPECT_NE(desk_.notice().find("has changed since"), std::string::npos) << desk_.notice();
     EXPECT_TRUE(desk_.edits().edited());
+}
+
+/// The question before unsaved materials are lost.
+class LeavingTest : public Desk {
+  protected:
+    std::optional<Leaving::Answer> answer(PanelState::Leave what) {
+        state_.leave = what;
+        const std::optional<Leaving::Answer> at_once = leaving_.update(desk_, state_, problem_);
+        if (at_once)
+            return at_once;
+        settle();
+        return leaving_.update(desk_, state_, problem_);
+    }
+
+    const std::filesystem::path next_ = "another.glb";
+    Leaving leaving_;
+    PanelState state_;
+    std::string problem_;
+};
+
+TEST_F(LeavingTest, WhatIsDiscardedMayGoAndWhatIsChangedLaterIsAskedForAnew) {
+    EXPECT_TRUE(leaving_.mayLeave(next_, desk_, state_)) << "nothing is changed";
+    setFriction(0.5f);
+    state_.gallery = state_.help = true;
+    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_));
+    EXPECT_FALSE(state_.gallery || state_.help) << "the question is seen";
+    EXPECT_FALSE(leaving_.update(desk_, state_, problem_)) << "nobody has answered";
+    const auto stays = answer(PanelState::Leave::Stay);
+    ASSERT_TRUE(stays);
+    EXPECT_FALSE(stays->go);
+    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_));
+    const auto goes = answer(PanelState::Leave::Discard);
+    ASSERT_TRUE(goes);
+    EXPECT_TRUE(goes->go);
+    EXPECT_EQ(goes->target, next_);
+    EXPECT_TRUE(leaving_.mayLeave(next_, desk_, state_)) << "while the other model is read";
+    setFriction(0.6f);
+    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_)) << "nobody has given this away";
+}
+
+TEST_F(LeavingTest, ASaveTakesWhatWasChangedWhileAnotherOneRan) {
+    setFriction(0.5f);
+    settle();
+    desk_.save();
+    (void)desk_.update(model_); // it begins
+    ASSERT_TRUE(desk_.saving());
+    setFriction(0.9f);
+    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_));
+    const auto goes = answer(PanelState::Leave::Save);
+    ASSERT_TRUE(goes);
+    EXPECT_TRUE(goes->go);
+    EXPECT_EQ(loadScene(path_)->materials[0].haptic.staticFriction.value, 0.9f);
+}
+
+TEST_F(LeavingTest, StayHoldsAlsoWhileItIsSavedAndAFailedSaveStays) {
+    setFriction(0.5f);
+    EXPECT_FALSE(leaving_.mayLeave({}, desk_, state_));
+    state_.leave = PanelState::Leave::Save;
+    EXPECT_FALSE(leaving_.update(desk_, state_, problem_)) << "it is being saved";
+    const auto stays = answer(PanelState::Leave::Stay);
+    ASSERT_TRUE(stays);
+    EXPECT_FALSE(stays->go);
+    settle();
+    EXPECT_FALSE(leaving_.update(desk_, state_, problem_)) << "and that holds when it is saved";
+    std::ofstream(path_, std::ios::app) << "x";
+    setFriction(0.7f);
+    EXPECT_FALSE(leaving_.mayLeave({}, desk_, state_));
+    const auto failed = answer(PanelState::Leave::Save);
+    ASSERT_TRUE(failed);
+    EXPECT_FALSE(failed->go);
+    EXPECT_NE(problem_.find("has changed since"), std::string::npos) << problem_;
 }
 
 } // namespace
