@@ -437,6 +437,7 @@ class Workbench {
         input.timeline = &timeline_;
         input.tick = timeline_.looking() ? &shownTick() : &touch_.figures().last;
         input.forces = &touch_.forces();
+        input.frames = screen_.target().statistics().framesPresented;
         input.framesPerSecond = pace_.rate();
         input.camera = view_.camera();
         input.picture = picture_.message();

@@ -141,6 +141,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"pitch", input.camera.pitch},
           {"distance", input.camera.distance},
           {"target", {input.camera.target.x, input.camera.target.y, input.camera.target.z}}}},
+        {"time", now},
+        {"frames", input.frames},
         {"fps", input.framesPerSecond},
         {"longest_frame_s", input.longestFrame},
         {"scene_size", {input.sceneSize.x, input.sceneSize.y}},

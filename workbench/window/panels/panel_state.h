@@ -60,6 +60,7 @@ struct PanelInput {
     const TickRecord* tick = nullptr; ///< that is shown: the servo's newest, or the recording's at the cursor
     const ForceHistory* forces = nullptr;
     std::string picture; ///< what became of the last picture that was to be saved; empty: none yet
+    uint64_t frames = 0; ///< presented since the window opened
     double framesPerSecond = 0.0;
     double longestFrame = 0.0; ///< s of work in one frame since a model was last opened
     OrbitCamera camera;
