@@ -1,15 +1,35 @@
 #include "workbench/gallery/gallery.h"
 
 #include "renderer/window_target.h"
-#include "workbench/gallery/file_note.h"
+
+#include <unistd.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace touchstone {
 
 static_assert(ThumbnailMaker::kWidth == WindowTarget::kPictureWidth &&
               ThumbnailMaker::kHeight == WindowTarget::kPictureHeight);
+
+namespace {
+
+GalleryState stateOf(ThumbnailFate fate) {
+    switch (fate) {
+    case ThumbnailFate::None:
+        break;
+    case ThumbnailFate::Drawn:
+        return GalleryState::Shown;
+    case ThumbnailFate::Broken:
+        return GalleryState::Broken;
+    case ThumbnailFate::Missing:
+        return GalleryState::Missing;
+    }
+    return GalleryState::NoPicture;
+}
+
+} // namespace
 
 void Gallery::fill(std::span<const std::filesystem::path> samples,
                    std::span<const std::filesystem::path> recent) {
@@ -23,19 +43,17 @@ void Gallery::fill(std::span<const std::filesystem::path> samples,
         if (place < before.size() && before[place].file == file)
             entries_.push_back(before[place]);
         else
-            entries_.push_back({.file = file, .note = sample ? fileNote(file) : "", .sample = sample});
+            entries_.push_back({.file = file, .note = {}, .sample = sample});
     };
     for (const std::filesystem::path& file : samples)
         add(file, true);
     for (const std::filesystem::path& file : recent)
         add(file, false);
     recent_.assign(recent.begin(), recent.end());
-    if (maker_ == nullptr)
-        maker_ = std::make_unique<ThumbnailMaker>(std::filesystem::read_symlink("/proc/self/exe"),
+    if (maker_ == nullptr) // what runs, also where another build has taken its place
+        maker_ = std::make_unique<ThumbnailMaker>("/proc/" + std::to_string(getpid()) + "/exe",
                                                   ThumbnailCache(ThumbnailCache::usualFolder()));
     maker_->cancel();
-    while (maker_->take()) { // of another order
-    }
     for (const GalleryEntry& entry : entries_)
         maker_->request(entry.file);
 }
@@ -59,9 +77,7 @@ void Gallery::update(bool open, std::span<const std::filesystem::path> samples,
     if (entry == entries_.end())
         return;
     entry->note = made->note;
-    entry->state = made->missing                 ? GalleryState::Missing
-                   : made->picture.bytes.empty() ? GalleryState::Broken
-                                                 : GalleryState::Shown;
+    entry->state = stateOf(made->fate);
     if (entry->state == GalleryState::Shown)
         target.setPicture(static_cast<size_t>(entry - entries_.begin()), made->picture);
 }

@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-enum class GalleryState : uint8_t { Waiting, Shown, Broken, Missing };
+enum class GalleryState : uint8_t { Waiting, Shown, NoPicture, Broken, Missing };
 
 /// A file that the gallery offers.
 struct GalleryEntry {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <system_error>
 #include <vector>
 
@@ -69,6 +70,18 @@ bool ThumbnailCache::makeRoom() const {
             std::filesystem::remove(kept[i].file, error);
     }
     return true;
+}
+
+bool ThumbnailCache::takes(const std::filesystem::path& picture) const {
+    std::filesystem::path trial = picture;
+    trial += ".try";
+    std::ofstream stream(trial, std::ios::binary);
+    stream << std::string(size_t{64} << 10, ' ');
+    stream.close();
+    const bool written = !stream.fail();
+    std::error_code error;
+    std::filesystem::remove(trial, error);
+    return written;
 }
 
 } // namespace touchstone

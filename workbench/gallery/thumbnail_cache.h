@@ -20,6 +20,8 @@ class ThumbnailCache {
     [[nodiscard]] std::filesystem::path pictureOf(const std::filesystem::path& model) const;
     /// Makes the folder and forgets the oldest pictures. False where nothing can be kept there.
     [[nodiscard]] bool makeRoom() const;
+    /// Whether a file as large as pictures are can be written there now.
+    [[nodiscard]] bool takes(const std::filesystem::path& picture) const;
 
   private:
     std::filesystem::path folder_;

@@ -3,9 +3,7 @@
 #include "engine/scene/import/image_decode.h"
 #include "workbench/gallery/file_note.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,22 +17,6 @@
 namespace touchstone {
 
 namespace {
-
-/// Starts it without standard streams; -1 where that fails.
-pid_t start(const std::vector<std::string>& arguments) {
-    std::vector<char*> raw;
-    for (const std::string& argument : arguments)
-        raw.push_back(const_cast<char*>(argument.c_str())); // exec promises not to write
-    raw.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-    pid_t child = -1;
-    const int failed = posix_spawn(&child, raw[0], &actions, nullptr, raw.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    return failed == 0 ? child : -1;
-}
 
 /// The PNG file's pixels; none where it is not one of our size.
 PixelData readPicture(const std::filesystem::path& file) {
@@ -50,10 +32,20 @@ PixelData readPicture(const std::filesystem::path& file) {
     return ours ? std::move(image.pixels) : PixelData{};
 }
 
+/// What the end of the process that drew says about the file, if there is no picture.
+ThumbnailFate fateOf(int status) {
+    if (WIFEXITED(status))
+        return WEXITSTATUS(status) == kCannotStart ? ThumbnailFate::None : ThumbnailFate::Broken;
+    // It was ended by the system, which was short of something; other signals are its own doing.
+    const bool ended = WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU);
+    return ended ? ThumbnailFate::None : ThumbnailFate::Broken;
+}
+
 } // namespace
 
-ThumbnailMaker::ThumbnailMaker(std::filesystem::path program, ThumbnailCache cache)
-    : program_(std::move(program)), cache_(std::move(cache)),
+ThumbnailMaker::ThumbnailMaker(std::filesystem::path program, ThumbnailCache cache,
+                               const ProcessLimits& limits)
+    : program_(std::move(program)), cache_(std::move(cache)), limits_(limits),
       worker_([this](const std::stop_token& stop) { work(stop); }) {}
 
 ThumbnailMaker::~ThumbnailMaker() {
@@ -72,6 +64,8 @@ void ThumbnailMaker::request(const std::filesystem::path& file) {
 void ThumbnailMaker::cancel() {
     const std::lock_guard lock(mutex_);
     requests_.clear();
+    done_.clear();
+    ++cancels_;
 }
 
 std::optional<Thumbnail> ThumbnailMaker::take() {
@@ -87,61 +81,68 @@ void ThumbnailMaker::work(const std::stop_token& stop) {
     // Of this thread and of what it starts. Where it is refused, drawing merely competes with the window.
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     for (;;) {
-        std::filesystem::path file;
+        Task task;
         {
             std::unique_lock lock(mutex_);
             if (!wanted_.wait(lock, stop, [this] { return !requests_.empty(); }))
                 return;
-            file = std::move(requests_.front());
+            task = {std::move(requests_.front()), stop, cancels_};
             requests_.pop_front();
         }
         Thumbnail made;
         try {
-            made = make(file, stop);
+            made = make(task);
         } catch (const std::exception&) { // no memory: a file without a picture
-            made.file = file;
+            made.file = task.file;
+            made.fate = ThumbnailFate::None;
         }
         const std::lock_guard lock(mutex_);
-        done_.push_back(std::move(made));
+        if (task.cancels == cancels_)
+            done_.push_back(std::move(made));
     }
 }
 
-Thumbnail ThumbnailMaker::make(const std::filesystem::path& file, const std::stop_token& stop) const {
+Thumbnail ThumbnailMaker::make(const Task& task) const {
     Thumbnail made;
-    made.file = file;
-    const std::filesystem::path picture = cache_.pictureOf(file);
+    made.file = task.file;
+    const std::filesystem::path picture = cache_.pictureOf(task.file);
     if (picture.empty()) {
-        made.missing = true;
+        made.fate = ThumbnailFate::Missing;
         return made;
     }
-    made.note = fileNote(file);
+    made.note = fileNote(task.file);
     made.picture = readPicture(picture);
-    if (made.picture.bytes.empty() && cache_.makeRoom() && draw(file, picture, stop))
+    if (made.picture.bytes.empty() && cache_.makeRoom()) {
+        made.fate = draw(task, picture);
         made.picture = readPicture(picture);
+    }
+    if (!made.picture.bytes.empty())
+        made.fate = ThumbnailFate::Drawn;
+    else if (made.fate != ThumbnailFate::None && !cache_.takes(picture))
+        made.fate = ThumbnailFate::None; // it may be the disk's fault
     return made;
 }
 
-bool ThumbnailMaker::draw(const std::filesystem::path& file, const std::filesystem::path& picture,
-                          const std::stop_token& stop) const {
+ThumbnailFate ThumbnailMaker::draw(const Task& task, const std::filesystem::path& picture) const {
     const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
     // Absolute, so that no name is taken for an option.
-    const pid_t child = start({program_.string(), "render", std::filesystem::absolute(file).string(),
-                               "--size", size, "--out", picture.string()});
+    const pid_t child = startLimited(program_.string(),
+                                     {"touchstone", "render", std::filesystem::absolute(task.file).string(),
+                                      "--size", size, "--out", picture.string()},
+                                     limits_);
     if (child < 0)
-        return false;
-    const rlimit processor{kMostSeconds, kMostSeconds};
-    prlimit(child, RLIMIT_CPU, &processor, nullptr);
-    const rlimit noCore{0, 0};
-    prlimit(child, RLIMIT_CORE, &noCore, nullptr);
+        return ThumbnailFate::None;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(limits_.seconds);
     for (;;) {
         int status = 0;
         const pid_t ended = waitpid(child, &status, WNOHANG);
         if (ended != 0)
-            return ended == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-        if (stop.stop_requested()) {
+            return ended == child ? fateOf(status) : ThumbnailFate::None;
+        if (task.stop.stop_requested() || task.cancels != cancels_ ||
+            std::chrono::steady_clock::now() >= end) {
             kill(child, SIGKILL);
             waitpid(child, &status, 0);
-            return false;
+            return ThumbnailFate::None;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }

@@ -38,7 +38,7 @@ nlohmann::ordered_json errorJson(const study::LiveErrorFigures& error) {
 }
 
 nlohmann::ordered_json galleryJson(const PanelInput& input, const PanelState& state) {
-    constexpr const char* kStates[]{"waiting", "shown", "broken", "missing"}; // by GalleryState
+    constexpr const char* kStates[]{"waiting", "shown", "none", "broken", "missing"}; // by GalleryState
     nlohmann::ordered_json entries = nlohmann::ordered_json::array();
     for (const GalleryEntry& entry : input.gallery)
         entries.push_back({{"file", entry.file.string()},

@@ -69,6 +69,8 @@ const char* signOf(const GalleryEntry& entry) {
     switch (entry.state) {
     case GalleryState::Waiting:
         return "…";
+    case GalleryState::NoPicture:
+        return "no picture";
     case GalleryState::Broken:
         return "no picture: it cannot be drawn";
     case GalleryState::Missing:

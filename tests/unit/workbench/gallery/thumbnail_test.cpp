@@ -2,12 +2,15 @@
 
 #include "tests/support/program.h"
 #include "workbench/gallery/file_note.h"
+#include "workbench/gallery/limited_process.h"
 #include "workbench/gallery/thumbnail_cache.h"
 #include "workbench/gallery/thumbnail_maker.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -109,32 +112,106 @@ TEST_F(Thumbnails, AreDrawnOnceAndThenKept) {
 
 TEST_F(Thumbnails, AreNotThereWhereDrawingFails) {
     const fs::path model = file("a.gltf", R"({"asset":{"version":"2.0","extras":{"description":"a note"}}})");
-    for (const char* text : {"exit 1", "kill -SEGV $$", "exit 0", "echo no picture > \"$6\""}) {
-        ThumbnailMaker maker(program(text), cache_);
+    const auto expectFate = [&](const fs::path& with, ThumbnailFate fate) {
+        ThumbnailMaker maker(with, cache_);
         maker.request(model);
         const Thumbnail none = made(maker);
-        EXPECT_TRUE(none.picture.bytes.empty()) << text;
-        EXPECT_EQ(none.note, "a note") << text;
-        EXPECT_FALSE(none.missing) << text;
+        EXPECT_TRUE(none.picture.bytes.empty());
+        EXPECT_EQ(none.note, "a note");
+        EXPECT_EQ(none.fate, fate);
+    };
+    for (const char* text : {"exit 1", "kill -SEGV $$", "exit 0", "echo no picture > \"$6\""}) {
+        SCOPED_TRACE(text);
+        expectFate(program(text), ThumbnailFate::Broken);
     }
-    ThumbnailMaker maker(scratch_ / "no program", cache_);
-    maker.request(model);
-    EXPECT_TRUE(made(maker).picture.bytes.empty());
+    {
+        SCOPED_TRACE("the system ends it");
+        expectFate(program("kill -KILL $$"), ThumbnailFate::None);
+    }
+    {
+        SCOPED_TRACE("nothing can be written");
+        expectFate(program("rm -r \"$(dirname \"$6\")\"; exit 1"), ThumbnailFate::None);
+    }
+    {
+        SCOPED_TRACE("no program");
+        expectFate(scratch_ / "no program", ThumbnailFate::None);
+    }
+    ThumbnailMaker maker(TOUCHSTONE_BINARY, cache_);
     maker.request(scratch_ / "gone.glb");
-    EXPECT_TRUE(made(maker).missing);
+    EXPECT_EQ(made(maker).fate, ThumbnailFate::Missing);
 }
 
-TEST_F(Thumbnails, WhatHangsEndsWithTheMaker) {
-    const fs::path pid = scratch_ / "pid";
-    {
-        ThumbnailMaker maker(program("echo $$ > '" + pid.string() + "'; exec sleep 1000"), cache_);
-        maker.request(file("a.gltf", "{}"));
-        for (int i = 0; i < 1000 && readFile(pid).empty(); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+TEST_F(Thumbnails, TakeNoMoreThanTheyMay) {
+    const fs::path box = TOUCHSTONE_ASSETS "/box.glb", seen = scratch_ / "seen";
+    ThumbnailMaker small(TOUCHSTONE_BINARY, cache_, {.memory = uint64_t{32} << 20});
+    small.request(box);
+    EXPECT_TRUE(made(small).picture.bytes.empty()) << "more is needed, and not given";
+    ThumbnailMaker maker(
+        program("{ ulimit -t; ulimit -d; ulimit -c; cat /proc/$$/oom_score_adj; } > '" + seen.string() + "'"),
+        cache_, {.processorSeconds = 7, .memory = uint64_t{100} << 20});
+    maker.request(box);
+    EXPECT_TRUE(made(maker).picture.bytes.empty());
+    EXPECT_EQ(readFile(seen), "7\n102400\n0\n1000\n");
+}
+
+/// The first time it hangs, then it fails at once; its number is in `pid`.
+class HangingThumbnail : public Thumbnails {
+  protected:
+    fs::path hanging() {
+        return program("[ -e '" + pid_.string() + "' ] && exit 1; echo $$ > '" + pid_.string() +
+                       ".new'; mv '" + pid_.string() + ".new' '" + pid_.string() + "'; exec sleep 1000");
     }
-    const std::string number = readFile(pid);
-    ASSERT_FALSE(number.empty());
-    EXPECT_FALSE(fs::exists("/proc/" + number.substr(0, number.size() - 1)));
+    void untilItRuns() {
+        for (int i = 0; i < 1000 && !fs::exists(pid_); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ASSERT_TRUE(fs::exists(pid_));
+    }
+    bool runs() {
+        const std::string number = readFile(pid_);
+        return fs::exists("/proc/" + number.substr(0, number.size() - 1));
+    }
+    fs::path pid_ = scratch_ / "pid";
+};
+
+TEST_F(HangingThumbnail, EndsWithTheMaker) {
+    {
+        ThumbnailMaker maker(hanging(), cache_);
+        maker.request(file("a.gltf", "{}"));
+        untilItRuns();
+    }
+    EXPECT_FALSE(runs());
+}
+
+TEST_F(HangingThumbnail, EndsWhenNobodyWantsItAnyMore) {
+    ThumbnailMaker maker(hanging(), cache_);
+    const fs::path other = file("b.gltf", "{}");
+    maker.request(file("a.gltf", "{}"));
+    untilItRuns();
+    maker.cancel();
+    maker.request(other);
+    EXPECT_EQ(made(maker).file, other) << "the next one, and nothing of what was given up";
+    EXPECT_FALSE(runs());
+}
+
+TEST_F(HangingThumbnail, EndsWhenItsTimeIsOver) {
+    ThumbnailMaker maker(hanging(), cache_, {.seconds = 1});
+    maker.request(file("a.gltf", "{}"));
+    maker.request(file("b.gltf", "{}"));
+    const Thumbnail late = made(maker);
+    EXPECT_EQ(late.file, scratch_ / "a.gltf");
+    EXPECT_EQ(late.fate, ThumbnailFate::None);
+    EXPECT_EQ(made(maker).file, scratch_ / "b.gltf") << "the others have their turn";
+    EXPECT_FALSE(runs());
+}
+
+TEST_F(HangingThumbnail, EndsWithTheThreadThatStartedIt) {
+    pid_t child = -1;
+    std::thread([&] { child = startLimited("/bin/sleep", {"sleep", "1000"}, {}); }).join();
+    ASSERT_GT(child, 0);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGKILL);
 }
 
 } // namespace
