@@ -4,6 +4,7 @@
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/card.h"
+#include "workbench/window/panels/colors.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -16,8 +17,6 @@ namespace touchstone {
 
 namespace {
 
-constexpr ImU32 kGreen = IM_COL32(80, 200, 120, 255), kAmber = IM_COL32(240, 180, 60, 255),
-                kRed = IM_COL32(235, 75, 65, 255), kBlue = IM_COL32(97, 173, 255, 255);
 constexpr double kShiftStep = 0.1; // s
 
 /// On the same line where it fits.

@@ -1,3 +1,4 @@
+#include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
@@ -175,7 +176,7 @@ class Charts {
 
 void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const bool paused = state.stopped.has_value();
-    if (widgets.lampButton("pause", paused ? "Paused" : "Pause", paused, IM_COL32(240, 180, 60, 255)))
+    if (widgets.lampButton("pause", paused ? "Paused" : "Pause", paused, kAmber))
         state.stopped = paused ? std::nullopt : std::optional(*input.forces);
     ImGui::SameLine();
     if (ImGui::Button("Save CSV"))

@@ -1,5 +1,6 @@
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/card.h"
+#include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
@@ -15,8 +16,7 @@ namespace {
 // Units of layout. A picture is as large as it is made, so that no filter blurs it.
 constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 50.0f, kGap = 14.0f, kInset = 4.0f,
                 kMargin = 24.0f;
-constexpr ImU32 kGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255),
-                kChosen = IM_COL32(97, 173, 255, 255), kSign = IM_COL32(240, 180, 60, 255);
+constexpr ImU32 kGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255);
 
 /// How the entries lie: our own first, a new row begins with what was opened before.
 struct Grid {
@@ -103,9 +103,9 @@ void drawCell(const PanelInput& input, size_t index, bool chosen, bool hovered, 
     const ImVec2 size = ImGui::CalcTextSize(sign);
     const ImU32 grey = ImGui::GetColorU32(ImGuiCol_TextDisabled);
     draw.AddText(ImVec2(0.5f * (from.x + to.x - size.x), 0.5f * (from.y + to.y - size.y)),
-                 entry.state == GalleryState::Broken ? kSign : grey, sign);
+                 entry.state == GalleryState::Broken ? kAmber : grey, sign);
     if (chosen)
-        draw.AddRect(at, end, kChosen, widgets.units(6.0f), 0, widgets.units(2.0f));
+        draw.AddRect(at, end, kBlue, widgets.units(6.0f), 0, widgets.units(2.0f));
     const ImVec2 name(from.x + widgets.units(2.0f), to.y + widgets.units(6.0f));
     const ImVec4 clip(name.x, name.y, to.x, end.y - widgets.units(4.0f));
     ImFont* font = ImGui::GetFont();

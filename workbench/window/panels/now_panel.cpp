@@ -1,4 +1,5 @@
 #include "workbench/timeline/timeline_desk.h"
+#include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
@@ -6,8 +7,7 @@
 namespace touchstone {
 
 TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
-    constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255), kGreen = IM_COL32(80, 200, 120, 255),
-                    kAmber = IM_COL32(240, 180, 60, 255), kRed = IM_COL32(235, 75, 65, 255);
+    constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255);
     if (input.timeline->looking() && !input.timeline->again().running())
         return input.tick->output.contacts > 0 ? TouchLamp{"Recorded: touching", kAmber}
                                                : TouchLamp{"Recorded: in the air", kGrey};

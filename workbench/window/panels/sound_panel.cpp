@@ -1,3 +1,4 @@
+#include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
@@ -5,7 +6,6 @@
 namespace touchstone {
 
 void drawSound(const PanelInput& input, PanelState& state, Widgets& widgets) {
-    constexpr ImU32 kGreen = IM_COL32(80, 200, 120, 255), kAmber = IM_COL32(240, 180, 60, 255);
     SoundChoice& sound = state.sound;
     const SoundStatus& status = input.sound;
     if (widgets.lampButton("sound", "Sound", sound.on, status.card.empty() ? kAmber : kGreen))

@@ -1,3 +1,4 @@
+#include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/panels.h"
 #include "workbench/window/view_menu.h"
 
@@ -8,9 +9,6 @@
 namespace touchstone {
 
 namespace {
-
-constexpr ImU32 kGreen = IM_COL32(80, 200, 120, 255), kAmber = IM_COL32(240, 180, 60, 255),
-                kRed = IM_COL32(235, 75, 65, 255), kBlue = IM_COL32(97, 173, 255, 255);
 
 /// The next popup opens beneath the last widget.
 void beneath() {

@@ -1,0 +1,11 @@
+#pragma once
+// What lamps, news and marks mean by their colour.
+
+#include <imgui.h>
+
+namespace touchstone {
+
+constexpr ImU32 kGreen = IM_COL32(80, 200, 120, 255), kAmber = IM_COL32(240, 180, 60, 255),
+                kRed = IM_COL32(235, 75, 65, 255), kBlue = IM_COL32(97, 173, 255, 255);
+
+} // namespace touchstone
