@@ -57,8 +57,8 @@ class TemporaryFile {
             fail("cannot be replaced", "save under another name");
         renamed_ = true;
         // The new name outlives a power cut, too; where the folder cannot be synchronised it is there anyway.
-        const int folder =
-            open(std::filesystem::path(target_).parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        const std::filesystem::path parent = std::filesystem::path(target_).parent_path();
+        const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (folder >= 0) {
             (void)fsync(folder);
             (void)close(folder);

@@ -123,7 +123,7 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
     }
     if (!inputs.forceEnabled)
         state.ramp = 0.0; // the force-off key does not wait for a fade
-    if (state.ramp < 1.0 || inputs.coupling < 1.0)
+    if (state.ramp < 1.0 || coupled(inputs) < 1.0)
         flags = flags | TickFlag::ForceRamping;
 
     const glm::dvec3 target = madePassive(state.ramp * state.heldForce, inputs, state, flags, cut);

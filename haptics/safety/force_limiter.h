@@ -57,9 +57,9 @@ struct SafetyInputs {
 ///   force, a dt or a limit that is not a finite number is a fault, and a fault drops the command to zero at
 ///   once; where limits.maxForce has become smaller (another scene's limits) the command is cut to it at once
 ///   (torque likewise);
-/// - a coupling of 0 makes the force go to zero at that rate, whatever it was; a coupling that is no number
-/// counts
-///   as 0;
+/// - a coupling of 0 makes the force go to zero at that rate, whatever it was; one that is no number
+///   counts as 0, one above 1 as 1; while it is below 1 the force counts as faded, by
+///   ForceRamping;
 /// - the passivity controller's force is under the same limits, and off wherever the force is off.
 class ForceLimiter {
   public:

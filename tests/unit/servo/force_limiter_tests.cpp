@@ -71,6 +71,7 @@ TEST(ForceLimiter, LetsAsMuchPassAsTheClutchDoes) {
         EXPECT_EQ(before, 4.0);
         ticker.inputs.coupling = coupling;
         EXPECT_NEAR(ticker.tick(force).y, before - 0.1, 1e-9);
+        EXPECT_TRUE(has(ticker.flags, TickFlag::ForceRamping)) << coupling;
         EXPECT_EQ(ticker.settle(force).y, 0.0) << coupling;
     }
 }
