@@ -10,25 +10,27 @@ SoundPlayer::SoundPlayer(SoundFeed& feed, double rate)
       volumeShare_(static_cast<float>(-std::expm1(-1.0 / (kVolumeTime * rate)))) {}
 
 void SoundPlayer::collect() noexcept {
+    constexpr double kMeanShare = 0.05; // of the newest tick
     SoundTick tick;
     while (feed_.pop(tick)) {
-        dt_ = tick.dt;
+        dt_ += kMeanShare * (tick.dt - dt_);
         (void)synthesizer_.push(tick); // room for more than the feed holds is made by leaving out below
     }
 }
 
 /// Begins and leaves off, and says how fast to play this block.
 double SoundPlayer::speedFor(size_t frames) noexcept {
-    const double rate = synthesizer_.rate(), block = static_cast<double>(frames) / rate;
-    const double wanted = (block + kCushion) / dt_, ahead = synthesizer_.ticksAhead(); // ticks
+    // Frames, since ticks may be late: one that took as long as ten is worth ten.
+    const double rate = synthesizer_.rate(), ahead = synthesizer_.framesAhead();
+    const double wanted = static_cast<double>(frames) + kCushion * rate;
     if (!playing_) {
         playing_ = ahead >= wanted;
         bend_ = 0.0;
     }
-    if (playing_ && ahead > wanted + kTooMuch / dt_)
+    if (playing_ && ahead > wanted + kTooMuch * rate)
         skipping_ = true;
     if (skipping_ && gate_ <= 0.0f) {
-        synthesizer_.skipTicks(ahead - wanted);
+        synthesizer_.skip(ahead - wanted);
         leftOut_.fetch_add(1, std::memory_order_relaxed);
         skipping_ = false;
     }
@@ -36,7 +38,7 @@ double SoundPlayer::speedFor(size_t frames) noexcept {
         silentFrames_ = static_cast<size_t>(kSwapSilence * rate);
     constexpr double kShare = 0.05; // of the newest block: the servo's jitter is not to be heard
     bend_ += kShare * (std::clamp((ahead - wanted) / wanted, -1.0, 1.0) - bend_);
-    latency_.store(std::max(ahead, 0.0) * dt_ + Synthesizer::delay(dt_), std::memory_order_relaxed);
+    latency_.store(ahead / rate + Synthesizer::delay(dt_), std::memory_order_relaxed);
     return 1.0 + kMostBend * bend_;
 }
 

@@ -75,7 +75,7 @@ class SoundPlayer {
     std::atomic<float> peak_{0.0f};
     std::atomic<uint64_t> runsDry_{0}, leftOut_{0};
     // The player's thread:
-    double dt_ = 1e-3;
+    double dt_ = 1e-3; // s, of a tick in the mean
     bool playing_ = false, skipping_ = false;
     size_t silentFrames_ = 0; // still to be, after an interruption
     double bend_ = 0.0;

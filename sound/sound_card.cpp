@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kUsualRate = 48000.0; // frames a second
 constexpr const char* kNoCard = "there is no sound card";
+constexpr const char* kGone = "the sound card is gone";
+constexpr const char* kPlugIn = "plug in or switch on a sound card, then switch the sound on again";
 constexpr double kAskedLatency = 0.012; // s, of the card; it may take more
 
 void sayNothing(const char*, int, const char*, int, const char*, ...) {}
@@ -36,7 +38,7 @@ bool alsaIsConfigured() {
 }
 
 [[noreturn]] void fail(const std::string& problem) {
-    throw Error("sound", "", problem, "plug in or switch on a sound card, then switch the sound on again");
+    throw Error("sound", "", problem, kPlugIn);
 }
 
 bool ready(const auto& future) {
@@ -71,6 +73,8 @@ class SoundCard::Stream {
 
     [[nodiscard]] SoundPlayer& player() { return *player_; }
     [[nodiscard]] const std::string& name() const { return name_; }
+    /// False once the card is gone: PortAudio's thread has ended.
+    [[nodiscard]] bool active() const { return Pa_IsStreamActive(stream_) == 1; }
     [[nodiscard]] double cardLatency() const {
         const PaStreamInfo* info = Pa_GetStreamInfo(stream_);
         return info != nullptr ? info->outputLatency : 0.0;
@@ -141,6 +145,11 @@ void SoundCard::update(bool on, float volume) {
             feed_.listen(false);
         }
     }
+    if (state_ == State::Playing && !stream_->active()) {
+        problem_ = Error("sound", "", kGone, kPlugIn).what();
+        state_ = State::Failed;
+        close(std::chrono::milliseconds(0));
+    }
     if (stream_ != nullptr)
         stream_->player().setVolume(on ? volume : 0.0f);
     if (on && state_ == State::Off && !closing_.valid()) {
@@ -150,12 +159,18 @@ void SoundCard::update(bool on, float volume) {
         state_ = State::Off;
     } else if (!on && state_ == State::Playing) {
         state_ = State::Off;
-        closing_ = std::async(std::launch::async, [this, stream = std::exchange(stream_, nullptr)]() mutable {
-            std::this_thread::sleep_for(std::chrono::milliseconds(80)); // until it has faded
+        close(std::chrono::milliseconds(80)); // until it has faded
+    }
+}
+
+/// On a thread of its own: a card may take its time.
+void SoundCard::close(std::chrono::milliseconds after) {
+    closing_ =
+        std::async(std::launch::async, [this, after, stream = std::exchange(stream_, nullptr)]() mutable {
+            std::this_thread::sleep_for(after);
             stream.reset();
             feed_.listen(false);
         });
-    }
 }
 
 void SoundCard::interrupt() {

@@ -2,6 +2,7 @@
 
 #include "sound/live_sound.h"
 
+#include <chrono>
 #include <future>
 #include <memory>
 #include <string>
@@ -9,8 +10,8 @@
 namespace touchstone {
 
 /// The system's default output, by PortAudio. Looking for sound cards and opening one takes up to seconds, so
-/// a thread of its own does it; where there is none, `problem` says so and nothing else happens. Owner
-/// thread, all of it.
+/// a thread of its own does it; where there is none, or it is gone while it plays, `problem` says so and
+/// nothing else happens. Owner thread, all of it.
 class SoundCard {
   public:
     /// The feed outlives it.
@@ -33,6 +34,8 @@ class SoundCard {
 
   private:
     class Stream;
+
+    void close(std::chrono::milliseconds after);
 
     SoundFeed& feed_;
     State state_ = State::Off;

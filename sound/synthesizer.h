@@ -23,8 +23,8 @@ class Synthesizer {
     size_t render(std::span<SoundFrame> frames, double speed = 1.0) noexcept;
 
     [[nodiscard]] double rate() const noexcept { return rate_; }
-    [[nodiscard]] double ticksAhead() const noexcept { return stretcher_.ahead(); }
-    void skipTicks(double ticks) noexcept { stretcher_.skip(ticks); }
+    [[nodiscard]] double framesAhead() const noexcept { return stretcher_.ahead(); }
+    void skip(double frames) noexcept { stretcher_.skip(frames); }
     void reset() noexcept;
 
     /// s from a tick to its sound, besides what waits before and behind: `dt` of a tick.

@@ -76,12 +76,15 @@ bool TickStretcher::pop(StretchedFrame& frame, double speed) noexcept {
 }
 
 double TickStretcher::ahead() const noexcept {
-    return static_cast<double>(end_ - begin_) - static_cast<double>(kReach) - phase_;
+    double frames = 0.0;
+    for (size_t i = begin_ + 1; i + kReach <= end_; ++i)
+        frames += static_cast<double>(at(i).frames);
+    return std::max(0.0, frames - phase_ * static_cast<double>(at(begin_ + 1).frames));
 }
 
-void TickStretcher::skip(double ticks) noexcept {
-    const double most = std::max(0.0, ahead());
-    begin_ += static_cast<size_t>(std::clamp(ticks, 0.0, most));
+void TickStretcher::skip(double frames) noexcept {
+    while (end_ - begin_ > kReach && frames >= static_cast<double>(at(begin_ + 1).frames))
+        frames -= static_cast<double>(at(++begin_).frames);
 }
 
 void TickStretcher::reset() noexcept {

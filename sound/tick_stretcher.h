@@ -30,10 +30,10 @@ class TickStretcher {
     /// The next frame; `speed` 1.01 plays ticks 1 % shorter. False where it needs ticks that are not there
     /// yet.
     bool pop(StretchedFrame& frame, double speed = 1.0) noexcept;
-    /// Ticks that lie ahead of what can be played next, the last kReach not counted.
+    /// Frames that can be played before the ticks run out, at speed 1. Time grows with the ticks that wait.
     [[nodiscard]] double ahead() const noexcept;
-    /// Goes on `ticks` later, as far as there are any.
-    void skip(double ticks) noexcept;
+    /// Goes on up to `frames` later, by whole ticks, as far as there are any.
+    void skip(double frames) noexcept;
     void reset() noexcept;
 
   private:

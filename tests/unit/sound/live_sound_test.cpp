@@ -134,6 +134,21 @@ TEST(LiveSound, LeavesOutWhatIsOldWhereTheCardStoodStill) {
     EXPECT_LT(room.player.figures().latency, 0.05);
 }
 
+TEST(LiveSound, ALateTickIsNoReasonToLeaveOutGoodOnes) {
+    Room room;
+    room.pass(1.0);
+    room.feed.add({.dt = 0.010, .position = {0.1, 0.0, 0.0}, .force = {0.0, 1.0, 0.0}});
+    std::vector<SoundFrame> frames(480);
+    room.player.fill(frames); // it is the newest tick that the player knows of
+    room.pass(0.5);
+    EXPECT_EQ(room.player.figures().leftOut, 0u);
+    // As long as what waits is counted: ten such are as much as a hundred of 1 ms.
+    for (int i = 0; i < 10; ++i)
+        room.feed.add({.dt = 0.010, .position = {0.1, 0.0, 0.0}, .force = {0.0, 1.0, 0.0}});
+    room.pass(0.5);
+    EXPECT_EQ(room.player.figures().leftOut, 1u);
+}
+
 TEST(LiveSound, IsNeverLouderThanTheVolume) {
     Room room;
     room.player.setVolume(0.25f);

@@ -82,6 +82,28 @@ TEST_F(SoundCardTest, PlaysOnWhatTheSystemCallsItsDefault) {
     EXPECT_EQ(card.state(), SoundCard::State::Off);
 }
 
+TEST_F(SoundCardTest, SaysThatTheCardIsGone) {
+    // A card that takes nothing from some moment on: its frames go to a disk that is full.
+    configure("pcm.!default { type file slave.pcm { type null } file \"/dev/full\" format raw }\n");
+    testing::internal::CaptureStderr();
+    SoundCard card(feed_);
+    SoundCard::State state = awaitState(card, true);
+    for (int i = 0; i < 1000 && state == SoundCard::State::Playing; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        card.update(true, 0.5f);
+        state = card.state();
+    }
+    EXPECT_EQ(state, SoundCard::State::Failed);
+    EXPECT_NE(card.problem().find("the sound card is gone"), std::string::npos) << card.problem();
+    EXPECT_EQ(card.figures().latency, 0.0);
+    for (int i = 0; i < 1000 && feed_.heard(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_FALSE(feed_.heard());
+    (void)testing::internal::GetCapturedStderr(); // PortAudio tells it where we cannot hush it
+    card.update(false, 0.5f);
+    EXPECT_EQ(card.state(), SoundCard::State::Off);
+}
+
 TEST_F(SoundCardTest, MayEndWhileItIsOpened) {
     SoundCard card(feed_);
     card.update(true, 0.5f);
