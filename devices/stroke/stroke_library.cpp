@@ -19,7 +19,7 @@ namespace {
 using Curve = std::vector<glm::dvec2>; ///< m in the site's view
 
 constexpr double kHover = 0.008;    ///< m over the surface, before and after
-constexpr double kLanding = 0.08;   ///< m/s at most, from there onto the surface and back
+constexpr double kLanding = 0.08;   ///< m/s at most, from there onto the surface and back, in the air
 constexpr double kSpacing = 2.5e-4; ///< m between the points that are laid
 constexpr double kDeepest = 0.1;    ///< of the model's diagonal: a small model is not pierced
 constexpr double kOfModel = 0.25;   ///< of the diagonal: no curve reaches farther from its middle
@@ -85,10 +85,15 @@ Curve raster(double reach) {
 struct Told {
     double speed = 0.0, depth = 0.0;
 };
-void land(StrokeMotion& motion) {
-    motion.liftTo(0.0, kLanding);
+/// In the air as fast as hands come down; what is slower than that goes on slowly from the surface on.
+void land(StrokeMotion& motion, const Told& told) {
+    if (told.speed < kLanding)
+        motion.liftTo(told.depth, kLanding);
+    motion.liftTo(0.0, std::min(told.speed, kLanding));
 }
 void leave(StrokeMotion& motion, const Told& told) {
+    if (told.speed < kLanding)
+        motion.liftTo(told.depth, told.speed);
     motion.liftTo(told.depth + kHover, kLanding);
     motion.rest(0.2);
 }
@@ -123,7 +128,7 @@ void hold(StrokeMotion& motion, const LaidCurve&, const Told& told) {
 
 /// To and fro in reaches, as one feels for a bump.
 void rub(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
-    land(motion);
+    land(motion, told);
     for (int i = 0; i < 3; ++i) {
         motion.reachTo(curve.length(), told.speed);
         motion.reachTo(0.0, told.speed);
@@ -132,14 +137,14 @@ void rub(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
 }
 
 void round(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
-    land(motion);
+    land(motion, told);
     motion.runTo(3.0 * curve.length(), told.speed);
     leave(motion, told);
 }
 
 /// Over the edge and back, three times: the curve is a round, and there is in its middle.
 void cross(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
-    land(motion);
+    land(motion, told);
     for (int i = 0; i < 6; ++i)
         motion.reachTo(0.5 * (i + 1) * curve.length(), told.speed);
     leave(motion, told);
@@ -147,7 +152,7 @@ void cross(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
 
 /// To the end at one speed and back.
 void follow(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
-    land(motion);
+    land(motion, told);
     motion.runTo(curve.length(), told.speed);
     motion.runTo(0.0, told.speed);
     leave(motion, told);

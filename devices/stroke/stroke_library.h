@@ -27,7 +27,7 @@ struct StrokePlace {
 
 struct StrokeRequest {
     std::string name = "tour";
-    double speed = 0.0; ///< m/s; 0: the stroke's own
+    double speed = 0.0; ///< m/s, as StrokeInfo::speed; 0: the stroke's own
     double depth = 0.0; ///< m; 0: the stroke's own
     /// Around the point touched last; without it (and where the model has nothing there) near the middle of
     /// what faces `front`. `tour` goes over the whole model and `edge` to the sharpest edge, wherever that
@@ -49,7 +49,8 @@ inline constexpr double kShallowestStroke = 0.0001, kDeepestStroke = 0.01; ///< 
 
 /// Lays the stroke onto the model as `deviceFromScene` places it (rest pose): a closed path that begins in
 /// the air over the surface, comes down, strokes and lifts off again, for ever. Position, velocity and
-/// acceleration are continuous and the speed is nowhere above the stroke's. Curves become smaller until they
+/// acceleration are continuous and the speed is nowhere above the stroke's, but in the air above the surface
+/// up to 0.08 m/s. Curves become smaller until they
 /// find surface without gaps, steps and walls under all of them; where even the smallest does not (wires),
 /// the hand presses where it would have begun. The depth is at most a tenth of the model's diagonal. Any
 /// thread, not the servo's; deterministic; time grows with the triangles (0.1 to 0.5 s a million). Throws

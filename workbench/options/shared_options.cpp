@@ -132,7 +132,8 @@ CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& 
     CLI::Option* name = app.add_option("--stroke", stroke.name, meaning)
                             ->type_name("NAME")
                             ->check([](const std::string& text) { return strokeProblem(text); });
-    app.add_option("--stroke-speed", stroke.speed, "How fast it goes, at its fastest [the stroke's own]")
+    app.add_option("--stroke-speed", stroke.speed,
+                   "How fast it goes on the surface, at its fastest [the stroke's own]")
         ->type_name("M/S")
         ->check(CLI::Range(kSlowestStroke, kFastestStroke));
     app.add_option("--stroke-depth", stroke.depth, "How deep it presses [the stroke's own]")

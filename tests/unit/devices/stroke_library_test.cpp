@@ -41,6 +41,7 @@ struct Felt {
     int ticks = 0, contact = 0;
     bool began = false, inside = false;                  // in contact at the first tick; ever inside a body
     double deepest = 0.0, fastest = 0.0, jerkiest = 0.0; // m, m/s, m/s²
+    double fastestInTouch = 0.0;                         // m/s
 };
 
 Felt feel(const HapticScene& scene, const StrokePath& path) {
@@ -70,6 +71,8 @@ Felt feel(const HapticScene& scene, const StrokePath& path) {
         felt.deepest = std::max(felt.deepest, output.penetration);
         const glm::dvec3 velocity = path.velocity(time);
         felt.fastest = std::max(felt.fastest, glm::length(velocity));
+        if (output.contacts > 0)
+            felt.fastestInTouch = std::max(felt.fastestInTouch, glm::length(velocity));
         felt.jerkiest = std::max(felt.jerkiest, glm::distance(path.velocity(time + 1e-4), velocity) / 1e-4);
     }
     return felt;
@@ -105,6 +108,7 @@ TEST(StrokeLibrary, EveryStrokeTouchesEveryModelAsItSays) {
             // Creases are pressed deeper; over an edge with little room (the barrel's) the hand is clumsy.
             EXPECT_LT(felt.deepest, (info.name == "edge" ? 4.0 : 2.5) * info.depth);
             EXPECT_LE(felt.fastest, std::max(info.speed, kLanding) * (1 + 1e-9));
+            EXPECT_LE(felt.fastestInTouch, info.speed * (1 + 1e-9));
             EXPECT_LT(felt.jerkiest, 150.0) << "m/s²: the velocity has no steps";
             for (const double t : {0.0, 0.31, 0.77})
                 EXPECT_LT(glm::distance(path.position(t), path.position(t + 20.0 * path.period())), 1e-9);
@@ -176,6 +180,26 @@ TEST(StrokeLibrary, DoesWhatItIsTold) {
     EXPECT_NEAR(deepest, 0.004, 1e-9);
     EXPECT_NEAR(fastest, 0.2, 0.002);
     EXPECT_NEAR(right - left, 0.03, 1e-5);
+}
+
+TEST(StrokeLibrary, IsAsSlowAsItIsToldOnTheSurface) {
+    const auto shape = corners(assets::plane(0.2, 0.2, 2, 2)); // lies in y = 0
+    for (const StrokeInfo& info : strokeInfos()) {
+        if (info.name == "edge")
+            continue; // there is none
+        SCOPED_TRACE(info.name);
+        const double speed = info.name == "press" ? 0.001 : 0.01;
+        const StrokePath path =
+            layStroke(shape, {.name = std::string(info.name), .speed = speed, .front = {0, 1, 0}});
+        double inside = 0.0, above = 0.0;
+        for (double t = 0.0; t < path.period(); t += kTick) {
+            double& fastest = path.position(t).y < 0.0 ? inside : above;
+            fastest = std::max(fastest, glm::length(path.velocity(t)));
+        }
+        EXPECT_GT(inside, 0.6 * speed); // a tap is at its fastest in the air
+        EXPECT_LE(inside, speed * (1 + 1e-9));
+        EXPECT_LE(above, kLanding * (1 + 1e-9));
+    }
 }
 
 TEST(StrokeLibrary, HoldsWithTheTremorOfAHand) {
