@@ -27,7 +27,8 @@ void WorkspaceMap::begin(const WorkspaceWish& wish, const glm::dvec3& place) noe
     centring_ = 0.0;
 }
 
-void WorkspaceMap::apply(DeviceSample& sample, const WorkspaceWish& wish, double dt) noexcept {
+void WorkspaceMap::apply(DeviceSample& sample, const WorkspaceWish& wish, double seconds) noexcept {
+    const double dt = seconds > 0.0 ? std::min(seconds, kLongestStep) : 0.0; // also where it is no number
     Similarity& map = mapping_.workspaceFromDevice;
     const double fade = wish.clutch ? -dt / kClutchOut : dt / kClutchIn;
     mapping_.coupling = std::clamp(mapping_.coupling + fade, 0.0, 1.0);

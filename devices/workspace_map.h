@@ -7,6 +7,9 @@ namespace touchstone {
 
 inline constexpr double kLeastZoom = 0.1, kMostZoom = 10.0;
 
+/// The device's second button, as a bit of DeviceSample::buttons.
+inline constexpr uint32_t kClutchButton = 1u << 1;
+
 /// What the user wants of the workspace.
 struct WorkspaceWish {
     double zoom = 1.0;   ///< m in the workspace for one m of the device, kLeastZoom..kMostZoom
@@ -16,12 +19,11 @@ struct WorkspaceWish {
 /// Takes the places of a device into the workspace, x -> zoom x + t, so that the haptic interface point (HIP)
 /// never jumps:
 ///
-/// - *Clutch*. While it is held the HIP stays where it was, t = HIP - zoom x, and the force's coupling goes
-/// to
-///   zero; when it is let go the HIP goes on from there, and the coupling comes back. Also in contact: the
-///   point that is held keeps pressing, so the force that comes back is the one that was there.
-/// - *Zoom* goes about the HIP, t' = HIP - zoom' x, at no more than kZoomRate: a hand in motion is not
-/// thrown.
+/// - *Clutch*. While it is held the HIP stays where it was, t = HIP - zoom x, and the coupling of the force
+///   goes to zero; when it is let go the HIP goes on from there, and the coupling comes back. Also in
+///   contact: the point that is held keeps pressing, so the force that comes back is the one that was there.
+/// - *Zoom* goes about the HIP, t' = HIP - zoom' x, at no more than kZoomRate, so that a hand in motion is
+///   not thrown.
 ///
 /// The force is turned and not scaled, so that the device feels a stiffness of k times zoom, and the work
 /// that it does is the force times its own way: all limits and the energy balance are the device's
@@ -34,6 +36,8 @@ class WorkspaceMap {
     static constexpr double kClutchOut = 0.05, kClutchIn = 0.1;
     /// s without a sample at `centre`: longer than the safety stage takes to forget a touch.
     static constexpr double kCentring = 0.06;
+    /// s that fades and glides go on in one sample, however long it was in coming.
+    static constexpr double kLongestStep = 0.010;
 
     /// The device's `place` is the workspace's from now on, at the zoom that is wanted. The coupling goes on.
     void begin(const WorkspaceWish& wish, const glm::dvec3& place = glm::dvec3(0.0)) noexcept;
@@ -43,9 +47,9 @@ class WorkspaceMap {
         centring_ = kCentring;
         centre_ = place;
     }
-    /// Writes the mapping of this tick into `sample`, `dt` s after the last one. A sample that is not valid
-    /// gets the mapping as it is.
-    void apply(DeviceSample& sample, const WorkspaceWish& wish, double dt) noexcept;
+    /// Writes the mapping of this tick into `sample`, `seconds` after the last one (0 to kLongestStep of them
+    /// count). A sample that is not valid gets the mapping as it is.
+    void apply(DeviceSample& sample, const WorkspaceWish& wish, double seconds) noexcept;
 
     [[nodiscard]] const DeviceMapping& mapping() const { return mapping_; }
 

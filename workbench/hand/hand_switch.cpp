@@ -1,11 +1,13 @@
 #include "workbench/hand/hand_switch.h"
 
-#include "devices/mapped_device.h"
-
 #include <algorithm>
 #include <utility>
 
 namespace touchstone {
+
+namespace {
+constexpr glm::dvec3 kNothing{0.0};
+}
 
 std::string HandSwitch::name() const {
     return device_ != nullptr ? device_->name() : simulated() ? "simulated hand" : "mouse";
@@ -26,10 +28,19 @@ void HandSwitch::face(const glm::dquat& deviceFromView) {
 }
 
 void HandSwitch::apply(const DeviceCommand& command) noexcept {
-    if (driven_ != nullptr)
-        driven_->apply(command);
-    else
+    if (driven_ != nullptr) {
+        away_ = away_ && (gliding_ || command.force() != kNothing || command.torque() != kNothing);
+        driven_->apply(away_ ? DeviceCommand{} : command);
+    } else
         mouse_.apply(followed_ == nullptr && !gliding_ ? command : DeviceCommand{});
+}
+
+/// What a glide feels is not where the device is, and what is left of the force of the hand before is not the
+/// device's either: it gets none of both, and the force comes by and by once it is where the hand is.
+void HandSwitch::couple(DeviceSample& sample, double time) noexcept {
+    const double dt = std::clamp(time - lastTime_, 0.0, WorkspaceMap::kLongestStep);
+    coupling_ = driven_ == nullptr ? 1.0 : away_ ? 0.0 : std::min(1.0, coupling_ + dt / kCouplingTime);
+    sample.mapping.coupling *= coupling_;
 }
 
 /// Turns to another hand, or to another path.
@@ -39,10 +50,12 @@ void HandSwitch::follow(const StrokePath* path, double time) noexcept {
         return;
     followed_ = follows;
     gliding_ = started_;
+    away_ = started_ && driven_ != nullptr;
     glideStart_ = time;
     centre_ = path != nullptr ? path->place() : glm::dvec3(0.0);
     const Similarity before = map_.mapping().workspaceFromDevice;
     map_.begin(followed_ != nullptr ? wish() : WorkspaceWish{}, centre_);
+    centred_ = centres_.load(std::memory_order_relaxed); // it begins there
     const Similarity& now = map_.mapping().workspaceFromDevice;
     // It comes from where the HIP was. In the new hand's frame that is another place, and between the two
     // lies no way: nothing is known for a tick.
@@ -53,14 +66,13 @@ void HandSwitch::follow(const StrokePath* path, double time) noexcept {
 
 /// Clutch and zoom.
 void HandSwitch::place(DeviceSample& sample, double time) noexcept {
-    constexpr double kLongestStep = 0.010; // s
     WorkspaceWish wished = wish();
     wished.clutch = wished.clutch || (driven_ != nullptr && (sample.buttons & kClutchButton) != 0);
     if (const uint32_t asked = centres_.load(std::memory_order_relaxed); asked != centred_) {
         centred_ = asked;
         map_.centre(centre_);
     }
-    map_.apply(sample, wished, std::clamp(time - lastTime_, 0.0, kLongestStep));
+    map_.apply(sample, wished, time - lastTime_);
 }
 
 DeviceSample HandSwitch::sample(double time) noexcept {
@@ -87,6 +99,7 @@ DeviceSample HandSwitch::sample(double time) noexcept {
         sample.valid = false;
     if (followed_ != nullptr)
         place(sample, time);
+    couple(sample, time);
     lastTime_ = time;
     if (sample.valid) {
         lastHip_ = sample.inWorkspace();

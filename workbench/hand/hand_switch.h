@@ -13,11 +13,14 @@ namespace touchstone {
 
 /// The window's hand: the mouse, a simulated hand on a path that comes with the model, or a device. Changing
 /// over glides from where the hand is to where the other one is, so that nothing is struck at the speed of a
-/// jump. Device and simulated hand have clutch and zoom (WorkspaceMap), the mouse is where the pointer says.
+/// jump. A device that is taken up gets no force until the hand is where it is. Device and simulated hand
+/// have clutch and zoom (WorkspaceMap), the mouse is where the pointer says.
 class HandSwitch final : public Device {
   public:
     /// s that changing over takes.
     static constexpr double kGlideTime = 0.4;
+    /// s, then, from no force to all of it.
+    static constexpr double kCouplingTime = 0.050;
 
     /// Owner thread.
     void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }
@@ -53,6 +56,7 @@ class HandSwitch final : public Device {
     }
     void follow(const StrokePath* path, double time) noexcept;
     void place(DeviceSample& sample, double time) noexcept;
+    void couple(DeviceSample& sample, double time) noexcept;
 
     MouseDevice mouse_;
     std::shared_ptr<LinkedDevice> device_; // owner thread
@@ -73,6 +77,8 @@ class HandSwitch final : public Device {
     uint32_t centred_ = 0; // of centres_
     bool changed_ = false; // another hand, in another place of the workspace: nothing is known in this tick
     bool started_ = false, gliding_ = false;
+    bool away_ = false; // the device is not where the hand is, or what comes is left of another hand's force
+    double coupling_ = 1.0;
 };
 
 } // namespace touchstone

@@ -26,4 +26,12 @@ std::optional<PointedSurface> Sight::look(const Ray& ray, double time, const Hap
     return PointedSurface{hit->point, hit->normal, std::min(stiffness, scene_->limits.maxStiffness)};
 }
 
+Similarity Sight::restFromNow(int object, double time) {
+    const ObjectMotions motions = moving_.at(time);
+    const auto index = static_cast<size_t>(object);
+    if (object < 0 || index >= motions.size() || index >= scene_->restMotions.size())
+        return {};
+    return scene_->restMotions[index].workspaceFromObject * motions[index].workspaceFromObject.inverse();
+}
+
 } // namespace touchstone

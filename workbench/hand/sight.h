@@ -19,6 +19,9 @@ class Sight {
     /// What a line of sight (workspace) meets first at `time` (s, the servo's), and how stiff it will be.
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, double time,
                                                      const HapticSettings& settings);
+    /// From where an object of the scene (HapticScene::objects) is at `time` to where it is in the rest pose,
+    /// both in the workspace.
+    [[nodiscard]] Similarity restFromNow(int object, double time);
 
   private:
     std::shared_ptr<const HapticScene> scene_;

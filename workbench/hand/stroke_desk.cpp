@@ -19,6 +19,8 @@ void StrokeDesk::show(ScenePtr scene, const Similarity& workspaceFromScene,
 
 std::shared_ptr<const StrokePath> StrokeDesk::update(const StrokeRequest& wanted, const glm::dvec3& front,
                                                      bool strokes) {
+    const bool before = std::exchange(stroked_, strokes);
+    chosen_ = strokes && (chosen_ || !before);
     if (worker_.valid()) {
         if (worker_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return nullptr;
@@ -32,7 +34,7 @@ std::shared_ptr<const StrokePath> StrokeDesk::update(const StrokeRequest& wanted
         }
         return nullptr;
     }
-    const bool begins = strokes && !std::exchange(stroked_, strokes);
+    const bool begins = std::exchange(chosen_, false);
     if (tour_ == nullptr || !strokes)
         return nullptr;
     StrokeRequest request = wanted;

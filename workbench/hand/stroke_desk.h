@@ -16,7 +16,7 @@ class StrokeDesk {
     /// Another model, in its rest pose: what was touched is forgotten. `tour`: the stroke that came with it;
     /// null: there is nothing to touch.
     void show(ScenePtr scene, const Similarity& workspaceFromScene, std::shared_ptr<const StrokePath> tour);
-    /// What is touched now, workspace.
+    /// What is touched now, workspace, where it is in the rest pose.
     void touched(const StrokePlace& place) { touched_ = place; }
 
     /// In every frame. `wanted`: name, speed and depth; `front`: towards the viewer, workspace. `strokes`:
@@ -33,6 +33,7 @@ class StrokeDesk {
     std::optional<StrokePlace> touched_;
     std::optional<StrokeRequest> laid_; ///< what was asked of the worker last; place and front as they were
     bool stroked_ = false;              ///< the simulated hand was chosen in the frame before
+    bool chosen_ = false;               ///< it has been chosen since a stroke was last thought of
     uint64_t model_ = 0, laying_ = 0;   ///< numbers of the model shown, and of that the worker has
     std::future<std::shared_ptr<const StrokePath>> worker_;
     std::string problem_;

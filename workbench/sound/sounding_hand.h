@@ -3,12 +3,19 @@
 #include "devices/device.h"
 #include "sound/live_sound.h"
 
+#include <cmath>
+
 namespace touchstone {
 
 /// What a tick is to the ear. `dt`: s since the one before.
 [[nodiscard]] inline SoundTick soundTick(double dt, const DeviceSample& sample,
                                          const DeviceCommand& command) {
-    return {.dt = dt, .position = sample.inWorkspace(), .force = command.force(), .handKnown = sample.valid};
+    const glm::dvec3 place = sample.inWorkspace();
+    const bool finite = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
+    return {.dt = dt,
+            .position = place,
+            .force = sample.mapping.workspaceFromDevice.direction(command.force()),
+            .handKnown = sample.valid && finite}; // a place that is none would be heard for ever
 }
 
 /// A hand whose force is heard, too: the servo holds it in the place of `hand`, and what goes to that goes to

@@ -1,5 +1,7 @@
 #include "workbench/timeline/again_hand.h"
 
+#include "devices/workspace_map.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +20,11 @@ RecordedPath::RecordedPath(std::vector<Sample> samples, const Options& options)
     : samples_(std::move(samples)), options_(options) {}
 
 double RecordedPath::lap() const noexcept {
-    return length() + AgainHand::kGlideTime;
+    const double once = length() + AgainHand::kGlideTime;
+    if (!(options_.period > 0.0))
+        return once;
+    constexpr double kExact = 1e-9; // of a period: a lap that is a multiple but for rounding is not longer
+    return std::max(1.0, std::ceil(once / options_.period - kExact)) * options_.period;
 }
 
 void RecordedPath::begin(double earliest) const noexcept {
@@ -55,7 +61,8 @@ DeviceSample RecordedPath::at(double time) const noexcept {
 DeviceSample AgainHand::sample(double time) noexcept {
     const DeviceSample own = own_.sample(time);
     const RecordedPath* path = path_.adopt();
-    if (path != followed_) {
+    const bool goesOver = path != followed_;
+    if (goesOver) {
         followed_ = path;
         gliding_ = started_;
         glideFrom_ = last_;
@@ -70,8 +77,11 @@ DeviceSample AgainHand::sample(double time) noexcept {
         sample.position = sample.mapping.workspaceFromDevice.inversePoint(hip);
         gliding_ = time - glideStart_ < kGlideTime;
     }
-    constexpr double kLongestStep = 0.010; // s
-    const double dt = std::clamp(time - lastTime_, 0.0, kLongestStep);
+    const Similarity& now = sample.mapping.workspaceFromDevice;
+    if (goesOver && started_ && (now.scale != lastMap_.scale || now.translation != lastMap_.translation))
+        sample.valid = false; // another frame: between its places and those before lies no way (energy)
+    lastMap_ = now;
+    const double dt = std::clamp(time - lastTime_, 0.0, WorkspaceMap::kLongestStep);
     lastTime_ = time;
     coupling_ = path != nullptr || gliding_ ? 0.0 : std::min(1.0, coupling_ + dt / kCouplingTime);
     sample.mapping.coupling *= coupling_;

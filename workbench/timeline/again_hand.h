@@ -32,7 +32,8 @@ class RecordedPath {
     RecordedPath(std::vector<Sample> samples, const Options& options);
 
     [[nodiscard]] double length() const noexcept { return samples_.back().seconds; } ///< s
-    /// From one round to the next, s.
+    /// From one round to the next, s: with what moves, a multiple of its period, so that every round finds
+    /// it where it was; the hand rests at the path's begin until then.
     [[nodiscard]] double lap() const noexcept;
     [[nodiscard]] bool repeats() const noexcept { return options_.repeats; }
     /// s since the first sample, of what is touched `time`; below zero before it began, beyond `length` while
@@ -77,7 +78,8 @@ class AgainHand final : public Device {
     Handover<RecordedPath> path_;
     // Servo thread:
     const RecordedPath* followed_ = nullptr;
-    glm::dvec3 last_{0.0}, glideFrom_{0.0};
+    glm::dvec3 last_{0.0}, glideFrom_{0.0}; // workspace
+    Similarity lastMap_;                    // of the last tick
     double glideStart_ = 0.0, lastTime_ = 0.0;
     double coupling_ = 1.0;
     bool started_ = false, gliding_ = false;

@@ -117,6 +117,8 @@ const LensSegment* Lens::segmentWith(size_t index) const {
 }
 
 bool Lens::wants(size_t segment) const {
+    if (failedSegments_.contains(segment))
+        return false;
     const auto found = std::ranges::find_if(kept_, [&](const auto& s) { return s->number == segment; });
     if (found == kept_.end())
         return true;
@@ -127,11 +129,16 @@ bool Lens::wants(size_t segment) const {
 }
 
 void Lens::look(size_t cursor) {
-    if (std::optional<std::shared_ptr<const LensSegment>> segment = segmentJob_.take()) {
-        std::erase_if(kept_, [&](const auto& s) { return s->number == (*segment)->number; });
-        kept_.push_back(std::move(*segment));
-        if (kept_.size() > kKept)
-            kept_.erase(kept_.begin());
+    try {
+        if (std::optional<std::shared_ptr<const LensSegment>> segment = segmentJob_.take()) {
+            std::erase_if(kept_, [&](const auto& s) { return s->number == (*segment)->number; });
+            kept_.push_back(std::move(*segment));
+            if (kept_.size() > kKept)
+                kept_.erase(kept_.begin());
+        }
+    } catch (...) {
+        failedSegments_.insert(readingSegment_);
+        throw;
     }
     loadSceneOf(cursor);
     if (segmentJob_.busy())
@@ -144,6 +151,7 @@ void Lens::look(size_t cursor) {
 }
 
 void Lens::read(size_t segment) {
+    readingSegment_ = segment;
     segmentJob_.start([timeline = timeline_, segment, scenes = scenes_](const JobProgress& progress) {
         return SegmentReader(*timeline, segment, scenes).read(progress);
     });

@@ -33,7 +33,8 @@ class Lens {
     Lens(std::shared_ptr<const Timeline> timeline, std::shared_ptr<RecordedSceneShelf> shelf)
         : timeline_(std::move(timeline)), shelf_(std::move(shelf)) {}
 
-    /// Once a frame. Throws what stopped the reading: the file has changed under it.
+    /// Once a frame. Throws what stopped the reading (the file has changed under it), once for a segment,
+    /// which is not read again; the others are.
     void look(size_t cursor);
 
     /// What is known of the tick; false while it is being read: then `record` stays what it was.
@@ -59,6 +60,8 @@ class Lens {
     std::vector<std::shared_ptr<const LensSegment>> kept_; // the newest last
     std::map<uint32_t, FoundScene> scenes_;
     std::set<uint32_t> failed_; // scenes that cannot be loaded
+    std::set<size_t> failedSegments_;
+    size_t readingSegment_ = 0;
     std::string problem_;
     uint32_t loadingScene_ = 0;
     BackgroundJob<FoundScene> sceneJob_;

@@ -136,8 +136,7 @@ void TimelineDesk::update(const Surroundings& around) {
 
 void TimelineDesk::showTick() {
     try {
-        if (lensProblem_.empty())
-            lens_->look(playback_->cursor());
+        lens_->look(playback_->cursor());
     } catch (const std::exception& error) {
         lensProblem_ = error.what();
     }

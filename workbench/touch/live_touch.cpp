@@ -88,8 +88,11 @@ bool LiveTouch::hold(std::string& choice) {
 
 void LiveTouch::layStroke(const StrokeRequest& stroke, const glm::dvec3& facing, bool simulated) {
     const HapticOutput& felt = tick().output;
-    if (felt.contacts > 0 && tick().scene == offered_)
-        strokes_.touched({felt.proxy, felt.normal});
+    // Not what a glide or a recording touches again: nothing is coupled then.
+    if (felt.contacts > 0 && tick().scene == offered_ && tick().sample.mapping.coupling > 0.0) {
+        const Similarity rest = sight_.restFromNow(felt.object, tick().time); // strokes are laid onto that
+        strokes_.touched({rest.point(felt.proxy), rest.direction(felt.normal)});
+    }
     if (auto path = strokes_.update(stroke, facing, simulated))
         hand_.offerPath(std::move(path));
 }

@@ -1,6 +1,8 @@
 // What is made of a recording: ticks touched again around the cursor, the verdict, and the recorded hand in
 // the servo of now.
 
+#include "devices/mapped_device.h"
+#include "engine/core/error.h"
 #include "tests/unit/workbench/timeline/recordings.h"
 #include "workbench/hand/device_port.h"
 #include "workbench/timeline/lens.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <thread>
@@ -100,6 +103,37 @@ TEST_F(AgainTest, WithoutItsModelTheLensShowsWhatWasRecorded) {
     EXPECT_EQ(shown.output.proxy, lived[5000].output.proxy);
     EXPECT_EQ(shown.output.force, lived[5000].output.force);
     EXPECT_EQ(shown.output.planeCount, 0u);
+}
+
+TEST_F(AgainTest, OneDamagedSegmentLeavesTheOthersToBeSeen) {
+    const std::vector<TickRecord> lived = record();
+    const auto timeline = timelineOf(file_);
+    ASSERT_GE(timeline->segments().size(), 2u);
+    std::filesystem::resize_file(file_, timeline->segments()[1].offset + 100);
+    const size_t damaged = timeline->segments()[1].first, sound = timeline->segments()[0].first;
+    Lens lens(timeline, std::make_shared<RecordedSceneShelf>(file_));
+    TickRecord shown;
+    int problems = 0;
+    const auto look = [&](size_t index) {
+        try {
+            lens.look(index);
+        } catch (const Error&) {
+            ++problems;
+        }
+        pause();
+    };
+    for (int i = 0; i < 5000 && problems == 0; ++i)
+        look(damaged);
+    ASSERT_EQ(problems, 1);
+    for (int i = 0; i < 5000 && !lens.complete(sound); ++i)
+        look(sound);
+    EXPECT_EQ(lens.problem(), "");
+    ASSERT_TRUE(lens.show(sound, shown));
+    EXPECT_EQ(shown.output.proxy, lived[sound].output.proxy);
+    for (int i = 0; i < 20; ++i)
+        look(damaged);
+    EXPECT_FALSE(lens.show(damaged, shown));
+    EXPECT_LT(problems, static_cast<int>(timeline->segments().size())) << "each is tried once";
 }
 
 TEST_F(AgainTest, VerifyingNamesTheTickThatDiffersAndItsStage) {
@@ -234,6 +268,57 @@ TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
     EXPECT_LE(steepest, 1.001 * haptic->limits.maxForceRate);
 }
 
+/// One's own hand is zoomed and presses; the recorded one is not zoomed. Between their frames lies no way.
+TEST_F(AgainTest, GoingOverFromAZoomedHandBooksNoEnergy) {
+    const TouchedScene scene = touchedScene("doughnut.glb");
+    constexpr double kTick = 1e-3;
+    StillHand own;
+    MappedDevice zoomed(own, 4.0, glm::dvec3(0.0, 0.0, 0.4));
+    AgainHand hand(zoomed);
+    WorldState world;
+    DeviceState state;
+    HapticOutput output;
+    NoStopwatch stopwatch;
+    const Similarity map{4.0, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, -1.2)};
+    uint64_t tick = 0;
+    double balance = 0.0, pressed = 0.0, fastest = 0.0;
+    int unknown = 0;
+    glm::dvec3 before(NAN);
+    const auto run = [&](int ticks, const std::function<glm::dvec3(int)>& place) {
+        for (int i = 0; i < ticks; ++i, ++tick) {
+            own.place = map.inversePoint(place(i));
+            const double time = kTick * static_cast<double>(tick);
+            const DeviceSample sample = hand.sample(time);
+            hapticStep(
+                *scene.haptic, {},
+                {.tick = tick, .time = time, .dt = kTick, .devices = std::span(&sample, 1), .objects = {}},
+                world, std::span(&state, 1), std::span(&output, 1), stopwatch);
+            hand.apply(output.command);
+            balance = std::max(balance, state.limiter.passivity.balance);
+            pressed = glm::length(output.command.force());
+            unknown += sample.valid ? 0 : 1;
+            if (tick > 0)
+                fastest = std::max(fastest, glm::distance(sample.inWorkspace(), before) / kTick);
+            before = sample.inWorkspace();
+        }
+    };
+    const glm::dvec3 there = overTheDoughnut(0.47);
+    run(470, [](int i) { return overTheDoughnut(kTick * i); });
+    EXPECT_GT(pressed, 0.1);
+    EXPECT_EQ(unknown, 0);
+    balance = 0.0;
+    const auto path = std::make_shared<const RecordedPath>(
+        std::vector<RecordedPath::Sample>{{0.0, there, true}, {0.5, there, true}});
+    hand.follow(path);
+    run(1000, [&](int) { return there; });
+    hand.follow(nullptr);
+    run(1000, [&](int) { return there; });
+    EXPECT_GT(pressed, 0.1) << "it is back";
+    EXPECT_EQ(unknown, 2) << "a tick each way";
+    EXPECT_LT(balance, kNoticedEnergy);
+    EXPECT_LT(fastest, 0.5) << "the HIP does not jump";
+}
+
 TEST(RecordedPathTest, BeginsWhereWhatMovesWasAndGoesRound) {
     const RecordedPath path({{0.0, glm::dvec3(0.0), true}, {1.0, glm::dvec3(0.01), true}},
                             {.repeats = true, .period = 4.0, .phase = 11.0});
@@ -242,10 +327,21 @@ TEST(RecordedPathTest, BeginsWhereWhatMovesWasAndGoesRound) {
     EXPECT_NEAR(path.begun(), 7.0, 1e-12);
     EXPECT_EQ(path.at(6.0).position, glm::dvec3(0.0)) << "waits at its begin";
     EXPECT_NEAR(path.at(7.25).position.x, 0.0025, 1e-12);
-    EXPECT_NEAR(path.secondsAt(7.0 + path.lap() + 0.25), 0.25, 1e-12);
-    EXPECT_NEAR(path.at(7.0 + 2.0 * path.lap() + 0.5).position.x, 0.005, 1e-12);
+    EXPECT_NEAR(path.lap(), 4.0, 1e-12) << "every round is in phase";
+    EXPECT_NEAR(path.secondsAt(11.25), 0.25, 1e-12);
+    EXPECT_NEAR(path.at(15.5).position.x, 0.005, 1e-12);
+    EXPECT_EQ(path.at(10.0).position, glm::dvec3(0.0)) << "rests where it begins";
     const glm::dvec3 back = path.at(8.0 + 0.5 * AgainHand::kGlideTime).position;
     EXPECT_NEAR(back.x, 0.005, 1e-12) << "half of the way back";
+    const auto lap = [](double seconds, double period) {
+        return RecordedPath({{0.0, glm::dvec3(0.0), true}, {seconds, glm::dvec3(0.01), true}},
+                            {.repeats = true, .period = period})
+            .lap();
+    };
+    EXPECT_NEAR(lap(1.0, 0.0), 1.0 + AgainHand::kGlideTime, 1e-12) << "nothing moves";
+    EXPECT_NEAR(lap(1.0, 0.5), 1.5, 1e-12);
+    EXPECT_NEAR(lap(1.6, 0.5), 2.0, 1e-12) << "a multiple already";
+    EXPECT_NEAR(lap(1.7, 0.5), 2.5, 1e-12);
 }
 
 /// What the window's turn does: lets the servo touch with the hand and looks at what comes of it.

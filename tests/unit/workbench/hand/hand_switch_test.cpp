@@ -1,0 +1,222 @@
+// The window's hand with a device that a test moves: what the device is sent while hands change.
+
+#include "haptics/haptic_step.h"
+#include "tests/support/recorded_servo.h"
+#include "workbench/hand/hand_switch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace touchstone::test {
+namespace {
+
+class ToldDevice final : public LinkedDevice {
+  public:
+    explicit ToldDevice(const DeviceSample& first) : next(first) {}
+    std::string name() const override { return "told"; }
+    DeviceLimits limits() const override { return {}; }
+    DeviceSample sample(double) noexcept override { return next; }
+    void apply(const DeviceCommand& command) noexcept override {
+        force = command.force();
+        ++commands;
+    }
+
+    DeviceSample next;
+    glm::dvec3 force{0.0};
+    int commands = 0;
+};
+
+/// A floor at y = 0, a simulated hand that taps it, and a device that is pressed beneath it, elsewhere.
+class HandSwitchTest : public testing::Test {
+  protected:
+    HandSwitchTest() {
+        limits_.maxForceRate = 40.0; // N/s: slower than what fades, so that every step shows
+        scene_ = floorScene(0.0f, limits_);
+        constexpr std::array kTap{glm::dvec3(0.0, 0.005, 0.0), glm::dvec3(0.0, -0.001, 0.0)};
+        hand_.offerPath(std::make_shared<const StrokePath>(StrokePath::around(kTap, 0.05)));
+        hand_.simulate(true);
+        while (glm::length(output_.command.force()) < 0.3 && tick_ < 2000)
+            run(1);
+        EXPECT_LT(tick_, 2000u) << "the simulated hand presses";
+        most_ = 0.0;
+        balance_ = 0.0;
+    }
+
+    /// What the servo does; holds every tick against what always is to be.
+    void run(int ticks, const std::function<void(int)>& move = {}) {
+        for (int i = 0; i < ticks; ++i, ++tick_) {
+            if (move)
+                move(i);
+            const int commands = device_->commands;
+            sample_ = hand_.sample(kTick * static_cast<double>(tick_));
+            hapticStep(*scene_.haptic, {},
+                       {.tick = tick_,
+                        .time = kTick * static_cast<double>(tick_),
+                        .dt = kTick,
+                        .devices = std::span(&sample_, 1),
+                        .objects = {}},
+                       world_, std::span(&state_, 1), std::span(&output_, 1), stopwatch_);
+            hand_.apply(output_.command);
+            if (device_->commands == commands)
+                device_->force = glm::dvec3(0.0); // let go: who lets go sends zero
+            else
+                expectGentle();
+            last_ = device_->force;
+            most_ = std::max(most_, glm::length(device_->force));
+            touched_ = std::max(touched_, glm::length(output_.force));
+            balance_ = std::max(balance_, state_.limiter.passivity.balance);
+        }
+    }
+
+    void expectGentle() {
+        const double force = glm::length(device_->force);
+        ASSERT_LE(force, limits_.maxForce);
+        ASSERT_LE(glm::distance(device_->force, last_), 1.001 * limits_.maxForceRate * kTick)
+            << "at tick " << tick_;
+        const glm::dvec3 place = sample_.mapping.workspaceFromDevice.point(device_->next.position);
+        if (device_->next.valid && sample_.valid && glm::distance(place, sample_.inWorkspace()) > 1e-9) {
+            ASSERT_EQ(force, 0.0) << "it is elsewhere, at tick " << tick_;
+        }
+    }
+
+    static constexpr double kTick = 1e-3;
+    static constexpr int kGlide = static_cast<int>(HandSwitch::kGlideTime / kTick);
+    DeviceLimits limits_;
+    TouchedScene scene_;
+    HandSwitch hand_;
+    std::shared_ptr<ToldDevice> device_ = std::make_shared<ToldDevice>(at({0.01, -0.006, 0.02}));
+    WorldState world_;
+    DeviceState state_;
+    DeviceSample sample_;
+    HapticOutput output_;
+    NoStopwatch stopwatch_;
+    uint64_t tick_ = 0;
+    glm::dvec3 last_{0.0};
+    double most_ = 0.0, touched_ = 0.0, balance_ = 0.0; // N, N, J
+};
+
+TEST_F(HandSwitchTest, ADeviceThatIsTakenUpFeelsNothingUntilTheHandIsWhereItIs) {
+    hand_.hold(device_);
+    run(kGlide);
+    EXPECT_GT(touched_, 2.0) << "the glide goes through what is touched";
+    EXPECT_EQ(most_, 0.0);
+    run(5);
+    EXPECT_LT(most_, 0.5) << "and then it comes by and by";
+    run(500);
+    EXPECT_NEAR(glm::length(last_), glm::length(output_.force), 1e-9);
+    EXPECT_GT(glm::length(last_), 2.0);
+    EXPECT_LT(balance_, kNoticedEnergy);
+}
+
+TEST_F(HandSwitchTest, WhatIsLeftOfTheOtherHandsForceIsNotItsOwn) {
+    limits_.maxForceRate = 0.5; // slower than the glide
+    scene_ = floorScene(0.0f, limits_);
+    run(1);
+    hand_.hold(device_);
+    run(kGlide + 5);
+    EXPECT_GT(glm::length(output_.command.force()), 0.0) << "it is still fading";
+    EXPECT_EQ(most_, 0.0);
+    run(8000);
+    EXPECT_GT(glm::length(last_), 2.0);
+}
+
+TEST_F(HandSwitchTest, IsLetGoAndTakenUpAgainOnTheWay) {
+    hand_.hold(device_);
+    run(kGlide + 300);
+    const int commands = device_->commands;
+    EXPECT_GT(glm::length(last_), 2.0);
+    hand_.hold(nullptr);
+    run(150);
+    EXPECT_EQ(device_->commands, commands) << "nobody drives it";
+    most_ = 0.0;
+    hand_.hold(device_);
+    run(kGlide);
+    EXPECT_EQ(most_, 0.0);
+    run(500);
+    EXPECT_GT(glm::length(last_), 2.0);
+}
+
+TEST_F(HandSwitchTest, IsUnpluggedWhileItGlides) {
+    hand_.hold(device_);
+    run(600, [&](int i) {
+        device_->next.valid = (i < 100 || i >= 120) && (i < 200 || i >= 350) && (i < 390 || i >= 550);
+        if (i == 550) // it comes back in the air, and not where it was
+            device_->next.position = {-0.02, 0.003, 0.0};
+    });
+    EXPECT_EQ(most_, 0.0);
+    run(500, [&](int) { device_->next.position.y = std::max(device_->next.position.y - 5e-5, -0.006); });
+    EXPECT_GT(glm::length(last_), 2.0);
+    EXPECT_LT(balance_, kNoticedEnergy);
+}
+
+TEST_F(HandSwitchTest, ChangesUnderClutchAndZoom) {
+    hand_.workspace({.zoom = 0.5});
+    run(400);
+    hand_.hold(device_); // zoomed about another place: another mapping
+    const auto wander = [&](int i) {
+        device_->next.position = {0.01, -0.006 + 0.002 * std::sin(0.01 * i), 0.02};
+        device_->next.buttons = i > 100 && i < 250 ? kClutchButton : 0;
+        hand_.workspace({.zoom = i > 150 ? 2.0 : 0.5});
+    };
+    run(kGlide, wander);
+    EXPECT_EQ(most_, 0.0);
+    EXPECT_LT(balance_, kNoticedEnergy);
+    hand_.hold(nullptr);
+    run(100);
+    hand_.hold(device_);
+    run(kGlide, [&](int i) { hand_.workspace({.zoom = 1.0, .clutch = i > 300}); });
+    run(200);
+    EXPECT_EQ(most_, 0.0) << "the clutch is held";
+    hand_.workspace({});
+    run(300);
+    EXPECT_NEAR(glm::length(last_), glm::length(output_.force), 1e-9);
+}
+
+TEST_F(HandSwitchTest, IsCentredWithoutAPush) {
+    hand_.hold(device_);
+    run(kGlide + 300);
+    // Clutched elsewhere, so that centring takes the HIP away; once in a glide, once at rest.
+    for (const int glided : {0, 1}) {
+        SCOPED_TRACE(glided);
+        run(200, [&](int i) {
+            hand_.workspace({.clutch = i < 190});
+            device_->next.position.x -= 1e-4;
+        });
+        if (glided == 1) {
+            hand_.hold(nullptr);
+            run(100);
+            hand_.hold(device_);
+            run(100);
+        }
+        hand_.centre();
+        run(1);
+        EXPECT_FALSE(sample_.valid);
+        run(kGlide + 200);
+        EXPECT_TRUE(sample_.valid);
+        EXPECT_LT(glm::distance(sample_.inWorkspace(), device_->next.position), 1e-12);
+    }
+    EXPECT_LT(balance_, kNoticedEnergy);
+}
+
+TEST_F(HandSwitchTest, CentringTheMouseIsNotDoneToTheDeviceAfterIt) {
+    hand_.simulate(false);
+    run(kGlide + 10);
+    hand_.centre();
+    run(10);
+    hand_.hold(device_);
+    int unknown = 0;
+    for (int i = 0; i < 100; ++i) {
+        run(1);
+        unknown += sample_.valid ? 0 : 1;
+    }
+    EXPECT_LE(unknown, 1);
+}
+
+} // namespace
+} // namespace touchstone::test

@@ -1,0 +1,64 @@
+// Where the simulated hand's strokes are laid: around what was touched last, also on what moves.
+
+#include "haptics/contact/surface_pick.h"
+#include "tests/support/recorded_servo.h"
+#include "workbench/hand/sight.h"
+#include "workbench/hand/stroke_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+namespace touchstone::test {
+namespace {
+
+TEST(StrokeDesk, IsAroundTheTouchedPointWheneverTheHandIsChosen) {
+    const TouchedScene scene = touchedScene("doughnut.glb");
+    const Similarity& fit = scene.haptic->workspaceFromScene;
+    StrokeDesk desk;
+    desk.show(scene.source, fit,
+              std::make_shared<const StrokePath>(layStroke(*scene.source, fit, StrokeRequest{})));
+    const StrokeRequest press{.name = "press"};
+    const glm::dvec3 front(0.0, 0.0, 1.0);
+    for (const double side : {1.0, -1.0, 1.0}) {
+        EXPECT_EQ(desk.update(press, front, false), nullptr) << "the mouse";
+        const auto hit = pickSurface(*scene.haptic, {}, {0.04 * side, 0.03, 1.0}, {0.0, 0.0, -1.0});
+        ASSERT_TRUE(hit);
+        desk.touched({hit->point, hit->normal});
+        std::shared_ptr<const StrokePath> path;
+        for (int i = 0; i < 2000 && path == nullptr; ++i) {
+            path = desk.update(press, front, true);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        ASSERT_NE(path, nullptr) << side << " " << desk.notice();
+        EXPECT_LT(glm::distance(path->place(), hit->point), 2e-3);
+        EXPECT_EQ(desk.update(press, front, true), nullptr) << "it is laid once";
+    }
+}
+
+TEST(Sight, KnowsWhereWhatMovesIsAtRest) {
+    const TouchedScene scene = touchedScene("moving.glb");
+    MovingObjects moving(scene.source, *scene.haptic);
+    Sight sight;
+    sight.show(scene.haptic, scene.source);
+    int carried = 0;
+    for (double x = -0.1; x <= 0.1; x += 0.01)
+        for (const double time : {0.3, 0.8, 1.7}) {
+            const auto hit = pickSurface(*scene.haptic, moving.at(time), {x, 0.011, 1.0}, {0.0, 0.0, -1.0});
+            if (!hit)
+                continue;
+            const Similarity rest = sight.restFromNow(hit->object, time);
+            const glm::dvec3 point = rest.point(hit->point), normal = rest.direction(hit->normal);
+            const auto there = pickSurface(*scene.haptic, {}, point + 1e-4 * normal, -normal);
+            ASSERT_TRUE(there) << x << ", " << time;
+            EXPECT_LT(glm::distance(there->point, point), 1e-6);
+            carried += glm::distance(point, hit->point) > 1e-3 ? 1 : 0;
+        }
+    EXPECT_GT(carried, 3) << "they have moved";
+    EXPECT_EQ(sight.restFromNow(-1, 0.3).point({1.0, 2.0, 3.0}), glm::dvec3(1.0, 2.0, 3.0));
+}
+
+} // namespace
+} // namespace touchstone::test
