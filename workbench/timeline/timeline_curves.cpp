@@ -2,6 +2,7 @@
 
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/timeline/timeline_panel.h"
+#include "workbench/window/panels/scale.h"
 
 #include <imgui.h>
 
@@ -40,15 +41,6 @@ ImU32 colorOf(TimelineMark::Kind kind) {
         break;
     }
     return kNote;
-}
-
-/// The next of 1, 2, 5, 10 … times a power of ten that holds `most`.
-double niceCeiling(double most) {
-    const double decade = std::pow(10.0, std::floor(std::log10(most)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (factor * decade >= most)
-            return factor * decade;
-    return 10.0 * decade;
 }
 
 /// A stretch of the recording on a strip of the window.

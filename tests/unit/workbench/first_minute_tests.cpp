@@ -181,11 +181,7 @@ class FirstMinute : public WindowTest {
     /// Another model, and theirs again: the new friction is what the file says and what the hand feels.
     void reopens() {
         const double saved = frictionInFile();
-        display_.key("ctrl+o");
-        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
-        display_.xdotool({"type", "--delay", "20", TOUCHSTONE_ASSETS "/plane.glb"});
-        later();
-        display_.key("Return");
+        openByPath(TOUCHSTONE_ASSETS "/plane.glb");
         until("the plane", [](const Json& s) { return s["model"] == "plane.glb"; });
         display_.drop("Touchstone", own_);
         until("their model", [](const Json& s) { return s["model"] == "mine.glb"; });

@@ -42,14 +42,6 @@ class LayoutTest : public WindowTest {
         }
         FAIL() << "the arrows lead to no " << widget;
     }
-    /// A file's path typed into the menu that Ctrl+O opens.
-    void openByPath(const std::string& path) {
-        display_.key("ctrl+o");
-        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
-        display_.xdotool({"type", "--delay", "20", path});
-        later();
-        display_.key("Return");
-    }
 };
 
 TEST_F(LayoutTest, MovingARungMovesWhatItCostsAndHowFarFromExactItIs) {

@@ -20,13 +20,6 @@ class TimelineWindow : public WindowTest {
     static const Json& timeline(const Json& s) { return s["timeline"]; }
     static bool looking(const Json& s) { return s["timeline"]["looking"] == true; }
 
-    void openByPath(const std::string& path) {
-        display_.key("ctrl+o");
-        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
-        display_.xdotool({"type", "--delay", "20", path});
-        later();
-        display_.key("Return");
-    }
     /// A place on the timeline, as a share of its length.
     VirtualDisplay::Place onTimeline(double share) {
         const Json rect = status()["widgets"].at("timeline");

@@ -82,6 +82,15 @@ class WindowTest : public testing::Test {
                 corner_.y + static_cast<int>(rect["y"].get<double>() + y * rect["height"].get<double>())};
     }
 
+    /// A file's path typed into the menu that Ctrl+O opens.
+    void openByPath(const std::string& path) {
+        display_.key("ctrl+o");
+        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
+        display_.xdotool({"type", "--delay", "20", path});
+        later();
+        display_.key("Return");
+    }
+
     void expectCleanEnd() {
         const Json last = status();
         EXPECT_EQ(last["validation_messages"], 0) << readFile(scratch_ / "log");

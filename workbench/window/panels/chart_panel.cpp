@@ -1,5 +1,6 @@
 #include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/panels.h"
+#include "workbench/window/panels/scale.h"
 
 #include <imgui.h>
 
@@ -38,15 +39,6 @@ constexpr std::array<Chart, 4> kCharts{{
     {"step", "µs", IM_COL32(190, 150, 240, 255),
      [](const Entry& e) { return 1e6 * static_cast<double>(e.step); }, 10.0, true},
 }};
-
-/// The next of 1, 2, 5, 10 … times a power of ten that holds `most`.
-double niceCeiling(double most) {
-    const double decade = std::pow(10.0, std::floor(std::log10(most)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (factor * decade >= most)
-            return factor * decade;
-    return 10.0 * decade;
-}
 
 class Charts {
   public:
