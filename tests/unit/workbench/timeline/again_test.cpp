@@ -273,13 +273,13 @@ TEST_F(AgainTest, GoingOverFromAZoomedHandBooksNoEnergy) {
     const TouchedScene scene = touchedScene("doughnut.glb");
     constexpr double kTick = 1e-3;
     StillHand own;
-    MappedDevice zoomed(own, 4.0, glm::dvec3(0.0, 0.0, 0.4));
+    MappedDevice zoomed(own, 4.0, glm::dvec3(0.0, 0.0, -0.4));
     AgainHand hand(zoomed);
     WorldState world;
     DeviceState state;
     HapticOutput output;
     NoStopwatch stopwatch;
-    const Similarity map{4.0, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, -1.2)};
+    const Similarity map{4.0, glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.2)};
     uint64_t tick = 0;
     double balance = 0.0, pressed = 0.0, fastest = 0.0;
     int unknown = 0;
