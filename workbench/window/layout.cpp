@@ -3,6 +3,7 @@
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/budget_panel.h"
+#include "workbench/window/panels/colors.h"
 #include "workbench/window/panels/error_panel.h"
 #include "workbench/window/panels/panels.h"
 
@@ -231,7 +232,6 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
 }
 
 void bottomPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
-    constexpr unsigned kBlue = IM_COL32(97, 173, 255, 255);
     bool& recording = state.timeline.shown;
     if (widgets.lampButton("live", "Live", !recording, kBlue))
         recording = false;
