@@ -197,6 +197,40 @@ TEST_F(TimelineWindow, WhatIsBrokenOrHasLostItsModelIsToldAndNothingElseChanges)
     expectCleanEnd();
 }
 
+TEST_F(TimelineWindow, UnsavedMaterialsAreAskedForBeforeItsModelIsOpened) {
+    touchOffline(TOUCHSTONE_ASSETS "/box.glb", scratch_ / "r.tsrec");
+    open(kDoughnut);
+    display_.key("e");
+    until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
+    const Json rect = later()["widgets"].at("edit.staticFriction");
+    display_.click(
+        {corner_.x + static_cast<int>(rect["x"].get<double>() + 0.8 * rect["width"].get<double>()),
+         corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
+    until("an edit", [](const Json& s) { return s["materials"]["edited"].get<bool>(); });
+    display_.drop("Touchstone", scratch_ / "r.tsrec");
+    const auto asked = [](const Json& s) {
+        return s["leaving"].get<bool>() && s["widgets"].contains("leaveStay");
+    };
+    until("the question", asked);
+    later();
+    display_.click(middleOf("leaveStay"));
+    const Json stayed = until("to stay", [](const Json& s) { return !s["leaving"].get<bool>(); });
+    EXPECT_TRUE(looking(stayed)) << "its curves are shown";
+    EXPECT_EQ(timeline(stayed)["model_is_open"], false);
+    EXPECT_EQ(stayed["model"], "doughnut.glb");
+    EXPECT_NE(timeline(stayed)["notes"].dump().find("box.glb was touched and is not open"),
+              std::string::npos);
+    display_.key("e"); // out of the way
+    until("no editor", [](const Json& s) { return !s["widgets"].contains("edit.staticFriction"); });
+    display_.click(middleOf("openModel"));
+    until("the question", asked);
+    later();
+    display_.click(middleOf("leaveDiscard"));
+    until("its model",
+          [](const Json& s) { return s["model"] == "box.glb" && timeline(s)["model_is_open"] == true; });
+    expectCleanEnd();
+}
+
 TEST_F(TimelineWindow, IsOpenedFromTheCommandLine) {
     touchOffline(TOUCHSTONE_ASSETS "/moving.glb", scratch_ / "r.tsrec");
     open((scratch_ / "r.tsrec").string());
