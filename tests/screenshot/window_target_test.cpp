@@ -30,10 +30,7 @@ class WindowTargetTest : public ::testing::TestWithParam<bool> {
         glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
         window_ = glfwCreateWindow(640, 360, "test", nullptr, nullptr);
         ASSERT_NE(window_, nullptr);
-        GpuOptions options;
-        options.validation = true;
-        options.log = log_;
-        gpu_ = createGpuForWindow(window_, options);
+        gpu_ = device();
         ASSERT_TRUE(gpu_->validationActive()) << gpu_->validationNote();
         target_ = std::make_unique<WindowTarget>(*gpu_, window_);
         target_->keepPanels(GetParam());
@@ -51,6 +48,20 @@ class WindowTargetTest : public ::testing::TestWithParam<bool> {
         glfwTerminate();
         for (const std::string& message : log_->messages())
             ADD_FAILURE() << message;
+    }
+
+    std::unique_ptr<Gpu> device() {
+        GpuOptions options;
+        options.validation = true;
+        options.log = log_;
+        return createGpuForWindow(window_, options);
+    }
+    /// Whether or not the one before has been left already; the renderer is gone.
+    void takeAnotherDevice() {
+        target_->leaveDevice();
+        gpu_.reset();
+        gpu_ = device();
+        target_->takeDevice(*gpu_);
     }
 
     /// One frame: the scene in the right part of the window, a coloured rectangle of ImGui's in the left.
@@ -216,13 +227,7 @@ TEST_P(WindowTargetTest, GoesOnWithAnotherDevice) {
     ASSERT_TRUE(target_->beginFrame());
     renderer_.reset();
     target_->leaveDevice(); // in the middle of a frame
-    target_->leaveDevice();
-    gpu_.reset();
-    GpuOptions options;
-    options.validation = true;
-    options.log = log_;
-    gpu_ = createGpuForWindow(window_, options);
-    target_->takeDevice(*gpu_);
+    takeAnotherDevice();
     renderer_ = std::make_unique<SceneRenderer>(*gpu_);
     renderer_->setScene(scene_);
     for (int i = 0; i < 5; ++i)
@@ -297,13 +302,7 @@ TEST_P(WindowTargetTest, SmallPicturesAreShownByteForByteOnEveryDevice) {
     EXPECT_THROW(target_->setPicture(WindowTarget::kPictures, smallPicture(0)), std::out_of_range);
 
     renderer_.reset();
-    target_->leaveDevice();
-    gpu_.reset();
-    GpuOptions options;
-    options.validation = true;
-    options.log = log_;
-    gpu_ = createGpuForWindow(window_, options);
-    target_->takeDevice(*gpu_);
+    takeAnotherDevice();
     expectPictures(150, "on another device");
 }
 

@@ -59,7 +59,7 @@ void HandSwitch::follow(const StrokePath* path, double time) noexcept {
     const Similarity& now = map_.mapping().workspaceFromDevice;
     // It comes from where the HIP was. In the new hand's frame that is another place, and between the two
     // lies no way: nothing is known for a tick.
-    changed_ = before.scale != now.scale || before.translation != now.translation;
+    changed_ = !sameFrame(before, now);
     if (started_)
         glideFrom_ = now.inversePoint(lastHip_);
 }
@@ -91,9 +91,9 @@ DeviceSample HandSwitch::sample(double time) noexcept {
         sample.valid = true;
     }
     if (gliding_) {
-        const double t = std::clamp((time - glideStart_) / kGlideTime, 0.0, 1.0);
-        sample.position = glm::mix(glideFrom_, sample.position, t * t * (3.0 - 2.0 * t));
-        gliding_ = t < 1.0;
+        const double share = (time - glideStart_) / kGlideTime;
+        sample.position = glide(glideFrom_, sample.position, share);
+        gliding_ = share < 1.0;
     }
     if (std::exchange(changed_, false))
         sample.valid = false;

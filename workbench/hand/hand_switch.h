@@ -5,6 +5,7 @@
 #include "devices/stroke_path.h"
 #include "devices/workspace_map.h"
 #include "engine/exchange/handover.h"
+#include "workbench/hand/glide.h"
 
 #include <atomic>
 #include <memory>
@@ -18,9 +19,9 @@ namespace touchstone {
 class HandSwitch final : public Device {
   public:
     /// s that changing over takes.
-    static constexpr double kGlideTime = 0.4;
+    static constexpr double kGlideTime = kHandGlideTime;
     /// s, then, from no force to all of it.
-    static constexpr double kCouplingTime = 0.050;
+    static constexpr double kCouplingTime = kHandCouplingTime;
 
     /// Owner thread.
     void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }

@@ -7,15 +7,6 @@
 
 namespace touchstone {
 
-namespace {
-
-glm::dvec3 glide(const glm::dvec3& from, const glm::dvec3& to, double share) {
-    const double t = std::clamp(share, 0.0, 1.0);
-    return glm::mix(from, to, t * t * (3.0 - 2.0 * t));
-}
-
-} // namespace
-
 RecordedPath::RecordedPath(std::vector<Sample> samples, const Options& options)
     : samples_(std::move(samples)), options_(options) {}
 
@@ -78,8 +69,8 @@ DeviceSample AgainHand::sample(double time) noexcept {
         gliding_ = time - glideStart_ < kGlideTime;
     }
     const Similarity& now = sample.mapping.workspaceFromDevice;
-    if (goesOver && started_ && (now.scale != lastMap_.scale || now.translation != lastMap_.translation))
-        sample.valid = false; // another frame: between its places and those before lies no way (energy)
+    if (goesOver && started_ && !sameFrame(now, lastMap_))
+        sample.valid = false;
     lastMap_ = now;
     const double dt = std::clamp(time - lastTime_, 0.0, WorkspaceMap::kLongestStep);
     lastTime_ = time;

@@ -3,6 +3,7 @@
 
 #include "devices/device.h"
 #include "engine/exchange/handover.h"
+#include "workbench/hand/glide.h"
 
 #include <glm/glm.hpp>
 
@@ -58,8 +59,8 @@ class RecordedPath {
 /// for the clutch. Going over glides.
 class AgainHand final : public Device {
   public:
-    static constexpr double kGlideTime = 0.4;      ///< s
-    static constexpr double kCouplingTime = 0.050; ///< s, from no force to all of it
+    static constexpr double kGlideTime = kHandGlideTime;       ///< s
+    static constexpr double kCouplingTime = kHandCouplingTime; ///< s, from no force to all of it
 
     explicit AgainHand(Device& own) : own_(own) {}
 

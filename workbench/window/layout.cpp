@@ -4,6 +4,7 @@
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/budget_panel.h"
 #include "workbench/window/panels/colors.h"
+#include "workbench/window/panels/effect_switch.h"
 #include "workbench/window/panels/error_panel.h"
 #include "workbench/window/panels/panels.h"
 
@@ -71,24 +72,17 @@ void foldSide(PanelFolds& folds, bool PanelFolds::*side, bool PanelFolds::*other
         folds.*other = true;
 }
 
-template <class Mode>
-void toggle(Mode& mode, Mode& chosen, Mode off, Mode usual) {
-    if (mode != off)
-        chosen = mode;
-    mode = mode != off ? off : (chosen != off ? chosen : usual);
-}
-
 void effectKeys(const PanelInput& input, PanelState& state) {
-    HapticSettings &settings = state.settings, &chosen = state.chosen;
+    HapticSettings& settings = state.settings;
     // While a recording is looked at the force is off, whatever this says: then it only stays off afterwards.
     if (keyPressed(GLFW_KEY_SPACE))
         settings.forceEnabled = !settings.forceEnabled && !input.timeline->looking();
     if (keyPressed(GLFW_KEY_F5))
-        toggle(settings.forceShading, chosen.forceShading, ShadingMode::Off, ShadingMode::Material);
+        kShadingSwitch.toggle(state);
     if (keyPressed(GLFW_KEY_F6))
-        toggle(settings.texture, chosen.texture, TextureMode::Off, TextureMode::Law);
+        kTextureSwitch.toggle(state);
     if (keyPressed(GLFW_KEY_F7))
-        toggle(settings.friction, chosen.friction, FrictionMode::Off, FrictionMode::Zilles);
+        kFrictionSwitch.toggle(state);
 }
 
 constexpr auto kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;

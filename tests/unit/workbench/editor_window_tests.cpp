@@ -17,10 +17,7 @@ class EditorWindow : public WindowTest {
         open(model_.string(), {"--hand", "simulated"});
         display_.key("e");
         until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
-        const Json rect = later()["widgets"].at("edit.staticFriction");
-        display_.click(
-            {corner_.x + static_cast<int>(rect["x"].get<double>() + 0.8 * rect["width"].get<double>()),
-             corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
+        slide("edit.staticFriction", 0.8);
         until("an edit", [](const Json& s) { return s["materials"]["edited"].get<bool>(); });
     }
     void askToQuit() {

@@ -144,13 +144,6 @@ class FirstMinute : public WindowTest {
         until("the force", [](const Json& s) { return s["settings"]["forceEnabled"] == "on"; });
     }
 
-    /// Clicks into a slider of the editor, at a share of its width.
-    void slide(const std::string& name, double share) {
-        const Json rect = later()["widgets"].at(name);
-        display_.click(
-            {corner_.x + static_cast<int>(rect["x"].get<double>() + share * rect["width"].get<double>()),
-             corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
-    }
     /// What `inspect` says of the friction in the file.
     [[nodiscard]] double frictionInFile() {
         const auto json = scratch_ / "inspect.json";

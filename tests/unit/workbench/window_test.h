@@ -82,6 +82,13 @@ class WindowTest : public testing::Test {
                 corner_.y + static_cast<int>(rect["y"].get<double>() + y * rect["height"].get<double>())};
     }
 
+    /// Clicks into a slider, at a share of its width.
+    void slide(const std::string& name, double share) {
+        const Json rect = later()["widgets"].at(name);
+        display_.click(
+            {corner_.x + static_cast<int>(rect["x"].get<double>() + share * rect["width"].get<double>()),
+             corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
+    }
     /// A file's path typed into the menu that Ctrl+O opens.
     void openByPath(const std::string& path) {
         display_.key("ctrl+o");

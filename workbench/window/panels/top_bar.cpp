@@ -1,4 +1,5 @@
 #include "workbench/window/panels/colors.h"
+#include "workbench/window/panels/effect_switch.h"
 #include "workbench/window/panels/panels.h"
 #include "workbench/window/view_menu.h"
 
@@ -102,28 +103,20 @@ void viewMenu(PanelState& state, Widgets& widgets) {
     ImGui::EndPopup();
 }
 
-/// An effect that may have several ways of being on: it comes back in the way it was.
 template <class Mode>
-void effect(Widgets& widgets, const char* name, const char* label, Mode& mode, Mode& chosen, Mode off,
-            Mode usual) {
-    const bool on = mode != off;
-    if (on)
-        chosen = mode;
-    if (widgets.lampButton(name, label, on, kBlue))
-        mode = on ? off : (chosen != off ? chosen : usual);
+void effect(Widgets& widgets, const char* name, const char* label, const EffectSwitch<Mode>& effect,
+            PanelState& state) {
+    effect.remember(state);
+    if (widgets.lampButton(name, label, effect.on(state), kBlue))
+        effect.toggle(state);
 }
 
 void effects(PanelState& state, Widgets& widgets) {
-    HapticSettings& settings = state.settings;
-    HapticSettings& chosen = state.chosen;
-    effect(widgets, "forceShading", "Shading", settings.forceShading, chosen.forceShading, ShadingMode::Off,
-           ShadingMode::Material);
+    effect(widgets, "forceShading", "Shading", kShadingSwitch, state);
     ImGui::SameLine();
-    effect(widgets, "texture", "Texture", settings.texture, chosen.texture, TextureMode::Off,
-           TextureMode::Law);
+    effect(widgets, "texture", "Texture", kTextureSwitch, state);
     ImGui::SameLine();
-    effect(widgets, "friction", "Friction", settings.friction, chosen.friction, FrictionMode::Off,
-           FrictionMode::Zilles);
+    effect(widgets, "friction", "Friction", kFrictionSwitch, state);
 }
 
 void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
