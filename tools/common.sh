@@ -36,3 +36,13 @@ build() {
     say "Building ${*:-everything} in build/$preset"
     ninja -C "build/$preset" -j "$(jobs)" "$@"
 }
+
+# count_tests FILE: prints why tests were skipped, then "N tests, N skipped", out of ctest's JUnit file.
+count_tests() {
+    [ -f "$1" ] || stop "ctest wrote no results" "read its messages above"
+    # A skipped test's output is "FILE:LINE: Skipped" and its reason on the next line.
+    awk '/: Skipped$/ { getline reason; ++skipped[reason] }
+         END { for (reason in skipped) printf "skipped %d: %s\n", skipped[reason], reason }' "$1" | sort
+    sed -n '/<testsuite /,/>/p' "$1" | tr '\n' ' ' |
+        sed -n 's/.*tests="\([0-9]*\)".*skipped="\([0-9]*\)".*/\1 tests, \2 skipped\n/p'
+}
