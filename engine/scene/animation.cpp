@@ -108,8 +108,12 @@ void ScenePose::evaluate(const Scene& scene, const Animation* animation, double 
         sceneFromNode_[i] =
             node.parent >= 0 ? sceneFromNode_[static_cast<size_t>(node.parent)] * parentFrom : parentFrom;
     }
-    for (size_t i = 0; i < scene.instances.size(); ++i)
-        sceneFromMesh_[i] = sceneFromNode_[static_cast<size_t>(scene.instances[i].node)];
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        sceneFromMesh_[i] = instance.followsNode
+                                ? sceneFromNode_[static_cast<size_t>(instance.node)] * instance.nodeFromMesh
+                                : instance.sceneFromMesh;
+    }
 }
 
 std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* animation, double time) {

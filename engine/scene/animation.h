@@ -13,7 +13,7 @@ namespace touchstone {
 /// no allocation.
 [[nodiscard]] glm::dvec4 sampleChannel(const AnimationChannel& channel, double time) noexcept;
 
-/// The rest pose of a node relative to its parent.
+/// The static pose of a node relative to its parent.
 [[nodiscard]] glm::dmat4 parentFromNode(const Node& node) noexcept;
 
 /// sceneFromMesh of every instance of a scene at a time. Made once (allocates); `evaluate` then allocates
@@ -22,10 +22,10 @@ class ScenePose {
   public:
     explicit ScenePose(const Scene& scene);
 
-    /// `animation` null: the rest pose. `time` is in the animation's own seconds; wrap it to loop.
+    /// `animation` null: the static pose. `time` is in the animation's own seconds; wrap it to loop.
     void evaluate(const Scene& scene, const Animation* animation, double time) noexcept;
 
-    /// By instance, as of the last `evaluate` (the rest pose before any).
+    /// By instance, as of the last `evaluate` (the static pose before any).
     [[nodiscard]] std::span<const glm::dmat4> sceneFromMesh() const { return sceneFromMesh_; }
 
   private:

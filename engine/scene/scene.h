@@ -50,7 +50,11 @@ struct Node {
 struct Instance {
     int node = -1;
     int mesh = -1;
-    glm::dmat4 sceneFromMesh{1.0}; ///< rest pose; may mirror, shear or scale unevenly
+    glm::dmat4 sceneFromMesh{1.0}; ///< static pose; may mirror, shear or scale unevenly
+    glm::dmat4 nodeFromMesh{
+        1.0}; ///< one copy's place in its node (EXT_mesh_gpu_instancing), else the identity
+    /// False for a skinned mesh: its vertices hold the pose of the joints, its node does not move it.
+    bool followsNode = true;
 };
 
 enum class Interpolation : uint8_t { Step, Linear, CubicSpline };
@@ -94,7 +98,7 @@ struct Scene {
     std::vector<Animation> animations;
     std::vector<Warning> warnings;
     std::vector<std::string> extensionsUsed;
-    Bounds bounds; ///< scene frame, rest pose, over the instances' vertices
+    Bounds bounds; ///< scene frame, static pose, over the instances' vertices
 
     [[nodiscard]] uint64_t triangleCount() const; ///< over the instances
     [[nodiscard]] bool touchable() const { return triangleCount() > 0; }

@@ -85,7 +85,8 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         const auto instance = static_cast<size_t>(haptic.objects[k]->instance);
         const glm::dmat4& objectFromMesh = haptic.objects[k]->objectFromMesh;
-        if (!moves(*scene_, *animation_, scene_->instances[instance].node) ||
+        const Instance& placed = scene_->instances[instance];
+        if (!placed.followsNode || !moves(*scene_, *animation_, placed.node) ||
             glm::determinant(glm::dmat3(objectFromMesh)) == 0.0)
             continue;
         movers_.push_back({k, instance, glm::inverse(objectFromMesh)});
