@@ -1,5 +1,7 @@
 #include "renderer/prepared_scene.h"
 
+#include "engine/scene/mesh_vertices.h"
+
 #include <meshoptimizer.h>
 
 #include <array>
@@ -121,6 +123,7 @@ std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene, const PrepareO
     prepared->scene = std::move(scene);
     size_t vertices = 0, indices = 0;
     for (const Mesh& mesh : prepared->scene->meshes) {
+        checkMesh(mesh, prepared->scene->path, mesh.name);
         vertices += mesh.positions.size();
         indices += mesh.indices.size();
     }

@@ -1,5 +1,7 @@
 #include "engine/scene/tangent_space.h"
 
+#include "engine/scene/mesh_vertices.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -217,7 +219,7 @@ class TangentBuilder {
                     while (groupOf[v] != kUnset && groupOf[v] != group && nextSplit[v] != 0)
                         v = nextSplit[v];
                     if (groupOf[v] != kUnset && groupOf[v] != group) {
-                        const uint32_t copy = duplicate(v);
+                        const uint32_t copy = duplicateVertex(mesh_, v);
                         groupOf.push_back(kUnset);
                         nextSplit.push_back(0);
                         nextSplit[v] = copy;
@@ -243,25 +245,6 @@ class TangentBuilder {
         const glm::dvec3 tangent = glm::length(sum) > 1e-12 ? glm::normalize(sum) : anyPerpendicular(normal);
         const bool mirrored = group != kNone && mirroredGroup_[static_cast<size_t>(group)];
         mesh_.tangents[v] = glm::vec4(glm::vec3(tangent), mirrored ? -1.0f : 1.0f);
-    }
-
-    uint32_t duplicate(uint32_t v) {
-        const auto copy = [&](auto& array) {
-            if (array.empty())
-                return;
-            const auto value = array[v];
-            array.push_back(value);
-        };
-        copy(mesh_.positions);
-        copy(mesh_.normals);
-        copy(mesh_.tangents);
-        copy(mesh_.uv0);
-        copy(mesh_.uv1);
-        copy(mesh_.colors);
-        copy(mesh_.stiffness);
-        copy(mesh_.damping);
-        copy(mesh_.friction);
-        return static_cast<uint32_t>(mesh_.positions.size() - 1);
     }
 
     Mesh& mesh_;

@@ -1,6 +1,7 @@
 #include "haptics/contact/haptic_object.h"
 
 #include "engine/core/error.h"
+#include "engine/scene/mesh_vertices.h"
 #include "haptics/contact/embree_device.h"
 #include "haptics/contact/ray.h"
 #include "haptics/contact/weld.h"
@@ -149,6 +150,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
                                                       const ObjectUse& use) {
     const Instance& instance = scene.instances[static_cast<size_t>(instanceIndex)];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    checkMesh(mesh, scene.path, mesh.name);
     auto object = std::make_unique<HapticObject>();
     object->name = mesh.name;
     object->instance = instanceIndex;

@@ -1,6 +1,7 @@
 // Feeds the importer bytes that are nearly glTF. It may refuse them with an Error; it may not crash, hang,
 // throw anything else, or make a scene that breaks what scene.h promises.
 #include "engine/core/error.h"
+#include "engine/scene/mesh_vertices.h"
 #include "engine/scene/scene_loader.h"
 
 #include <cmath>
@@ -19,19 +20,11 @@ namespace {
     } while (false)
 
 void checkMesh(const Scene& scene, const Mesh& mesh) {
-    const size_t count = mesh.positions.size();
     TOUCHSTONE_PROMISE(mesh.material >= 0 && static_cast<size_t>(mesh.material) < scene.materials.size());
-    TOUCHSTONE_PROMISE(mesh.normals.size() == count && mesh.indices.size() % 3 == 0);
-    for (const size_t other : {mesh.tangents.size(), mesh.uv0.size(), mesh.uv1.size(), mesh.colors.size(),
-                               mesh.stiffness.size(), mesh.damping.size(), mesh.friction.size()})
-        TOUCHSTONE_PROMISE(other == 0 || other == count);
-    for (const uint32_t index : mesh.indices)
-        TOUCHSTONE_PROMISE(index < count);
-    for (size_t v = 0; v < count; ++v) {
-        TOUCHSTONE_PROMISE(std::isfinite(mesh.positions[v].x) && std::isfinite(mesh.positions[v].y) &&
-                           std::isfinite(mesh.positions[v].z));
-        TOUCHSTONE_PROMISE(std::abs(glm::length(mesh.normals[v]) - 1.0f) < 1e-3f);
-    }
+    TOUCHSTONE_PROMISE(mesh.normals.size() == mesh.positions.size());
+    TOUCHSTONE_PROMISE(!meshFault(mesh));
+    for (const glm::vec3& normal : mesh.normals)
+        TOUCHSTONE_PROMISE(std::abs(glm::length(normal) - 1.0f) < 1e-3f);
     for (const glm::vec4& tangent : mesh.tangents)
         TOUCHSTONE_PROMISE(std::abs(glm::length(glm::vec3(tangent)) - 1.0f) < 1e-3f &&
                            std::abs(tangent.w) == 1.0f);

@@ -3,6 +3,7 @@
 #include "engine/scene/import/gltf_accessors.h"
 #include "engine/scene/import/json_fields.h"
 #include "engine/scene/import/vertex_attributes.h"
+#include "engine/scene/mesh_vertices.h"
 #include "engine/scene/tangent_space.h"
 
 #include <algorithm>
@@ -83,31 +84,16 @@ glm::vec3 unitOrUp(const glm::dvec3& v) {
 /// Gives every triangle vertices of its own and its own normal (glTF 2.0, section 3.7.2.1: "flat normals").
 void makeFlat(ImportContext& context, Mesh& mesh, const std::string& place) {
     const size_t corners = mesh.indices.size();
-    const auto spread = [&](auto& array) {
-        if (array.empty())
-            return;
-        context.spendGeometry(corners * sizeof(array[0]), place);
-        std::remove_reference_t<decltype(array)> own(corners);
-        for (size_t i = 0; i < corners; ++i)
-            own[i] = array[mesh.indices[i]];
-        array = std::move(own);
-    };
-    spread(mesh.positions);
-    spread(mesh.uv0);
-    spread(mesh.uv1);
-    spread(mesh.colors);
-    spread(mesh.stiffness);
-    spread(mesh.damping);
-    spread(mesh.friction);
-    spread(mesh.heights);
+    mesh.tangents = {}; // the specification: without normals the file's tangents do not count
+    mesh.tangentsFromFile = false;
+    context.spendGeometry(corners * bytesPerVertex(mesh), place);
+    selectVertices(mesh, mesh.indices);
     for (size_t i = 0; i < corners; ++i)
         mesh.indices[i] = static_cast<uint32_t>(i);
     context.spendGeometry(corners * sizeof(glm::vec3), place);
     mesh.normals.resize(corners);
     for (size_t i = 0; i < corners; ++i)
         mesh.normals[i] = unitOrUp(faceNormal(mesh, i / 3));
-    mesh.tangents.clear(); // the specification: without normals the file's tangents do not count
-    mesh.tangentsFromFile = false;
 }
 
 /// Normals of length zero in the file: the area-weighted mean of the triangles around instead.
@@ -190,6 +176,7 @@ std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& docume
     else
         mendNormals(mesh);
     settleTangents(context, mesh, material, place);
+    checkMesh(mesh, context.file(), place);
     return mesh;
 }
 

@@ -3,6 +3,7 @@
 #include "engine/scene/animation.h"
 #include "engine/scene/import/gltf_haptics.h"
 #include "engine/scene/import/mesh_build.h"
+#include "engine/scene/mesh_vertices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,8 @@ namespace {
 constexpr uint64_t kExactBoundsVertices = 100'000'000;
 
 uint64_t bytesOf(const Mesh& mesh) {
-    const auto size = [](const auto& array) { return array.size() * sizeof(array[0]); };
-    return sizeof(Mesh) + sizeof(Material) + size(mesh.positions) + size(mesh.normals) + size(mesh.tangents) +
-           size(mesh.uv0) + size(mesh.uv1) + size(mesh.colors) + size(mesh.stiffness) + size(mesh.damping) +
-           size(mesh.friction) + size(mesh.heights) + size(mesh.indices);
+    return sizeof(Mesh) + sizeof(Material) + mesh.positions.size() * bytesPerVertex(mesh) +
+           mesh.indices.size() * sizeof(mesh.indices[0]);
 }
 
 /// The scene's meshes of one glTF mesh, by the physics material that its nodes give it.

@@ -1,0 +1,90 @@
+#include "engine/scene/mesh_vertices.h"
+
+#include "engine/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+bool finite(float value) {
+    return std::isfinite(value);
+}
+
+template <int N>
+bool finite(const glm::vec<N, float>& v) {
+    for (int c = 0; c < N; ++c)
+        if (!std::isfinite(v[c]))
+            return false;
+    return true;
+}
+
+} // namespace
+
+uint32_t duplicateVertex(Mesh& mesh, uint32_t v) {
+    forEachVertexArray(mesh, [v](const char*, auto& array) {
+        if (array.empty())
+            return;
+        const auto value = array[v]; // push_back may move what array[v] refers to
+        array.push_back(value);
+    });
+    return static_cast<uint32_t>(mesh.positions.size() - 1);
+}
+
+void selectVertices(Mesh& mesh, std::span<const uint32_t> from) {
+    forEachVertexArray(mesh, [from](const char*, auto& array) {
+        if (array.empty())
+            return;
+        std::remove_reference_t<decltype(array)> selected(from.size());
+        for (size_t i = 0; i < from.size(); ++i)
+            selected[i] = array[from[i]];
+        array = std::move(selected);
+    });
+}
+
+uint64_t bytesPerVertex(const Mesh& mesh) {
+    uint64_t bytes = 0;
+    forEachVertexArray(mesh, [&bytes](const char*, const auto& array) {
+        if (!array.empty())
+            bytes += sizeof(array[0]);
+    });
+    return bytes;
+}
+
+std::optional<std::string> meshFault(const Mesh& mesh) {
+    const size_t count = mesh.positions.size();
+    std::optional<std::string> fault;
+    forEachVertexArray(mesh, [&](const char* name, const auto& array) {
+        if (fault)
+            return;
+        if (!array.empty() && array.size() != count) {
+            fault = std::string(name) + " has " + std::to_string(array.size()) + " entries for " +
+                    std::to_string(count) + " vertices";
+            return;
+        }
+        const auto broken =
+            std::find_if(array.begin(), array.end(), [](const auto& value) { return !finite(value); });
+        if (broken != array.end())
+            fault =
+                std::string(name) + " of vertex " + std::to_string(broken - array.begin()) + " is not finite";
+    });
+    if (fault)
+        return fault;
+    if (mesh.indices.size() % 3 != 0)
+        return std::to_string(mesh.indices.size()) + " indices are no triangles";
+    const auto beyond = std::find_if(mesh.indices.begin(), mesh.indices.end(),
+                                     [count](uint32_t index) { return index >= count; });
+    if (beyond != mesh.indices.end())
+        return "index " + std::to_string(*beyond) + " exceeds the last of " + std::to_string(count) +
+               " vertices";
+    return std::nullopt;
+}
+
+void checkMesh(const Mesh& mesh, const std::string& file, const std::string& place) {
+    if (const auto fault = meshFault(mesh))
+        throw Error(file, place, "the mesh is inconsistent: " + *fault,
+                    "this is a fault of Touchstone; please report it with the file");
+}
+
+} // namespace touchstone

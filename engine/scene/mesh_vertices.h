@@ -1,0 +1,91 @@
+#pragma once
+// The one list of the vertex arrays of a Mesh. Whatever copies, splits, reorders, counts or checks vertices
+// goes through it: an array that such code forgets is shorter than `positions` afterwards, and is read past
+// its end (an importer that split vertices without `heights` did exactly that).
+
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace touchstone {
+
+namespace detail {
+
+/// Converts to whatever type a member has; only for counting the members of an aggregate.
+struct AnyMember {
+    template <class T>
+    operator T() const; // NOLINT: implicit on purpose
+};
+
+template <class T, size_t... I>
+constexpr bool takesMembers(std::index_sequence<I...>) {
+    return requires {
+        T{(static_cast<void>(I), AnyMember{})...};
+    };
+}
+
+/// Number of data members of the aggregate T.
+template <class T, size_t N = 0>
+constexpr size_t memberCount() {
+    if constexpr (takesMembers<T>(std::make_index_sequence<N + 1>{}))
+        return memberCount<T, N + 1>();
+    else
+        return N;
+}
+
+} // namespace detail
+
+/// Calls f(name, array) for every vertex array of a Mesh or const Mesh, `positions` first. Each of them is
+/// empty or has one entry per vertex. Does not compile while a member of Mesh is neither listed as a vertex
+/// array nor as something else.
+template <class AnyMesh, class F>
+requires std::is_same_v<std::remove_const_t<AnyMesh>, Mesh>
+void forEachVertexArray(AnyMesh& mesh, F&& f) {
+    // The binding fails to compile if Mesh gains or loses a member, the count if one is bound and not
+    // visited.
+    auto& [name, positions, normals, tangents, uv0, uv1, colors, stiffness, damping, friction, heights,
+           indices, material, normalsFromFile, tangentsFromFile] = mesh;
+    const auto visit = [&f](auto&&... named) {
+        (f(named.first, named.second), ...);
+        return std::integral_constant<size_t, sizeof...(named)>{};
+    };
+    const auto array = [](const char* label, auto& values) {
+        return std::pair<const char*, decltype(values)>(label, values);
+    };
+    const auto other = [](const auto&... members) {
+        return std::integral_constant<size_t, sizeof...(members)>{};
+    };
+    const auto visited =
+        visit(array("positions", positions), array("normals", normals), array("tangents", tangents),
+              array("uv0", uv0), array("uv1", uv1), array("colors", colors), array("stiffness", stiffness),
+              array("damping", damping), array("friction", friction), array("heights", heights));
+    const auto others = other(name, indices, material, normalsFromFile, tangentsFromFile);
+    static_assert(decltype(visited)::value + decltype(others)::value == detail::memberCount<Mesh>(),
+                  "list every member of Mesh here: as a vertex array, or as something else");
+}
+
+/// Appends a copy of vertex `v` to every vertex array and returns its index. `v` is in range.
+uint32_t duplicateVertex(Mesh& mesh, uint32_t v);
+
+/// Makes vertex i a copy of today's vertex from[i], in every vertex array: drops, reorders, duplicates.
+/// Indices are left to the caller. All of `from` are in range.
+void selectVertices(Mesh& mesh, std::span<const uint32_t> from);
+
+/// Bytes of one vertex over the arrays that the mesh has.
+[[nodiscard]] uint64_t bytesPerVertex(const Mesh& mesh);
+
+/// What breaks the promises of Mesh that memory safety and finite forces rest on: an array that is neither
+/// empty nor as long as `positions`, a value that is not finite, a number of indices that is no multiple of
+/// three, an index out of range. Nothing if they hold. Linear in the mesh.
+[[nodiscard]] std::optional<std::string> meshFault(const Mesh& mesh);
+
+/// Throws Error (file, place) with meshFault, if there is one. Every maker of meshes ends with it, and what
+/// builds on a mesh that others made begins with it.
+void checkMesh(const Mesh& mesh, const std::string& file, const std::string& place);
+
+} // namespace touchstone
