@@ -99,6 +99,49 @@ struct HapticLayers {
     std::optional<float> meanRoughness; ///< that the PBR material states and that could be read
 };
 
+/// KHR_materials_pbrSpecularGlossiness: stands in place of metallic and roughness. The diffuse colour and its map
+/// are Material::baseColor and baseColorTexture.
+struct SpecularGlossiness {
+    bool used = false;
+    glm::vec3 specular{1.0f}; ///< reflectance at normal incidence, linear
+    float glossiness = 1.0f;  ///< 1 - roughness
+    TextureRef texture;       ///< RGB specular (sRGB), A glossiness
+};
+
+/// KHR_materials_ior and KHR_materials_specular: how the dielectric part reflects.
+struct DielectricSpecular {
+    float ior = 1.5f; ///< 0: reflects everything (the extension's backward-compatible mode)
+    float factor = 1.0f;
+    glm::vec3 color{1.0f};            ///< linear
+    TextureRef texture, colorTexture; ///< A factor; RGB colour (sRGB)
+};
+
+/// KHR_materials_clearcoat.
+struct Clearcoat {
+    float factor = 0.0f, roughness = 0.0f;
+    TextureRef texture, roughnessTexture; ///< R; G
+};
+
+/// KHR_materials_sheen.
+struct Sheen {
+    glm::vec3 color{0.0f}; ///< linear
+    float roughness = 0.0f;
+    TextureRef colorTexture, roughnessTexture; ///< RGB (sRGB); A
+};
+
+/// KHR_materials_transmission and KHR_materials_volume.
+struct Transmission {
+    float factor = 0.0f;
+    TextureRef texture;       ///< R
+    float thickness = 0.0f;   ///< mesh metres; 0: thin walls, no volume
+    TextureRef thicknessTexture; ///< G
+    glm::vec3 attenuationColor{1.0f};  ///< linear: what white light becomes after attenuationDistance
+    float attenuationDistance = 0.0f;  ///< scene metres; 0: the volume absorbs nothing
+};
+
+/// The textures that a material's look reads, in the order of Material::lookTextures.
+inline constexpr size_t kLookTextures = 14;
+
 struct Material {
     std::string name;
     int fileIndex = -1;          ///< of the file's materials; < 0: the file has none for this surface
@@ -116,8 +159,20 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    bool unlit = false; ///< KHR_materials_unlit: the base colour is what is seen, and all that follows is ignored
+    SpecularGlossiness specularGlossiness;
+    DielectricSpecular specular;
+    Clearcoat clearcoat;
+    Sheen sheen;
+    Transmission transmission;
     HapticLayers says;
     HapticMaterial haptic; ///< what holds of `says`
+
+    /// Base colour, metallic-roughness, normal, occlusion, emissive, specular-glossiness, specular, specular
+    /// colour, clearcoat, clearcoat roughness, sheen colour, sheen roughness, transmission, thickness: the slots
+    /// of shaders/shared/scene_types.h.
+    [[nodiscard]] std::array<TextureRef*, kLookTextures> lookTextures();
+    [[nodiscard]] std::array<const TextureRef*, kLookTextures> lookTextures() const;
 };
 
 } // namespace touchstone

@@ -73,11 +73,15 @@ std::optional<std::string> meshFault(const Mesh& mesh) {
         return fault;
     if (mesh.indices.size() % 3 != 0)
         return std::to_string(mesh.indices.size()) + " indices are no triangles";
-    const auto beyond = std::find_if(mesh.indices.begin(), mesh.indices.end(),
-                                     [count](uint32_t index) { return index >= count; });
-    if (beyond != mesh.indices.end())
-        return "index " + std::to_string(*beyond) + " exceeds the last of " + std::to_string(count) +
-               " vertices";
+    if (mesh.lineIndices.size() % 2 != 0)
+        return std::to_string(mesh.lineIndices.size()) + " indices are no line segments";
+    for (const auto* indices : {&mesh.indices, &mesh.lineIndices, &mesh.pointIndices}) {
+        const auto beyond = std::find_if(indices->begin(), indices->end(),
+                                         [count](uint32_t index) { return index >= count; });
+        if (beyond != indices->end())
+            return "index " + std::to_string(*beyond) + " exceeds the last of " + std::to_string(count) +
+                   " vertices";
+    }
     return std::nullopt;
 }
 

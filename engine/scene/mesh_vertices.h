@@ -49,7 +49,7 @@ void forEachVertexArray(AnyMesh& mesh, F&& f) {
     // The binding fails to compile if Mesh gains or loses a member, the count if one is bound and not
     // visited.
     auto& [name, positions, normals, tangents, uv0, uv1, colors, stiffness, damping, friction, heights,
-           indices, material, normalsFromFile, tangentsFromFile] = mesh;
+           indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile] = mesh;
     const auto visit = [&f](auto&&... named) {
         (f(named.first, named.second), ...);
         return std::integral_constant<size_t, sizeof...(named)>{};
@@ -64,7 +64,7 @@ void forEachVertexArray(AnyMesh& mesh, F&& f) {
         visit(array("positions", positions), array("normals", normals), array("tangents", tangents),
               array("uv0", uv0), array("uv1", uv1), array("colors", colors), array("stiffness", stiffness),
               array("damping", damping), array("friction", friction), array("heights", heights));
-    const auto others = other(name, indices, material, normalsFromFile, tangentsFromFile);
+    const auto others = other(name, indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile);
     static_assert(decltype(visited)::value + decltype(others)::value == detail::memberCount<Mesh>(),
                   "list every member of Mesh here: as a vertex array, or as something else");
 }
@@ -81,7 +81,7 @@ void selectVertices(Mesh& mesh, std::span<const uint32_t> from);
 
 /// What breaks the promises of Mesh that memory safety and finite forces rest on: an array that is neither
 /// empty nor as long as `positions`, a value that is not finite, a number of indices that is no multiple of
-/// three, an index out of range. Nothing if they hold. Linear in the mesh.
+/// three (of two for lines), an index out of range. Nothing if they hold. Linear in the mesh.
 [[nodiscard]] std::optional<std::string> meshFault(const Mesh& mesh);
 
 /// Throws Error (file, place) with meshFault, if there is one. Every maker of meshes ends with it, and what

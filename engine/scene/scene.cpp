@@ -11,13 +11,28 @@ uint64_t Scene::triangleCount() const {
     return count;
 }
 
+uint64_t Scene::lineCount() const {
+    uint64_t count = 0;
+    for (const Instance& instance : instances)
+        count += meshes[static_cast<size_t>(instance.mesh)].lineCount();
+    return count;
+}
+
+uint64_t Scene::pointCount() const {
+    uint64_t count = 0;
+    for (const Instance& instance : instances)
+        count += meshes[static_cast<size_t>(instance.mesh)].pointCount();
+    return count;
+}
+
 std::vector<MaterialPlacement> materialPlacements(const Scene& scene) {
     std::vector<MaterialPlacement> placements(scene.materials.size());
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+        MaterialPlacement& placement = placements[static_cast<size_t>(mesh.material)];
+        placement.drawn = true;
         if (mesh.triangleCount() == 0)
             continue;
-        MaterialPlacement& placement = placements[static_cast<size_t>(mesh.material)];
         placement.placed = true;
         placement.sets[0] |= !mesh.uv0.empty();
         placement.sets[1] |= !mesh.uv1.empty();

@@ -17,22 +17,28 @@
 
 namespace touchstone {
 
-/// One glTF primitive as an indexed triangle list in its mesh frame (model metres, float as the file has it).
+/// One glTF primitive in its mesh frame (model metres, float as the file has it): an indexed triangle list, or
+/// line segments or points, which are drawn but not felt. Of the three index arrays at most one has entries.
 /// All vertex arrays have `positions.size()` entries or are empty. Indices are in range, positions finite.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< unit; from the file, else flat (then `normalsFromFile` is false)
+                                     ///< or, for lines and points, empty
     std::vector<glm::vec4> tangents; ///< xyz unit, w = +1 or -1; empty if the material needs none
     std::vector<glm::vec2> uv0, uv1;
     std::vector<glm::vec4> colors;                   ///< linear, 0..1
     std::vector<float> stiffness, damping, friction; ///< _STIFFNESS, _DAMPING, _FRICTION (N/m, N·s/m, 1)
     std::vector<float> heights;                      ///< _HEIGHT (m, model), of either sign
     std::vector<uint32_t> indices;                   ///< 3 per triangle, counter-clockwise seen from outside
+    std::vector<uint32_t> lineIndices;               ///< 2 per segment; strips and loops become segments
+    std::vector<uint32_t> pointIndices;              ///< 1 per point
     int material = 0;                                ///< index into Scene::materials, always valid
     bool normalsFromFile = false, tangentsFromFile = false;
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
+    [[nodiscard]] size_t lineCount() const { return lineIndices.size() / 2; }
+    [[nodiscard]] size_t pointCount() const { return pointIndices.size(); }
 };
 
 /// Node transforms are kept as TRS in double so that animation can replace a part of them.
@@ -101,6 +107,8 @@ struct Scene {
     Bounds bounds; ///< scene frame, static pose, over the instances' vertices
 
     [[nodiscard]] uint64_t triangleCount() const; ///< over the instances
+    [[nodiscard]] uint64_t lineCount() const;     ///< segments, over the instances
+    [[nodiscard]] uint64_t pointCount() const;    ///< over the instances
     [[nodiscard]] bool touchable() const { return triangleCount() > 0; }
 };
 
@@ -111,6 +119,7 @@ using CoordinateSets = std::array<bool, 2>;
 
 /// Where a material is in its scene.
 struct MaterialPlacement {
+    bool drawn = false;    ///< some instance has it
     bool placed = false;   ///< some instance with triangles has it
     CoordinateSets sets{}; ///< of the meshes that do, any of them
 };

@@ -21,7 +21,9 @@ namespace {
 
 void checkMesh(const Scene& scene, const Mesh& mesh) {
     TOUCHSTONE_PROMISE(mesh.material >= 0 && static_cast<size_t>(mesh.material) < scene.materials.size());
-    TOUCHSTONE_PROMISE(mesh.normals.size() == mesh.positions.size());
+    const bool drawnOnly = !mesh.lineIndices.empty() || !mesh.pointIndices.empty();
+    TOUCHSTONE_PROMISE(mesh.normals.size() == mesh.positions.size() || (drawnOnly && mesh.normals.empty()));
+    TOUCHSTONE_PROMISE(!drawnOnly || mesh.indices.empty());
     TOUCHSTONE_PROMISE(!meshFault(mesh));
     for (const glm::vec3& normal : mesh.normals)
         TOUCHSTONE_PROMISE(std::abs(glm::length(normal) - 1.0f) < 1e-3f);
@@ -45,9 +47,7 @@ void checkScene(const Scene& scene) {
         TOUCHSTONE_PROMISE(static_cast<size_t>(instance.mesh) < scene.meshes.size() &&
                            static_cast<size_t>(instance.node) < scene.nodes.size());
     for (const Material& material : scene.materials) {
-        for (const TextureRef* texture :
-             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-              &material.occlusionTexture, &material.emissiveTexture})
+        for (const TextureRef* texture : material.lookTextures())
             checkTexture(scene, *texture);
         if (material.haptic.height.value)
             checkTexture(scene, material.haptic.height.value->texture);

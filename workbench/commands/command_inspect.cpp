@@ -236,6 +236,8 @@ Json inspectionJson(const InspectOptions& options, const Model& model) {
             {"instances", scene.instances.size()},
             {"nodes", scene.nodes.size()},
             {"triangles", scene.triangleCount()},
+            {"lines", scene.lineCount()},
+            {"points", scene.pointCount()},
             {"touchable", scene.touchable()},
             {"bounds_m", scene.bounds.empty() ? Json()
                                               : Json{{"low", vectorJson(scene.bounds.low)},
@@ -279,6 +281,9 @@ void printInspection(const Json& json) {
                 text(json["triangles"]).c_str(), text(json["meshes"]).c_str(),
                 text(json["instances"]).c_str(), std::to_string(json["materials"].size()).c_str(),
                 std::to_string(json["images"].size()).c_str());
+    if (json["lines"] > 0 || json["points"] > 0)
+        print("  %s line segments and %s points, which are drawn but not felt\n", text(json["lines"]),
+              text(json["points"]));
     if (!json["bounds_m"].is_null())
         print("  bounds %s to %s m", text(json["bounds_m"]["low"]), text(json["bounds_m"]["high"]));
     print(", fitted to the workspace by a factor of %s\n", text(json["workspace_from_scene_scale"]));

@@ -90,9 +90,7 @@ class UsedImages {
     std::vector<bool> used;
 
     void seen(const Material& material) {
-        for (const TextureRef* texture :
-             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-              &material.occlusionTexture, &material.emissiveTexture})
+        for (const TextureRef* texture : material.lookTextures())
             mark(*texture);
     }
     void felt(const Material& material, const CoordinateSets& sets) {
@@ -124,7 +122,7 @@ std::vector<bool> usedImages(size_t count, const Scene& scene, const ImageUse& u
     UsedImages images(count);
     const std::vector<MaterialPlacement> placements = materialPlacements(scene);
     for (size_t m = 0; m < scene.materials.size(); ++m) {
-        if (use.visual && placements[m].placed)
+        if (use.visual && placements[m].drawn)
             images.seen(scene.materials[m]);
         if (use.haptic && placements[m].placed)
             images.felt(scene.materials[m], placements[m].sets);
@@ -179,9 +177,7 @@ std::vector<Image> readImages(ImportContext& context, const GltfFile& file, cons
 void dropBrokenImages(const std::vector<Image>& images, std::vector<Material>& materials) {
     for (Material& material : materials) {
         const bool hadColor = static_cast<bool>(material.baseColorTexture);
-        for (TextureRef* texture :
-             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-              &material.occlusionTexture, &material.emissiveTexture})
+        for (TextureRef* texture : material.lookTextures())
             dropIfBroken(images, *texture);
         if (hadColor && !material.baseColorTexture)
             material.baseColor = glm::vec4(glm::vec3(material.baseColor) * 0.5f, material.baseColor.w);

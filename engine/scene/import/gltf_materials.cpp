@@ -1,6 +1,7 @@
 #include "engine/scene/import/gltf_materials.h"
 
 #include "engine/scene/import/gltf_haptics.h"
+#include "engine/scene/import/gltf_looks.h"
 #include "engine/scene/import/gltf_schema.h"
 #include "engine/scene/import/json_fields.h"
 
@@ -39,15 +40,6 @@ glm::vec3 vec3Of(const std::vector<double>& v) {
     return {v[0], v[1], v[2]};
 }
 
-/// What light goes through is drawn as if it were thin: some of it is blended over what is behind.
-void drawTransmission(float factor, Material& material) {
-    constexpr float kMost = 0.8f; // so that a clear glass is still seen
-    if (factor <= 0.0f || material.alphaMode == AlphaMode::Blend)
-        return;
-    material.alphaMode = AlphaMode::Blend;
-    material.baseColor.w *= 1.0f - kMost * factor;
-}
-
 AlphaMode alphaModeOf(ImportContext& context, const std::string& name, const std::string& place) {
     if (name == "MASK")
         return AlphaMode::Mask;
@@ -83,18 +75,10 @@ void readLook(ImportContext& context, const GltfDocument& document, size_t index
                                          place + ".occlusionTexture.strength");
     material.emissiveTexture = textureOf(context, document, stated, "emissiveTexture", place);
     material.emissive = clamped(context, vec3Of(gltf.emissiveFactor), place + ".emissiveFactor");
-    if (const json* strength = extensionOf(context, stated, "KHR_materials_emissive_strength", place))
-        material.emissive *= numberField(context, *strength, "emissiveStrength",
-                                         place + ".extensions.KHR_materials_emissive_strength", 0.0, 1e9)
-                                 .value_or(1.0f);
     material.alphaMode = alphaModeOf(context, gltf.alphaMode, place);
     material.alphaCutoff = static_cast<float>(gltf.alphaCutoff);
     material.doubleSided = gltf.doubleSided;
-    if (const json* glass = extensionOf(context, stated, "KHR_materials_transmission", place))
-        drawTransmission(numberField(context, *glass, "transmissionFactor",
-                                     place + ".extensions.KHR_materials_transmission", 0.0, 1.0)
-                             .value_or(0.0f),
-                         material);
+    readLookExtensions(context, document, stated, place, material);
 }
 
 Wrap wrapOf(int gl) {

@@ -13,18 +13,19 @@ namespace {
 using nlohmann::json;
 
 // Read in full, or drawn and felt without: then the file still shows what it is, and we say so.
-constexpr std::array<std::string_view, 11> kReadExtensions = {
+constexpr std::array<std::string_view, 18> kReadExtensions = {
     "KHR_mesh_quantization",      "KHR_texture_transform",
     "KHR_draco_mesh_compression", "EXT_meshopt_compression",
     "EXT_texture_webp",           "TOUCHSTONE_materials_haptic",
     "MPEG_haptic_material",       "MPEG_material_haptic",
     "KHR_physics_rigid_bodies",   "KHR_materials_emissive_strength",
-    "KHR_materials_transmission"};
+    "KHR_materials_transmission", "KHR_materials_volume",
+    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen"};
 /// Optional extensions whose absence changes what is there to touch or see, and how.
 constexpr std::pair<std::string_view, const char*> kMissedExtensions[] = {
     {"EXT_mesh_gpu_instancing", "its copies of meshes are not placed"},
     {"KHR_texture_basisu", "its compressed textures are left out"},
-    {"KHR_materials_pbrSpecularGlossiness", "its materials are drawn with default colours"},
     {"KHR_node_visibility", "hidden nodes are shown"},
     {"KHR_animation_pointer", "only nodes are animated"}};
 constexpr std::array<std::string_view, 3> kHarmlessExtensions = {"KHR_lights_punctual", "KHR_xmp_json_ld",

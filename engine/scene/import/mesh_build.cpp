@@ -70,6 +70,25 @@ std::vector<uint32_t> triangleList(ImportContext& context, std::vector<uint32_t>
     return indices;
 }
 
+/// Lines, strips and loops as segments; a segment from a vertex to itself is dropped.
+std::vector<uint32_t> segmentList(ImportContext& context, const std::vector<uint32_t>& drawn, int mode,
+                                  const std::string& place) {
+    const bool list = mode == TINYGLTF_MODE_LINE, loop = mode == TINYGLTF_MODE_LINE_LOOP;
+    if (list && drawn.size() % 2 != 0)
+        context.warn(place, "its number of indices is no multiple of two; the last one is ignored");
+    const size_t count = list ? drawn.size() / 2 : drawn.size() < 2 ? 0 : drawn.size() - (loop ? 0 : 1);
+    context.spendGeometry(count * 2 * sizeof(uint32_t), place);
+    std::vector<uint32_t> segments;
+    segments.reserve(2 * count);
+    for (size_t i = 0; i < count; ++i) {
+        const size_t first = list ? 2 * i : i;
+        const uint32_t a = drawn[first], b = drawn[(first + 1) % drawn.size()];
+        if (a != b)
+            segments.insert(segments.end(), {a, b});
+    }
+    return segments;
+}
+
 glm::dvec3 faceNormal(const Mesh& mesh, size_t triangle) {
     const auto corner = [&](size_t k) { return glm::dvec3(mesh.positions[mesh.indices[3 * triangle + k]]); };
     return glm::cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -107,6 +126,20 @@ void mendNormals(Mesh& mesh) {
     for (size_t v = 0; v < sum.size(); ++v)
         if (lost(mesh.normals[v]))
             mesh.normals[v] = unitOrUp(sum[v]);
+}
+
+/// What is drawn but not felt: no flat normals, for without normals it is drawn unlit (glTF 2.0, section
+/// 3.7.2.1), and no tangents.
+void makeDrawnOnly(ImportContext& context, std::vector<uint32_t> drawn, int mode, const std::string& place,
+                   Mesh& mesh) {
+    context.warn(place, "holds points or lines: they are drawn, but cannot be touched");
+    if (mode == TINYGLTF_MODE_POINTS)
+        mesh.pointIndices = std::move(drawn);
+    else
+        mesh.lineIndices = segmentList(context, drawn, mode, place);
+    mendNormals(mesh);
+    mesh.tangents = {};
+    mesh.tangentsFromFile = false;
 }
 
 void settleTangents(ImportContext& context, Mesh& mesh, const Material& material, const std::string& place) {
@@ -164,13 +197,14 @@ std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& docume
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     auto drawn =
         drawnVertices(context, document, primitive, draco ? &*draco : nullptr, mesh.positions.size(), place);
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
-        context.warn(place, "holds points or lines, which cannot be touched; left out");
-        return std::nullopt;
-    }
-    mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
     if (!primitive.targets.empty())
         context.warn(place, "its morph targets stay in their rest pose");
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        makeDrawnOnly(context, std::move(drawn), mode, place, mesh);
+        checkMesh(mesh, context.file(), place);
+        return mesh;
+    }
+    mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
     if (!mesh.normalsFromFile)
         makeFlat(context, mesh, place);
     else

@@ -16,8 +16,9 @@ namespace {
 constexpr uint64_t kExactBoundsVertices = 100'000'000;
 
 uint64_t bytesOf(const Mesh& mesh) {
+    const size_t indices = mesh.indices.size() + mesh.lineIndices.size() + mesh.pointIndices.size();
     return sizeof(Mesh) + sizeof(Material) + mesh.positions.size() * bytesPerVertex(mesh) +
-           mesh.indices.size() * sizeof(mesh.indices[0]);
+           indices * sizeof(mesh.indices[0]);
 }
 
 /// The scene's meshes of one glTF mesh, by the physics material that its nodes give it.
@@ -26,7 +27,7 @@ class MeshVariants {
     MeshVariants(ImportContext& context, const GltfDocument& document, MaterialTable& materials, Scene& scene)
         : context_(context), document_(document), materials_(materials), scene_(scene) {}
 
-    /// Indices into scene.meshes, one per primitive that has triangles.
+    /// Indices into scene.meshes, one per primitive that has something to draw.
     const std::vector<int>& get(size_t gltfMesh, int physics) {
         const auto [found, isNew] = made_.try_emplace({gltfMesh, physics});
         if (!isNew)
@@ -132,13 +133,14 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
             context.fail(place, "places more than " + std::to_string(kMaxInstances) + " meshes",
                          "split the model into several files");
         for (const int mesh : meshes) {
-            placedTriangles += scene.meshes[static_cast<size_t>(mesh)].triangleCount();
+            const Mesh& placed = scene.meshes[static_cast<size_t>(mesh)];
+            placedTriangles += placed.triangleCount() + placed.lineCount() + placed.pointCount();
             scene.instances.push_back({static_cast<int>(n), mesh, sceneFromNode[n]});
         }
         if (placedTriangles > std::max(kFreePlacedTriangles, context.fileBytes()))
             context.fail(place,
                          "the scene places more than " + std::to_string(placedTriangles) +
-                             " triangles, far beyond the file's own data",
+                             " triangles, lines and points, far beyond the file's own data",
                          "place its meshes fewer times, or simplify them");
     }
     if (skinned)
@@ -165,9 +167,10 @@ Bounds sceneBounds(const ImportContext& context, const Scene& scene) {
             bounds.include(glm::dvec3(instance.sceneFromMesh * glm::dvec4(p, 1.0)));
         };
         if (exact) {
-            // Only vertices that a triangle uses: exporters leave strays behind.
-            for (const uint32_t index : mesh.indices)
-                include(glm::dvec3(mesh.positions[index]));
+            // Only vertices that are drawn: exporters leave strays behind.
+            for (const auto* indices : {&mesh.indices, &mesh.lineIndices, &mesh.pointIndices})
+                for (const uint32_t index : *indices)
+                    include(glm::dvec3(mesh.positions[index]));
             continue;
         }
         const Bounds& box = boxes[static_cast<size_t>(instance.mesh)];

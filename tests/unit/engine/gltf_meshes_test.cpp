@@ -221,15 +221,45 @@ TEST(GltfMeshes, TrianglesThatUseAVertexTwiceAreDropped) {
     EXPECT_TRUE(warns(*scene, "meshes[0].primitives[0]", "1 triangles use a vertex twice"));
 }
 
-TEST(GltfMeshes, PointsAndLinesAreLeftOutAndSaid) {
-    for (const int mode : {0, 1, 2, 3}) {
+TEST(GltfMeshes, PointsAndLinesAreReadToBeDrawnAndNotFelt) {
+    using Indices = std::vector<uint32_t>;
+    struct Case {
+        int mode;
+        Indices points, lines;
+    };
+    const std::vector<uint16_t> drawn{0, 1, 1, 2, 3};
+    for (const Case& expected : {Case{0, {0, 1, 1, 2, 3}, {}}, Case{1, {}, {0, 1, 1, 2}},
+                                 Case{2, {}, {0, 1, 1, 2, 2, 3, 3, 0}}, Case{3, {}, {0, 1, 1, 2, 2, 3}}}) {
         GltfMaker maker = GltfMaker::square();
-        maker.primitive()["mode"] = mode;
+        maker.primitive()["mode"] = expected.mode;
+        maker.primitive()["indices"] = maker.addAccessor<uint16_t>(drawn, "SCALAR");
+        maker.primitive()["attributes"].erase("NORMAL");
         const ScenePtr scene = load(maker);
+        ASSERT_EQ(scene->meshes.size(), 1u) << expected.mode;
+        const Mesh& mesh = scene->meshes[0];
+        EXPECT_EQ(mesh.pointIndices, expected.points) << expected.mode;
+        EXPECT_EQ(mesh.lineIndices, expected.lines) << expected.mode;
+        EXPECT_TRUE(mesh.indices.empty());
+        EXPECT_TRUE(mesh.normals.empty()) << "unlit";
+        EXPECT_EQ(scene->pointCount(), expected.points.size());
+        EXPECT_EQ(scene->lineCount(), expected.lines.size() / 2);
+        EXPECT_EQ(scene->bounds.extent(), glm::dvec3(1.0, 1.0, 0.0)) << "the bounds hold what is drawn";
         EXPECT_FALSE(scene->touchable());
-        EXPECT_TRUE(warns(*scene, "meshes[0]", "points or lines"));
+        EXPECT_EQ(warns(*scene, "meshes[0]", "no multiple of two"), expected.mode == 1);
+        EXPECT_TRUE(warns(*scene, "meshes[0]", "cannot be touched"));
         EXPECT_TRUE(warns(*scene, "", "nothing to touch"));
     }
+}
+
+TEST(GltfMeshes, LinesBesideTrianglesLeaveTheSceneTouchable) {
+    GltfMaker maker = GltfMaker::square();
+    maker.json["meshes"][0]["primitives"].push_back(maker.primitive());
+    maker.json["meshes"][0]["primitives"][1]["mode"] = 3;
+    const ScenePtr scene = load(maker);
+    EXPECT_TRUE(scene->touchable());
+    EXPECT_EQ(scene->triangleCount(), 2u);
+    EXPECT_EQ(scene->lineCount(), 5u);
+    EXPECT_FALSE(warns(*scene, "", "nothing to touch"));
 }
 
 TEST(GltfMeshes, ColoursOutsideTheirRangeAreClamped) {

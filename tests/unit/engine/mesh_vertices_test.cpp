@@ -90,6 +90,15 @@ TEST(MeshVertices, EveryArrayIsChecked) {
     Mesh beyond = mesh;
     beyond.indices[7] = 6;
     EXPECT_EQ(meshFault(beyond), "index 6 exceeds the last of 6 vertices");
+    Mesh line = mesh;
+    line.indices.clear();
+    line.lineIndices = {0, 6};
+    EXPECT_EQ(meshFault(line), "index 6 exceeds the last of 6 vertices");
+    line.lineIndices = {0, 1, 2};
+    EXPECT_EQ(meshFault(line), "3 indices are no line segments");
+    line.lineIndices.clear();
+    line.pointIndices = {5, 6};
+    EXPECT_EQ(meshFault(line), "index 6 exceeds the last of 6 vertices");
     Mesh odd = mesh;
     odd.indices.pop_back();
     EXPECT_EQ(meshFault(odd), "11 indices are no triangles");
