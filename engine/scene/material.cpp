@@ -1,7 +1,6 @@
 #include "engine/scene/material.h"
 
 #include <algorithm>
-
 #include <cmath>
 
 namespace touchstone {
@@ -15,20 +14,11 @@ glm::vec2 TextureRef::transform(const glm::vec2& uv) const {
 }
 
 std::array<TextureRef*, kLookTextures> Material::lookTextures() {
-    return {&baseColorTexture,
-            &metallicRoughnessTexture,
-            &normalTexture,
-            &occlusionTexture,
-            &emissiveTexture,
-            &specularGlossiness.texture,
-            &specular.texture,
-            &specular.colorTexture,
-            &clearcoat.texture,
-            &clearcoat.roughnessTexture,
-            &sheen.colorTexture,
-            &sheen.roughnessTexture,
-            &transmission.texture,
-            &transmission.thicknessTexture};
+    return {
+        &baseColorTexture,     &metallicRoughnessTexture,     &normalTexture,      &occlusionTexture,
+        &emissiveTexture,      &specularGlossiness.texture,   &specular.texture,   &specular.colorTexture,
+        &clearcoat.texture,    &clearcoat.roughnessTexture,   &sheen.colorTexture, &sheen.roughnessTexture,
+        &transmission.texture, &transmission.thicknessTexture};
 }
 
 std::array<const TextureRef*, kLookTextures> Material::lookTextures() const {

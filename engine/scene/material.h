@@ -99,8 +99,8 @@ struct HapticLayers {
     std::optional<float> meanRoughness; ///< that the PBR material states and that could be read
 };
 
-/// KHR_materials_pbrSpecularGlossiness: stands in place of metallic and roughness. The diffuse colour and its map
-/// are Material::baseColor and baseColorTexture.
+/// KHR_materials_pbrSpecularGlossiness: stands in place of metallic and roughness. The diffuse colour and its
+/// map are Material::baseColor and baseColorTexture.
 struct SpecularGlossiness {
     bool used = false;
     glm::vec3 specular{1.0f}; ///< reflectance at normal incidence, linear
@@ -132,11 +132,11 @@ struct Sheen {
 /// KHR_materials_transmission and KHR_materials_volume.
 struct Transmission {
     float factor = 0.0f;
-    TextureRef texture;       ///< R
-    float thickness = 0.0f;   ///< mesh metres; 0: thin walls, no volume
-    TextureRef thicknessTexture; ///< G
-    glm::vec3 attenuationColor{1.0f};  ///< linear: what white light becomes after attenuationDistance
-    float attenuationDistance = 0.0f;  ///< scene metres; 0: the volume absorbs nothing
+    TextureRef texture;               ///< R
+    float thickness = 0.0f;           ///< mesh metres; 0: thin walls, no volume
+    TextureRef thicknessTexture;      ///< G
+    glm::vec3 attenuationColor{1.0f}; ///< linear: what white light becomes after attenuationDistance
+    float attenuationDistance = 0.0f; ///< scene metres; 0: the volume absorbs nothing
 };
 
 /// The textures that a material's look reads, in the order of Material::lookTextures.
@@ -159,7 +159,8 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
-    bool unlit = false; ///< KHR_materials_unlit: the base colour is what is seen, and all that follows is ignored
+    bool unlit =
+        false; ///< KHR_materials_unlit: the base colour is what is seen, and all that follows is ignored
     SpecularGlossiness specularGlossiness;
     DielectricSpecular specular;
     Clearcoat clearcoat;
@@ -169,8 +170,8 @@ struct Material {
     HapticMaterial haptic; ///< what holds of `says`
 
     /// Base colour, metallic-roughness, normal, occlusion, emissive, specular-glossiness, specular, specular
-    /// colour, clearcoat, clearcoat roughness, sheen colour, sheen roughness, transmission, thickness: the slots
-    /// of shaders/shared/scene_types.h.
+    /// colour, clearcoat, clearcoat roughness, sheen colour, sheen roughness, transmission, thickness: the
+    /// slots of shaders/shared/scene_types.h.
     [[nodiscard]] std::array<TextureRef*, kLookTextures> lookTextures();
     [[nodiscard]] std::array<const TextureRef*, kLookTextures> lookTextures() const;
 };

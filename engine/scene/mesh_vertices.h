@@ -64,7 +64,8 @@ void forEachVertexArray(AnyMesh& mesh, F&& f) {
         visit(array("positions", positions), array("normals", normals), array("tangents", tangents),
               array("uv0", uv0), array("uv1", uv1), array("colors", colors), array("stiffness", stiffness),
               array("damping", damping), array("friction", friction), array("heights", heights));
-    const auto others = other(name, indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile);
+    const auto others =
+        other(name, indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile);
     static_assert(decltype(visited)::value + decltype(others)::value == detail::memberCount<Mesh>(),
                   "list every member of Mesh here: as a vertex array, or as something else");
 }

@@ -17,9 +17,10 @@
 
 namespace touchstone {
 
-/// One glTF primitive in its mesh frame (model metres, float as the file has it): an indexed triangle list, or
-/// line segments or points, which are drawn but not felt. Of the three index arrays at most one has entries.
-/// All vertex arrays have `positions.size()` entries or are empty. Indices are in range, positions finite.
+/// One glTF primitive in its mesh frame (model metres, float as the file has it): an indexed triangle list,
+/// or line segments or points, which are drawn but not felt. Of the three index arrays at most one has
+/// entries. All vertex arrays have `positions.size()` entries or are empty. Indices are in range, positions
+/// finite.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;

@@ -14,9 +14,9 @@
 namespace touchstone {
 namespace {
 
-ScenePtr importGltf(ImportContext& context, const GltfFile& file, const FileStamp& stamp) {
-    // 1. Check: the shape of the JSON, then how its parts relate. What passes may be read without more
-    // asking.
+ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
+    // 1. Check and mend: the shape of the JSON, then how its parts relate. What passes may be read without
+    // more asking.
     context.step(0.02, "checking");
     checkSchema(context, file.json);
     validateGltf(context, file.json);

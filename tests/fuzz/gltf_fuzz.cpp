@@ -132,6 +132,22 @@ GltfMaker richFile() {
     maker.json["nodes"].push_back({{"children", json::array({2})}, {"rotation", {0, 0, 0, 1}}});
     maker.json["nodes"].push_back({{"mesh", 0}, {"scale", {1, -1, 2}}});
     maker.json["scenes"][0]["nodes"].push_back(1);
+    const size_t turns = maker.addAccessor<float>({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 2}, "VEC4");
+    maker.json["animations"][0]["samplers"].push_back({{"input", times}, {"output", turns}});
+    maker.json["animations"][0]["channels"].push_back(
+        {{"sampler", 1}, {"target", {{"node", 1}, {"path", "rotation"}}}});
+    maker.json["samplers"] = {{{"wrapS", 33071}, {"magFilter", 9728}}};
+    maker.json["textures"][0]["sampler"] = 0;
+    json strip = maker.primitive();
+    strip["mode"] = 5;
+    strip["indices"] = maker.addAccessor<uint8_t>({0, 1, 2, 255, 0, 2, 3}, "SCALAR");
+    maker.json["meshes"][0]["primitives"].push_back(strip);
+    maker.json["extensionsUsed"] = {"MPEG_material_haptic", "KHR_physics_rigid_bodies"};
+    maker.json["extensions"]["MPEG_material_haptic"] = {
+        {{"stiffness", {{{"texture", {{"index", 0}}}, {"type", "High_Resolution"}}}}}};
+    maker.json["meshes"][0]["extensions"]["MPEG_material_haptic"] = 0;
+    maker.json["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"] = {{{"staticFriction", 0.9}}};
+    maker.json["nodes"][0]["extensions"]["KHR_physics_rigid_bodies"]["collider"]["physicsMaterial"] = 0;
     return maker;
 }
 
@@ -150,7 +166,7 @@ void collect(json& value, std::vector<json*>& into) {
             collect(child, into);
 }
 
-json strangeValue(Random& random) {
+const std::vector<json>& strangeValues() {
     static const std::vector<json> kStrange = {0,
                                                1,
                                                -1,
@@ -173,6 +189,7 @@ json strangeValue(Random& random) {
                                                -0.0,
                                                1e-300,
                                                1e300,
+                                               2.0,
                                                nullptr,
                                                true,
                                                "",
@@ -187,7 +204,11 @@ json strangeValue(Random& random) {
                                                json::object(),
                                                {0, 0, 0},
                                                {{"index", 0}}};
-    return kStrange[random() % kStrange.size()];
+    return kStrange;
+}
+
+json strangeValue(Random& random) {
+    return strangeValues()[random() % strangeValues().size()];
 }
 
 class GltfFuzz : public testing::TestWithParam<unsigned> {};
@@ -196,6 +217,43 @@ TEST(GltfFuzzSeed, Loads) {
     const std::vector<uint8_t> seed = richFile().glb();
     EXPECT_TRUE(loadAndCheck(seed.data(), seed.size()))
         << "mutants of a file that is refused anyway test little";
+}
+
+/// What is mended and left out makes more paths than chance finds: each value once as each strange one, and
+/// gone.
+TEST(GltfFuzzSeed, EveryValueReplacedByEveryStrangeOne) {
+    GltfMaker maker = richFile();
+    maker.json["buffers"] = {{{"byteLength", maker.bytes.size()}}};
+    std::vector<json*> values;
+    collect(maker.json, values);
+    size_t loaded = 0, tried = 0;
+    const auto tryIt = [&] {
+        const std::vector<uint8_t> bytes = maker.glb();
+        loaded += loadAndCheck(bytes.data(), bytes.size()) ? 1 : 0;
+        ++tried;
+    };
+    for (size_t i = 1; i < values.size(); ++i)
+        for (const json& strange : strangeValues()) {
+            json kept = strange;
+            values[i]->swap(kept);
+            tryIt();
+            values[i]->swap(kept);
+        }
+    for (json* value : values) {
+        if (!value->is_object())
+            continue;
+        std::vector<std::string> names;
+        for (const auto& [name, unused] : value->items())
+            names.push_back(name);
+        for (const std::string& name : names) {
+            json kept = std::move((*value)[name]);
+            value->erase(name);
+            tryIt();
+            (*value)[name] = std::move(kept);
+        }
+    }
+    EXPECT_GT(loaded, tried / 4);
+    EXPECT_LT(loaded, tried);
 }
 
 TEST_P(GltfFuzz, StrangeValuesInTheJson) {

@@ -110,6 +110,8 @@ struct GltfMaker {
     static GltfMaker square() {
         GltfMaker maker;
         const size_t positions = maker.addAccessor<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
+        maker.json["accessors"][positions]["min"] = {0, 0, 0};
+        maker.json["accessors"][positions]["max"] = {1, 1, 0};
         const size_t normals = maker.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
         const size_t uv = maker.addAccessor<float>({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2");
         const size_t indices = maker.addAccessor<uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR");

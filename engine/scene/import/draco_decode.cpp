@@ -1,5 +1,6 @@
 // KHR_draco_mesh_compression, decoded by libdraco.
 #include "engine/scene/import/gltf_accessors.h"
+#include "engine/scene/import/gltf_schema.h"
 #include "engine/scene/import/json_fields.h"
 #include "engine/scene/import/vertex_attributes.h"
 
@@ -84,7 +85,8 @@ DracoPrimitive decodeDraco(ImportContext& context, const GltfDocument& document,
     DracoPrimitive result;
     for (const auto& [name, id] : names->items()) {
         const std::string at = place + ".attributes." + name;
-        if (!id.is_number_unsigned() || id.get<uint64_t>() > 0xFFFFFFFFull)
+        if (!id.is_number() || !isWhole(id.get<double>()) || id.get<double>() < 0.0 ||
+            id.get<double>() > 4294967295.0)
             context.fail(at, "should be an attribute id");
         const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(id.get<uint32_t>());
         if (attribute == nullptr)

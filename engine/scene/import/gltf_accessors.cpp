@@ -62,7 +62,7 @@ void visitElements(ImportContext& context, const GltfDocument& document, const t
     const uint64_t bytes =
         componentBytes(accessor.componentType) *
         static_cast<uint64_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
-    if (accessor.bufferView >= 0) {
+    if (accessor.bufferView >= 0 && accessor.count > 0) {
         const size_t view = static_cast<size_t>(accessor.bufferView);
         const uint64_t stride = document.model.bufferViews[view].byteStride != 0
                                     ? document.model.bufferViews[view].byteStride
@@ -71,7 +71,7 @@ void visitElements(ImportContext& context, const GltfDocument& document, const t
         for (uint64_t i = 0; i < accessor.count; ++i)
             store(i, data + i * stride);
     }
-    if (!accessor.sparse.isSparse)
+    if (!accessor.sparse.isSparse || accessor.sparse.count == 0)
         return;
     const auto& sparse = accessor.sparse;
     const uint64_t indexBytes = componentBytes(sparse.indices.componentType);
@@ -79,8 +79,13 @@ void visitElements(ImportContext& context, const GltfDocument& document, const t
                              sparse.indices.byteOffset;
     const uint8_t* values = document.buffers.view(static_cast<size_t>(sparse.values.bufferView)).data() +
                             sparse.values.byteOffset;
+    uint64_t before = 0;
     for (uint64_t i = 0; i < static_cast<uint64_t>(sparse.count); ++i) {
         const uint64_t target = loadIndex(indices + i * indexBytes, sparse.indices.componentType);
+        if (i > 0 && target <= before)
+            context.warn(place + ".sparse.indices",
+                         "do not increase; of values for one element the last counts");
+        before = target;
         if (target >= accessor.count)
             context.fail(place + ".sparse.indices", "replaces element " + std::to_string(target) + " of " +
                                                         std::to_string(accessor.count));
@@ -153,13 +158,12 @@ std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& do
     std::vector<uint32_t> values(accessor.count);
     visitElements(context, document, accessor, element("accessors", static_cast<size_t>(index)),
                   [&](uint64_t i, const uint8_t* bytes) { values[i] = loadIndex(bytes, type); });
-    const uint32_t restart = type == 5121 ? 0xFFu : type == 5123 ? 0xFFFFu : 0xFFFFFFFFu;
-    const auto found = std::find(values.begin(), values.end(), restart);
-    if (found != values.end())
-        context.fail(place, "index " + std::to_string(found - values.begin()) + " is " +
-                                std::to_string(restart) +
-                                ", the primitive-restart value, which glTF forbids");
     return values;
+}
+
+uint32_t restartIndex(const GltfDocument& document, int index) {
+    const int type = document.model.accessors[static_cast<size_t>(index)].componentType;
+    return type == 5121 ? 0xFFu : type == 5123 ? 0xFFFFu : 0xFFFFFFFFu;
 }
 
 } // namespace touchstone

@@ -26,8 +26,10 @@ namespace touchstone {
 void visitStoredValues(ImportContext& context, const GltfDocument& document, int accessor,
                        const std::function<void(size_t, double)>& visit);
 
-/// A SCALAR accessor of unsigned integers. Fails for other types and for the primitive-restart value.
+/// A SCALAR accessor of unsigned integers. Fails for other types.
 [[nodiscard]] std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& document,
                                                 int accessor, const std::string& place);
+/// The largest value of the type of an index accessor, which graphics interfaces take for the end of a strip.
+[[nodiscard]] uint32_t restartIndex(const GltfDocument& document, int accessor);
 
 } // namespace touchstone

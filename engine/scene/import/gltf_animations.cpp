@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace touchstone {
 namespace {
 
-/// A quaternion this far from unit length is not rounding or quantisation but a broken file.
-constexpr double kRotationTolerance = 0.1;
+/// A quaternion this far from unit length is told; less is rounding and quantisation.
+constexpr double kUnitTolerance = 1e-2;
 
 std::optional<AnimatedPath> pathOf(const std::string& name) {
     if (name == "translation")
@@ -34,46 +36,79 @@ Interpolation interpolationOf(const ImportContext& context, const std::string& n
                  "\"" + name.substr(0, 40) + "\" is not LINEAR, STEP or CUBICSPLINE");
 }
 
-std::vector<float> readTimes(ImportContext& context, const GltfDocument& document, int accessor,
-                             const std::string& place) {
+/// The times of keys, and which of those in the file they are: a key that is not after the one before it is
+/// skipped.
+struct KeyTimes {
+    std::vector<float> times;
+    std::vector<size_t> keys;
+    size_t stated = 0;
+};
+
+KeyTimes readTimes(ImportContext& context, const GltfDocument& document, int accessor,
+                   const std::string& place) {
     if (accessorComponents(document, accessor) != 1 ||
         document.model.accessors[static_cast<size_t>(accessor)].componentType !=
             TINYGLTF_COMPONENT_TYPE_FLOAT)
         context.fail(place, "should be a SCALAR accessor of floats");
-    std::vector<float> times = readFloats(context, document, accessor, place);
-    for (size_t i = 0; i < times.size(); ++i) {
-        if (!std::isfinite(times[i]))
+    const std::vector<float> stated = readFloats(context, document, accessor, place);
+    if (stated.empty())
+        context.fail(place, "has no keys");
+    KeyTimes result;
+    result.stated = stated.size();
+    for (size_t i = 0; i < stated.size(); ++i) {
+        if (!std::isfinite(stated[i]))
             context.fail(place, "time " + std::to_string(i) + " is not a finite number");
-        if (times[i] < 0.0f)
-            context.fail(place, "time " + std::to_string(i) + " is negative");
-        if (i > 0 && times[i] <= times[i - 1])
-            context.fail(place, "time " + std::to_string(i) + " is not after the one before it");
+        if (stated[i] < 0.0f)
+            context.warn(place, "time " + std::to_string(i) + " is negative; what is before 0 is not played");
+        if (!result.times.empty() && stated[i] <= result.times.back()) {
+            context.warn(place,
+                         "time " + std::to_string(i) + " is not after the one before it; its key is skipped");
+            continue;
+        }
+        result.times.push_back(stated[i]);
+        result.keys.push_back(i);
     }
-    return times;
+    return result;
+}
+
+/// Brings a rotation to unit length; throws Error if it has no direction.
+void normaliseRotation(ImportContext& context, glm::vec4& key, size_t index, const std::string& place) {
+    constexpr double kNone = 1e-6;
+    const double length = glm::length(glm::dvec4(key));
+    if (!(length > kNone))
+        context.fail(place, "rotation " + std::to_string(index) + " has length 0");
+    if (std::abs(length - 1.0) <= kUnitTolerance)
+        return;
+    context.warn(place, "rotation " + std::to_string(index) + " is not of unit length and was normalised");
+    key = glm::vec4(glm::dvec4(key) / length);
 }
 
 std::vector<glm::vec4> readKeys(ImportContext& context, const GltfDocument& document, int accessor,
-                                const AnimationChannel& channel, const std::string& place) {
+                                const AnimationChannel& channel, const KeyTimes& at,
+                                const std::string& place) {
     const int components = channel.path == AnimatedPath::Rotation ? 4 : 3;
-    const bool cubic = channel.interpolation == Interpolation::CubicSpline;
+    const size_t perKey = channel.interpolation == Interpolation::CubicSpline ? 3 : 1;
     if (accessorComponents(document, accessor) != components)
         context.fail(place, "should have " + std::to_string(components) + " components");
-    const size_t needed = channel.times.size() * (cubic ? 3 : 1);
+    const size_t needed = at.stated * perKey;
     if (accessorCount(document, accessor) != needed)
         context.fail(place, "has " + std::to_string(accessorCount(document, accessor)) + " values where " +
                                 std::to_string(needed) + " are needed");
     const std::vector<float> values = readFloats(context, document, accessor, place);
-    std::vector<glm::vec4> keys(needed, glm::vec4(0.0f));
-    for (size_t i = 0; i < needed; ++i) {
-        for (int c = 0; c < components; ++c)
-            keys[i][c] = values[i * static_cast<size_t>(components) + static_cast<size_t>(c)];
-        if (glm::any(glm::isnan(keys[i])) || glm::any(glm::isinf(keys[i])))
-            context.fail(place, "value " + std::to_string(i) + " is not finite");
-        const bool isTangent = cubic && i % 3 != 1;
-        if (channel.path == AnimatedPath::Rotation && !isTangent &&
-            std::abs(glm::length(glm::dvec4(keys[i])) - 1.0) > kRotationTolerance)
-            context.fail(place, "rotation " + std::to_string(i) + " is not of unit length");
-    }
+    std::vector<glm::vec4> keys;
+    keys.reserve(at.keys.size() * perKey);
+    for (const size_t key : at.keys)
+        for (size_t i = key * perKey; i < (key + 1) * perKey; ++i) {
+            glm::vec4 value(0.0f);
+            for (int c = 0; c < components; ++c)
+                value[c] = values[i * static_cast<size_t>(components) + static_cast<size_t>(c)];
+            if (glm::any(glm::isnan(value)) || glm::any(glm::isinf(value)))
+                context.fail(place, "value " + std::to_string(i) + " is not finite");
+            const bool isTangent = perKey == 3 && i % 3 != 1;
+            if (channel.path == AnimatedPath::Rotation && !isTangent)
+                normaliseRotation(context, value, i, place);
+            keys.push_back(value);
+        }
     return keys;
 }
 
@@ -82,12 +117,12 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
                                             const tinygltf::Animation& animation, size_t index,
                                             const std::string& place) {
     const tinygltf::AnimationChannel& gltf = animation.channels[index];
-    const std::string at = place + "." + element("channels", index);
+    const std::string channelPlace = place + "." + element("channels", index);
     if (static_cast<size_t>(gltf.sampler) >= animation.samplers.size())
-        context.fail(at + ".sampler", "refers to a sampler that does not exist");
+        context.fail(channelPlace + ".sampler", "refers to a sampler that does not exist");
     const auto path = pathOf(gltf.target_path);
     if (!path)
-        context.warn(at + ".target.path",
+        context.warn(channelPlace + ".target.path",
                      gltf.target_path == "weights"
                          ? "morph targets stay in their rest pose"
                          : "\"" + gltf.target_path.substr(0, 40) + "\" cannot be animated");
@@ -98,17 +133,18 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
         return std::nullopt;
     }
     AnimationChannel channel;
-    channel.times = readTimes(context, document, sampler.input, samplerPlace + ".input");
+    KeyTimes at = readTimes(context, document, sampler.input, samplerPlace + ".input");
     // Without a node an extension or nobody is meant: the specification says to ignore it.
     if (!path || gltf.target_node < 0)
         return std::nullopt;
     channel.node = forest.nodeOfGltf[static_cast<size_t>(gltf.target_node)];
     channel.path = *path;
     if (nodes[static_cast<size_t>(channel.node)].hasMatrix)
-        context.fail(at + ".target.node", "animates a node that has a matrix",
+        context.fail(channelPlace + ".target.node", "animates a node that has a matrix",
                      "export the node with translation, rotation and scale");
     channel.interpolation = interpolationOf(context, sampler.interpolation, samplerPlace);
-    channel.values = readKeys(context, document, sampler.output, channel, samplerPlace + ".output");
+    channel.values = readKeys(context, document, sampler.output, channel, at, samplerPlace + ".output");
+    channel.times = std::move(at.times);
     return channel;
 }
 
@@ -121,11 +157,21 @@ std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument
         const tinygltf::Animation& gltf = document.model.animations[a];
         Animation animation;
         animation.name = gltf.name;
+        std::set<std::pair<int, AnimatedPath>> targets;
         for (size_t c = 0; c < gltf.channels.size(); ++c) {
             context.stopIfCancelled();
-            auto channel = readChannel(context, document, forest, nodes, gltf, c, element("animations", a));
+            std::optional<AnimationChannel> channel;
+            // At rest the model is right without it.
+            (void)context.attempt("it is not animated", [&] {
+                channel = readChannel(context, document, forest, nodes, gltf, c, element("animations", a));
+            });
             if (!channel)
                 continue;
+            if (!targets.emplace(channel->node, channel->path).second) {
+                context.warn(element("animations", a) + "." + element("channels", c) + ".target",
+                             "is animated by an earlier channel already; this one is left out");
+                continue;
+            }
             animation.duration = std::max(animation.duration, static_cast<double>(channel->times.back()));
             animation.channels.push_back(std::move(*channel));
         }

@@ -1,5 +1,7 @@
 #include "engine/scene/import/gltf_document.h"
 
+#include "engine/scene/import/gltf_mpeg.h"
+
 namespace touchstone {
 namespace {
 
@@ -33,8 +35,14 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
     // gets the primitives without indices, and the model gets them back below.
     if (core.contains("meshes"))
         for (json& mesh : core["meshes"])
-            for (json& primitive : mesh["primitives"])
-                primitive.erase("indices");
+            if (mesh.contains("primitives"))
+                for (json& primitive : mesh["primitives"])
+                    primitive.erase("indices");
+    // It refuses strides that are no multiple of four, which we read and warn about: they come back below
+    // too.
+    if (core.contains("bufferViews"))
+        for (json& view : core["bufferViews"])
+            view.erase("byteStride");
     const std::string text = core.dump();
     core = nullptr;
 
@@ -52,6 +60,8 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
     if (!reader.LoadASCIIFromString(&model, &error, &warning, text.c_str(),
                                     static_cast<unsigned>(text.size()), ""))
         context.fail("", error.empty() ? "is no valid glTF" : error);
+    for (size_t v = 0; v < model.bufferViews.size(); ++v)
+        model.bufferViews[v].byteStride = gltf["bufferViews"][v].value("byteStride", size_t{0});
     for (size_t m = 0; m < model.meshes.size(); ++m)
         for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
             model.meshes[m].primitives[p].indices = gltf["meshes"][m]["primitives"][p].value("indices", -1);
@@ -62,7 +72,7 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
 
 GltfDocument makeDocument(ImportContext& context, const GltfFile& file) {
     BufferStore buffers(context, file);
-    return {file.json, typedModel(context, file.json), std::move(buffers)};
+    return {file.json, typedModel(context, file.json), std::move(buffers), findMpegMaterials(context, file)};
 }
 
 } // namespace touchstone

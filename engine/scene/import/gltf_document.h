@@ -6,12 +6,19 @@
 
 namespace touchstone {
 
+/// MPEG's haptic materials: an array of objects, and where it is in the file, for messages.
+struct MpegMaterials {
+    nlohmann::json list = nlohmann::json::array();
+    std::string place;
+};
+
 /// `model` holds the core objects (accessors, meshes, nodes, materials, ...) typed; `json` is the whole file,
 /// for extensions and for telling what the file states from what is a default; `buffers` has the bytes.
 struct GltfDocument {
     const nlohmann::json& json;
     tinygltf::Model model;
     BufferStore buffers;
+    MpegMaterials mpeg;
 };
 
 /// tinygltf gets the validated core of the JSON and nothing to read: no buffers, no images, no extras, no

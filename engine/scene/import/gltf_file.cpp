@@ -1,10 +1,14 @@
 #include "engine/scene/import/gltf_file.h"
 
+#include "engine/scene/import/gltf_kind.h"
 #include "engine/scene/import/gltf_uri.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <functional>
 
 namespace touchstone {
 namespace {
@@ -24,7 +28,7 @@ uint32_t littleEndian32(ByteSpan bytes, size_t at) {
 /// at a cost that grows with the square of an array's length.)
 class JsonMeter : public json::json_sax_t {
   public:
-    explicit JsonMeter(const ImportContext& context) : context_(context) {}
+    explicit JsonMeter(ImportContext& context) : context_(context) {}
 
     bool null() override { return value(); }
     bool boolean(bool) override { return value(); }
@@ -39,13 +43,33 @@ class JsonMeter : public json::json_sax_t {
     bool binary(binary_t&) override { return value(); }
     bool key(string_t& text) override {
         countText(text);
+        // Beyond kKeysCompared keys nothing that glTF defines is looked up, and comparing all would cost the
+        // square.
+        std::vector<size_t>& keys = keys_[static_cast<size_t>(depth_)];
+        const size_t hash = std::hash<std::string>()(text);
+        if (keys.size() < kKeysCompared && std::find(keys.begin(), keys.end(), hash) != keys.end())
+            context_.warn("", "the JSON has an object with two properties \"" + text.substr(0, 40) +
+                                  "\"; the last one counts");
+        if (keys.size() < kKeysCompared)
+            keys.push_back(hash);
         return true;
     }
-    bool start_object(size_t) override { return open(); }
+    bool start_object(size_t) override {
+        const bool go = open();
+        keys_[static_cast<size_t>(depth_)].clear();
+        return go;
+    }
     bool start_array(size_t) override { return open(); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
-    bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& error) override {
+    bool parse_error(size_t position, const std::string& token,
+                     const nlohmann::detail::exception& error) override {
+        constexpr int kNumberOverflow = 406; // of nlohmann::json
+        if (error.id == kNumberOverflow)
+            context_.fail("",
+                          "the JSON holds a number beyond all that computers calculate with, " +
+                              token.substr(0, 40) + ", at byte " + std::to_string(position),
+                          "correct the number in the file, or re-export the model");
         const std::string what = error.what();
         const size_t end = what.find("] "); // of the library's own "[json.exception...] "
         context_.fail(
@@ -78,15 +102,17 @@ class JsonMeter : public json::json_sax_t {
         return true;
     }
 
-    const ImportContext& context_;
+    static constexpr size_t kKeysCompared = 64;
+    ImportContext& context_;
     size_t values_ = 0, textBytes_ = 0;
     int depth_ = 0;
+    std::array<std::vector<size_t>, kMaxJsonDepth + 1> keys_; ///< hashes, of the object open at each depth
 };
 
-json parseBounded(const ImportContext& context, ByteSpan text) {
-    JsonMeter meter(context);
-    json::sax_parse(text.begin(), text.end(), &meter);
-    return json::parse(text.begin(), text.end());
+void takeBinary(ImportContext& context, GltfFile& file, ByteSpan chunk, size_t index) {
+    if (index != 1)
+        context.warn(element("chunks", index), "is the binary chunk, which belongs directly after the JSON");
+    file.binary = chunk;
 }
 
 /// Fills `json` and `binary` from the chunks of a GLB.
@@ -96,6 +122,8 @@ ByteSpan readGlbChunks(ImportContext& context, GltfFile& file) {
         context.fail("header", "the GLB file is truncated: it ends inside its header",
                      "copy or re-export the file");
     const uint32_t version = littleEndian32(all, 4);
+    if (version == 1)
+        context.fail("header", "GLB version 1 is not supported: the file is glTF 1.0", kConvertGltf1);
     if (version != 2)
         context.fail("header", "GLB version " + std::to_string(version) + " is not supported",
                      "export it as glTF 2.0");
@@ -110,7 +138,8 @@ ByteSpan readGlbChunks(ImportContext& context, GltfFile& file) {
 
     ByteSpan text;
     bool haveJson = false;
-    for (uint64_t at = 12; at < stated;) {
+    size_t index = 0;
+    for (uint64_t at = 12; at < stated; ++index) {
         if (stated - at < 8)
             context.fail("chunks", "a GLB chunk header is cut off", "copy or re-export the file");
         const uint64_t length = littleEndian32(all, at);
@@ -122,10 +151,17 @@ ByteSpan readGlbChunks(ImportContext& context, GltfFile& file) {
         const ByteSpan chunk = all.subspan(at, length);
         if (!haveJson && type != kJsonChunk)
             context.fail("chunks", "the first GLB chunk is not the JSON");
+        if (length % 4 != 0)
+            context.warn(element("chunks", index), "its length is no multiple of four");
         if (!haveJson)
             text = chunk;
         else if (type == kBinChunk && !file.binary)
-            file.binary = chunk;
+            takeBinary(context, file, chunk, index);
+        else
+            context.warn(element("chunks", index),
+                         type == kJsonChunk  ? "is a second JSON chunk; it is ignored"
+                         : type == kBinChunk ? "is a second binary chunk; it is ignored"
+                                             : "is of an unknown type; it is ignored");
         haveJson = true;
         at += length;
     }
@@ -135,6 +171,13 @@ ByteSpan readGlbChunks(ImportContext& context, GltfFile& file) {
 }
 
 } // namespace
+
+json parseJson(ImportContext& context, ByteSpan text, Comments comments) {
+    const bool ignore = comments == Comments::Ignore;
+    JsonMeter meter(context);
+    json::sax_parse(text.begin(), text.end(), &meter, nlohmann::detail::input_format_t::json, true, ignore);
+    return json::parse(text.begin(), text.end(), nullptr, true, ignore);
+}
 
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& shownAs) {
     namespace fs = std::filesystem;
@@ -173,7 +216,16 @@ GltfFile takeGltfApart(ImportContext& context, std::vector<uint8_t> bytes,
     if (text.size() >= 4 && littleEndian32(text, 0) == kGlbMagic)
         text = readGlbChunks(context, file);
     file.isGlb = text.data() != file.bytes.data();
-    file.json = parseBounded(context, text);
+    static constexpr std::array<uint8_t, 3> kByteOrderMark = {0xEF, 0xBB, 0xBF};
+    if (text.size() >= 3 && std::equal(kByteOrderMark.begin(), kByteOrderMark.end(), text.begin())) {
+        context.warn("", "the JSON begins with a byte order mark, which glTF forbids");
+        text = text.subspan(3);
+    }
+    const auto start = std::find_if(
+        text.begin(), text.end(), [](uint8_t c) { return c != ' ' && c != '\t' && c != '\r' && c != '\n'; });
+    if (!file.isGlb && (start == text.end() || *start != '{'))
+        refuseOtherFormats(context, file.bytes);
+    file.json = parseJson(context, text, Comments::Refuse);
     if (!file.json.is_object())
         context.fail("", "not a glTF file: its JSON is not an object", "open a .gltf or .glb file");
     return file;

@@ -25,6 +25,11 @@ struct GltfFile {
     std::optional<ByteSpan> binary; ///< the GLB's BIN chunk
 };
 
+enum class Comments { Refuse, Ignore };
+
+/// The JSON in `text`, within the limits of an import. Throws Error.
+[[nodiscard]] nlohmann::json parseJson(ImportContext& context, ByteSpan text, Comments comments);
+
 /// Reads a regular file whole. Throws Error (missing, a folder, unreadable, beyond kMaxFileBytes).
 [[nodiscard]] std::vector<uint8_t> readWholeFile(const std::filesystem::path& path,
                                                  const std::string& shownAs);

@@ -1,11 +1,13 @@
 #include "engine/scene/import/gltf_haptics.h"
 
+#include "engine/scene/import/gltf_mpeg.h"
 #include "engine/scene/import/json_fields.h"
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -14,7 +16,6 @@ using nlohmann::json;
 
 constexpr double kUnbounded = 1e30;
 constexpr const char* kOurs = "TOUCHSTONE_materials_haptic";
-constexpr std::array<const char*, 2> kMpegSpellings = {"MPEG_haptic_material", "MPEG_material_haptic"};
 constexpr const char* kPhysics = "KHR_physics_rigid_bodies";
 
 template <class Choice, size_t N>
@@ -150,73 +151,6 @@ void readOurs(ImportContext& context, const GltfDocument& document, size_t mater
                   place);
 }
 
-/// The root extension's `materials`, in whichever spelling the file uses; null without one.
-const json* mpegMaterials(const ImportContext& context, const GltfDocument& document, std::string& place) {
-    for (const char* spelling : kMpegSpellings) {
-        const json* root = extensionOf(context, document.json, spelling, "");
-        if (root == nullptr)
-            continue;
-        place = std::string("extensions.") + spelling + ".materials";
-        const auto found = root->find("materials");
-        if (found == root->end() || !found->is_array())
-            context.fail(place, "should be an array", "correct the extension in the file");
-        return &*found;
-    }
-    return nullptr;
-}
-
-/// The first plain map of an MPEG channel: "High_Resolution" before others; "Reference" maps index signals,
-/// not values, and are no maps for us.
-std::optional<FactorMap> mpegChannel(ImportContext& context, const GltfDocument& document,
-                                     const json& material, const char* name, const std::string& place,
-                                     float low, float high) {
-    const auto found = material.find(name);
-    if (found == material.end())
-        return std::nullopt;
-    const std::string at = place + "." + name;
-    if (!found->is_array())
-        context.fail(at, "should be an array of {texture, type}", "correct the extension in the file");
-    constexpr size_t kMaxMaps = 64;
-    if (found->size() > kMaxMaps)
-        context.fail(at, "holds more than " + std::to_string(kMaxMaps) + " maps",
-                     "correct the extension in the file");
-    std::optional<FactorMap> chosen;
-    bool chosenHigh = false;
-    for (size_t i = 0; i < found->size(); ++i) {
-        const json& entry = (*found)[i];
-        const std::string entryPlace = at + "[" + std::to_string(i) + "]";
-        if (!entry.is_object() || !entry.contains("texture"))
-            context.fail(entryPlace, "should be an object with a texture",
-                         "correct the extension in the file");
-        const std::string type = textField(context, entry, "type", entryPlace).value_or("Other");
-        const TextureRef texture = readTexture(context, document, entry["texture"], entryPlace + ".texture");
-        const bool isHigh = type == "High_Resolution";
-        if (type == "Reference")
-            context.warn(entryPlace, "refers to tactile signals, which are not played");
-        else if (texture && (!chosen || (isHigh && !chosenHigh))) {
-            chosen = FactorMap{texture, low, high};
-            chosenHigh = isHigh;
-        }
-    }
-    return chosen;
-}
-
-void readMpeg(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says) {
-    std::string place;
-    const json& material = (*mpegMaterials(context, document, place))[index];
-    place += "[" + std::to_string(index) + "]";
-    says.mpegStiffness =
-        mpegChannel(context, document, material, "stiffness", place, kMpegStiffnessMin, kMpegStiffnessMax);
-    says.mpegFriction =
-        mpegChannel(context, document, material, "friction", place, kMpegFrictionMin, kMpegFrictionMax);
-    for (const auto& [channel, value] : material.items())
-        if (channel != "name" && channel != "stiffness" && channel != "friction" && channel != "extensions" &&
-            channel != "extras") {
-            says.mpegUnavailable[channel] = value;
-            context.warn(place + "." + channel.substr(0, 40), "is not yet available; felt without it");
-        }
-}
-
 const json* physicsMaterials(const ImportContext& context, const GltfDocument& document) {
     const json* root = extensionOf(context, document.json, kPhysics, "");
     if (root == nullptr)
@@ -233,12 +167,35 @@ void readPhysics(ImportContext& context, const GltfDocument& document, size_t in
     const json& material = (*physicsMaterials(context, document))[index];
     const std::string place =
         std::string("extensions.") + kPhysics + ".physicsMaterials[" + std::to_string(index) + "]";
+    if (!material.is_object())
+        context.fail(place, "should be an object", "correct the extension in the file");
     const auto friction = [&](const char* name) {
         return std::optional(
             numberField(context, material, name, place, 0.0, kUnbounded).value_or(kPhysicsFriction));
     };
     says.physicsStatic = friction("staticFriction");
     says.physicsDynamic = friction("dynamicFriction");
+}
+
+/// The node for which the collider of node `index` speaks, and its physics material, -1 without one.
+std::pair<size_t, int> colliderOf(const ImportContext& context, const GltfDocument& document, size_t index,
+                                  size_t materialCount) {
+    const std::string place = element("nodes", index);
+    const json* body = extensionOf(context, document.json["nodes"][index], kPhysics, place);
+    if (body == nullptr || !body->contains("collider"))
+        return {index, -1};
+    const std::string at = place + ".extensions." + kPhysics + ".collider";
+    const json& collider = (*body)["collider"];
+    if (!collider.is_object())
+        context.fail(at, "should be an object", "correct the extension in the file");
+    const int chosen =
+        indexField(context, collider, "physicsMaterial", at, materialCount, "physicsMaterials").value_or(-1);
+    const auto& nodes = document.model.nodes;
+    if (nodes[index].mesh >= 0 || !collider.contains("geometry") || !collider["geometry"].is_object())
+        return {index, chosen};
+    const auto target =
+        indexField(context, collider["geometry"], "node", at + ".geometry", nodes.size(), "nodes");
+    return {target ? static_cast<size_t>(*target) : index, chosen};
 }
 
 /// For every node itself or its nearest ancestor that has a mesh, -1 if there is none. Top down, so that a
@@ -266,21 +223,7 @@ std::vector<int> nearestMeshNodes(const tinygltf::Model& model) {
     return nearest;
 }
 
-void checkObjectsIn(const ImportContext& context, const json* array, const std::string& place) {
-    for (size_t i = 0; array != nullptr && i < array->size(); ++i)
-        if (!(*array)[i].is_object())
-            context.fail(element(place, i), "should be an object", "correct the extension in the file");
-}
-
 } // namespace
-
-void checkHapticExtensions(ImportContext& context, const GltfDocument& document) {
-    std::string place;
-    const json* mpeg = mpegMaterials(context, document, place);
-    checkObjectsIn(context, mpeg, place);
-    checkObjectsIn(context, physicsMaterials(context, document),
-                   std::string("extensions.") + kPhysics + ".physicsMaterials");
-}
 
 HapticLayers readHaptics(ImportContext& context, const GltfDocument& document, const SurfaceKey& key) {
     HapticLayers says;
@@ -289,63 +232,26 @@ HapticLayers readHaptics(ImportContext& context, const GltfDocument& document, c
     if (key.mpeg >= 0)
         readMpeg(context, document, static_cast<size_t>(key.mpeg), says);
     if (key.physics >= 0)
-        readPhysics(context, document, static_cast<size_t>(key.physics), says);
+        (void)context.attempt("felt without it", [&] {
+            readPhysics(context, document, static_cast<size_t>(key.physics), says);
+        });
     return says;
-}
-
-std::optional<int> mpegMaterialOf(ImportContext& context, const GltfDocument& document, size_t mesh) {
-    std::string place;
-    const json* materials = mpegMaterials(context, document, place);
-    const size_t count = materials == nullptr ? 0 : materials->size();
-    const json& owner = document.json["meshes"][mesh];
-    const auto extensions = owner.find("extensions");
-    if (extensions == owner.end())
-        return std::nullopt;
-    for (const char* spelling : kMpegSpellings) {
-        const auto found = extensions->find(spelling);
-        if (found == extensions->end())
-            continue;
-        const std::string at = element("meshes", mesh) + ".extensions";
-        if (found->is_number())
-            return indexField(context, *extensions, spelling, at, count, "materials");
-        if (!found->is_object())
-            context.fail(at + "." + spelling, "should be an object or an index",
-                         "correct the extension in the file");
-        return indexField(context, *found, "hapticMaterialIndex", at + "." + spelling, count, "materials");
-    }
-    return std::nullopt;
 }
 
 std::vector<int> physicsMaterialOfNodes(ImportContext& context, const GltfDocument& document) {
     const auto& nodes = document.model.nodes;
     std::vector<int> material(nodes.size(), -1);
-    const json* materials = physicsMaterials(context, document);
+    const json* materials = nullptr;
+    (void)context.attempt("felt without it", [&] { materials = physicsMaterials(context, document); });
     if (materials == nullptr)
         return material;
     const std::vector<int> meshAbove = nearestMeshNodes(document.model);
-
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const std::string place = element("nodes", i);
-        const json* body = extensionOf(context, document.json["nodes"][i], kPhysics, place);
-        if (body == nullptr || !body->contains("collider"))
-            continue;
-        const std::string at = place + ".extensions." + kPhysics + ".collider";
-        const json& collider = (*body)["collider"];
-        if (!collider.is_object())
-            context.fail(at, "should be an object", "correct the extension in the file");
-        const auto chosen =
-            indexField(context, collider, "physicsMaterial", at, materials->size(), "physicsMaterials");
-        if (!chosen)
-            continue;
-        int target = static_cast<int>(i);
-        if (nodes[i].mesh < 0 && collider.contains("geometry") && collider["geometry"].is_object())
-            target =
-                indexField(context, collider["geometry"], "node", at + ".geometry", nodes.size(), "nodes")
-                    .value_or(target);
-        target = meshAbove[static_cast<size_t>(target)];
-        if (target >= 0)
-            material[static_cast<size_t>(target)] = *chosen;
-    }
+    for (size_t i = 0; i < nodes.size(); ++i)
+        (void)context.attempt("felt without it", [&] {
+            const auto [target, chosen] = colliderOf(context, document, i, materials->size());
+            if (chosen >= 0 && meshAbove[target] >= 0)
+                material[static_cast<size_t>(meshAbove[target])] = chosen;
+        });
     return material;
 }
 

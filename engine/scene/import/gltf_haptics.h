@@ -5,7 +5,7 @@
 #include "engine/scene/haptic_layers.h"
 #include "engine/scene/import/gltf_materials.h"
 
-#include <optional>
+#include <vector>
 
 namespace touchstone {
 
@@ -18,16 +18,9 @@ inline constexpr float kMpegFrictionMin = 0.0f, kMpegFrictionMax = 1.0f;
 /// KHR_physics_rigid_bodies' default for both coefficients.
 inline constexpr float kPhysicsFriction = 0.6f;
 
-/// Checks the root-level extension objects once (types, references). Throws Error naming the field.
-void checkHapticExtensions(ImportContext& context, const GltfDocument& document);
-
 /// All that is said of one surface, layer by layer; without the roughness, which needs the images.
 [[nodiscard]] HapticLayers readHaptics(ImportContext& context, const GltfDocument& document,
                                        const SurfaceKey& key);
-
-/// MPEG's material of a mesh, in either spelling; nothing if it has none.
-[[nodiscard]] std::optional<int> mpegMaterialOf(ImportContext& context, const GltfDocument& document,
-                                                size_t mesh);
 
 /// The physics material of every node's mesh, -1 for none. A collider speaks for the mesh of its own node;
 /// without one, for its geometry.node; without that, for the nearest ancestor that has a mesh.

@@ -25,17 +25,41 @@ class ImageSource {
     ImageSource(ImportContext& context, const GltfFile& file, const GltfDocument& document)
         : context_(context), file_(file), document_(document) {}
 
-    /// Sets `image.problem` when there is nothing to decode.
+    /// Sets `image.problem` when there is nothing to decode. What is wrong with an image costs the image, no
+    /// more.
     Encoded fetch(const json& gltf, const std::string& place, Image& image) {
         Encoded encoded;
         encoded.declaredType = gltf.value("mimeType", "");
-        if (gltf.contains("bufferView")) {
-            encoded.bytes = document_.buffers.view(gltf["bufferView"]);
-            if (encoded.bytes.empty())
-                image.problem = "its buffer has no data";
-            return encoded;
-        }
-        const std::string uri = gltf["uri"];
+        const bool hasView = gltf.contains("bufferView"), hasUri = gltf.contains("uri");
+        if (hasView && hasUri)
+            context_.warn(place, "has both a uri and a bufferView; the bufferView is read");
+        if (hasView)
+            readView(gltf["bufferView"], place, encoded, image);
+        else if (!hasUri)
+            image.problem = "it has neither a uri nor a bufferView";
+        else
+            try {
+                readUri(gltf["uri"], place, encoded, image);
+            } catch (const Error& error) {
+                context_.stopIfCancelled();
+                image.problem = error.problem();
+            }
+        return encoded;
+    }
+
+  private:
+    void readView(size_t view, const std::string& place, Encoded& encoded, Image& image) {
+        if (encoded.declaredType.empty())
+            context_.warn(place, "has a bufferView but no mimeType");
+        if (document_.json["bufferViews"][view].contains("byteStride"))
+            context_.warn(place + ".bufferView",
+                          "has a byteStride, which the buffer view of an image must not have");
+        encoded.bytes = document_.buffers.view(view);
+        if (encoded.bytes.empty())
+            image.problem = "its buffer has no data";
+    }
+
+    void readUri(const std::string& uri, const std::string& place, Encoded& encoded, Image& image) {
         if (isDataUri(uri)) {
             DataUri data = decodeDataUri(context_, place + ".uri", uri);
             if (encoded.declaredType.empty())
@@ -49,10 +73,8 @@ class ImageSource {
                      image);
         }
         encoded.bytes = encoded.owned;
-        return encoded;
     }
 
-  private:
     void readFile(const std::filesystem::path& path, const std::string& uri, Encoded& encoded, Image& image) {
         if (exhausted_) {
             image.problem = kTooManyPixels;

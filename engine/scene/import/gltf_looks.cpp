@@ -160,9 +160,7 @@ void readUnlit(ImportContext& context, const json& stated, const std::string& pl
 
 void readLookExtensions(ImportContext& context, const GltfDocument& document, const json& stated,
                         const std::string& place, Material& material) {
-    const auto fields = [&](const char* name) {
-        return LookFields(context, document, stated, name, place);
-    };
+    const auto fields = [&](const char* name) { return LookFields(context, document, stated, name, place); };
     if (fields("KHR_materials_unlit"))
         readUnlit(context, stated, place, material);
     if (const LookFields strength = fields("KHR_materials_emissive_strength")) {

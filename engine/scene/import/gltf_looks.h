@@ -7,8 +7,9 @@
 
 namespace touchstone {
 
-/// Fills the parts of `material` that the extensions of the file's material `stated` at `place` give. What is wrong
-/// in them is drawn with its default or clamped, with a warning: a colour cannot make the geometry wrong.
+/// Fills the parts of `material` that the extensions of the file's material `stated` at `place` give. What is
+/// wrong in them is drawn with its default or clamped, with a warning: a colour cannot make the geometry
+/// wrong.
 void readLookExtensions(ImportContext& context, const GltfDocument& document, const nlohmann::json& stated,
                         const std::string& place, Material& material);
 

@@ -92,11 +92,13 @@ int imageOf(ImportContext& context, const GltfDocument& document, size_t index) 
     const std::string place = element("textures", index);
     const json& texture = document.json["textures"][index];
     const size_t images = document.json.contains("images") ? document.json["images"].size() : 0;
-    if (const json* webp = extensionOf(context, texture, "EXT_texture_webp", place))
-        if (const auto source = indexField(context, *webp, "source", place + ".extensions.EXT_texture_webp",
-                                           images, "images"))
-            return *source;
-    return document.model.textures[index].source;
+    std::optional<int> source;
+    (void)context.attempt("it is ignored", [&] {
+        if (const json* webp = extensionOf(context, texture, "EXT_texture_webp", place))
+            source = indexField(context, *webp, "source", place + ".extensions.EXT_texture_webp", images,
+                                "images");
+    });
+    return source.value_or(document.model.textures[index].source);
 }
 
 /// A texture with its sampler and image.
@@ -149,7 +151,6 @@ std::vector<SceneTexture> readTextures(ImportContext& context, const GltfDocumen
 
 MaterialTable::MaterialTable(ImportContext& context, const GltfDocument& document)
     : context_(context), document_(document) {
-    checkHapticExtensions(context, document);
     for (size_t i = 0; i < document.model.materials.size(); ++i) {
         context.stopIfCancelled();
         (void)indexOf({static_cast<int>(i), -1, -1});
@@ -164,7 +165,9 @@ int MaterialTable::indexOf(const SurfaceKey& key) {
     if (key.mpeg >= 0 || key.physics >= 0)
         material = materials_[static_cast<size_t>(indexOf({key.material, -1, -1}))];
     else if (key.material >= 0)
-        readLook(context_, document_, static_cast<size_t>(key.material), material);
+        (void)context_.attempt("the material is drawn without it", [&] {
+            readLook(context_, document_, static_cast<size_t>(key.material), material);
+        });
     material.fileIndex = key.material;
     material.says = readHaptics(context_, document_, key);
     material.haptic = statedHaptics(material.says);

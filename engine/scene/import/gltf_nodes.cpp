@@ -27,9 +27,15 @@ Node readNode(ImportContext& context, const tinygltf::Node& gltf, const std::str
             context.warn(place, "has both a matrix and a translation, rotation or scale; the matrix is used");
         node.hasMatrix = true;
         node.matrix = glm::make_mat4(gltf.matrix.data());
-        if (node.matrix[0][3] != 0.0 || node.matrix[1][3] != 0.0 || node.matrix[2][3] != 0.0 ||
-            node.matrix[3][3] != 1.0)
-            context.fail(place + ".matrix", "is not affine: its last row is not 0, 0, 0, 1");
+        constexpr double kRounding = 1e-6; // of exporters that multiply in single precision
+        const glm::dvec4 lastRow(node.matrix[0][3], node.matrix[1][3], node.matrix[2][3], node.matrix[3][3]);
+        if (lastRow != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+            if (!(glm::distance(lastRow, glm::dvec4(0.0, 0.0, 0.0, 1.0)) < kRounding))
+                context.fail(place + ".matrix", "is not affine: its last row is not 0, 0, 0, 1");
+            context.warn(place + ".matrix", "has a last row that is 0, 0, 0, 1 only up to rounding");
+            for (int column = 0; column < 4; ++column)
+                node.matrix[column][3] = column == 3 ? 1.0 : 0.0;
+        }
     }
     return node;
 }
@@ -70,7 +76,8 @@ NodeForest readNodes(ImportContext& context, const GltfDocument& document) {
         forest.gltfOfNode.push_back(next.gltf);
         forest.shown.push_back(next.shown);
         for (size_t c = gltf.children.size(); c-- > 0;)
-            open.push_back({gltf.children[c], index, next.shown});
+            open.push_back(
+                {gltf.children[c], index, next.shown || isRootShown[static_cast<size_t>(gltf.children[c])]});
     }
     return forest;
 }

@@ -1,7 +1,9 @@
 #include "engine/scene/import/gltf_schema.h"
 
+#include "engine/scene/import/gltf_kind.h"
+
+#include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <span>
 
@@ -25,8 +27,9 @@ enum class Type {
     Flag,
     Text,
     Object,  // checked with `rules`
-    Objects, // array of them, at least `size` of them
-    TextureInfo
+    Objects, // array of them
+    TextureInfo,
+    Other // any value, not read here or checked where it is read
 };
 
 struct Rule {
@@ -38,8 +41,14 @@ struct Rule {
     size_t size = 0;
     const Rule* rules = nullptr;
     size_t ruleCount = 0;
+    bool mendable = false; // what is wrong with it costs a warning and its value, not the file
 };
 
+/// For values that neither geometry nor safety depends on.
+constexpr Rule mendable(Rule rule) {
+    rule.mendable = true;
+    return rule;
+}
 constexpr Rule count(const char* name, bool required, double low, double high) {
     return {name, Type::Count, required, low, high};
 }
@@ -55,8 +64,8 @@ constexpr Rule numbers(const char* name, size_t size, double low = -kAny, double
 constexpr Rule object(const char* name, std::span<const Rule> rules, bool required = false) {
     return {name, Type::Object, required, -kAny, kAny, nullptr, 0, rules.data(), rules.size()};
 }
-constexpr Rule objects(const char* name, std::span<const Rule> rules, bool required, size_t atLeast) {
-    return {name, Type::Objects, required, -kAny, kAny, nullptr, atLeast, rules.data(), rules.size()};
+constexpr Rule objects(const char* name, std::span<const Rule> rules, bool required = false) {
+    return {name, Type::Objects, required, -kAny, kAny, nullptr, 0, rules.data(), rules.size()};
 }
 constexpr Rule text(const char* name, bool required = false) {
     return {name, Type::Text, required};
@@ -65,109 +74,151 @@ constexpr Rule flag(const char* name) {
     return {name, Type::Flag};
 }
 constexpr Rule texture(const char* name) {
-    return {name, Type::TextureInfo};
+    return mendable({name, Type::TextureInfo});
 }
+constexpr Rule other(const char* name) {
+    return {name, Type::Other};
+}
+constexpr Rule kName = mendable(text("name"));
 
-constexpr Rule kAsset[] = {text("version", true), text("minVersion")};
-constexpr Rule kBuffer[] = {text("name"), text("uri"), count("byteLength", true, 1, kMaxOffset)};
-constexpr Rule kBufferView[] = {text("name"),
+// Zero-length buffers and views and accessors of no elements hold nothing that could be wrong; validateGltf
+// tells of them.
+constexpr Rule kAsset[] = {text("version", true), text("minVersion"), other("generator"), other("copyright")};
+constexpr Rule kBuffer[] = {kName, text("uri"), count("byteLength", true, 0, kMaxOffset)};
+constexpr Rule kBufferView[] = {kName,
                                 index("buffer", "buffers", true),
                                 count("byteOffset", false, 0, kMaxOffset),
-                                count("byteLength", true, 1, kMaxOffset),
-                                count("byteStride", false, 4, 252),
-                                count("target", false, 0, kMaxInt)};
+                                count("byteLength", true, 0, kMaxOffset),
+                                count("byteStride", false, 0, kMaxInt),
+                                mendable(count("target", false, 0, kMaxInt))};
 constexpr Rule kSparseIndices[] = {index("bufferView", "bufferViews", true),
                                    count("byteOffset", false, 0, kMaxInt),
                                    count("componentType", true, 5121, 5125)};
 constexpr Rule kSparseValues[] = {index("bufferView", "bufferViews", true),
                                   count("byteOffset", false, 0, kMaxInt)};
-constexpr Rule kSparse[] = {count("count", true, 1, kMaxInt), object("indices", kSparseIndices, true),
+constexpr Rule kSparse[] = {count("count", true, 0, kMaxInt), object("indices", kSparseIndices, true),
                             object("values", kSparseValues, true)};
-constexpr Rule kAccessor[] = {text("name"),
+constexpr Rule kAccessor[] = {kName,
                               index("bufferView", "bufferViews"),
                               count("byteOffset", false, 0, kMaxOffset),
                               count("componentType", true, 5120, 5126),
-                              count("count", true, 1, kMaxInt),
+                              count("count", true, 0, kMaxInt),
                               text("type", true),
                               flag("normalized"),
                               object("sparse", kSparse),
-                              {"min", Type::Numbers},
-                              {"max", Type::Numbers}};
-constexpr Rule kImage[] = {text("name"), text("uri"), index("bufferView", "bufferViews"), text("mimeType")};
-constexpr Rule kSampler[] = {text("name"), count("magFilter", false, 0, kMaxInt),
-                             count("minFilter", false, 0, kMaxInt), count("wrapS", false, 0, kMaxInt),
-                             count("wrapT", false, 0, kMaxInt)};
-constexpr Rule kTexture[] = {text("name"), index("source", "images"), index("sampler", "samplers")};
+                              mendable({"min", Type::Numbers}),
+                              mendable({"max", Type::Numbers})};
+constexpr Rule kImage[] = {kName, mendable(text("uri")), mendable(index("bufferView", "bufferViews")),
+                           mendable(text("mimeType"))};
+constexpr Rule kSampler[] = {
+    kName, mendable(count("magFilter", false, 0, kMaxInt)), mendable(count("minFilter", false, 0, kMaxInt)),
+    mendable(count("wrapS", false, 0, kMaxInt)), mendable(count("wrapT", false, 0, kMaxInt))};
+constexpr Rule kTexture[] = {kName, mendable(index("source", "images")),
+                             mendable(index("sampler", "samplers"))};
 constexpr Rule kTextureInfo[] = {index("index", "textures", true), count("texCoord", false, 0, 1000),
                                  number("scale"), number("strength")};
-constexpr Rule kPbr[] = {numbers("baseColorFactor", 4), texture("baseColorTexture"), number("metallicFactor"),
-                         number("roughnessFactor"), texture("metallicRoughnessTexture")};
-constexpr Rule kMaterial[] = {text("name"),
-                              object("pbrMetallicRoughness", kPbr),
+constexpr Rule kPbr[] = {mendable(numbers("baseColorFactor", 4)), texture("baseColorTexture"),
+                         mendable(number("metallicFactor")), mendable(number("roughnessFactor")),
+                         texture("metallicRoughnessTexture")};
+constexpr Rule kMaterial[] = {kName,
+                              mendable(object("pbrMetallicRoughness", kPbr)),
                               texture("normalTexture"),
                               texture("occlusionTexture"),
                               texture("emissiveTexture"),
-                              numbers("emissiveFactor", 3),
-                              text("alphaMode"),
-                              number("alphaCutoff"),
-                              flag("doubleSided")};
+                              mendable(numbers("emissiveFactor", 3)),
+                              mendable(text("alphaMode")),
+                              mendable(number("alphaCutoff")),
+                              mendable(flag("doubleSided"))};
 constexpr Rule kPrimitive[] = {{"attributes", Type::IndexMap, true, 0, kAny, "accessors"},
                                index("indices", "accessors"),
-                               index("material", "materials"),
-                               count("mode", false, 0, 6)};
-constexpr Rule kMesh[] = {text("name"), objects("primitives", kPrimitive, true, 1)};
-constexpr Rule kNode[] = {text("name"),
+                               mendable(index("material", "materials")),
+                               count("mode", false, 0, 6),
+                               other("targets")};
+constexpr Rule kMesh[] = {kName, objects("primitives", kPrimitive), other("weights")};
+constexpr Rule kNode[] = {kName,
                           {"children", Type::Indices, false, 0, kAny, "nodes"},
+                          other("camera"),
+                          other("skin"),
+                          other("weights"),
                           index("mesh", "meshes"),
                           numbers("matrix", 16),
                           numbers("translation", 3),
                           numbers("rotation", 4),
                           numbers("scale", 3)};
-constexpr Rule kScene[] = {text("name"), {"nodes", Type::Indices, false, 0, kAny, "nodes", 1}};
+constexpr Rule kScene[] = {kName, {"nodes", Type::Indices, false, 0, kAny, "nodes"}};
 constexpr Rule kTarget[] = {index("node", "nodes"), text("path", true)};
 constexpr Rule kChannel[] = {count("sampler", true, 0, kMaxInt), object("target", kTarget, true)};
 constexpr Rule kAnimationSampler[] = {index("input", "accessors", true), index("output", "accessors", true),
                                       text("interpolation")};
-constexpr Rule kAnimation[] = {text("name"), objects("samplers", kAnimationSampler, true, 0),
-                               objects("channels", kChannel, true, 0)};
+constexpr Rule kAnimation[] = {kName, objects("samplers", kAnimationSampler, true),
+                               objects("channels", kChannel, true)};
 
-// Empty top-level arrays are errors of the file (section 5: minItems 1), like a wrong type is.
+// Geometry is refused where it is wrong. What is only looked at, or only moves, is left out where it is
+// wrong: the objects of a mendable array that do not pass become objects without properties, so that indices
+// stay.
 constexpr Rule kRoot[] = {object("asset", kAsset, true),
-                          objects("buffers", kBuffer, false, 1),
-                          objects("bufferViews", kBufferView, false, 1),
-                          objects("accessors", kAccessor, false, 1),
-                          objects("images", kImage, false, 1),
-                          objects("samplers", kSampler, false, 1),
-                          objects("textures", kTexture, false, 1),
-                          objects("materials", kMaterial, false, 1),
-                          objects("meshes", kMesh, false, 1),
-                          objects("nodes", kNode, false, 1),
-                          objects("scenes", kScene, false, 1),
-                          objects("animations", kAnimation, false, 0),
+                          objects("buffers", kBuffer),
+                          objects("bufferViews", kBufferView),
+                          objects("accessors", kAccessor),
+                          mendable(objects("images", kImage)),
+                          mendable(objects("samplers", kSampler)),
+                          mendable(objects("textures", kTexture)),
+                          mendable(objects("materials", kMaterial)),
+                          objects("meshes", kMesh),
+                          objects("nodes", kNode),
+                          objects("scenes", kScene),
+                          mendable(objects("animations", kAnimation)),
+                          other("cameras"),
+                          other("skins"),
+                          other("extensionsUsed"),
+                          other("extensionsRequired"),
                           index("scene", "scenes")};
 
+/// Checks and mends: integers written "36.0" become integers, mendable values that do not pass go.
 class SchemaCheck {
   public:
-    SchemaCheck(const ImportContext& context, const json& root) : context_(context), root_(root) {}
+    /// `tellUnknown`: warn about properties that glTF does not define.
+    SchemaCheck(ImportContext& context, const json& root, bool tellUnknown)
+        : context_(context), root_(root), tellUnknown_(tellUnknown) {}
 
-    void checkObject(const json& value, std::span<const Rule> rules, const std::string& place) const {
+    void checkObject(json& value, std::span<const Rule> rules, const std::string& place) const {
         if (!value.is_object())
             wrongType(place, value, "an object");
         for (const Rule& rule : rules) {
             const auto found = value.find(rule.name);
             const std::string at = place.empty() ? rule.name : place + "." + rule.name;
-            if (found != value.end())
+            if (found == value.end()) {
+                if (rule.required)
+                    context_.fail(place.empty() ? "root" : place,
+                                  std::string("property '") + rule.name + "' is missing");
+            } else if (!rule.mendable) {
                 check(*found, rule, at);
-            else if (rule.required)
-                context_.fail(place.empty() ? "root" : place,
-                              std::string("property '") + rule.name + "' is missing");
+            } else if (!context_.attempt("it is ignored", [&] { check(*found, rule, at); })) {
+                value.erase(found);
+            }
         }
         // Extensions that we know are checked where they are read; here only their container.
-        if (!place.empty() && value.contains("extensions") && !value["extensions"].is_object())
-            wrongType(place + ".extensions", value["extensions"], "an object");
+        if (const auto found = value.find("extensions"); found != value.end() && !found->is_object()) {
+            context_.warn(place.empty() ? "extensions" : place + ".extensions",
+                          "should be an object but is " + describe(*found) + "; it is ignored");
+            value.erase(found);
+        }
+        if (tellUnknown_)
+            warnOfUnknown(value, rules, place);
     }
 
   private:
+    void warnOfUnknown(const json& value, std::span<const Rule> rules, const std::string& place) const {
+        for (const auto& [name, unused] : value.items()) {
+            const bool known = name == "extensions" || name == "extras" ||
+                               std::any_of(rules.begin(), rules.end(),
+                                           [&name = name](const Rule& rule) { return name == rule.name; });
+            if (!known)
+                context_.warn((place.empty() ? "" : place + ".") + name.substr(0, 60),
+                              "is not a property of glTF; it is ignored");
+        }
+    }
+
     /// The size of a top-level array, 0 if it is absent (or not an array: told in its own place).
     [[nodiscard]] size_t sizeOf(const char* name) const {
         const auto found = root_.find(name);
@@ -195,7 +246,7 @@ class SchemaCheck {
         }
     }
 
-    void check(const json& value, const Rule& rule, const std::string& place) const {
+    void check(json& value, const Rule& rule, const std::string& place) const {
         switch (rule.type) {
         case Type::Count:
             checkCount(value, rule, place);
@@ -206,8 +257,8 @@ class SchemaCheck {
         case Type::IndexMap:
             if (!value.is_object())
                 wrongType(place, value, "an object");
-            for (const auto& [name, entry] : value.items())
-                checkIndex(entry, sizeOf(rule.target), rule.target, place + "." + name);
+            for (auto entry = value.begin(); entry != value.end(); ++entry)
+                checkIndex(entry.value(), sizeOf(rule.target), rule.target, place + "." + entry.key());
             break;
         case Type::Indices:
             checkIndices(value, rule, place);
@@ -235,20 +286,28 @@ class SchemaCheck {
         case Type::TextureInfo:
             checkObject(value, kTextureInfo, place);
             break;
+        case Type::Other:
+            break;
         }
     }
 
-    void checkCount(const json& value, const Rule& rule, const std::string& place) const {
+    /// JSON has one kind of number: "36.0" is an integer (glTF 2.0, section 2.7).
+    void checkInteger(json& value, const std::string& place) const {
+        if (value.is_number_float() && isWhole(value.get<double>()))
+            value = static_cast<int64_t>(value.get<double>());
         if (!value.is_number_integer())
             wrongType(place, value, "an integer");
+    }
+
+    void checkCount(json& value, const Rule& rule, const std::string& place) const {
+        checkInteger(value, place);
         const double number = value.get<double>();
         if (!(number >= rule.low && number <= rule.high))
             outOfRange(value, rule, place);
     }
 
-    void checkIndex(const json& value, size_t size, const char* target, const std::string& place) const {
-        if (!value.is_number_integer())
-            wrongType(place, value, "an integer");
+    void checkIndex(json& value, size_t size, const char* target, const std::string& place) const {
+        checkInteger(value, place);
         const double number = value.get<double>();
         if (!(number >= 0 && number < static_cast<double>(size)))
             context_.fail(place,
@@ -256,11 +315,11 @@ class SchemaCheck {
                               (size == 1 ? "is 1 of them" : "are " + std::to_string(size) + " of them"));
     }
 
-    void checkIndices(const json& value, const Rule& rule, const std::string& place) const {
+    void checkIndices(json& value, const Rule& rule, const std::string& place) const {
         if (!value.is_array())
             wrongType(place, value, "an array");
-        if (value.size() < rule.size)
-            context_.fail(place, "is empty", "remove the empty array, or re-export the model");
+        if (value.empty())
+            context_.warn(place, kEmpty);
         const size_t size = sizeOf(rule.target);
         for (size_t i = 0; i < value.size(); ++i)
             checkIndex(value[i], size, rule.target, place + "[" + std::to_string(i) + "]");
@@ -284,13 +343,19 @@ class SchemaCheck {
             checkNumber(each, rule, place);
     }
 
-    void checkObjects(const json& value, const Rule& rule, const std::string& place) const {
+    void checkObjects(json& value, const Rule& rule, const std::string& place) const {
         if (!value.is_array())
             wrongType(place, value, "an array");
-        if (value.size() < rule.size)
-            context_.fail(place, "is empty", "remove the empty array, or re-export the model");
-        for (size_t i = 0; i < value.size(); ++i)
-            checkObject(value[i], {rule.rules, rule.ruleCount}, place + "[" + std::to_string(i) + "]");
+        if (value.empty())
+            context_.warn(place, kEmpty);
+        for (size_t i = 0; i < value.size(); ++i) {
+            const std::string at = place + "[" + std::to_string(i) + "]";
+            const auto checkOne = [&] { checkObject(value[i], {rule.rules, rule.ruleCount}, at); };
+            if (!rule.mendable)
+                checkOne();
+            else if (!context_.attempt("it is left out", checkOne))
+                value[i] = json::object();
+        }
     }
 
     [[noreturn]] void outOfRange(const json& value, const Rule& rule, const std::string& place) const {
@@ -304,13 +369,19 @@ class SchemaCheck {
         context_.fail(place, value.dump() + " is out of range, it must be " + allowed);
     }
 
-    const ImportContext& context_;
+    static constexpr const char* kEmpty = "is empty: the specification asks for at least one entry";
+    ImportContext& context_;
     const json& root_;
+    bool tellUnknown_;
 };
 
 } // namespace
 
-void checkSchema(ImportContext& context, const json& gltf) {
+bool isWhole(double number) {
+    return std::abs(number) <= kMaxOffset && number == std::floor(number);
+}
+
+void checkSchema(ImportContext& context, json& gltf) {
     size_t total = 0;
     for (const auto& [name, value] : gltf.items())
         total += value.is_array() ? value.size() : 0;
@@ -323,7 +394,8 @@ void checkSchema(ImportContext& context, const json& gltf) {
     if (materials != gltf.end() && materials->size() > kMaxMaterials)
         context.fail("materials", "holds more than the limit of " + std::to_string(kMaxMaterials),
                      "split the model into several files");
-    SchemaCheck(context, gltf).checkObject(gltf, kRoot, "");
+    checkGltfVersion(context, gltf);
+    SchemaCheck(context, gltf, true).checkObject(gltf, kRoot, "");
     for (const char* unused : {"cameras", "skins"}) {
         const auto found = gltf.find(unused);
         if (found != gltf.end() && (!found->is_array() || found->empty()))
@@ -332,7 +404,8 @@ void checkSchema(ImportContext& context, const json& gltf) {
 }
 
 void checkTextureInfo(ImportContext& context, const json& gltf, const json& info, const std::string& place) {
-    SchemaCheck(context, gltf).checkObject(info, kTextureInfo, place);
+    json checked = info; // the fields that extensions add to a textureInfo are checked where they are read
+    SchemaCheck(context, gltf, false).checkObject(checked, kTextureInfo, place);
 }
 
 } // namespace touchstone

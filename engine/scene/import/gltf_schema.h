@@ -10,8 +10,13 @@
 namespace touchstone {
 
 /// Throws Error for a wrong type, a missing required property, a value out of range or an index that leads
-/// nowhere, in the parts that we use; warns about the parts that we do not (cameras, skins).
-void checkSchema(ImportContext& context, const nlohmann::json& gltf);
+/// nowhere, where geometry depends on it. Elsewhere (names, looks, images, animations) it removes what is
+/// wrong from `gltf` and warns; objects of arrays stay, without properties. Integers written "36.0" become
+/// integers.
+void checkSchema(ImportContext& context, nlohmann::json& gltf);
+
+/// Whether `number` has no fraction and is exact in JSON, |number| < 2^53.
+[[nodiscard]] bool isWhole(double number);
 
 /// Throws unless `info` is a well-formed textureInfo (also for extensions, whose JSON checkSchema never
 /// sees).

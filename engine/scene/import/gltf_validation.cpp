@@ -1,7 +1,9 @@
 #include "engine/scene/import/gltf_validation.h"
 
+#include "engine/scene/import/gltf_extensions.h"
+#include "engine/scene/import/gltf_flaws.h"
+
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
@@ -12,97 +14,15 @@ namespace {
 
 using nlohmann::json;
 
-// Read in full, or drawn and felt without: then the file still shows what it is, and we say so.
-constexpr std::array<std::string_view, 18> kReadExtensions = {
-    "KHR_mesh_quantization",      "KHR_texture_transform",
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-    "EXT_texture_webp",           "TOUCHSTONE_materials_haptic",
-    "MPEG_haptic_material",       "MPEG_material_haptic",
-    "KHR_physics_rigid_bodies",   "KHR_materials_emissive_strength",
-    "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen"};
-/// Optional extensions whose absence changes what is there to touch or see, and how.
-constexpr std::pair<std::string_view, const char*> kMissedExtensions[] = {
-    {"EXT_mesh_gpu_instancing", "its copies of meshes are not placed"},
-    {"KHR_texture_basisu", "its compressed textures are left out"},
-    {"KHR_node_visibility", "hidden nodes are shown"},
-    {"KHR_animation_pointer", "only nodes are animated"}};
-constexpr std::array<std::string_view, 3> kHarmlessExtensions = {"KHR_lights_punctual", "KHR_xmp_json_ld",
-                                                                 "KHR_materials_variants"};
-
-bool contains(auto&& list, std::string_view name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-}
-
-void checkVersion(const ImportContext& context, const json& gltf) {
-    const auto isTwo = [](const std::string& version) {
-        return version.size() >= 3 && version.starts_with("2.");
-    };
-    const auto& asset = gltf["asset"];
-    const std::string version = asset["version"];
-    if (!isTwo(version))
-        context.fail("asset.version", "glTF version \"" + version + "\" is not supported",
-                     "export it as glTF 2.0");
-    if (asset.contains("minVersion") && asset["minVersion"] != "2.0")
-        context.fail("asset.minVersion", "the file demands glTF " + asset["minVersion"].get<std::string>(),
-                     "export it as glTF 2.0");
-}
-
-void checkExtensions(ImportContext& context, const json& gltf) {
-    for (const char* name : {"extensionsUsed", "extensionsRequired"}) {
-        const auto found = gltf.find(name);
-        if (found == gltf.end())
-            continue;
-        if (!found->is_array())
-            context.fail(name, "should be an array of strings");
-        std::unordered_set<std::string> seen;
-        for (size_t i = 0; i < found->size(); ++i) {
-            if (!(*found)[i].is_string())
-                context.fail(element(name, i), "should be a string");
-            if (!seen.insert((*found)[i]).second)
-                context.warn(name, (*found)[i].get<std::string>().substr(0, 60) + " is named twice");
-        }
-    }
-    for (const json& entry : gltf.value("extensionsUsed", json::array()))
-        for (const auto& [name, loss] : kMissedExtensions)
-            if (entry == name)
-                context.warn("extensionsUsed", std::string(name) + " is not supported: " + loss);
-    for (const json& entry : gltf.value("extensionsRequired", json::array())) {
-        const std::string name = entry;
-        if (contains(kReadExtensions, name))
-            continue;
-        if (!contains(kHarmlessExtensions, name) && !name.starts_with("KHR_materials_"))
-            context.fail("extensionsRequired",
-                         "the file needs the extension " + name + ", which is not supported",
-                         "re-export the model without " + name);
-        context.warn("extensionsRequired", name + " is not supported: the model looks simpler than intended");
-    }
-}
-
-void checkImages(const ImportContext& context, const json& gltf) {
-    const json none = json::array();
-    const json& images = gltf.contains("images") ? gltf["images"] : none;
-    for (size_t i = 0; i < images.size(); ++i) {
-        const bool uri = images[i].contains("uri"), view = images[i].contains("bufferView");
-        if (uri == view)
-            context.fail(element("images", i),
-                         uri ? "has both a uri and a bufferView" : "has neither a uri nor a bufferView");
-        if (!view)
-            continue;
-        if (!images[i].contains("mimeType"))
-            context.fail(element("images", i), "has a bufferView but no mimeType");
-        if (gltf["bufferViews"][images[i]["bufferView"].get<size_t>()].contains("byteStride"))
-            context.fail(element("images", i) + ".bufferView",
-                         "the buffer view of an image must have no byteStride");
-    }
-}
-
-void checkBufferViews(const ImportContext& context, const json& gltf) {
+void checkBufferViews(ImportContext& context, json& gltf) {
     if (!gltf.contains("bufferViews"))
         return;
-    const json& views = gltf["bufferViews"];
+    json& views = gltf["bufferViews"];
     for (size_t i = 0; i < views.size(); ++i) {
+        if (views[i].value("byteStride", 1) == 0) {
+            context.warn(element("bufferViews", i) + ".byteStride", "is 0; it is ignored");
+            views[i].erase("byteStride");
+        }
         const uint64_t offset = views[i].value("byteOffset", uint64_t{0}), length = views[i]["byteLength"];
         const uint64_t available = gltf["buffers"][views[i]["buffer"].get<size_t>()]["byteLength"];
         if (offset > available || length > available - offset)
@@ -115,6 +35,8 @@ void checkBufferViews(const ImportContext& context, const json& gltf) {
 /// Fails unless `number` elements fit into the buffer view. All values are below 2^53 / 2^31 / 2^8.
 void checkRange(const ImportContext& context, const json& gltf, const std::string& place, size_t viewIndex,
                 uint64_t offset, uint64_t number, ElementSize size, bool strided) {
+    if (number == 0)
+        return;
     const json& view = gltf["bufferViews"][viewIndex];
     const uint64_t length = view["byteLength"];
     const uint64_t stride = strided ? view.value("byteStride", size.step) : size.step;
@@ -164,26 +86,61 @@ void checkAccessors(ImportContext& context, const json& gltf) {
     }
 }
 
-// Every node has at most one parent and no node is its own ancestor. With at most one parent each, whatever
-// cannot be reached from a root lies on a loop or hangs below one.
-void checkNodes(ImportContext& context, const json& gltf) {
-    if (!gltf.contains("nodes"))
-        return;
-    const json& nodes = gltf["nodes"];
+/// The parent of every node, -1 for roots. A child that its parent names again is taken out of the second
+/// place.
+std::vector<int> parentsOf(ImportContext& context, json& nodes) {
     std::vector<int> parent(nodes.size(), -1);
     for (size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].contains("children"))
             continue;
-        const json& children = nodes[i]["children"];
+        json& children = nodes[i]["children"];
+        bool twice = false;
         for (size_t c = 0; c < children.size(); ++c) {
             const size_t child = children[c];
+            const std::string place = element("nodes", i) + "." + element("children", c);
+            if (parent[child] == static_cast<int>(i)) {
+                context.warn(place, "nodes[" + std::to_string(child) + "] stands there twice");
+                children[c] = nullptr; // no index is null
+                twice = true;
+                continue;
+            }
             if (parent[child] >= 0)
-                context.fail(element("nodes", i) + "." + element("children", c),
-                             "nodes[" + std::to_string(child) + "] already has a parent, nodes[" +
-                                 std::to_string(parent[child]) + "]");
+                context.fail(place, "nodes[" + std::to_string(child) + "] already has a parent, nodes[" +
+                                        std::to_string(parent[child]) + "]");
             parent[child] = static_cast<int>(i);
         }
+        if (twice)
+            children.erase(std::remove(children.begin(), children.end(), json()), children.end());
     }
+    return parent;
+}
+
+void warnOfScenes(ImportContext& context, const json& gltf, const std::vector<int>& parent) {
+    const json none = json::array();
+    const json& scenes = gltf.contains("scenes") ? gltf["scenes"] : none;
+    for (size_t s = 0; s < scenes.size(); ++s) {
+        std::unordered_set<size_t> seen;
+        const json& roots = scenes[s].contains("nodes") ? scenes[s]["nodes"] : none;
+        for (size_t r = 0; r < roots.size(); ++r) {
+            const size_t node = roots[r];
+            const std::string place = element("scenes", s) + "." + element("nodes", r);
+            if (parent[node] >= 0)
+                context.warn(place, "nodes[" + std::to_string(node) +
+                                        "] is not a root: it is a child of nodes[" +
+                                        std::to_string(parent[node]) + "] and stays where its parent is");
+            if (!seen.insert(node).second)
+                context.warn(place, "nodes[" + std::to_string(node) + "] stands there twice");
+        }
+    }
+}
+
+// Every node has at most one parent and no node is its own ancestor. With at most one parent each, whatever
+// cannot be reached from a root lies on a loop or hangs below one.
+void checkNodes(ImportContext& context, json& gltf) {
+    if (!gltf.contains("nodes"))
+        return;
+    json& nodes = gltf["nodes"];
+    const std::vector<int> parent = parentsOf(context, nodes);
     std::vector<size_t> open;
     for (size_t i = 0; i < nodes.size(); ++i)
         if (parent[i] < 0)
@@ -200,23 +157,7 @@ void checkNodes(ImportContext& context, const json& gltf) {
     if (stray != reached.end())
         context.fail(element("nodes", static_cast<size_t>(stray - reached.begin())) + ".children",
                      "the nodes form a loop");
-
-    const json none = json::array();
-    const json& scenes = gltf.contains("scenes") ? gltf["scenes"] : none;
-    for (size_t s = 0; s < scenes.size(); ++s) {
-        std::unordered_set<size_t> seen;
-        const json& roots = scenes[s].contains("nodes") ? scenes[s]["nodes"] : none;
-        for (size_t r = 0; r < roots.size(); ++r) {
-            const size_t node = roots[r];
-            const std::string place = element("scenes", s) + "." + element("nodes", r);
-            if (parent[node] >= 0)
-                context.fail(place, "nodes[" + std::to_string(node) +
-                                        "] is not a root: it is a child of nodes[" +
-                                        std::to_string(parent[node]) + "]");
-            if (!seen.insert(node).second)
-                context.fail(place, "nodes[" + std::to_string(node) + "] stands there twice");
-        }
-    }
+    warnOfScenes(context, gltf, parent);
 }
 
 } // namespace
@@ -257,13 +198,12 @@ ElementSize elementSize(const std::string& type, int componentType) {
     return {(columns - 1) * column + columns * bytes, columns * column};
 }
 
-void validateGltf(ImportContext& context, const json& gltf) {
-    checkVersion(context, gltf);
+void validateGltf(ImportContext& context, json& gltf) {
     checkExtensions(context, gltf);
-    checkImages(context, gltf);
     checkBufferViews(context, gltf);
     checkAccessors(context, gltf);
     checkNodes(context, gltf);
+    warnOfFlaws(context, gltf);
 }
 
 } // namespace touchstone

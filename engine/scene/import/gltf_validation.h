@@ -10,10 +10,10 @@
 
 namespace touchstone {
 
-/// The version, the extensions that the file demands, images with one source, node forest without loops,
-/// scene roots, and that buffer views and accessors stay inside what they read. Throws Error; warns about
-/// what may stay. Needs checkSchema first. Bytes are not looked at.
-void validateGltf(ImportContext& context, const nlohmann::json& gltf);
+/// The extensions that the file demands, node forest without loops, and that buffer views and accessors stay
+/// inside what they read. Throws Error; warns about what may stay, and takes strides of 0 and children named
+/// twice out of `gltf`. Needs checkSchema first. Bytes are not looked at.
+void validateGltf(ImportContext& context, nlohmann::json& gltf);
 
 /// Bytes of one component (5120 ... 5126), 0 if there is no such type.
 [[nodiscard]] uint64_t componentBytes(int componentType);

@@ -1,18 +1,50 @@
 #include "engine/scene/import/import_context.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace touchstone {
+namespace {
 
-void ImportContext::warn(std::string place, std::string message) {
+/// `text` with every number as one '#'. Digits at the end of a name ("TEXCOORD_1") are no number.
+std::string withoutNumbers(std::string_view text) {
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto isName = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    std::string kind;
+    kind.reserve(text.size());
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (!isDigit(text[i]) || (!kind.empty() && (isName(kind.back()) || isDigit(kind.back()))))
+            kind.push_back(text[i]);
+        else if (kind.empty() || kind.back() != '#')
+            kind.push_back('#');
+    }
+    return kind;
+}
+
+} // namespace
+
+void ImportContext::warn(std::string place, const std::string& message) {
     // The same flaw met from several places is one flaw.
-    for (const Warning& known : warnings_)
-        if (known.place == place && known.message == message)
-            return;
-    if (warnings_.size() < kMaxWarnings)
-        warnings_.push_back({std::move(place), std::move(message)});
-    else
+    const std::string whole = place + '\n' + message;
+    const size_t hash = std::hash<std::string>()(whole);
+    if (told_.contains(hash))
+        return;
+    if (told_.size() < kMaxRemembered)
+        told_.insert(hash);
+    const std::string kind = withoutNumbers(whole);
+    if (const auto known = kindOf_.find(kind); known != kindOf_.end()) {
+        Kind& like = kinds_[known->second];
+        ++like.otherCount;
+        if (like.others.size() < kListedPlaces)
+            like.others.push_back(std::move(place));
+        return;
+    }
+    if (kinds_.size() == kMaxWarnings) {
         ++droppedWarnings_;
+        return;
+    }
+    kindOf_.emplace(kind, kinds_.size());
+    kinds_.push_back({{std::move(place), message}, {}, 0});
 }
 
 void ImportContext::stopIfCancelled() const {
@@ -45,10 +77,25 @@ bool ImportContext::spendPixels(uint64_t bytes) {
 }
 
 std::vector<Warning> ImportContext::takeWarnings() {
+    std::vector<Warning> warnings;
+    for (Kind& kind : kinds_) {
+        std::string also;
+        for (const std::string& place : kind.others)
+            if (!place.empty())
+                also += (also.empty() ? "" : ", ") + place;
+        if (const size_t rest = kind.otherCount - kind.others.size(); rest > 0)
+            also += " and " + std::to_string(rest) + " more";
+        warnings.push_back(std::move(kind.first));
+        if (!also.empty())
+            warnings.back().message += " (also " + also + ")";
+    }
     if (droppedWarnings_ > 0)
-        warnings_.push_back({"", "and " + std::to_string(droppedWarnings_) + " more warnings like these"});
+        warnings.push_back({"", "and " + std::to_string(droppedWarnings_) + " more warnings like these"});
+    kinds_.clear();
+    kindOf_.clear();
+    told_.clear();
     droppedWarnings_ = 0;
-    return std::move(warnings_);
+    return warnings;
 }
 
 std::string element(std::string_view array, size_t index) {

@@ -9,6 +9,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
@@ -56,8 +59,24 @@ class ImportContext {
         throw Error(file_, place, problem, remedy);
     }
 
-    /// At most kMaxWarnings are kept, so that a broken file cannot drown the user (or the memory) in them.
-    void warn(std::string place, std::string message);
+    /// One warning per kind of flaw: places and messages that differ in numbers only are one warning, which
+    /// lists the next places and counts the rest. At most kMaxWarnings kinds are kept, so that a broken file
+    /// cannot drown the user (or the memory) in them.
+    void warn(std::string place, const std::string& message);
+
+    /// Does `work`, which reads a part that neither geometry nor safety depends on. An Error of it becomes a
+    /// warning, "PROBLEM; CONSEQUENCE", and the answer false. A cancelled import still ends.
+    template <class Work>
+    bool attempt(const char* consequence, Work&& work) {
+        try {
+            std::forward<Work>(work)();
+            return true;
+        } catch (const Error& error) {
+            stopIfCancelled();
+            warn(error.place(), error.problem() + "; " + consequence);
+            return false;
+        }
+    }
 
     /// Reports progress and stops a cancelled import.
     void step(double fraction, const char* what) const;
@@ -74,10 +93,20 @@ class ImportContext {
     [[nodiscard]] std::vector<Warning> takeWarnings();
 
   private:
-    static constexpr size_t kMaxWarnings = 200;
+    /// A warning and the further places of its kind; the first kListedPlaces of them are kept.
+    struct Kind {
+        Warning first;
+        std::vector<std::string> others;
+        size_t otherCount = 0;
+    };
+    static constexpr size_t kMaxWarnings = 200, kListedPlaces = 3;
+    /// Warnings that are remembered, to count a flaw met twice once. Beyond, counts may be too high.
+    static constexpr size_t kMaxRemembered = 1u << 16;
     std::string file_;
     const LoadOptions& options_;
-    std::vector<Warning> warnings_;
+    std::vector<Kind> kinds_;
+    std::unordered_map<std::string, size_t> kindOf_; ///< by place and message without their numbers
+    std::unordered_set<size_t> told_;                ///< hashes of place and message
     size_t droppedWarnings_ = 0;
     uint64_t fileBytes_ = 0, geometrySpent_ = 0, pixelsSpent_ = 0;
 };

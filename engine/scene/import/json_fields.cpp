@@ -1,5 +1,7 @@
 #include "engine/scene/import/json_fields.h"
 
+#include "engine/scene/import/gltf_schema.h"
+
 #include <limits>
 
 namespace touchstone {
@@ -43,7 +45,7 @@ std::optional<int> indexField(const ImportContext& context, const json& object, 
     if (found == object.end())
         return std::nullopt;
     const std::string at = place + "." + name;
-    if (!found->is_number_integer())
+    if (!found->is_number() || !isWhole(found->get<double>()))
         context.fail(at, "should be an integer", "correct the value in the file");
     const double value = found->get<double>();
     if (!(value >= 0 && value < static_cast<double>(size)))

@@ -2,6 +2,7 @@
 
 #include "engine/scene/import/gltf_accessors.h"
 #include "engine/scene/import/json_fields.h"
+#include "engine/scene/import/primitive_restart.h"
 #include "engine/scene/import/vertex_attributes.h"
 #include "engine/scene/mesh_vertices.h"
 #include "engine/scene/tangent_space.h"
@@ -33,6 +34,9 @@ std::vector<uint32_t> drawnVertices(ImportContext& context, const GltfDocument& 
         drawn = std::move(draco->indices);
     } else if (primitive.indices >= 0) {
         drawn = readIndices(context, document, primitive.indices, place + ".indices");
+        drawn = withoutRestarts(context, std::move(drawn), restartIndex(document, primitive.indices),
+                                vertexCount, primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode,
+                                place + ".indices");
     } else {
         context.spendGeometry(vertexCount * sizeof(uint32_t), place);
         drawn.resize(vertexCount);

@@ -1,5 +1,7 @@
 #include "engine/scene/import/meshopt_view.h"
 
+#include "engine/scene/import/gltf_schema.h"
+
 #include <meshoptimizer.h>
 
 namespace touchstone {
@@ -14,7 +16,7 @@ uint64_t countField(const ImportContext& context, const std::string& place, cons
         return *fallback;
     if (found == extension.end())
         context.fail(place, std::string("property '") + name + "' is missing");
-    if (!found->is_number_integer())
+    if (!found->is_number() || !isWhole(found->get<double>()))
         context.fail(place + "." + name, "should be an integer");
     if (found->get<double>() < static_cast<double>(low) || found->get<double>() > static_cast<double>(high))
         context.fail(place + "." + name, found->dump() + " is out of range");

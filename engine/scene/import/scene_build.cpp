@@ -2,6 +2,7 @@
 
 #include "engine/scene/animation.h"
 #include "engine/scene/import/gltf_haptics.h"
+#include "engine/scene/import/gltf_mpeg.h"
 #include "engine/scene/import/mesh_build.h"
 #include "engine/scene/mesh_vertices.h"
 

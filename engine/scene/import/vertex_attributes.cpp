@@ -21,9 +21,13 @@ class AttributeReader {
 
     [[nodiscard]] std::string at(const char* name) const { return place_ + name; }
 
+    /// What becomes of numbers that are not finite: an Error, or 0 and a warning.
+    enum class NotFinite { Refuse, Zero };
+
     /// The values of an attribute, all finite; nothing if it is absent. `count` 0 takes any number of
     /// vertices.
-    std::optional<RawAttribute> raw(const char* name, size_t count, std::initializer_list<int> components) {
+    std::optional<RawAttribute> raw(const char* name, size_t count, std::initializer_list<int> components,
+                                    NotFinite notFinite = NotFinite::Refuse) {
         const auto found = primitive_.attributes.find(name);
         if (found == primitive_.attributes.end())
             return std::nullopt;
@@ -34,18 +38,26 @@ class AttributeReader {
         if (count != 0 && vertices != count)
             context_.fail(at(name), "has " + std::to_string(vertices) + " vertices where POSITION has " +
                                         std::to_string(count));
-        for (size_t i = 0; i < attribute.values.size(); ++i)
-            if (!std::isfinite(attribute.values[i]))
+        size_t broken = 0;
+        for (size_t i = 0; i < attribute.values.size(); ++i) {
+            if (std::isfinite(attribute.values[i]))
+                continue;
+            if (notFinite == NotFinite::Refuse)
                 context_.fail(at(name),
                               "vertex " + std::to_string(i / static_cast<size_t>(attribute.components)) +
                                   " is not a finite number",
                               "remove the broken vertex, or re-export the model");
+            attribute.values[i] = 0.0f;
+            ++broken;
+        }
+        if (broken > 0)
+            context_.warn(at(name), std::to_string(broken) + " numbers are not finite; they are taken as 0");
         return attribute;
     }
 
     template <class Vector>
-    std::vector<Vector> vectors(const char* name, size_t count) {
-        const auto attribute = raw(name, count, {static_cast<int>(Vector::length())});
+    std::vector<Vector> vectors(const char* name, size_t count, NotFinite notFinite = NotFinite::Refuse) {
+        const auto attribute = raw(name, count, {static_cast<int>(Vector::length())}, notFinite);
         if (!attribute)
             return {};
         std::vector<Vector> result(attribute->values.size() / static_cast<size_t>(Vector::length()));
@@ -108,7 +120,7 @@ size_t normaliseAll(ImportContext& context, std::vector<Vector>& vectors, const 
 
 void readColors(ImportContext& context, AttributeReader& reader, size_t count,
                 std::vector<glm::vec4>& colors) {
-    const auto raw = reader.raw("COLOR_0", count, {3, 4});
+    const auto raw = reader.raw("COLOR_0", count, {3, 4}, AttributeReader::NotFinite::Zero);
     if (!raw)
         return;
     const size_t components = static_cast<size_t>(raw->components);
@@ -125,6 +137,25 @@ void readColors(ImportContext& context, AttributeReader& reader, size_t count,
                      std::to_string(outside) + " colours are outside 0..1 and were clamped");
 }
 
+/// Tangents whose handedness is known; none where one of them has none, since generated frames are worth more
+/// than frames with gaps.
+void readTangents(ImportContext& context, AttributeReader& reader, size_t count,
+                  std::vector<glm::vec4>& tangents) {
+    tangents = reader.vectors<glm::vec4>("TANGENT", count, AttributeReader::NotFinite::Zero);
+    constexpr float kRounding = 1e-3f, kSign = 0.5f;
+    size_t odd = 0, lost = 0;
+    for (glm::vec4& tangent : tangents) {
+        odd += std::abs(std::abs(tangent.w) - 1.0f) > kRounding ? 1 : 0;
+        lost += std::abs(tangent.w) < kSign ? 1 : 0;
+        tangent.w = tangent.w < 0.0f ? -1.0f : 1.0f;
+    }
+    if (odd > 0)
+        context.warn(reader.at("TANGENT"), std::to_string(odd) + " have a w that is neither 1 nor -1; " +
+                                               (lost > 0 ? "all are computed anew" : "its sign is taken"));
+    if (normaliseAll(context, tangents, reader.at("TANGENT")) > 0 || lost > 0)
+        tangents.clear();
+}
+
 } // namespace
 
 void readVertexAttributes(ImportContext& context, const GltfDocument& document,
@@ -133,24 +164,17 @@ void readVertexAttributes(ImportContext& context, const GltfDocument& document,
     AttributeReader reader(context, document, primitive, draco, place);
     mesh.positions = reader.vectors<glm::vec3>("POSITION", 0);
     const size_t count = mesh.positions.size();
-    mesh.normals = reader.vectors<glm::vec3>("NORMAL", count);
+    constexpr auto kZero = AttributeReader::NotFinite::Zero;
+    // Without them the model has the same shape.
+    const auto optional = [&](auto&& read) { (void)context.attempt("it is left out", read); };
+    optional([&] { mesh.normals = reader.vectors<glm::vec3>("NORMAL", count, kZero); });
     mesh.normalsFromFile = !mesh.normals.empty();
     (void)normaliseAll(context, mesh.normals, reader.at("NORMAL"));
-    mesh.tangents = reader.vectors<glm::vec4>("TANGENT", count);
-    for (size_t i = 0; i < mesh.tangents.size(); ++i)
-        if (std::abs(std::abs(mesh.tangents[i].w) - 1.0f) > 1e-3f)
-            context.fail(reader.at("TANGENT"), "vertex " + std::to_string(i) +
-                                                   " has w = " + nlohmann::json(mesh.tangents[i].w).dump() +
-                                                   ", it must be 1 or -1");
-    for (glm::vec4& tangent : mesh.tangents)
-        tangent.w = tangent.w < 0.0f ? -1.0f : 1.0f;
-    // Frames with gaps are worth less than generated ones.
-    if (normaliseAll(context, mesh.tangents, reader.at("TANGENT")) > 0)
-        mesh.tangents.clear();
+    optional([&] { readTangents(context, reader, count, mesh.tangents); });
     mesh.tangentsFromFile = !mesh.tangents.empty();
-    mesh.uv0 = reader.vectors<glm::vec2>("TEXCOORD_0", count);
-    mesh.uv1 = reader.vectors<glm::vec2>("TEXCOORD_1", count);
-    readColors(context, reader, count, mesh.colors);
+    optional([&] { mesh.uv0 = reader.vectors<glm::vec2>("TEXCOORD_0", count, kZero); });
+    optional([&] { mesh.uv1 = reader.vectors<glm::vec2>("TEXCOORD_1", count, kZero); });
+    optional([&] { readColors(context, reader, count, mesh.colors); });
     mesh.stiffness = reader.factors("_STIFFNESS", count);
     mesh.damping = reader.factors("_DAMPING", count);
     mesh.friction = reader.factors("_FRICTION", count);

@@ -120,24 +120,62 @@ GltfMaker animated(const std::vector<float>& times, const std::vector<float>& va
     return maker;
 }
 
-TEST(Animation, BrokenOnesAreRefusedWithTheirPlace) {
+TEST(Animation, BrokenOnesAreMendedOrLeftOutWithTheirPlace) {
     const std::string input = "animations[0].samplers[0].input", output = "animations[0].samplers[0].output";
-    EXPECT_REFUSED(animated({0, 0}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"), input,
-                   "not after the one before");
-    EXPECT_REFUSED(animated({-1, 0}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"), input, "negative");
-    EXPECT_REFUSED(animated({0, NAN}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"), input, "finite");
-    EXPECT_REFUSED(animated({0, 1}, {0, 0, 0, 1, INFINITY, 1}, "VEC3", "translation"), output,
-                   "value 1 is not finite");
-    EXPECT_REFUSED(animated({0, 1}, {0, 0, 0}, "VEC3", "translation"), output, "1 values where 2");
-    EXPECT_REFUSED(animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "rotation"), output, "4 components");
-    EXPECT_REFUSED(animated({0, 1}, {0, 0, 0, 1, 0, 0, 0.3f, 0.3f}, "VEC4", "rotation"), output,
-                   "rotation 1 is not of unit length");
+    EXPECT_MENDED(animated({0, 0}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"), input,
+                  "not after the one before");
+    EXPECT_MENDED(animated({-1, 0}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"), input, "negative");
+    EXPECT_MENDED(animated({0, NAN}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"), input, "finite");
+    EXPECT_MENDED(animated({0, 1}, {0, 0, 0, 1, INFINITY, 1}, "VEC3", "translation"), output,
+                  "value 1 is not finite");
+    EXPECT_MENDED(animated({0, 1}, {0, 0, 0}, "VEC3", "translation"), output, "1 values where 2");
+    EXPECT_MENDED(animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "rotation"), output, "4 components");
+    EXPECT_MENDED(animated({0, 1}, {0, 0, 0, 1, 0, 0, 0.3f, 0.3f}, "VEC4", "rotation"), output,
+                  "rotation 1 is not of unit length");
     GltfMaker matrix = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
     matrix.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    EXPECT_REFUSED(matrix, "animations[0].channels[0].target.node", "has a matrix");
+    EXPECT_MENDED(matrix, "animations[0].channels[0].target.node", "has a matrix");
     GltfMaker sampler = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
     sampler.json["animations"][0]["channels"][0]["sampler"] = 1;
-    EXPECT_REFUSED(sampler, "animations[0].channels[0].sampler", "does not exist");
+    EXPECT_MENDED(sampler, "animations[0].channels[0].sampler", "does not exist");
+}
+
+TEST(Animation, KeysThatDoNotAscendAreSkippedAndRotationsNormalised) {
+    const GltfMaker maker =
+        animated({-1, 0, 0, 1}, {0, 0, 0, 2, 0, 0, 0, 4, 9, 9, 9, 9, 0, 0, 3, 4}, "VEC4", "rotation");
+    const ScenePtr scene = load(maker);
+    ASSERT_EQ(scene->animations.at(0).channels.size(), 1u);
+    const AnimationChannel& channel = scene->animations[0].channels[0];
+    EXPECT_EQ(channel.times, (std::vector<float>{-1, 0, 1}));
+    ASSERT_EQ(channel.values.size(), 3u);
+    EXPECT_EQ(channel.values[0], glm::vec4(0, 0, 0, 1));
+    EXPECT_EQ(channel.values[1], glm::vec4(0, 0, 0, 1));
+    EXPECT_EQ(channel.values[2], glm::vec4(0, 0, 0.6f, 0.8f));
+    EXPECT_EQ(scene->animations[0].duration, 1.0);
+    EXPECT_TRUE(test::warns(*scene, "animations[0].samplers[0].input", "time 2 is not after"));
+    EXPECT_TRUE(test::warns(*scene, "animations[0].samplers[0].output", "not of unit length"));
+}
+
+TEST(Animation, AllKeysBeforeZeroDoNotPlayBackwards) {
+    const ScenePtr scene = load(animated({-3, -1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation"));
+    EXPECT_EQ(scene->animations.at(0).duration, 0.0);
+    EXPECT_EQ(sampleChannel(scene->animations[0].channels.at(0), 0.0), glm::dvec4(1, 1, 1, 0));
+}
+
+TEST(Animation, OneTargetIsAnimatedOnce) {
+    GltfMaker maker = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
+    maker.json["animations"][0]["channels"].push_back(maker.json["animations"][0]["channels"][0]);
+    EXPECT_MENDED(maker, "animations[0].channels[1].target", "earlier channel");
+    EXPECT_EQ(load(maker)->animations.at(0).channels.size(), 1u);
+}
+
+TEST(Animation, AMalformedOneIsLeftOutWhole) {
+    GltfMaker maker = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
+    maker.json["animations"][0]["channels"][0]["target"]["node"] = 7;
+    EXPECT_MENDED(maker, "animations[0].channels[0].target.node", "left out");
+    EXPECT_TRUE(load(maker)->animations.at(0).channels.empty());
+    maker.json["animations"] = "none";
+    EXPECT_MENDED(maker, "animations", "should be an array");
 }
 
 TEST(Animation, MorphWeightsAreLeftOutWithAWarning) {

@@ -55,20 +55,20 @@ TEST(GltfLooks, UnlitIsRead) {
     EXPECT_TRUE(read({{"KHR_materials_unlit", json::object()}}).unlit);
     const ScenePtr both = load(withExtensions(
         {{"KHR_materials_unlit", json::object()}, {"KHR_materials_clearcoat", json::object()}}));
-    EXPECT_TRUE(warns(*both, "materials[0].extensions.KHR_materials_unlit", "KHR_materials_clearcoat is not"));
+    EXPECT_TRUE(
+        warns(*both, "materials[0].extensions.KHR_materials_unlit", "KHR_materials_clearcoat is not"));
 }
 
 TEST(GltfLooks, SpecularGlossinessStandsInPlaceOfMetallicRoughness) {
-    const json core = {{"pbrMetallicRoughness",
-                        {{"baseColorFactor", {0.9, 0.9, 0.9, 1.0}}, {"baseColorTexture", map(3)}}}};
-    const Material material =
-        read({{"KHR_materials_pbrSpecularGlossiness",
-               {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
-                {"diffuseTexture", map(1)},
-                {"specularFactor", {0.5, 0.6, 0.7}},
-                {"glossinessFactor", 0.8},
-                {"specularGlossinessTexture", map(2)}}}},
-             core);
+    const json core = {
+        {"pbrMetallicRoughness", {{"baseColorFactor", {0.9, 0.9, 0.9, 1.0}}, {"baseColorTexture", map(3)}}}};
+    const Material material = read({{"KHR_materials_pbrSpecularGlossiness",
+                                     {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                                      {"diffuseTexture", map(1)},
+                                      {"specularFactor", {0.5, 0.6, 0.7}},
+                                      {"glossinessFactor", 0.8},
+                                      {"specularGlossinessTexture", map(2)}}}},
+                                   core);
     EXPECT_TRUE(material.specularGlossiness.used);
     EXPECT_EQ(material.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
     EXPECT_EQ(material.baseColorTexture.image, 1);
@@ -84,25 +84,24 @@ TEST(GltfLooks, SpecularGlossinessStandsInPlaceOfMetallicRoughness) {
 }
 
 TEST(GltfLooks, LayersAreRead) {
-    const Material material =
-        read({{"KHR_materials_emissive_strength", {{"emissiveStrength", 4.0}}},
-              {"KHR_materials_ior", {{"ior", 1.33}}},
-              {"KHR_materials_specular",
-               {{"specularFactor", 0.5},
-                {"specularTexture", map(0)},
-                {"specularColorFactor", {2.0, 0.5, 0.25}},
-                {"specularColorTexture", map(1)}}},
-              {"KHR_materials_clearcoat",
-               {{"clearcoatFactor", 0.75},
-                {"clearcoatTexture", map(2)},
-                {"clearcoatRoughnessFactor", 0.25},
-                {"clearcoatRoughnessTexture", map(3)}}},
-              {"KHR_materials_sheen",
-               {{"sheenColorFactor", {0.1, 0.2, 0.3}},
-                {"sheenColorTexture", map(0)},
-                {"sheenRoughnessFactor", 0.4},
-                {"sheenRoughnessTexture", map(1)}}}},
-             {{"emissiveFactor", {0.5, 0.25, 0.0}}});
+    const Material material = read({{"KHR_materials_emissive_strength", {{"emissiveStrength", 4.0}}},
+                                    {"KHR_materials_ior", {{"ior", 1.33}}},
+                                    {"KHR_materials_specular",
+                                     {{"specularFactor", 0.5},
+                                      {"specularTexture", map(0)},
+                                      {"specularColorFactor", {2.0, 0.5, 0.25}},
+                                      {"specularColorTexture", map(1)}}},
+                                    {"KHR_materials_clearcoat",
+                                     {{"clearcoatFactor", 0.75},
+                                      {"clearcoatTexture", map(2)},
+                                      {"clearcoatRoughnessFactor", 0.25},
+                                      {"clearcoatRoughnessTexture", map(3)}}},
+                                    {"KHR_materials_sheen",
+                                     {{"sheenColorFactor", {0.1, 0.2, 0.3}},
+                                      {"sheenColorTexture", map(0)},
+                                      {"sheenRoughnessFactor", 0.4},
+                                      {"sheenRoughnessTexture", map(1)}}}},
+                                   {{"emissiveFactor", {0.5, 0.25, 0.0}}});
     EXPECT_EQ(material.emissive, glm::vec3(2.0f, 1.0f, 0.0f));
     EXPECT_EQ(material.specular.ior, 1.33f);
     EXPECT_EQ(material.specular.factor, 0.5f);
@@ -120,13 +119,13 @@ TEST(GltfLooks, LayersAreRead) {
 }
 
 TEST(GltfLooks, TransmissionAndVolumeAreRead) {
-    const Material glass = read({{"KHR_materials_transmission",
-                                  {{"transmissionFactor", 0.9}, {"transmissionTexture", map(0)}}},
-                                 {"KHR_materials_volume",
-                                  {{"thicknessFactor", 0.02},
-                                   {"thicknessTexture", map(1)},
-                                   {"attenuationColor", {0.9, 0.2, 0.1}},
-                                   {"attenuationDistance", 0.05}}}});
+    const Material glass =
+        read({{"KHR_materials_transmission", {{"transmissionFactor", 0.9}, {"transmissionTexture", map(0)}}},
+              {"KHR_materials_volume",
+               {{"thicknessFactor", 0.02},
+                {"thicknessTexture", map(1)},
+                {"attenuationColor", {0.9, 0.2, 0.1}},
+                {"attenuationDistance", 0.05}}}});
     EXPECT_EQ(glass.alphaMode, AlphaMode::Opaque) << "its alpha is what it was";
     EXPECT_EQ(glass.baseColor.w, 1.0f);
     EXPECT_EQ(glass.transmission.factor, 0.9f);
@@ -140,7 +139,9 @@ TEST(GltfLooks, TransmissionAndVolumeAreRead) {
 TEST(GltfLooks, WhatIsWrongIsDrawnWithItsDefaultAndWarnedOf) {
     const ScenePtr scene = load(withExtensions(
         {{"KHR_materials_clearcoat",
-          {{"clearcoatFactor", "nonsense"}, {"clearcoatTexture", map(99)}, {"clearcoatNormalTexture", map(0)}}},
+          {{"clearcoatFactor", "nonsense"},
+           {"clearcoatTexture", map(99)},
+           {"clearcoatNormalTexture", map(0)}}},
          {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.5}}, {"sheenRoughnessFactor", 7}}},
          {"KHR_materials_transmission", 3}}));
     EXPECT_EQ(scene->triangleCount(), 2u);

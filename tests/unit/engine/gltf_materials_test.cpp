@@ -93,7 +93,7 @@ TEST(GltfMaterials, TextureTransformsAreReadAndMoveUvs) {
 
     info["extensions"]["KHR_texture_transform"] = {{"offset", {0.25}}};
     material["pbrMetallicRoughness"]["baseColorTexture"] = info;
-    EXPECT_REFUSED(
+    EXPECT_MENDED(
         withMaterial(material),
         "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform.offset",
         "two numbers");
@@ -103,16 +103,16 @@ TEST(GltfMaterials, FactorsOutsideTheirRangeAreClamped) {
     const ScenePtr scene = load(withMaterial({{"pbrMetallicRoughness", {{"roughnessFactor", 1.5}}}}));
     EXPECT_EQ(scene->materials[0].roughness, 1.0f);
     EXPECT_TRUE(warns(*scene, "materials[0].pbrMetallicRoughness.roughnessFactor", "clamped"));
-    EXPECT_REFUSED(withMaterial({{"pbrMetallicRoughness", {{"roughnessFactor", "rough"}}}}),
-                   "materials[0].pbrMetallicRoughness.roughnessFactor", "number");
+    EXPECT_MENDED(withMaterial({{"pbrMetallicRoughness", {{"roughnessFactor", "rough"}}}}),
+                  "materials[0].pbrMetallicRoughness.roughnessFactor", "number");
 }
 
-TEST(GltfMaterials, UnresolvedTexturesAreRefused) {
-    EXPECT_REFUSED(withMaterial({{"normalTexture", {{"index", 9}}}}), "materials[0].normalTexture.index",
-                   "textures[9]");
-    EXPECT_REFUSED(withMaterial({{"normalTexture", {{"texCoord", 0}}}}), "materials[0].normalTexture",
-                   "'index' is missing");
-    EXPECT_REFUSED(withMaterial({{"normalTexture", 0}}), "materials[0].normalTexture", "object");
+TEST(GltfMaterials, UnresolvedTexturesAreLeftOut) {
+    EXPECT_MENDED(withMaterial({{"normalTexture", {{"index", 9}}}}), "materials[0].normalTexture.index",
+                  "textures[9]");
+    EXPECT_MENDED(withMaterial({{"normalTexture", {{"texCoord", 0}}}}), "materials[0].normalTexture",
+                  "'index' is missing");
+    EXPECT_MENDED(withMaterial({{"normalTexture", 0}}), "materials[0].normalTexture", "object");
 }
 
 TEST(GltfMaterials, TheDefaultMaterialIsAppendedOnlyIfNeeded) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace touchstone {
 namespace {
@@ -183,16 +184,33 @@ TEST(GltfMeshes, HapticAttributesOfVerticesAreRead) {
     EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes._STIFFNESS", "vertex 2 is negative");
 }
 
-TEST(GltfMeshes, NumbersThatAreNoneAreRefused) {
+TEST(GltfMeshes, PlacesThatAreNoNumbersAreRefusedAndDirectionsMended) {
     for (const float broken :
-         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
-        for (const char* attribute : {"POSITION", "NORMAL"}) {
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        const auto with = [&](const char* attribute, const char* type, int components) {
             GltfMaker maker = GltfMaker::square();
-            maker.primitive()["attributes"][attribute] =
-                maker.addAccessor<float>({0, 0, 1, 1, 0, 0, 1, broken, 0, 0, 1, 0}, "VEC3");
-            EXPECT_REFUSED(maker, std::string("meshes[0].primitives[0].attributes.") + attribute,
-                           "vertex 2 is not a finite");
+            std::vector<float> values(static_cast<size_t>(4 * components), 0.0f);
+            for (size_t i = 0; i < values.size(); ++i)
+                values[i] =
+                    i % static_cast<size_t>(components) + 1 == static_cast<size_t>(components) ? 1.0f : 0.0f;
+            values[static_cast<size_t>(2 * components)] = broken;
+            maker.primitive()["attributes"][attribute] = maker.addAccessor<float>(values, type);
+            return maker;
+        };
+        const std::string attributes = "meshes[0].primitives[0].attributes.";
+        EXPECT_REFUSED(with("POSITION", "VEC3", 3), attributes + "POSITION", "vertex 2 is not a finite");
+        EXPECT_REFUSED(with("_STIFFNESS", "SCALAR", 1), attributes + "_STIFFNESS",
+                       "vertex 2 is not a finite");
+        for (const auto& [name, type, components] : {std::tuple{"NORMAL", "VEC3", 3},
+                                                     {"TANGENT", "VEC4", 4},
+                                                     {"TEXCOORD_0", "VEC2", 2},
+                                                     {"COLOR_0", "VEC4", 4}}) {
+            EXPECT_MENDED(with(name, type, components), attributes + name, "not finite");
+            const ScenePtr scene = load(with(name, type, components));
+            for (const glm::vec3& normal : scene->meshes[0].normals)
+                EXPECT_EQ(normal, glm::vec3(0, 0, 1));
         }
+    }
 }
 
 TEST(GltfMeshes, IndicesOutOfRangeAreRefusedWithTheirPlace) {
@@ -200,7 +218,7 @@ TEST(GltfMeshes, IndicesOutOfRangeAreRefusedWithTheirPlace) {
     maker.primitive()["indices"] = maker.addAccessor<uint16_t>({0, 1, 2, 0, 2, 812}, "SCALAR");
     EXPECT_REFUSED(maker, "meshes[0].primitives[0].indices", "index 812 exceeds 3");
     maker.primitive()["indices"] = maker.addAccessor<uint16_t>({0, 1, 65535}, "SCALAR");
-    EXPECT_REFUSED(maker, "meshes[0].primitives[0].indices", "primitive-restart");
+    EXPECT_TRUE(warns(*load(maker), "meshes[0].primitives[0].indices", "primitive-restart"));
     maker.primitive()["indices"] = maker.addAccessor<int16_t>({0, 1, 2}, "SCALAR");
     EXPECT_REFUSED(maker, "meshes[0].primitives[0].indices", "unsigned");
 }
@@ -208,9 +226,77 @@ TEST(GltfMeshes, IndicesOutOfRangeAreRefusedWithTheirPlace) {
 TEST(GltfMeshes, AttributesMustAgreeInNumberAndShape) {
     GltfMaker maker = GltfMaker::square();
     maker.primitive()["attributes"]["NORMAL"] = maker.addAccessor<float>({0, 0, 1, 0, 0, 1}, "VEC3");
-    EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes.NORMAL", "2 vertices where POSITION has 4");
+    EXPECT_MENDED(maker, "meshes[0].primitives[0].attributes.NORMAL", "2 vertices where POSITION has 4");
     maker.primitive()["attributes"]["NORMAL"] = maker.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0}, "VEC2");
-    EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes.NORMAL", "2 components");
+    EXPECT_MENDED(maker, "meshes[0].primitives[0].attributes.NORMAL", "2 components");
+    EXPECT_FALSE(load(maker)->meshes[0].normalsFromFile);
+    maker.primitive()["attributes"]["_DAMPING"] = maker.addAccessor<float>({1, 2}, "SCALAR");
+    EXPECT_REFUSED(maker, "meshes[0].primitives[0].attributes._DAMPING", "2 vertices where POSITION has 4");
+}
+
+TEST(GltfMeshes, TangentsWithoutHandednessAreComputedAnew) {
+    GltfMaker maker = GltfMaker::square();
+    const auto tangents = [&](float w) {
+        maker.primitive()["attributes"]["TANGENT"] =
+            maker.addAccessor<float>({1, 0, 0, 1, 1, 0, 0, w, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    };
+    tangents(0.0f);
+    EXPECT_MENDED(maker, "attributes.TANGENT", "1 have a w that is neither 1 nor -1; all are computed anew");
+    tangents(-0.9f);
+    EXPECT_MENDED(maker, "attributes.TANGENT", "its sign is taken");
+}
+
+TEST(GltfMeshes, ARestartValueIsAVertexWhereThereIsOne) {
+    GltfMaker maker;
+    std::vector<float> places;
+    for (int i = 0; i < 256; ++i)
+        places.insert(places.end(), {static_cast<float>(i % 16), static_cast<float>(i / 16), 0.0f});
+    const size_t positions = maker.addAccessor<float>(places, "VEC3");
+    const size_t indices = maker.addAccessor<uint8_t>({0, 1, 255}, "SCALAR");
+    maker.append("meshes",
+                 {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
+    maker.show(0);
+    const ScenePtr scene = load(maker);
+    EXPECT_TRUE(warns(*scene, "meshes[0].primitives[0].indices", "255")) << test::warningsOf(*scene);
+    ASSERT_EQ(scene->triangleCount(), 1u);
+    EXPECT_EQ(scene->bounds.high, glm::dvec3(15, 15, 0));
+}
+
+/// The triangles as corner places, to be compared however they are indexed.
+std::vector<glm::vec3> cornersOf(const Scene& scene) {
+    std::vector<glm::vec3> corners;
+    for (const uint32_t index : scene.meshes.at(0).indices)
+        corners.push_back(scene.meshes[0].positions[index]);
+    return corners;
+}
+
+template <class T>
+void expectRestartsEndPrimitives() {
+    constexpr T kEnd = std::numeric_limits<T>::max();
+    const auto drawn = [](int mode, const std::vector<T>& indices) {
+        GltfMaker maker = GltfMaker::square();
+        maker.primitive()["mode"] = mode;
+        maker.primitive()["indices"] = maker.addAccessor<T>(indices, "SCALAR");
+        return maker;
+    };
+    constexpr int kList = 4, kStrip = 5, kFan = 6;
+    const std::vector<glm::vec3> two = cornersOf(*load(drawn(kList, {0, 1, 2, 1, 2, 3})));
+    EXPECT_EQ(two.size(), 6u);
+    EXPECT_EQ(cornersOf(*load(drawn(kList, {0, 1, 2, 3, kEnd, 1, 2, 3}))), two);
+    // Each part of a strip begins with a triangle that does not turn round, after an odd part and after an
+    // even one.
+    EXPECT_EQ(cornersOf(*load(drawn(kStrip, {0, 1, 2, kEnd, 1, 2, 3}))), two);
+    std::vector<glm::vec3> three = cornersOf(*load(drawn(kList, {0, 1, 2, 1, 3, 2, 1, 2, 3})));
+    EXPECT_EQ(cornersOf(*load(drawn(kStrip, {0, 1, 2, 3, kEnd, kEnd, 1, kEnd, 1, 2, 3, kEnd}))), three);
+    EXPECT_TRUE(warns(*load(drawn(kStrip, {0, 1, 2, kEnd, 1, 2, 3})), "primitives[0].indices", "restart"));
+    EXPECT_REFUSED(drawn(kFan, {0, 1, 2, kEnd, 1, 2, 3}), "meshes[0].primitives[0].indices", "restart");
+    EXPECT_REFUSED(drawn(kStrip, {0, 1, 2, kEnd, 1, 2, 9}), "meshes[0].primitives[0].indices", "exceeds 3");
+}
+
+TEST(GltfMeshes, ElsewhereARestartValueEndsThePrimitive) {
+    expectRestartsEndPrimitives<uint8_t>();
+    expectRestartsEndPrimitives<uint16_t>();
+    expectRestartsEndPrimitives<uint32_t>();
 }
 
 TEST(GltfMeshes, TrianglesThatUseAVertexTwiceAreDropped) {

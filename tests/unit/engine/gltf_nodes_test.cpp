@@ -51,6 +51,10 @@ TEST(GltfNodes, AMatrixIsUsedVerbatim) {
     EXPECT_EQ(scene->instances[0].sceneFromMesh[3], glm::dvec4(7, 8, 9, 1));
     maker.json["nodes"][0]["matrix"][3] = 0.5;
     EXPECT_REFUSED(maker, "nodes[0].matrix", "not affine");
+    maker.json["nodes"][0]["matrix"][3] = 0.0;
+    maker.json["nodes"][0]["matrix"][15] = 0.99999994;
+    EXPECT_MENDED(maker, "nodes[0].matrix", "up to rounding");
+    EXPECT_EQ(load(maker)->instances[0].sceneFromMesh[3].w, 1.0);
 }
 
 TEST(GltfNodes, LoopsAndSecondParentsAreRefused) {
@@ -94,13 +98,21 @@ TEST(GltfNodes, TheDefaultSceneIsShownElseTheFirst) {
     EXPECT_EQ(load(maker)->instances.size(), 2u);
 }
 
-TEST(GltfNodes, SceneRootsMustBeRoots) {
+TEST(GltfNodes, ASceneMayNameAChildAndANodeTwice) {
     GltfMaker maker = GltfMaker::square();
-    maker.json["nodes"] = {{{"children", {1}}}, {{"mesh", 0}}};
+    maker.json["nodes"] = {{{"children", {1}}, {"translation", {5, 0, 0}}}, {{"mesh", 0}}};
     maker.json["scenes"] = {{{"nodes", {1}}}};
-    EXPECT_REFUSED(maker, "scenes[0].nodes[0]", "not a root");
+    EXPECT_MENDED(maker, "scenes[0].nodes[0]", "not a root");
+    ASSERT_EQ(load(maker)->instances.size(), 1u);
+    EXPECT_EQ(load(maker)->instances[0].sceneFromMesh[3].x, 5.0); // its parent still places it
+    maker.json["scenes"] = {{{"nodes", {0, 1}}}};
+    EXPECT_MENDED(maker, "scenes[0].nodes[1]", "not a root");
     maker.json["scenes"] = {{{"nodes", {0, 0}}}};
-    EXPECT_REFUSED(maker, "scenes[0].nodes[1]", "twice");
+    EXPECT_MENDED(maker, "scenes[0].nodes[1]", "twice");
+    maker.json["scenes"] = {{{"nodes", {0}}}};
+    maker.json["nodes"][0]["children"] = {1, 1};
+    EXPECT_MENDED(maker, "nodes[0].children[1]", "twice");
+    EXPECT_EQ(load(maker)->instances.size(), 1u);
 }
 
 TEST(GltfNodes, WhatIsScaledToNothingIsLeftOut) {

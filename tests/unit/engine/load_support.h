@@ -34,10 +34,21 @@ inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
+/// Whether a warning says `part` of `place`, which may be one of the further places that it lists.
 inline bool warns(const Scene& scene, const std::string& place, const std::string& part) {
     return std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const Warning& warning) {
-        return contains(warning.place, place) && contains(warning.message, part);
+        const size_t also = std::min(warning.message.rfind(" (also "), warning.message.size());
+        return (contains(warning.place, place) || contains(warning.message.substr(also), place)) &&
+               contains(warning.message, part);
     });
+}
+
+/// The warnings as one text, for messages of tests.
+inline std::string warningsOf(const Scene& scene) {
+    std::string all;
+    for (const Warning& warning : scene.warnings)
+        all += warning.place + ": " + warning.message + "\n";
+    return all;
 }
 
 } // namespace touchstone::test
@@ -47,4 +58,12 @@ inline bool warns(const Scene& scene, const std::string& place, const std::strin
         const touchstone::Error refusal = touchstone::test::loadError(maker);                                \
         EXPECT_EQ(refusal.place(), where) << refusal.what();                                                 \
         EXPECT_TRUE(touchstone::test::contains(refusal.problem(), why)) << refusal.what();                   \
+    } while (false)
+
+/// The square loads with both of its triangles and a warning.
+#define EXPECT_MENDED(maker, where, why)                                                                     \
+    do {                                                                                                     \
+        const touchstone::ScenePtr mended = touchstone::test::load(maker);                                   \
+        EXPECT_EQ(mended->triangleCount(), 2u);                                                              \
+        EXPECT_TRUE(touchstone::test::warns(*mended, where, why)) << touchstone::test::warningsOf(*mended);  \
     } while (false)
