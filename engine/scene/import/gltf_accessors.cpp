@@ -79,18 +79,18 @@ void visitElements(ImportContext& context, const GltfDocument& document, const t
                              sparse.indices.byteOffset;
     const uint8_t* values = document.buffers.view(static_cast<size_t>(sparse.values.bufferView)).data() +
                             sparse.values.byteOffset;
-    uint64_t before = 0;
+    uint64_t before = 0, falls = 0;
     for (uint64_t i = 0; i < static_cast<uint64_t>(sparse.count); ++i) {
         const uint64_t target = loadIndex(indices + i * indexBytes, sparse.indices.componentType);
-        if (i > 0 && target <= before)
-            context.warn(place + ".sparse.indices",
-                         "do not increase; of values for one element the last counts");
+        falls += i > 0 && target <= before ? 1 : 0;
         before = target;
         if (target >= accessor.count)
             context.fail(place + ".sparse.indices", "replaces element " + std::to_string(target) + " of " +
                                                         std::to_string(accessor.count));
         store(target, values + i * bytes);
     }
+    if (falls > 0)
+        context.warn(place + ".sparse.indices", "do not increase; of values for one element the last counts");
 }
 
 } // namespace

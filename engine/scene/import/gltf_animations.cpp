@@ -55,32 +55,34 @@ KeyTimes readTimes(ImportContext& context, const GltfDocument& document, int acc
         context.fail(place, "has no keys");
     KeyTimes result;
     result.stated = stated.size();
+    size_t negative = 0;
     for (size_t i = 0; i < stated.size(); ++i) {
         if (!std::isfinite(stated[i]))
             context.fail(place, "time " + std::to_string(i) + " is not a finite number");
-        if (stated[i] < 0.0f)
-            context.warn(place, "time " + std::to_string(i) + " is negative; what is before 0 is not played");
-        if (!result.times.empty() && stated[i] <= result.times.back()) {
-            context.warn(place,
-                         "time " + std::to_string(i) + " is not after the one before it; its key is skipped");
+        negative += stated[i] < 0.0f ? 1 : 0;
+        if (!result.times.empty() && stated[i] <= result.times.back())
             continue;
-        }
         result.times.push_back(stated[i]);
         result.keys.push_back(i);
     }
+    if (negative > 0)
+        context.warn(place, std::to_string(negative) + " times are negative; what is before 0 is not played");
+    if (const size_t skipped = stated.size() - result.times.size(); skipped > 0)
+        context.warn(place,
+                     std::to_string(skipped) + " times are not after the one before; their keys are skipped");
     return result;
 }
 
-/// Brings a rotation to unit length; throws Error if it has no direction.
-void normaliseRotation(ImportContext& context, glm::vec4& key, size_t index, const std::string& place) {
+/// Brings a rotation to unit length. Returns whether it was off it; throws Error if it has no direction.
+bool normaliseRotation(const ImportContext& context, glm::vec4& key, size_t index, const std::string& place) {
     constexpr double kNone = 1e-6;
     const double length = glm::length(glm::dvec4(key));
     if (!(length > kNone))
         context.fail(place, "rotation " + std::to_string(index) + " has length 0");
     if (std::abs(length - 1.0) <= kUnitTolerance)
-        return;
-    context.warn(place, "rotation " + std::to_string(index) + " is not of unit length and was normalised");
+        return false;
     key = glm::vec4(glm::dvec4(key) / length);
+    return true;
 }
 
 std::vector<glm::vec4> readKeys(ImportContext& context, const GltfDocument& document, int accessor,
@@ -97,6 +99,7 @@ std::vector<glm::vec4> readKeys(ImportContext& context, const GltfDocument& docu
     const std::vector<float> values = readFloats(context, document, accessor, place);
     std::vector<glm::vec4> keys;
     keys.reserve(at.keys.size() * perKey);
+    size_t odd = 0;
     for (const size_t key : at.keys)
         for (size_t i = key * perKey; i < (key + 1) * perKey; ++i) {
             glm::vec4 value(0.0f);
@@ -106,9 +109,11 @@ std::vector<glm::vec4> readKeys(ImportContext& context, const GltfDocument& docu
                 context.fail(place, "value " + std::to_string(i) + " is not finite");
             const bool isTangent = perKey == 3 && i % 3 != 1;
             if (channel.path == AnimatedPath::Rotation && !isTangent)
-                normaliseRotation(context, value, i, place);
+                odd += normaliseRotation(context, value, i, place) ? 1 : 0;
             keys.push_back(value);
         }
+    if (odd > 0)
+        context.warn(place, std::to_string(odd) + " rotations are not of unit length and were normalised");
     return keys;
 }
 

@@ -70,6 +70,9 @@ bool someMeshRefers(const json& gltf) {
 MpegMaterials fromBeside(ImportContext& context, const std::filesystem::path& path) {
     MpegMaterials materials;
     try {
+        std::error_code unreadable;
+        if (std::filesystem::file_size(path, unreadable) > kMaxTextBytes && !unreadable)
+            context.fail("", "is larger than " + std::to_string(kMaxTextBytes >> 20) + " MiB");
         const std::vector<uint8_t> bytes = readWholeFile(path, kBeside);
         context.countFileBytes(bytes.size());
         const json gltf = parseJson(context, bytes, Comments::Ignore);

@@ -178,6 +178,7 @@ std::string loaderSays(const json& haptic) {
                                      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mMwNjYGAAE2A"
                                      "JpHI3MJAAAAAElFTkSuQmCC"}}};
     maker.json["textures"] = {{{"source", 0}}, {{"source", 0}}};
+    maker.json["extensionsUsed"] = {"TOUCHSTONE_materials_haptic"};
     maker.json["materials"] = {{{"name", "m"}}};
     maker.json["materials"][0]["extensions"]["TOUCHSTONE_materials_haptic"] = haptic;
     maker.primitive()["material"] = 0;

@@ -131,7 +131,7 @@ TEST(Animation, BrokenOnesAreMendedOrLeftOutWithTheirPlace) {
     EXPECT_MENDED(animated({0, 1}, {0, 0, 0}, "VEC3", "translation"), output, "1 values where 2");
     EXPECT_MENDED(animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "rotation"), output, "4 components");
     EXPECT_MENDED(animated({0, 1}, {0, 0, 0, 1, 0, 0, 0.3f, 0.3f}, "VEC4", "rotation"), output,
-                  "rotation 1 is not of unit length");
+                  "1 rotations are not of unit length");
     GltfMaker matrix = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
     matrix.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     EXPECT_MENDED(matrix, "animations[0].channels[0].target.node", "has a matrix");
@@ -152,7 +152,8 @@ TEST(Animation, KeysThatDoNotAscendAreSkippedAndRotationsNormalised) {
     EXPECT_EQ(channel.values[1], glm::vec4(0, 0, 0, 1));
     EXPECT_EQ(channel.values[2], glm::vec4(0, 0, 0.6f, 0.8f));
     EXPECT_EQ(scene->animations[0].duration, 1.0);
-    EXPECT_TRUE(test::warns(*scene, "animations[0].samplers[0].input", "time 2 is not after"));
+    EXPECT_TRUE(
+        test::warns(*scene, "animations[0].samplers[0].input", "1 times are not after the one before"));
     EXPECT_TRUE(test::warns(*scene, "animations[0].samplers[0].output", "not of unit length"));
 }
 
