@@ -178,6 +178,26 @@ int GlbWriter::addMesh(const std::string& name, const Shape& shape, int material
     return addMesh(name, {{shape, material}});
 }
 
+int GlbWriter::addMeshLike(const std::string& name, int mesh, int material) {
+    Json copy = gltf_["meshes"].at(static_cast<size_t>(mesh));
+    copy["name"] = name;
+    copy["primitives"].at(0)["material"] = material;
+    gltf_["meshes"].push_back(std::move(copy));
+    return static_cast<int>(gltf_["meshes"].size()) - 1;
+}
+
+int GlbWriter::addStrokes(const std::string& name, int mode, const std::vector<glm::vec3>& positions,
+                          const std::vector<glm::vec3>& colors, int material) {
+    if (packing_ != Packing::Plain || positions.size() != colors.size())
+        throw std::logic_error("strokes are written plain, with a colour each");
+    Json attributes{{"POSITION", addPositions(positions)}};
+    attributes["COLOR_0"] =
+        addAccessor(colors.data(), {colors.size(), sizeof(glm::vec3), kVertexTarget}, kFloat, "VEC3");
+    Json primitive{{"attributes", attributes}, {"material", material}, {"mode", mode}};
+    gltf_["meshes"].push_back({{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
+    return static_cast<int>(gltf_["meshes"].size()) - 1;
+}
+
 int GlbWriter::addNode(const std::string& name, int mesh, const glm::dvec3& translation) {
     Json node{{"name", name}, {"mesh", mesh}};
     if (translation != glm::dvec3(0.0))

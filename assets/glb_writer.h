@@ -30,6 +30,12 @@ class GlbWriter {
     int addMesh(const std::string& name, const Shape& shape, int material);
     /// One mesh of several primitives, each with its own material.
     int addMesh(const std::string& name, const std::vector<std::pair<Shape, int>>& parts);
+    /// The same vertices and indices again with another material, of a mesh of one primitive.
+    int addMeshLike(const std::string& name, int mesh, int material);
+    /// Points (mode 0), line segments (1), a loop (2) or a strip (3) in these colours, linear. Only with
+    /// Packing::Plain.
+    int addStrokes(const std::string& name, int mode, const std::vector<glm::vec3>& positions,
+                   const std::vector<glm::vec3>& colors, int material);
     /// A node at the root of the scene, m.
     int addNode(const std::string& name, int mesh, const glm::dvec3& translation = glm::dvec3(0.0));
     /// How a node moves: one channel of the scene's only animation. Only with Packing::Plain.

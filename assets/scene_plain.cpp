@@ -99,6 +99,7 @@ std::vector<SceneFile> allScenes() {
     scenes.push_back(swatches());
     scenes.push_back(moving());
     scenes.push_back(virtualBump());
+    scenes.push_back(materials());
     return scenes;
 }
 

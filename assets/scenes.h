@@ -24,6 +24,9 @@ struct SceneFile {
 /// A box that rises over a plate, turns about the vertical once and sinks again, in a loop of 4 s.
 [[nodiscard]] SceneFile moving();
 
+/// Spheres, lines and points before a plate: every look that is drawn.
+[[nodiscard]] SceneFile materials();
+
 /// The virtual bump of [000]: a flat plane that feels curved.
 [[nodiscard]] SceneFile virtualBump();
 

@@ -25,9 +25,11 @@ void createSlot(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, FrameSlot&
             gpu.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2});
     slot.uniforms = createBuffer(gpu, sizeof(shared::FrameUniforms), vk::BufferUsageFlagBits::eUniformBuffer,
                                  MemoryUse::Upload);
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eUniformBuffer, 1};
+    const std::array sizes{vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, 1},
+                           vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler, 1}};
     slot.pool = vk::raii::DescriptorPool(
-        gpu.device, vk::DescriptorPoolCreateInfo{.maxSets = 1, .poolSizeCount = 1, .pPoolSizes = &size});
+        gpu.device, vk::DescriptorPoolCreateInfo{
+                        .maxSets = 1, .poolSizeCount = sizes.size(), .pPoolSizes = sizes.data()});
     slot.frameSet = (*gpu.device)
                         .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{.descriptorPool = *slot.pool,
                                                                               .descriptorSetCount = 1,
@@ -40,6 +42,18 @@ void createSlot(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, FrameSlot&
                                .descriptorCount = 1,
                                .descriptorType = vk::DescriptorType::eUniformBuffer,
                                .pBufferInfo = &uniforms},
+        {});
+}
+
+void setEnvironment(const Gpu::Impl& gpu, const GpuEnvironment& environment, FrameSlot& slot) {
+    const vk::DescriptorImageInfo image{*environment.sampler, *environment.cube.view,
+                                        vk::ImageLayout::eShaderReadOnlyOptimal};
+    gpu.device.updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = slot.frameSet,
+                               .dstBinding = 1,
+                               .descriptorCount = 1,
+                               .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                               .pImageInfo = &image},
         {});
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // One of the frames in flight. Main thread only, private to renderer/.
 
+#include "renderer/gpu_environment.h"
 #include "renderer/gpu_memory.h"
 #include "renderer/scene_renderer.h"
 
@@ -28,8 +29,10 @@ struct FrameRing {
     FrameSlot* last = nullptr;
 };
 
-/// `layout`: of the set that holds the frame's uniforms.
+/// `layout`: of the set that holds the frame's uniforms and its environment, which setEnvironment sets.
 void createSlot(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, FrameSlot& slot);
+/// No frame of this slot may be in flight.
+void setEnvironment(const Gpu::Impl& gpu, const GpuEnvironment& environment, FrameSlot& slot);
 /// Makes the images anew; waits for the device.
 void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot);
 /// Waits until the slot's last frame is finished and notes how long that and the frame took.

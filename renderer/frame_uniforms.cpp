@@ -37,6 +37,18 @@ void setSurroundings(const Surroundings& from, float exposure, shared::FrameUnif
     }
 }
 
+/// In place of the closed form's light; its key light stays, so that the probe has a shadow.
+void setEnvironmentLight(const Environment& from, float exposure, shared::FrameUniforms& to) {
+    const auto exposed = [exposure](const glm::dvec3& light) {
+        return glm::vec4(exposure * glm::vec3(light), 0.0f);
+    };
+    for (size_t i = 0; i < 4; ++i)
+        to.irradiance[i] = exposed(from.irradiance[i]);
+    for (size_t i = 0; i < 5; ++i)
+        to.irradianceColor[i] = exposed(from.irradiance[4 + i]);
+    to.environment = {exposure, static_cast<float>(Environment::kLevels - 1), 0.0f, 0.0f};
+}
+
 } // namespace
 
 void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye,
@@ -50,6 +62,8 @@ void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const
     uniforms.irradiance0 = glm::vec4(exposure * view.lights[0].irradiance, 0.0f);
     uniforms.irradiance1 = glm::vec4(exposure * view.lights[1].irradiance, 0.0f);
     setSurroundings(view.surroundings, exposure, uniforms);
+    if (environment_.source)
+        setEnvironmentLight(*environment_.source, exposure, uniforms);
     uniforms.probe = glm::vec4(
         glm::dvec4(view.probe.centre - eye, view.probe.radius > 0.0 ? 1.0 / view.probe.radius : 0.0));
     uniforms.backgroundTop = glm::vec4(view.background.top, 1.0f);
@@ -58,6 +72,7 @@ void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const
                       overlay.hiddenAlpha, static_cast<float>(view.workspaceFromScene.scale)};
     uniforms.toViewer = unitOrZero(
         glm::dvec3(view.viewFromWorkspace[0].z, view.viewFromWorkspace[1].z, view.viewFromWorkspace[2].z));
+    uniforms.toViewer.w = view.pixelScale;
     std::memcpy(slot.uniforms.mapped, &uniforms, sizeof uniforms);
 }
 

@@ -207,17 +207,20 @@ void createDevice(Gpu::Impl& gpu, const GpuOptions& options) {
     features.dynamicRendering = true;
     features.synchronization2 = true;
     features.shaderTerminateInvocation = true; // `discard`; every Vulkan 1.3 device has it
+    gpu.dualSourceBlending = gpu.physical.getFeatures().dualSrcBlend;
+    const vk::PhysicalDeviceFeatures core{.dualSrcBlend = gpu.dualSourceBlending};
     std::vector<const char*> extensions;
     if (*gpu.surface)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     try {
-        gpu.device = vk::raii::Device(
-            gpu.physical,
-            vk::DeviceCreateInfo{.pNext = &features,
-                                 .queueCreateInfoCount = 1,
-                                 .pQueueCreateInfos = &queue,
-                                 .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
-                                 .ppEnabledExtensionNames = extensions.data()});
+        gpu.device =
+            vk::raii::Device(gpu.physical, vk::DeviceCreateInfo{.pNext = &features,
+                                                                .queueCreateInfoCount = 1,
+                                                                .pQueueCreateInfos = &queue,
+                                                                .enabledExtensionCount =
+                                                                    static_cast<uint32_t>(extensions.size()),
+                                                                .ppEnabledExtensionNames = extensions.data(),
+                                                                .pEnabledFeatures = &core});
     } catch (const vk::SystemError& error) {
         throwVulkanError(error, "opening the device");
     }

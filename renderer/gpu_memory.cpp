@@ -50,33 +50,38 @@ GpuImage createImage(const Gpu::Impl& gpu, const ImageRequest& request) {
     result.extent = request.extent;
     const std::array<vk::Format, 2> formats{request.format, request.otherFormat};
     const bool twoFormats = request.otherFormat != vk::Format::eUndefined;
+    vk::ImageCreateFlags flags;
+    if (twoFormats)
+        flags |= vk::ImageCreateFlagBits::eMutableFormat;
+    if (request.cube)
+        flags |= vk::ImageCreateFlagBits::eCubeCompatible;
     const vk::ImageFormatListCreateInfo list{.viewFormatCount = 2, .pViewFormats = formats.data()};
     result.image = vk::raii::Image(
         gpu.device, vk::ImageCreateInfo{.pNext = twoFormats ? &list : nullptr,
-                                        .flags = twoFormats ? vk::ImageCreateFlagBits::eMutableFormat
-                                                            : vk::ImageCreateFlags{},
+                                        .flags = flags,
                                         .imageType = vk::ImageType::e2D,
                                         .format = request.format,
                                         .extent = {request.extent.width, request.extent.height, 1},
                                         .mipLevels = request.levels,
-                                        .arrayLayers = 1,
+                                        .arrayLayers = request.cube ? 6u : 1u,
                                         .usage = request.usage});
     const vk::MemoryRequirements needed = result.image.getMemoryRequirements();
     result.size = needed.size;
     result.memory = allocate(gpu, needed, MemoryUse::Device);
     result.image.bindMemory(*result.memory, 0);
-    result.view = createView(gpu, result, request.format, request.levels);
+    result.view = createView(gpu, result, request.format, request.levels, request.cube);
     return result;
 }
 
 vk::raii::ImageView createView(const Gpu::Impl& gpu, const GpuImage& image, vk::Format format,
-                               uint32_t levels) {
+                               uint32_t levels, bool cube) {
     const vk::ImageAspectFlags aspect =
         format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
-    return {gpu.device, vk::ImageViewCreateInfo{.image = *image.image,
-                                                .viewType = vk::ImageViewType::e2D,
-                                                .format = format,
-                                                .subresourceRange = {aspect, 0, levels, 0, 1}}};
+    return {gpu.device,
+            vk::ImageViewCreateInfo{.image = *image.image,
+                                    .viewType = cube ? vk::ImageViewType::eCube : vk::ImageViewType::e2D,
+                                    .format = format,
+                                    .subresourceRange = {aspect, 0, levels, 0, cube ? 6u : 1u}}};
 }
 
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
@@ -126,12 +131,12 @@ void Uploader::buffer(const GpuBuffer& target, vk::DeviceSize offset, std::span<
 }
 
 void Uploader::imageRows(const GpuImage& target, uint32_t level, vk::Extent2D extent, uint32_t firstRow,
-                         std::span<const std::byte> bytes) {
+                         std::span<const std::byte> bytes, uint32_t face) {
     std::memcpy(staging_.mapped, bytes.data(), bytes.size());
     runOnce(gpu_, [&](const vk::raii::CommandBuffer& commands) {
         commands.copyBufferToImage(
             *staging_.buffer, *target.image, vk::ImageLayout::eTransferDstOptimal,
-            vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+            vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, face, 1},
                                 .imageOffset = {0, static_cast<int32_t>(firstRow), 0},
                                 .imageExtent = {extent.width, extent.height, 1}});
     });

@@ -36,10 +36,11 @@ struct ImageRequest {
     uint32_t levels = 1;
     vk::ImageUsageFlags usage;
     vk::Format otherFormat = vk::Format::eUndefined; ///< a second format that views may have
+    bool cube = false;                               ///< six square faces
 };
 [[nodiscard]] GpuImage createImage(const Gpu::Impl& gpu, const ImageRequest& request);
 [[nodiscard]] vk::raii::ImageView createView(const Gpu::Impl& gpu, const GpuImage& image, vk::Format format,
-                                             uint32_t levels = 1);
+                                             uint32_t levels = 1, bool cube = false);
 
 /// A layout transition with the stages and accesses before and after it, for colour images or depth.
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
@@ -75,7 +76,7 @@ class Uploader {
     /// Rows of a level of an image in layout TransferDstOptimal, from `firstRow`; tightly packed, at most
     /// kStagingSize bytes or one row.
     void imageRows(const GpuImage& target, uint32_t level, vk::Extent2D extent, uint32_t firstRow,
-                   std::span<const std::byte> bytes);
+                   std::span<const std::byte> bytes, uint32_t face = 0);
 
   private:
     const Gpu::Impl& gpu_;

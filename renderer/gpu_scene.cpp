@@ -2,6 +2,7 @@
 
 #include "renderer/false_color.h"
 #include "renderer/haptic_quantity.h"
+#include "renderer/material_features.h"
 #include "shaders/shared/scene_types.h"
 
 #include <algorithm>
@@ -31,17 +32,6 @@ void setUv(const TextureRef& reference, glm::vec4& linear, glm::vec4& offset) {
     const glm::vec2 v = reference.transform(glm::vec2(0.0f, 1.0f)) - origin;
     linear = {u.x, v.x, u.y, v.y};
     offset = {origin.x, origin.y, static_cast<float>(reference.texCoord), 0.0f};
-}
-
-bool transformed(const TextureRef& reference) {
-    return reference && (reference.texCoord != 0 || reference.offset != glm::vec2(0.0f) ||
-                         reference.rotation != 0.0f || reference.scale != glm::vec2(1.0f));
-}
-
-bool sameLookup(const TextureRef& a, const TextureRef& b) {
-    return a.image == b.image && a.texCoord == b.texCoord && a.offset == b.offset &&
-           a.rotation == b.rotation && a.scale == b.scale && a.wrapS == b.wrapS && a.wrapT == b.wrapT &&
-           a.nearest == b.nearest;
 }
 
 vk::raii::DescriptorPool makePool(const Gpu::Impl& gpu, size_t sets, size_t texturesEach) {
@@ -128,50 +118,11 @@ bool GpuScene::uploadNext() {
     return steps_.empty();
 }
 
-uint32_t GpuScene::materialFeatures(const Material& material) const {
-    using namespace shared;
-    uint32_t features = 0;
-    if (material.baseColorTexture)
-        features |= kHasBaseColorTexture; // a broken one is drawn grey
-    if (usableTexture(*scene_, material.metallicRoughnessTexture))
-        features |= kHasMetallicRoughnessTexture;
-    if (usableTexture(*scene_, material.normalTexture))
-        features |= kHasNormalTexture;
-    if (usableTexture(*scene_, material.occlusionTexture))
-        features |= kHasOcclusionTexture;
-    if (usableTexture(*scene_, material.emissiveTexture))
-        features |= kHasEmissiveTexture;
-    const bool emissive = material.emissive != glm::vec3(0.0f);
-    const bool emissionKnown = !material.emissiveTexture || (features & kHasEmissiveTexture) != 0;
-    if (emissive && emissionKnown)
-        features |= kHasEmission;
-    else
-        features &= ~kHasEmissiveTexture;
-    const uint32_t both = kHasMetallicRoughnessTexture | kHasOcclusionTexture;
-    if ((features & both) == both && sameLookup(material.metallicRoughnessTexture, material.occlusionTexture))
-        features |= kSharesOcclusion;
-    for (const TextureRef* reference :
-         {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-          &material.occlusionTexture, &material.emissiveTexture})
-        if (transformed(*reference))
-            features |= kHasUvTransform;
-    if (material.alphaMode == AlphaMode::Mask)
-        features |= kIsMasked;
-    if (material.alphaMode == AlphaMode::Blend)
-        features |= kIsBlended;
-    return features;
-}
-
 void GpuScene::planMeshes() {
     for (size_t m = 0; m < scene_->meshes.size(); ++m) {
         const Mesh& mesh = scene_->meshes[m];
-        DrawnMesh drawn{prepared_->meshes[m],
-                        materialFeatures(scene_->materials[static_cast<size_t>(mesh.material)])};
-        if (!mesh.colors.empty())
-            drawn.features |= shared::kHasVertexColor;
-        if (!mesh.tangents.empty() && (drawn.features & shared::kHasNormalTexture) != 0)
-            drawn.features |= shared::kHasTangents;
-        meshes_.push_back(std::move(drawn));
+        const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
+        meshes_.push_back({prepared_->meshes[m], drawFeatures(*scene_, mesh, material)});
     }
     using Usage = vk::BufferUsageFlagBits;
     const auto vertices = bytesOf(prepared_->vertices), indices = bytesOf(prepared_->indices);
@@ -201,25 +152,17 @@ void GpuScene::uploadMaterials() {
     materialSets_ = allocateSets(gpu_, pool_, pipelines_.materialSet(), count);
     for (size_t m = 0; m < count; ++m) {
         const Material& material = scene_->materials[m];
-        const std::array<const TextureRef*, kTextureSlots> references{
-            &material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-            &material.occlusionTexture, &material.emissiveTexture};
-        MaterialUniforms uniforms{};
-        uniforms.baseColor = material.baseColor;
-        uniforms.emissiveCutoff = glm::vec4(material.emissive, material.alphaCutoff);
-        uniforms.factors = {material.metallic, material.roughness, material.normalScale,
-                            material.occlusionStrength};
+        const auto references = material.lookTextures();
+        MaterialUniforms uniforms = materialUniforms(material);
         std::vector<vk::DescriptorImageInfo> images;
         for (size_t slot = 0; slot < kTextureSlots; ++slot) {
-            const bool color = slot == kBaseColorSlot || slot == kEmissiveSlot;
             const Neutral neutral = slot == kBaseColorSlot ? Neutral::Grey
                                     : slot == kNormalSlot  ? Neutral::FlatNormal
                                                            : Neutral::White;
             setUv(*references[slot], uniforms.uvLinear[slot], uniforms.uvOffset[slot]);
-            images.push_back(
-                {sampler(*references[slot]),
-                 texture(*references[slot], color ? TextureRole::Color : TextureRole::Data, neutral),
-                 vk::ImageLayout::eShaderReadOnlyOptimal});
+            images.push_back({sampler(*references[slot]),
+                              texture(*references[slot], kSlotRoles[slot], neutral),
+                              vk::ImageLayout::eShaderReadOnlyOptimal});
         }
         std::memcpy(materialUniforms_.mapped + m * stride, &uniforms, sizeof uniforms);
         writeSet(gpu_, materialSets_[m], {*materialUniforms_.buffer, m * stride, sizeof uniforms}, images);
@@ -335,6 +278,8 @@ void GpuScene::uploadScalars(FalseColor& target) {
         vk::BufferUsageFlagBits::eVertexBuffer | vk::BufferUsageFlagBits::eTransferDst, MemoryUse::Device);
     for (size_t m = 0; m < scene_->meshes.size(); ++m) {
         const Mesh& mesh = scene_->meshes[m];
+        if (mesh.indices.empty())
+            continue; // lines and points: neither felt nor shown here
         const vk::DeviceSize place = static_cast<vk::DeviceSize>(meshes_[m].mesh.firstVertex) * sizeof(float);
         if (target.mode == ViewMode::Dihedral) {
             uploader_.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));

@@ -68,7 +68,6 @@ class GpuScene {
     void uploadNow(const TextureLevels& levels, GpuImage& image);
     void uploadMaterials();
     void uploadScalars(FalseColor& target);
-    [[nodiscard]] uint32_t materialFeatures(const Material& material) const;
     [[nodiscard]] vk::ImageView texture(const TextureRef& reference, TextureRole role, Neutral neutral);
     [[nodiscard]] vk::ImageView neutralTexture(Neutral neutral);
     [[nodiscard]] vk::Sampler sampler(const TextureRef& reference);

@@ -8,12 +8,13 @@ vk::raii::ShaderModule shaderModule(const Gpu::Impl& gpu, std::span<const uint32
     return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()}};
 }
 
-vk::PipelineColorBlendAttachmentState blendState(bool blend) {
+vk::PipelineColorBlendAttachmentState blendState(const PipelineRecipe& recipe) {
     using Mask = vk::ColorComponentFlagBits;
+    using Factor = vk::BlendFactor;
     // The image stays opaque whatever is blended into it.
-    return {.blendEnable = blend,
-            .srcColorBlendFactor = vk::BlendFactor::eSrcAlpha,
-            .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
+    return {.blendEnable = recipe.blend,
+            .srcColorBlendFactor = recipe.twoSources ? Factor::eOne : Factor::eSrcAlpha,
+            .dstColorBlendFactor = recipe.twoSources ? Factor::eSrc1Color : Factor::eOneMinusSrcAlpha,
             .colorBlendOp = vk::BlendOp::eAdd,
             .srcAlphaBlendFactor = vk::BlendFactor::eZero,
             .dstAlphaBlendFactor = vk::BlendFactor::eOne,
@@ -52,7 +53,7 @@ vk::raii::Pipeline makePipeline(const Gpu::Impl& gpu, const vk::raii::PipelineCa
     const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = recipe.depthTest,
                                                         .depthWriteEnable = recipe.depthWrite,
                                                         .depthCompareOp = recipe.depthCompare};
-    const vk::PipelineColorBlendAttachmentState attachment = blendState(recipe.blend);
+    const vk::PipelineColorBlendAttachmentState attachment = blendState(recipe);
     const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &attachment};
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                              vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};

@@ -21,6 +21,7 @@ struct PipelineRecipe {
     std::vector<vk::VertexInputAttributeDescription> attributes;
     vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
     bool depthTest = true, depthWrite = true, blend = false;
+    bool twoSources = false; ///< with blend: color 1 of the fragment shader is the factor of what lies behind
     vk::CompareOp depthCompare = vk::CompareOp::eLessOrEqual;
     vk::PipelineLayout layout;
     vk::RenderPass renderPass; ///< null: dynamic rendering into kSceneFormat and kDepthFormat

@@ -31,21 +31,42 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Gpu::Impl& gpu, uint32_t textu
 vk::raii::PipelineLayout makeLayout(const Gpu::Impl& gpu, std::initializer_list<vk::DescriptorSetLayout> sets,
                                     bool withObject) {
     const vk::PushConstantRange object{
-        .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(shared::ObjectConstants)};
+        .stageFlags = kObjectStages, .offset = 0, .size = sizeof(shared::ObjectConstants)};
     return {gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = static_cast<uint32_t>(sets.size()),
                                                      .pSetLayouts = sets.begin(),
                                                      .pushConstantRangeCount = withObject ? 1u : 0u,
                                                      .pPushConstantRanges = &object}};
 }
 
+std::vector<vk::VertexInputAttributeDescription> sceneAttributes(uint32_t firstLocation, uint32_t binding) {
+    return {{firstLocation, binding, Format::eR32G32B32Sfloat, offsetof(SceneVertex, position)},
+            {firstLocation + 1, binding, Format::eR32G32B32Sfloat, offsetof(SceneVertex, normal)},
+            {firstLocation + 2, binding, Format::eR32G32B32A32Sfloat, offsetof(SceneVertex, tangent)},
+            {firstLocation + 3, binding, Format::eR32G32Sfloat, offsetof(SceneVertex, uv0)},
+            {firstLocation + 4, binding, Format::eR32G32Sfloat, offsetof(SceneVertex, uv1)},
+            {firstLocation + 5, binding, Format::eR16G16B16A16Unorm, offsetof(SceneVertex, color)}};
+}
+
 void describeSceneVertices(PipelineRecipe& recipe) {
     recipe.bindings = {{0, sizeof(SceneVertex), vk::VertexInputRate::eVertex}};
-    recipe.attributes = {{0, 0, Format::eR32G32B32Sfloat, offsetof(SceneVertex, position)},
-                         {1, 0, Format::eR32G32B32Sfloat, offsetof(SceneVertex, normal)},
-                         {2, 0, Format::eR32G32B32A32Sfloat, offsetof(SceneVertex, tangent)},
-                         {3, 0, Format::eR32G32Sfloat, offsetof(SceneVertex, uv0)},
-                         {4, 0, Format::eR32G32Sfloat, offsetof(SceneVertex, uv1)},
-                         {5, 0, Format::eR16G16B16A16Unorm, offsetof(SceneVertex, color)}};
+    recipe.attributes = sceneAttributes(0, 0);
+}
+
+/// Lines and points: one instance each, of two vertices or one, spread to a quad by the shader.
+void describeStrokes(PipelineRecipe& recipe, bool lines) {
+    recipe.vertexCode = lines ? std::span<const uint32_t>(shaders::scene_lines_vert)
+                              : std::span<const uint32_t>(shaders::scene_points_vert);
+    recipe.topology = vk::PrimitiveTopology::eTriangleStrip;
+    recipe.bindings = {
+        {0, (lines ? 2u : 1u) * static_cast<uint32_t>(sizeof(SceneVertex)), vk::VertexInputRate::eInstance}};
+    recipe.attributes = sceneAttributes(0, 0);
+    if (lines)
+        for (vk::VertexInputAttributeDescription end : sceneAttributes(6, 0)) {
+            end.offset += sizeof(SceneVertex);
+            recipe.attributes.push_back(end);
+        }
+    // No tangents: nothing reads them.
+    std::erase_if(recipe.attributes, [](const auto& each) { return each.location % 6 == 2; });
 }
 
 void applyPass(PipelineRecipe& recipe, OverlayPass pass) {
@@ -60,7 +81,7 @@ void applyPass(PipelineRecipe& recipe, OverlayPass pass) {
 
 Pipelines::Pipelines(const Gpu::Impl& gpu)
     : gpu_(gpu),
-      frameSet_(makeSetLayout(gpu, 0, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment)),
+      frameSet_(makeSetLayout(gpu, 1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment)),
       materialSet_(makeSetLayout(gpu, shared::kTextureSlots, vk::ShaderStageFlagBits::eFragment)),
       falseColorSet_(makeSetLayout(gpu, 1, vk::ShaderStageFlagBits::eFragment)),
       sceneLayout_(makeLayout(gpu, {*frameSet_, *materialSet_}, true)),
@@ -81,12 +102,21 @@ vk::Pipeline Pipelines::cached(const Key& key, Make&& make) {
 
 vk::Pipeline Pipelines::scene(uint32_t features) {
     return cached({Kind::Scene, features, 0}, [&](PipelineRecipe& recipe) {
+        const bool points = (features & shared::kIsPoints) != 0;
         recipe.vertexCode = shaders::scene_vert;
         recipe.fragmentCode = shaders::scene_frag;
         recipe.constants = {features};
         describeSceneVertices(recipe);
         recipe.blend = (features & shared::kIsBlended) != 0;
         recipe.depthWrite = !recipe.blend;
+        if ((features & (shared::kIsLines | shared::kIsPoints)) != 0)
+            describeStrokes(recipe, !points);
+        if (points) {
+            recipe.fragmentCode = shaders::scene_points_frag;
+        } else if ((features & shared::kIsTransmissive) != 0 && gpu_.dualSourceBlending) {
+            recipe.fragmentCode = shaders::scene_glass_frag;
+            recipe.twoSources = true;
+        }
         recipe.layout = *sceneLayout_;
     });
 }

@@ -10,6 +10,10 @@
 
 namespace touchstone {
 
+/// The stages that read shared::ObjectConstants.
+inline constexpr vk::ShaderStageFlags kObjectStages =
+    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
 /// Which of the overlay's three passes.
 enum class OverlayPass : uint8_t { Hidden, Opaque, Translucent };
 

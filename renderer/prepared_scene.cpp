@@ -1,6 +1,7 @@
 #include "renderer/prepared_scene.h"
 
 #include "engine/scene/mesh_vertices.h"
+#include "renderer/material_features.h"
 
 #include <meshoptimizer.h>
 
@@ -69,7 +70,8 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene&
         prepared.halfSize = 0.5 * bounds.extent();
     }
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
-        out.vertices.push_back(packVertex(mesh, i, prepared.centre));
+        if (!mesh.indices.empty())
+            out.vertices.push_back(packVertex(mesh, i, prepared.centre));
         prepared.radius =
             std::max(prepared.radius, glm::length(glm::dvec3(mesh.positions[i]) - prepared.centre));
     }
@@ -81,16 +83,22 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene&
     out.meshes.push_back(std::move(prepared));
 }
 
+/// Behind the vertices of all triangles, which false-colour views count through.
+void prepareStrokes(const Mesh& mesh, PreparedMesh& prepared, std::vector<SceneVertex>& vertices) {
+    prepared.strokeVertex = static_cast<uint32_t>(vertices.size());
+    prepared.strokes = static_cast<uint32_t>(mesh.lineCount() + mesh.pointCount());
+    for (const auto* indices : {&mesh.lineIndices, &mesh.pointIndices})
+        for (const uint32_t index : *indices)
+            vertices.push_back(packVertex(mesh, index, prepared.centre));
+}
+
 void prepareTextures(const PrepareOptions& options, PreparedScene& out) {
     const Scene& scene = *out.scene;
     for (const Material& material : scene.materials) {
-        const std::array<std::pair<const TextureRef*, TextureRole>, 5> wanted{
-            {{&material.baseColorTexture, TextureRole::Color},
-             {&material.metallicRoughnessTexture, TextureRole::Data},
-             {&material.normalTexture, TextureRole::Data},
-             {&material.occlusionTexture, TextureRole::Data},
-             {&material.emissiveTexture, TextureRole::Color}}};
-        for (const auto& [reference, role] : wanted) {
+        const auto references = material.lookTextures();
+        for (size_t slot = 0; slot < references.size(); ++slot) {
+            const TextureRef* reference = references[slot];
+            const TextureRole role = kSlotRoles[slot];
             if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
                 return;
             if (!usableTexture(scene, *reference) || out.textures.count({reference->image, role}) != 0)
@@ -124,13 +132,16 @@ std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene, const PrepareO
     size_t vertices = 0, indices = 0;
     for (const Mesh& mesh : prepared->scene->meshes) {
         checkMesh(mesh, prepared->scene->path, mesh.name);
-        vertices += mesh.positions.size();
+        vertices +=
+            mesh.indices.empty() ? mesh.lineIndices.size() + mesh.pointIndices.size() : mesh.positions.size();
         indices += mesh.indices.size();
     }
     prepared->vertices.reserve(vertices);
     prepared->indices.reserve(options.coarsest > 0 ? 2 * indices : indices);
     for (const Mesh& mesh : prepared->scene->meshes)
         prepareMesh(mesh, options, *prepared);
+    for (size_t m = 0; m < prepared->meshes.size(); ++m)
+        prepareStrokes(prepared->scene->meshes[m], prepared->meshes[m], prepared->vertices);
     prepareTextures(options, *prepared);
     return prepared;
 }

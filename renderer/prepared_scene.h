@@ -26,6 +26,10 @@ struct PreparedMesh {
     double radius = 0.0;           ///< of a ball about the centre that holds all vertices
     glm::dvec3 halfSize{0.0};      ///< of the box about the centre, mesh axes
     std::vector<DrawLevel> levels; ///< the full mesh, and from there each coarser than the one before
+    /// Line segments or points: two vertices or one each, from strokeVertex on, without indices.
+    uint32_t strokeVertex = 0, strokes = 0;
+
+    [[nodiscard]] bool empty() const { return strokes == 0 && levels.front().indexCount == 0; }
 };
 
 struct PreparedScene {

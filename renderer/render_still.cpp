@@ -55,7 +55,9 @@ PixelData renderStill(SceneRenderer& renderer, const View& view, const Overlay& 
     Overlay scaled = overlay;
     for (Overlay::Line& line : scaled.lines)
         line.width *= static_cast<float>(n);
-    renderer.render(view, scaled, n * width, n * height);
+    View larger = view;
+    larger.pixelScale *= static_cast<float>(n);
+    renderer.render(larger, scaled, n * width, n * height);
     const PixelData pixels = renderer.readPixels();
     return n == 1 ? pixels : averaged(pixels, width, height, n);
 }

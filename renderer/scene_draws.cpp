@@ -66,7 +66,7 @@ void SceneRenderer::Impl::addBlended(DrawItem item, const glm::dvec3& origin, do
     const Mesh& mesh =
         scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(item.instance)].mesh)];
     const double distance = glm::length(origin);
-    if (scene.materials[static_cast<size_t>(mesh.material)].doubleSided) {
+    if (scene.materials[static_cast<size_t>(mesh.material)].doubleSided && !mesh.indices.empty()) {
         item.sides = DrawItem::Sides::Far;
         item.distance = distance + halfDepth;
         draws_.push_back(item);
@@ -82,12 +82,14 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         return;
     const Scene& scene = scene_->scene();
     const uint32_t light = (view.lights[1].irradiance != glm::vec3(0.0f) ? shared::kHasSecondLight : 0u) |
-                           (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u);
+                           (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u) |
+                           (environment_.source ? shared::kHasEnvironment : 0u);
     const double pixelsAtUnitDepth = 0.5 * extent.height * std::abs(view.clipFromView[1][1]);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const GpuScene::DrawnMesh& drawn = scene_->mesh(scene.instances[i].mesh);
         const PreparedMesh& mesh = drawn.mesh;
-        if (mesh.levels.front().indexCount == 0)
+        const bool strokes = mesh.strokes > 0;
+        if (mesh.empty() || (strokes && view.mode != ViewMode::Shaded)) // lines and points are not felt
             continue;
         const glm::dmat3 linear = view.workspaceFromScene.scale *
                                   (glm::mat3_cast(view.workspaceFromScene.rotation) * glm::dmat3(poses[i]));
@@ -99,6 +101,8 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         const double distance = glm::length(origin);
         if (!setConstants(linear, origin, item))
             continue;
+        item.constants.normalFromMesh[1].w =
+            static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));
         const double stretch = largestStretch(linear);
         // The nearest that the mesh can be to the eye: there an error of one metre is so many pixels.
         const double nearest = distance - stretch * mesh.radius;
@@ -141,14 +145,21 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
     const bool bothSides = scene.materials[static_cast<size_t>(materialIndex)].doubleSided;
     commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-    commands.pushConstants<shared::ObjectConstants>(layout, vk::ShaderStageFlagBits::eVertex, 0,
-                                                    item.constants);
+    commands.pushConstants<shared::ObjectConstants>(layout, kObjectStages, 0, item.constants);
+    ++statistics.drawCalls;
     using Cull = vk::CullModeFlagBits;
+    if (mesh.strokes > 0) {
+        commands.setCullMode(Cull::eNone);
+        commands.bindVertexBuffers(0, scene_->vertices(),
+                                   vk::DeviceSize{mesh.strokeVertex * sizeof(SceneVertex)});
+        commands.draw(4, mesh.strokes, 0, 0);
+        commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
+        return;
+    }
     const bool all = item.sides == DrawItem::Sides::All && bothSides;
     commands.setCullMode(all ? Cull::eNone : item.sides == DrawItem::Sides::Far ? Cull::eFront : Cull::eBack);
     commands.drawIndexed(item.indexCount, 1, item.firstIndex, mesh.firstVertex, 0);
     statistics.drawnTriangles += item.indexCount / 3;
-    ++statistics.drawCalls;
 }
 
 void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,

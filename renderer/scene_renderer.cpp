@@ -34,6 +34,7 @@ SceneRenderer::Impl::Impl(Gpu& owner) : gpu(owner.impl()), pipelines_(gpu), shap
         for (FrameSlot& slot : ring.slots)
             createSlot(gpu, pipelines_.frameSet(), slot);
     createSlot(gpu, pipelines_.frameSet(), warm_);
+    setEnvironment(nullptr);
 }
 
 SceneRenderer::Impl::~Impl() {
@@ -64,11 +65,12 @@ void SceneRenderer::Impl::beginScene(std::shared_ptr<const PreparedScene> prepar
 void SceneRenderer::Impl::warmUp(int instance) {
     const GpuScene::DrawnMesh& drawn =
         coming_->mesh(coming_->scene().instances[static_cast<size_t>(instance)].mesh);
-    if (drawn.mesh.levels.front().indexCount == 0)
+    if (drawn.mesh.empty())
         return;
     DrawItem item; // its constants are zero: all vertices fall onto the eye and no pixel is drawn
     item.instance = instance;
-    item.features = drawn.features | shared::kHasProbeShadow;
+    item.features =
+        drawn.features | shared::kHasProbeShadow | (environment_.source ? shared::kHasEnvironment : 0u);
     item.firstIndex = drawn.mesh.levels.front().firstIndex;
     item.indexCount = 3;
     draws_.assign(1, item);
@@ -125,6 +127,16 @@ void SceneRenderer::Impl::setMaterialColors(std::vector<glm::vec3> colors) {
         gpu.device.waitIdle();
         scene_->forgetFalseColor();
     }
+}
+
+void SceneRenderer::Impl::setEnvironment(std::shared_ptr<const Environment> environment) {
+    GpuEnvironment fresh = uploadEnvironment(gpu, std::move(environment));
+    gpu.device.waitIdle();
+    environment_ = std::move(fresh);
+    for (FrameRing& ring : rings_)
+        for (FrameSlot& slot : ring.slots)
+            touchstone::setEnvironment(gpu, environment_, slot);
+    touchstone::setEnvironment(gpu, environment_, warm_);
 }
 
 void SceneRenderer::Impl::render(const View& view, const Overlay& overlay, int width, int height, Eye which) {
@@ -248,6 +260,10 @@ void SceneRenderer::setInstancePoses(std::span<const glm::dmat4> sceneFromMesh) 
 
 void SceneRenderer::setMaterialColors(std::vector<glm::vec3> colors) {
     translatingErrors("colouring materials", [&] { impl_->setMaterialColors(std::move(colors)); });
+}
+
+void SceneRenderer::setEnvironment(std::shared_ptr<const Environment> environment) {
+    translatingErrors("uploading the environment", [&] { impl_->setEnvironment(std::move(environment)); });
 }
 
 void SceneRenderer::render(const View& view, const Overlay& overlay, int width, int height, Eye eye) {

@@ -2,6 +2,7 @@
 // Draws a Scene and an Overlay into an image of its own. Headless and window share it.
 
 #include "engine/scene/scene.h"
+#include "renderer/environment.h"
 #include "renderer/false_color.h"
 #include "renderer/gpu.h"
 #include "renderer/overlay.h"
@@ -50,6 +51,11 @@ class SceneRenderer {
     /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Holds
     /// until the next call.
     void setMaterialColors(std::vector<glm::vec3> colors);
+
+    /// Light of the surroundings from now on, in place of View::surroundings; null: theirs. Waits for the
+    /// frames in flight. Throws Error when the device memory does not hold it; then the light stays what it
+    /// was.
+    void setEnvironment(std::shared_ptr<const Environment> environment);
 
     /// Records and submits one frame; returns without waiting for it. width, height: pixels, 1..16384
     /// (bounded by the device). Throws DeviceLost, and Error when the device is out of memory.

@@ -17,7 +17,7 @@ namespace touchstone {
 /// One instance in one frame.
 struct DrawItem {
     int instance = 0;
-    uint32_t firstIndex = 0, indexCount = 0;
+    uint32_t firstIndex = 0, indexCount = 0; ///< of triangles; else the mesh's lines or points are drawn
     uint32_t features = 0;
     /// Of what shines through: how far, and which of its sides. All: as the material says.
     enum class Sides : uint8_t { All, Far, Near } sides = Sides::All;
@@ -40,6 +40,7 @@ struct SceneRenderer::Impl {
     void compileLater() { cold_.clear(); } ///< of the scene that is coming: when it is first drawn
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye);
     void setMaterialColors(std::vector<glm::vec3> colors);
+    void setEnvironment(std::shared_ptr<const Environment> environment);
     [[nodiscard]] PixelData readPixels();
     [[nodiscard]] FalseColorScale falseColorScale() const {
         return scene_ && scene_->scale() != nullptr ? *scene_->scale() : FalseColorScale{};
@@ -67,6 +68,7 @@ struct SceneRenderer::Impl {
 
     Pipelines pipelines_;
     std::unique_ptr<GpuScene> scene_, coming_;
+    GpuEnvironment environment_;
     GpuBuffer shapeVertices_, shapeIndices_;
     ShapeMeshes shapes_;
     std::array<FrameRing, 2> rings_; ///< of each Eye

@@ -13,6 +13,10 @@ namespace touchstone::shaders {
 #include "shaders/overlay_line_vert.h"
 #include "shaders/overlay_vert.h"
 #include "shaders/scene_frag.h"
+#include "shaders/scene_glass_frag.h"
+#include "shaders/scene_lines_vert.h"
+#include "shaders/scene_points_frag.h"
+#include "shaders/scene_points_vert.h"
 #include "shaders/scene_vert.h"
 #include "shaders/window_frag.h"
 } // namespace touchstone::shaders

@@ -62,6 +62,8 @@ struct View {
     ProbeShadow probe;
     Background background;
     float exposure = 1.0f; ///< factor before tone mapping
+    /// Pixels of one nominal pixel: lines of the scene are 1.5 of them wide, its points 5.
+    float pixelScale = 1.0f;
     /// Pixels by which a simplified mesh may differ from the full one; 0: the full one is drawn. Only of
     /// scenes that were prepared with simplified meshes.
     double allowedError = 0.0;

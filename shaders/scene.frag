@@ -1,25 +1,45 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Metallic-roughness of glTF 2.0 under two directional lights and analytic surroundings (renderer/surroundings.h).
+// glTF 2.0's metallic-roughness, its KHR_materials_* looks and unlit colours, under two directional lights and the
+// surroundings (renderer/surroundings.h, renderer/environment.h). TRANSMISSIVE adds the share of what lies behind, for
+// blending with two sources; POINTS cuts squares to discs.
 #include "shared/scene_types.h"
 
 layout(constant_id = 0) const uint kFeatures = 0u;
 layout(set = 0, binding = 0) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 1) uniform samplerCube environmentMap;
+layout(push_constant) uniform Object { ObjectConstants object; };
 layout(set = 1, binding = 0) uniform Material { MaterialUniforms material; };
+// Binding 1 + slot.
 layout(set = 1, binding = 1) uniform sampler2D baseColorMap;
 layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessMap;
 layout(set = 1, binding = 3) uniform sampler2D normalMap;
 layout(set = 1, binding = 4) uniform sampler2D occlusionMap;
 layout(set = 1, binding = 5) uniform sampler2D emissiveMap;
+layout(set = 1, binding = 6) uniform sampler2D specularGlossinessMap;
+layout(set = 1, binding = 7) uniform sampler2D specularMap;
+layout(set = 1, binding = 8) uniform sampler2D specularColorMap;
+layout(set = 1, binding = 9) uniform sampler2D clearcoatMap;
+layout(set = 1, binding = 10) uniform sampler2D clearcoatRoughnessMap;
+layout(set = 1, binding = 11) uniform sampler2D sheenColorMap;
+layout(set = 1, binding = 12) uniform sampler2D sheenRoughnessMap;
+layout(set = 1, binding = 13) uniform sampler2D transmissionMap;
+layout(set = 1, binding = 14) uniform sampler2D thicknessMap;
 
 layout(location = 0) in vec3 eyePosition;
 layout(location = 1) in vec3 eyeNormal;
 layout(location = 2) in vec4 eyeTangent;
 layout(location = 3) in vec4 uvs;
 layout(location = 4) in vec4 vertexColor;
+#ifdef POINTS
+layout(location = 5) in vec2 sprite; ///< -1..1 across the point
+#endif
+#ifdef TRANSMISSIVE
+layout(location = 0, index = 0) out vec4 outColor;
+layout(location = 0, index = 1) out vec4 outThrough; ///< factor of what lies behind
+#else
 layout(location = 0) out vec4 outColor;
-
-#include "surface_normal.glsl"
+#endif
 
 bool has(uint feature) { return (kFeatures & feature) != 0u; }
 
@@ -30,133 +50,132 @@ vec2 uvOf(uint slot) {
     return vec2(dot(linear.xy, uv), dot(linear.zw, uv)) + offset.xy;
 }
 
-/// Light reflected towards v from one direction, times cos: Lambert and GGX with Hammon's approximation of
-/// Smith's joint visibility ("PBR diffuse lighting for GGX + Smith", 2017). alpha = roughness^2.
-vec3 reflected(vec3 n, vec3 v, vec3 l, float nv, float alpha, vec3 diffuse, vec3 f0) {
-    const float nl = clamp(dot(n, l), 0.0, 1.0);
-    const vec3 h = normalize(l + v);
-    const float nh = clamp(dot(n, h), 0.0, 1.0), vh = clamp(dot(v, h), 0.0, 1.0);
-    const float a2 = alpha * alpha;
-    const float d = nh * nh * (a2 - 1.0) + 1.0;
-    // Visibility is 0.5 / this, and a2 / (pi d^2) the GGX distribution: one division for both.
-    const float visibilityDivisor = mix(2.0 * nl * nv, nl + nv, alpha);
-    const float grazing = 1.0 - vh;
-    const float grazing2 = grazing * grazing;
-    const vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
-    return (diffuse + fresnel * (0.5 * a2 / (visibilityDivisor * d * d))) * (nl * 0.31830989); // 1/pi for both
-}
+#include "surface_normal.glsl"
+#include "surface_light.glsl"
+#include "material_layers.glsl"
+#include "tone.glsl"
 
-/// Irradiance / pi of the surroundings.
-vec3 irradianceAt(vec3 n) {
-    const vec4 squares = frame.irradianceSquares * vec4(n.x * n.y, n.y * n.z, n.z * n.x, n.x * n.x);
-    const float grey = squares.x + squares.y + squares.z + squares.w + frame.irradiance[0].w * (n.y * n.y);
-    return max(frame.irradiance[0].rgb + frame.irradiance[1].rgb * n.x + frame.irradiance[2].rgb * n.y +
-                   frame.irradiance[3].rgb * n.z + grey,
-               vec3(0.0));
-}
-
-/// A lamp, radiance / (1 + s (1 - cos))^2, seen in direction r through a lobe of the same form and sharpness 1 / blur:
-/// widths add, and what is wider is fainter: d / (d + s (1 - cos))^2 with d = 1 + s blur.
-vec3 lampAround(vec3 r, float blur, vec4 axis, vec3 radiance) {
-    const float d = 1.0 + axis.w * blur;
-    const float u = d + axis.w * (1.0 - dot(axis.xyz, r));
-    return radiance * (d / (u * u));
-}
-
-/// Radiance of the surroundings around direction r, with a horizon as wide as the reflection is blurred. Near its
-/// middle a GGX lobe is 1 / (1 + 4 (1 - cos) / (2 alpha^2))^2 in the reflected direction, half as sharp as in the normal's.
-vec3 surroundings(vec3 r, float roughness, float alpha) {
-    const float width = 0.06 + 0.94 * roughness;
-    const float above = clamp(0.5 + 0.5 * r.y / width, 0.0, 1.0);
-    const vec3 sky = mix(frame.rim.rgb - frame.floorFall.rgb * r.y, frame.horizon.rgb + frame.skyRise.rgb * r.y, above);
-    const float blur = 2.0 * alpha * alpha;
-    return sky + lampAround(r, blur, frame.lampAxis[0], frame.lampRadiance[0].rgb) +
-           lampAround(r, blur, frame.lampAxis[1], frame.lampRadiance[1].rgb);
-}
-
-/// What the probe leaves of the first light (x) and of the surroundings (y); lengths in its radii. The shadow widens with
-/// the distance along the light and fades as the ball covers less of it; of the surroundings a ball hides
-/// cos(angle) (radius / distance)^2.
-vec2 leftByProbe(vec3 n, vec3 l) {
-    const vec3 away = (frame.probe.xyz - eyePosition) * frame.probe.w;
-    const float along = dot(away, l), distance2 = dot(away, away);
-    const float width = 1.25 + 0.13 * max(along, 0.0);
-    const float cover = 1.0 / (width * width);
-    const float inside = max(0.0, 1.0 - max(distance2 - along * along, 0.0) * cover);
-    const float shadow = along > -1.0 ? min(1.0, 2.2 * inside) * min(1.0, 1.5 * cover) : 0.0;
-    const float nearness = inversesqrt(max(distance2, 1.0));
-    return vec2(1.0 - 0.9 * shadow, 1.0 - max(dot(n, away), 0.0) * nearness * nearness * nearness);
-}
-
-/// Integral of the specular lobe over a uniform surrounding, as scale of f0 and bias: the fit of Karis, "Physically
-/// based shading on mobile" (2014).
-vec2 environmentBrdf(float roughness, float nv) {
-    const vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    const float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a + r.zw;
-}
-
-/// Khronos' PBR Neutral tone mapper (2024): colours below 0.76 stay what they are, brighter ones are compressed
-/// and lose saturation.
-vec3 toneMapped(vec3 color) {
-    const float start = 0.8 - 0.04, desaturation = 0.15;
-    const float low = min(color.r, min(color.g, color.b));
-    const float offset = low < 0.08 ? low - 6.25 * low * low : 0.04;
-    color -= offset;
-    const float peak = max(color.r, max(color.g, color.b));
-    if (peak < start) return color;
-    const float range = 1.0 - start;
-    const float newPeak = 1.0 - range * range / (peak + range - start);
-    color *= newPeak / peak;
-    const float fade = 1.0 / (desaturation * (peak - newPeak) + 1.0);
-    return mix(vec3(newPeak), color, fade);
-}
-
-void main() {
+vec4 baseColor() {
     vec4 base = material.baseColor;
     if (has(kHasVertexColor)) base *= vertexColor;
     if (has(kHasBaseColorTexture)) base *= texture(baseColorMap, uvOf(kBaseColorSlot));
-    if (has(kIsMasked) && base.a < material.emissiveCutoff.a) discard;
+    return base;
+}
 
-    float metallic = material.factors.x, roughness = material.factors.y, occlusion = 1.0;
+vec3 emission() {
+    vec3 color = material.emissiveCutoff.rgb;
+    if (has(kHasEmissiveTexture)) color *= texture(emissiveMap, uvOf(kEmissiveSlot)).rgb;
+    return color;
+}
+
+/// Metallic-roughness, with KHR_materials_ior and KHR_materials_specular. Roughness is not yet limited.
+Surface metallicRoughness(vec3 base, inout float metallic, inout float occlusion) {
+    float roughness = material.factors.y;
+    metallic = material.factors.x;
     if (has(kHasMetallicRoughnessTexture)) {
         const vec3 texel = texture(metallicRoughnessMap, uvOf(kMetallicRoughnessSlot)).rgb;
         metallic *= texel.b;
         roughness *= texel.g;
         if (has(kSharesOcclusion)) occlusion = 1.0 + material.factors.w * (texel.r - 1.0);
     }
+    vec3 dielectric = vec3(0.04);
+    float f90 = 1.0, below = 0.96;
+    if (has(kHasSpecular)) {
+        dielectric = material.dielectric.rgb;
+        float share = material.dielectric.a;
+        if (has(kHasSpecularTextures)) {
+            dielectric *= texture(specularColorMap, uvOf(kSpecularColorSlot)).rgb;
+            share *= texture(specularMap, uvOf(kSpecularSlot)).a;
+        }
+        dielectric = min(dielectric, vec3(1.0)) * share;
+        below = 1.0 - largest(dielectric);
+        f90 = mix(share, 1.0, metallic);
+    }
+    return Surface(base * (below * (1.0 - metallic)), mix(dielectric, base, metallic), f90, roughness, 0.0, vec3(1.0));
+}
+
+/// KHR_materials_pbrSpecularGlossiness.
+Surface specularGlossiness(vec3 base) {
+    vec4 look = material.specularGlossiness;
+    if (has(kHasSpecularGlossinessTexture)) look *= texture(specularGlossinessMap, uvOf(kSpecularGlossinessSlot));
+    return Surface(base * (1.0 - largest(look.rgb)), look.rgb, 1.0, 1.0 - look.a, 0.0, vec3(1.0));
+}
+
+/// Writes what the surface sends (linear, not tone mapped) and the share `through` of what lies behind it.
+void writeOver(vec3 color, vec3 through, float alpha) {
+    // What lies behind has been through the tone mapper's toe already.
+    color = compressed(color) * alpha;
+    through = mix(vec3(1.0), through, alpha);
+#ifdef TRANSMISSIVE
+    outColor = vec4(color, 1.0);
+    outThrough = vec4(through, 1.0);
+#else
+    const float opaque = clamp(1.0 - dot(through, vec3(1.0 / 3.0)), 0.004, 1.0); // blending with one source: grey
+    outColor = vec4(color / opaque, opaque);
+#endif
+}
+
+void main() {
+#ifdef POINTS
+    if (dot(sprite, sprite) > 1.0) discard;
+#endif
+    const vec4 base = baseColor();
+    if (has(kIsMasked) && base.a < material.emissiveCutoff.a) discard;
+    const float alpha = has(kIsBlended) && !has(kIsSolid) ? base.a : 1.0;
+    if (has(kIsUnlit)) { // as it is, without tone mapping
+        outColor = vec4(has(kHasEmission) ? base.rgb + emission() : base.rgb, alpha);
+        return;
+    }
+
+    float metallic = 0.0, occlusion = 1.0;
+    Surface s;
+    if (has(kHasSpecularGlossiness)) s = specularGlossiness(base.rgb);
+    else s = metallicRoughness(base.rgb, metallic, occlusion);
+    // Below this roughness a highlight is smaller than a pixel and only flickers.
+    s.roughness = clamp(s.roughness, 0.06, 1.0);
+    s.alpha = s.roughness * s.roughness;
     if (has(kHasOcclusionTexture) && !has(kSharesOcclusion))
         occlusion = 1.0 + material.factors.w * (texture(occlusionMap, uvOf(kOcclusionSlot)).r - 1.0);
 
     const vec3 v = -normalize(eyePosition);
     vec3 n = normalize(eyeNormal);
+    vec3 smoothNormal = n;
     if (has(kHasNormalTexture)) {
         const vec2 uv = uvOf(kNormalSlot);
         const vec3 m = decodeNormal(texture(normalMap, uv).xyz, material.factors.z);
         n = has(kHasTangents) ? bendWithTangent(n, eyeTangent, m) : bendWithDerivatives(n, eyePosition, uv, m);
     }
-    if (!gl_FrontFacing) n = -n;
-
-    // Below this roughness a highlight is smaller than a pixel and only flickers.
-    roughness = clamp(roughness, 0.06, 1.0);
-    const float alpha = roughness * roughness;
+    if (!gl_FrontFacing && !has(kIsLines | kIsPoints)) {
+        n = -n;
+        smoothNormal = -smoothNormal;
+    }
     const float nv = clamp(abs(dot(n, v)), 1e-3, 1.0);
-    const vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
-    const vec3 diffuse = base.rgb * (0.96 * (1.0 - metallic));
+
+    vec3 through = vec3(0.0);
+    if (has(kIsTransmissive)) {
+        float transmission = material.layers.w;
+        if (has(kHasTransmissionTextures)) transmission *= texture(transmissionMap, uvOf(kTransmissionSlot)).r;
+        s.diffuse *= 1.0 - transmission;
+        through = transmitted(base.rgb, transmission * (1.0 - metallic));
+    }
 
     vec2 left = vec2(1.0);
     if (has(kHasProbeShadow)) left = leftByProbe(n, frame.toLight0.xyz);
-    vec3 color = frame.irradiance0.rgb * (left.x * reflected(n, v, frame.toLight0.xyz, nv, alpha, diffuse, f0));
-    if (has(kHasSecondLight))
-        color += frame.irradiance1.rgb * reflected(n, v, frame.toLight1.xyz, nv, alpha, diffuse, f0);
-    const vec2 brdf = environmentBrdf(roughness, nv);
+    const vec3 specular = specularShare(s, nv);
+    vec3 color = frame.irradiance0.rgb * (left.x * reflected(s, n, v, frame.toLight0.xyz, nv));
+    if (has(kHasSecondLight)) color += frame.irradiance1.rgb * reflected(s, n, v, frame.toLight1.xyz, nv);
     const vec3 r = reflect(-v, n);
-    color += (occlusion * left.y) *
-             (diffuse * irradianceAt(n) + (f0 * brdf.x + brdf.y) * surroundings(r, roughness, alpha));
-    if (has(kHasEmission)) {
-        vec3 emission = material.emissiveCutoff.rgb;
-        if (has(kHasEmissiveTexture)) emission *= texture(emissiveMap, uvOf(kEmissiveSlot)).rgb;
-        color += emission;
+    left.y *= occlusion;
+    color += left.y * (s.diffuse * irradianceAt(n) + specular * surroundings(r, s.roughness, s.alpha));
+    if (has(kIsTransmissive)) {
+        // What is rough scatters the light from behind instead of showing what is there.
+        through *= 1.0 - largest(specular);
+        color += through * s.alpha * irradianceAt(-v);
+        through *= 1.0 - s.alpha;
     }
-    outColor = vec4(toneMapped(color), has(kIsBlended) ? base.a : 1.0);
+    if (has(kHasSheen)) color = underSheen(color, n, v, nv, left);
+    if (has(kHasEmission)) color += emission();
+    if (has(kHasClearcoat)) color = underCoat(color, smoothNormal, v, left);
+    if (has(kIsTransmissive)) writeOver(color, through, alpha);
+    else outColor = vec4(toneMapped(color), alpha);
 }

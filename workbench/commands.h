@@ -38,6 +38,8 @@ struct WindowOptions {
     glm::ivec2 size{1280, 800};       ///< screen coordinates
     std::filesystem::path statusJson; ///< written twice a second when given
     RecordingOptions recording;
+    std::filesystem::path
+        environment; ///< a panorama that lights the picture; empty: the surroundings in closed form
     std::string gpu; ///< part of a Vulkan device's name
 };
 int windowCommand(const WindowOptions& options);
@@ -52,10 +54,11 @@ struct RunOptions {
     std::string device = "hand"; ///< what is held: the simulated hand, or what devices/device_choice.h names
     std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
     RecordingOptions recording;
-    StrokeRequest stroke;  ///< of the simulated hand
-    double zoom = 1.0;     ///< m in the workspace for one m of what is held
-    bool openLoop = false; ///< the hand follows its path whatever the force
-    PlantParameters plant; ///< in the closed loop
+    StrokeRequest stroke;              ///< of the simulated hand
+    double zoom = 1.0;                 ///< m in the workspace for one m of what is held
+    bool openLoop = false;             ///< the hand follows its path whatever the force
+    PlantParameters plant;             ///< in the closed loop
+    std::filesystem::path environment; ///< as in the window
     std::string gpu;
 };
 int runCommand(const RunOptions& options);
@@ -103,6 +106,7 @@ struct RenderOptions {
     std::filesystem::path scene, out;
     glm::ivec2 size{1280, 720};
     std::string view = "shaded";
+    std::filesystem::path environment; ///< as in the window
     std::string gpu;
 };
 int renderCommand(const RenderOptions& options);

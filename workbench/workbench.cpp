@@ -13,6 +13,7 @@
 #include "workbench/guards/interrupt.h"
 #include "workbench/model/animate.h"
 #include "workbench/model/default_scene.h"
+#include "workbench/model/environment_light.h"
 #include "workbench/model/opening.h"
 #include "workbench/state_folder.h"
 #include "workbench/timeline/timeline_desk.h"
@@ -95,6 +96,7 @@ class Workbench {
         holdDevice();
         sendSettings();
         touch_.start();
+        environment_.start(options.environment);
     }
 
     void open(const std::filesystem::path& path) {
@@ -114,7 +116,11 @@ class Workbench {
     void frame() {
         const double start = secondsNow();
         pace_.begin(start);
-        onScreen([this] { takeModel(); });
+        onScreen([this] {
+            takeModel();
+            if (const auto wrong = environment_.update(screen_.renderer()))
+                problem_ = *wrong;
+        });
         takeMaterials();
         prepareSettings();
         if (const auto dropped = window_.takeDropped())
@@ -162,6 +168,7 @@ class Workbench {
                    "). What is felt went on; the picture is made anew.";
         drawn_.takeDevice();
         picture_.takeDevice();
+        environment_.takeDevice();
         for (std::optional<DeviceLost> why = lost; why;)
             try {
                 screen_.renew(*std::exchange(why, std::nullopt), secondsNow());
@@ -528,6 +535,7 @@ class Workbench {
     const std::vector<std::string> sampleNotes_ = notesOf(samples_);
     Window window_;
     Screen screen_;
+    EnvironmentLight environment_;
     DrawQuality quality_;
     std::string notice_; // of the recorder
     LiveTouch touch_;

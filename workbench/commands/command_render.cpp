@@ -3,6 +3,7 @@
 #include "renderer/scene_renderer.h"
 #include "workbench/commands.h"
 #include "workbench/gpu_options.h"
+#include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
 #include "workbench/window/effect_colors.h"
 
@@ -37,6 +38,7 @@ int renderCommand(const RenderOptions& options) {
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
     SceneRenderer renderer(*gpu);
+    lightWith(options.environment, renderer);
     renderer.setScene(model.scene);
     if (mode == ViewMode::Effects)
         renderer.setMaterialColors(effectColors(model.haptic->plan, model.scene->materials.size()).materials);

@@ -21,6 +21,7 @@
 #include "workbench/hand/device_menu.h"
 #include "workbench/hand/device_port.h"
 #include "workbench/model/animate.h"
+#include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
 #include "workbench/window/overlays.h"
 #include "workbench/window/recording_desk.h"
@@ -186,6 +187,7 @@ int runCommand(const RunOptions& options) {
     // The device comes before the servo thread (DESIGN §8); the first frame compiles the pipelines.
     const std::unique_ptr<Gpu> gpu = Gpu::headless(gpuOptions(options.gpu));
     SceneRenderer renderer(*gpu);
+    lightWith(options.environment, renderer);
     renderer.setScene(model.scene);
     renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);
     gpu->waitIdle();

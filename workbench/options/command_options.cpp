@@ -76,6 +76,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
         ->type_name("FILE");
     addRecording(app, options.recording);
+    addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
 }
 
@@ -108,6 +109,7 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     addSize(app, options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Servo rate [1000]");
+    addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
 }
 
@@ -205,6 +207,7 @@ void defineRender(CLI::App& app, RenderOptions& options) {
     app.add_option("--view", options.view, "What is shown: the look, or a map of what is felt [shaded]")
         ->type_name("NAME")
         ->check(CLI::IsMember(views));
+    addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
 }
 

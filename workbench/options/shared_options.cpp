@@ -160,6 +160,11 @@ void addGpu(CLI::App& app, std::string& gpu) {
     app.add_option("--gpu", gpu, "Vulkan device to use, by a part of its name")->type_name("NAME");
 }
 
+void addEnvironment(CLI::App& app, std::filesystem::path& file) {
+    app.add_option("--environment", file, "Light the model with this panorama: OpenEXR or Radiance")
+        ->type_name("F.exr|hdr");
+}
+
 void addRecording(CLI::App& app, RecordingOptions& options) {
     app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
     app.add_option_function<std::string>(

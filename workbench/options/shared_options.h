@@ -35,6 +35,7 @@ CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& 
 void addZoom(CLI::App& app, double& zoom);
 void addRate(CLI::App& app, double& rate, const std::string& meaning);
 void addGpu(CLI::App& app, std::string& gpu);
+void addEnvironment(CLI::App& app, std::filesystem::path& file);
 void addRecording(CLI::App& app, RecordingOptions& options);
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene);
 /// --device; `builtIn`: what may be named besides devices.

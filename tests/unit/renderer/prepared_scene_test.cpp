@@ -83,5 +83,27 @@ TEST(PreparedScene, TexturesOfTheLookArePreparedAndBrokenOnesAreNot) {
     EXPECT_EQ(prepared->textures.count({0, TextureRole::Data}), 1u);
 }
 
+TEST(PreparedScene, LinesAndPointsFollowBehindAllTriangles) {
+    auto scene = torus(8, 6);
+    Mesh strokes;
+    strokes.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}};
+    strokes.lineIndices = {0, 1, 1, 2};
+    test::place(*scene, strokes, 0);
+    test::place(*scene, scene->meshes[0], 0);
+    strokes.lineIndices.clear();
+    strokes.pointIndices = {2, 0};
+    test::place(*scene, strokes, 0);
+    const auto prepared = prepareScene(scene);
+    const size_t one = scene->meshes[0].positions.size();
+    EXPECT_EQ(prepared->meshes[2].firstVertex, static_cast<int32_t>(one)) << "false colours count through";
+    EXPECT_EQ(prepared->meshes[1].strokeVertex, 2 * one);
+    EXPECT_EQ(prepared->meshes[1].strokes, 2u);
+    EXPECT_EQ(prepared->meshes[3].strokeVertex, 2 * one + 4);
+    EXPECT_EQ(prepared->meshes[3].strokes, 2u);
+    EXPECT_EQ(prepared->vertices.size(), 2 * one + 4 + 2);
+    EXPECT_EQ(prepared->vertices[2 * one + 3].position.x, 1.0f) << "2, from the middle of the mesh";
+    EXPECT_FALSE(prepared->meshes[1].empty());
+}
+
 } // namespace
 } // namespace touchstone

@@ -46,7 +46,7 @@ Layouts layoutsOf(std::span<const uint32_t> code) {
 TEST(ShaderLayout, FrameUniforms) {
     const Layouts layouts = layoutsOf(shaders::scene_frag);
     ASSERT_TRUE(layouts.count("FrameUniforms"));
-    EXPECT_EQ(layouts.at("FrameUniforms").size(), 18u) << "a member that this test does not know";
+    EXPECT_EQ(layouts.at("FrameUniforms").size(), 20u) << "a member that this test does not know";
     EXPECT_SAME_PLACE(layouts, FrameUniforms, clipFromEye);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight0);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight1);
@@ -54,6 +54,8 @@ TEST(ShaderLayout, FrameUniforms) {
     EXPECT_SAME_PLACE(layouts, FrameUniforms, irradiance1);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, irradiance);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, irradianceSquares);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, irradianceColor);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, environment);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, horizon);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, skyRise);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, rim);
@@ -70,10 +72,15 @@ TEST(ShaderLayout, FrameUniforms) {
 TEST(ShaderLayout, MaterialUniforms) {
     const Layouts layouts = layoutsOf(shaders::scene_frag);
     ASSERT_TRUE(layouts.count("MaterialUniforms"));
-    EXPECT_EQ(layouts.at("MaterialUniforms").size(), 5u);
+    EXPECT_EQ(layouts.at("MaterialUniforms").size(), 10u);
     EXPECT_SAME_PLACE(layouts, MaterialUniforms, baseColor);
     EXPECT_SAME_PLACE(layouts, MaterialUniforms, emissiveCutoff);
     EXPECT_SAME_PLACE(layouts, MaterialUniforms, factors);
+    EXPECT_SAME_PLACE(layouts, MaterialUniforms, specularGlossiness);
+    EXPECT_SAME_PLACE(layouts, MaterialUniforms, dielectric);
+    EXPECT_SAME_PLACE(layouts, MaterialUniforms, layers);
+    EXPECT_SAME_PLACE(layouts, MaterialUniforms, sheenColorThickness);
+    EXPECT_SAME_PLACE(layouts, MaterialUniforms, absorption);
     EXPECT_SAME_PLACE(layouts, MaterialUniforms, uvLinear);
     EXPECT_SAME_PLACE(layouts, MaterialUniforms, uvOffset);
 }

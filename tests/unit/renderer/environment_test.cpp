@@ -1,0 +1,191 @@
+// Panoramas as light: their files, directions, irradiance and blurs.
+
+#include "engine/core/error.h"
+#include "renderer/environment.h"
+#include "tests/support/gltf_maker.h"
+
+#include <OpenImageIO/imageio.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/packing.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+glm::dvec3 directionAt(double u, double v) {
+    const double turn = glm::two_pi<double>() * (u - 0.5), fall = glm::pi<double>() * v;
+    return {std::sin(fall) * std::sin(turn), std::cos(fall), -std::sin(fall) * std::cos(turn)};
+}
+
+Panorama panorama(int width, const std::function<glm::vec3(const glm::dvec3&)>& radiance) {
+    Panorama made{width, width / 2, {}};
+    for (int y = 0; y < made.height; ++y)
+        for (int x = 0; x < width; ++x)
+            made.texels.push_back(radiance(directionAt((x + 0.5) / width, (y + 0.5) / made.height)));
+    return made;
+}
+
+glm::dvec3 irradianceAt(const Environment& environment, const glm::dvec3& n) {
+    const auto& k = environment.irradiance;
+    return k[0] + k[1] * n.x + k[2] * n.y + k[3] * n.z + k[4] * (n.x * n.y) + k[5] * (n.y * n.z) +
+           k[6] * (n.z * n.x) + k[7] * (n.x * n.x) + k[8] * (n.y * n.y);
+}
+
+/// The texel of a level, and where it looks.
+void eachTexel(const Environment& environment, int level,
+               const std::function<void(const glm::dvec3& direction, const glm::vec3& radiance)>& visit) {
+    const int side = Environment::kSide >> level;
+    const std::vector<uint16_t>& texels = environment.levels[static_cast<size_t>(level)];
+    ASSERT_EQ(texels.size(), size_t{24} * static_cast<size_t>(side) * static_cast<size_t>(side));
+    size_t at = 0;
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x, at += 4)
+                visit(cubeDirection(face, (x + 0.5) / side, (y + 0.5) / side),
+                      {glm::unpackHalf1x16(texels[at]), glm::unpackHalf1x16(texels[at + 1]),
+                       glm::unpackHalf1x16(texels[at + 2])});
+}
+
+TEST(Environment, AUniformOneIsUniformAtEveryBlurAndOfTheBrightnessThatWeWant) {
+    const auto made = prefilter(panorama(64, [](const glm::dvec3&) { return glm::vec3(37.0f); }));
+    ASSERT_TRUE(made);
+    for (int level = 0; level < Environment::kLevels; ++level)
+        eachTexel(*made, level, [](const glm::dvec3&, const glm::vec3& radiance) {
+            EXPECT_NEAR(radiance.y, Environment::kMeanRadiance, 1e-3);
+        });
+    for (const glm::dvec3& n : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0.6, 0, 0.8)})
+        EXPECT_NEAR(irradianceAt(*made, n).y, Environment::kMeanRadiance, 1e-3);
+}
+
+TEST(Environment, ALinearSkyHasTheIrradianceOfItsIntegral) {
+    // Radiance 1 + d.y / 2 + d.x / 4: irradiance / pi is 1 + (2/3) (y / 2 + x / 4).
+    const auto made =
+        prefilter(panorama(256, [](const glm::dvec3& d) { return glm::vec3(1.0 + 0.5 * d.y + 0.25 * d.x); }));
+    ASSERT_TRUE(made);
+    for (const glm::dvec3& n :
+         {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-0.48, -0.6, 0.64)})
+        EXPECT_NEAR(irradianceAt(*made, n).x,
+                    Environment::kMeanRadiance * (1.0 + 2.0 / 3.0 * (0.5 * n.y + 0.25 * n.x)), 2e-3);
+}
+
+TEST(Environment, ASunIsSeenWhereItIsAndWiderWhereItIsBlurred) {
+    for (const glm::dvec3& sun : {glm::normalize(glm::dvec3(0.5, 0.3, -0.8)), glm::dvec3(-1, 0, 0),
+                                  glm::normalize(glm::dvec3(0.1, -0.9, 0.3))}) {
+        const auto made = prefilter(panorama(512, [&](const glm::dvec3& d) {
+            return glm::dot(d, sun) > 0.995 ? glm::vec3(100.0f, 50.0f, 25.0f) : glm::vec3(0.01f);
+        }));
+        ASSERT_TRUE(made);
+        double brightestBefore = std::numeric_limits<double>::infinity();
+        for (int level = 0; level < Environment::kLevels; ++level) {
+            glm::dvec3 centre(0.0);
+            double brightest = 0.0;
+            eachTexel(*made, level, [&](const glm::dvec3& d, const glm::vec3& radiance) {
+                EXPECT_TRUE(radiance.x >= radiance.y && radiance.y >= radiance.z);
+                // A texel of a face's corner spans less of the sphere.
+                const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+                centre += static_cast<double>(radiance.x) * std::pow(largest, 3.0) * d;
+                brightest = std::max(brightest, static_cast<double>(radiance.x));
+            });
+            EXPECT_GT(glm::dot(glm::normalize(centre), sun), 0.999) << "level " << level;
+            EXPECT_LT(brightest, 1.02 * brightestBefore) << "level " << level;
+            brightestBefore = brightest;
+        }
+        EXPECT_GT(glm::dot(glm::normalize(glm::dvec3(made->irradiance[1].x, made->irradiance[2].x,
+                                                     made->irradiance[3].x)),
+                           sun),
+                  0.999);
+    }
+}
+
+TEST(Environment, ABlackOneIsNone) {
+    EXPECT_FALSE(prefilter(panorama(16, [](const glm::dvec3&) { return glm::vec3(0.0f); })));
+}
+
+TEST(Environment, CancellingEndsIt) {
+    const std::atomic<bool> cancel = true;
+    EXPECT_FALSE(prefilter(panorama(16, [](const glm::dvec3&) { return glm::vec3(1.0f); }), &cancel));
+}
+
+class EnvironmentFile : public ::testing::Test {
+  protected:
+    std::filesystem::path write(const std::string& name, int width, int height, int channels,
+                                const std::function<float(int x, int y, int c)>& value, int tile = 0) {
+        const std::filesystem::path path = folder_.path() / name;
+        std::vector<float> values;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int c = 0; c < channels; ++c)
+                    values.push_back(value(x, y, c));
+        const auto output = OIIO::ImageOutput::create(path.string());
+        OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
+        spec.tile_width = spec.tile_height = tile;
+        EXPECT_TRUE(output && output->open(path.string(), spec) &&
+                    output->write_image(OIIO::TypeDesc::FLOAT, values.data()) && output->close());
+        return path;
+    }
+
+    static std::string problem(const std::filesystem::path& path) {
+        try {
+            (void)loadEnvironment(path);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.file(), path.string());
+            EXPECT_FALSE(error.remedy().empty());
+            return error.problem();
+        }
+        return "";
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(EnvironmentFile, BothFormatsAreReadAndLargeOnesReduced) {
+    const auto ramp = [](int x, int, int c) { return c == 0 ? static_cast<float>(x) : 2.0f; };
+    for (const auto& [name, tile] : {std::pair{"a.exr", 0}, {"tiled.exr", 64}, {"a.hdr", 0}}) {
+        const Panorama read = readPanorama(write(name, 64, 32, 3, ramp, tile));
+        ASSERT_EQ(read.width, 64) << name;
+        ASSERT_EQ(read.height, 32) << name;
+        EXPECT_NEAR(read.texels[64 * 5 + 40].x, 40.0f, 0.5f) << name;
+        EXPECT_NEAR(read.texels[64 * 31 + 63].y, 2.0f, 0.05f) << name;
+    }
+    const Panorama reduced = readPanorama(write("large.exr", 2048, 1024, 3, ramp));
+    EXPECT_EQ(reduced.width, 1024);
+    EXPECT_EQ(reduced.height, 512);
+    EXPECT_NEAR(reduced.texels[1024 * 100 + 10].x, 20.5f, 1e-3f) << "the mean of 20 and 21";
+    EXPECT_NEAR(readPanorama(write("grey.exr", 8, 4, 1, ramp)).texels[3].z, 3.0f, 1e-3f);
+}
+
+TEST_F(EnvironmentFile, ValuesThatAreNoLightBecomeNone) {
+    const Panorama read = readPanorama(write("odd.exr", 8, 4, 3, [](int x, int, int) {
+        return x == 0   ? std::numeric_limits<float>::quiet_NaN()
+               : x == 1 ? std::numeric_limits<float>::infinity()
+               : x == 2 ? -3.0f
+                        : 1.0f;
+    }));
+    for (int x = 0; x < 8; ++x)
+        EXPECT_EQ(read.texels[static_cast<size_t>(x)].x, x < 3 ? 0.0f : 1.0f);
+}
+
+TEST_F(EnvironmentFile, WhatIsNoPanoramaIsRefusedWithItsReason) {
+    const auto one = [](int, int, int) { return 1.0f; };
+    EXPECT_NE(problem(folder_.path() / "nowhere.exr").find("cannot be opened"), std::string::npos);
+    test::writeFile(folder_.path() / "text.hdr", std::string("this is text"));
+    EXPECT_NE(problem(folder_.path() / "text.hdr").find("neither OpenEXR nor Radiance"), std::string::npos);
+    EXPECT_NE(problem(write("picture.png", 8, 4, 3, one)).find("neither OpenEXR nor Radiance"),
+              std::string::npos);
+    EXPECT_NE(problem(write("square.exr", 16, 16, 3, one)).find("no panorama"), std::string::npos);
+    EXPECT_NE(problem(write("wide.exr", 16400, 4, 1, one)).find("too large"), std::string::npos);
+    EXPECT_NE(problem(write("black.exr", 8, 4, 3, [](int, int, int) { return 0.0f; })).find("black"),
+              std::string::npos);
+    const std::filesystem::path cut = write("cut.exr", 64, 32, 3, one);
+    std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+    EXPECT_NE(problem(cut), "");
+    test::writeFile(folder_.path() / "header.exr", std::string("\x76\x2f\x31\x01garbage", 11));
+    EXPECT_NE(problem(folder_.path() / "header.exr"), "");
+}
+
+} // namespace
+} // namespace touchstone
