@@ -136,6 +136,7 @@ struct LobeSample {
 /// GGX half vectors for a viewer along the normal (Karis, "Real shading in Unreal Engine 4", 2013), read from
 /// coarser levels where they are sparse (Křivánek and Colbert, "Real-time shading with filtered importance
 /// sampling", 2008).
+/// `count` pairs.
 std::vector<LobeSample> lobeSamples(double roughness, uint32_t count, double texelSolidAngle) {
     std::vector<LobeSample> samples;
     const double a2 = std::pow(roughness, 4.0);
@@ -154,7 +155,9 @@ std::vector<LobeSample> lobeSamples(double roughness, uint32_t count, double tex
             continue;
         const double d = nh * nh * (a2 - 1.0) + 1.0;
         const double density = a2 / (glm::pi<double>() * d * d) / 4.0;
-        samples.push_back({l, 0.5 * std::log2(1.0 / (count * density * texelSolidAngle)) + 1.0});
+        const double level = 0.5 * std::log2(0.5 / (count * density * texelSolidAngle)) + 1.0;
+        samples.push_back({l, level});
+        samples.push_back({{-l.x, -l.y, l.z}, level}); // in pairs the lobe leans to no side
     }
     return samples;
 }
@@ -199,7 +202,7 @@ std::shared_ptr<const Environment> prefilter(const Panorama& panorama, const std
         const std::vector<LobeSample> samples =
             level == 0 ? std::vector<LobeSample>{}
                        : lobeSamples(static_cast<double>(level) / (Environment::kLevels - 1),
-                                     16u << std::min(level, 5), pyramid.texelSolidAngle());
+                                     8u << std::min(level, 5), pyramid.texelSolidAngle());
         std::vector<uint16_t>& texels = environment->levels[static_cast<size_t>(level)];
         texels.reserve(size_t{24} * static_cast<size_t>(side) * static_cast<size_t>(side));
         // A texel of the cube is about as wide as so many of the panorama's.

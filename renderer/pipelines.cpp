@@ -38,18 +38,18 @@ vk::raii::PipelineLayout makeLayout(const Gpu::Impl& gpu, std::initializer_list<
                                                      .pPushConstantRanges = &object}};
 }
 
-std::vector<vk::VertexInputAttributeDescription> sceneAttributes(uint32_t firstLocation, uint32_t binding) {
-    return {{firstLocation, binding, Format::eR32G32B32Sfloat, offsetof(SceneVertex, position)},
-            {firstLocation + 1, binding, Format::eR32G32B32Sfloat, offsetof(SceneVertex, normal)},
-            {firstLocation + 2, binding, Format::eR32G32B32A32Sfloat, offsetof(SceneVertex, tangent)},
-            {firstLocation + 3, binding, Format::eR32G32Sfloat, offsetof(SceneVertex, uv0)},
-            {firstLocation + 4, binding, Format::eR32G32Sfloat, offsetof(SceneVertex, uv1)},
-            {firstLocation + 5, binding, Format::eR16G16B16A16Unorm, offsetof(SceneVertex, color)}};
+std::vector<vk::VertexInputAttributeDescription> sceneAttributes(uint32_t first) {
+    return {{first, 0, Format::eR32G32B32Sfloat, offsetof(SceneVertex, position)},
+            {first + 1, 0, Format::eR32G32B32Sfloat, offsetof(SceneVertex, normal)},
+            {first + 2, 0, Format::eR32G32B32A32Sfloat, offsetof(SceneVertex, tangent)},
+            {first + 3, 0, Format::eR32G32Sfloat, offsetof(SceneVertex, uv0)},
+            {first + 4, 0, Format::eR32G32Sfloat, offsetof(SceneVertex, uv1)},
+            {first + 5, 0, Format::eR16G16B16A16Unorm, offsetof(SceneVertex, color)}};
 }
 
 void describeSceneVertices(PipelineRecipe& recipe) {
     recipe.bindings = {{0, sizeof(SceneVertex), vk::VertexInputRate::eVertex}};
-    recipe.attributes = sceneAttributes(0, 0);
+    recipe.attributes = sceneAttributes(0);
 }
 
 /// Lines and points: one instance each, of two vertices or one, spread to a quad by the shader.
@@ -59,9 +59,9 @@ void describeStrokes(PipelineRecipe& recipe, bool lines) {
     recipe.topology = vk::PrimitiveTopology::eTriangleStrip;
     recipe.bindings = {
         {0, (lines ? 2u : 1u) * static_cast<uint32_t>(sizeof(SceneVertex)), vk::VertexInputRate::eInstance}};
-    recipe.attributes = sceneAttributes(0, 0);
+    recipe.attributes = sceneAttributes(0);
     if (lines)
-        for (vk::VertexInputAttributeDescription end : sceneAttributes(6, 0)) {
+        for (vk::VertexInputAttributeDescription end : sceneAttributes(6)) {
             end.offset += sizeof(SceneVertex);
             recipe.attributes.push_back(end);
         }

@@ -16,6 +16,9 @@ namespace {
 /// What generateTangents works with per triangle, over the corners' welds, edges, groups and splits.
 constexpr uint64_t kTangentBytesPerTriangle = 400;
 
+/// A vertex of a line or point in the renderer's memory.
+constexpr uint64_t kDrawnVertexBytes = 64;
+
 /// Corners of triangle `i` of a strip or fan (glTF 2.0, section 3.7.2.1); a strip's odd triangles turn round.
 std::array<size_t, 3> triangleOf(int mode, size_t i) {
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
@@ -141,6 +144,8 @@ void makeDrawnOnly(ImportContext& context, std::vector<uint32_t> drawn, int mode
         mesh.pointIndices = std::move(drawn);
     else
         mesh.lineIndices = segmentList(context, drawn, mode, place);
+    // The renderer has a vertex for each: a few vertices under many small indices must not become gigabytes.
+    context.spendGeometry((mesh.lineIndices.size() + mesh.pointIndices.size()) * kDrawnVertexBytes, place);
     mendNormals(mesh);
     mesh.tangents = {};
     mesh.tangentsFromFile = false;

@@ -22,7 +22,8 @@ void expectSound(const Scene& scene) {
         EXPECT_EQ(image.problem, "") << image.name;
     for (const Mesh& mesh : scene.meshes) {
         const size_t count = mesh.positions.size();
-        ASSERT_EQ(mesh.normals.size(), count);
+        const bool drawnOnly = mesh.lineCount() > 0 || mesh.pointCount() > 0;
+        ASSERT_TRUE(mesh.normals.size() == count || (drawnOnly && mesh.normals.empty()));
         ASSERT_LT(static_cast<size_t>(mesh.material), scene.materials.size());
         EXPECT_TRUE(mesh.tangents.empty() || mesh.tangents.size() == count);
         EXPECT_TRUE(mesh.uv0.empty() || mesh.uv0.size() == count);
@@ -86,7 +87,8 @@ TEST(OurScenes, LoadSoundWithoutAWarning) {
         const ScenePtr scene = loadScene(entry.path());
         expectSound(*scene);
         for (const Warning& warning : scene->warnings)
-            ADD_FAILURE() << entry.path() << ": " << warning.place << ": " << warning.message;
+            if (!test::contains(warning.message, "drawn, but cannot be touched")) // lines of materials.glb
+                ADD_FAILURE() << entry.path() << ": " << warning.place << ": " << warning.message;
     }
     EXPECT_GT(files, 0u);
 }

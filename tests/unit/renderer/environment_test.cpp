@@ -64,7 +64,7 @@ TEST(Environment, AUniformOneIsUniformAtEveryBlurAndOfTheBrightnessThatWeWant) {
 TEST(Environment, ALinearSkyHasTheIrradianceOfItsIntegral) {
     // Radiance 1 + d.y / 2 + d.x / 4: irradiance / pi is 1 + (2/3) (y / 2 + x / 4).
     const auto made =
-        prefilter(panorama(256, [](const glm::dvec3& d) { return glm::vec3(1.0 + 0.5 * d.y + 0.25 * d.x); }));
+        prefilter(panorama(256, [](const glm::dvec3& d) { return glm::vec3(static_cast<float>(1.0 + 0.5 * d.y + 0.25 * d.x)); }));
     ASSERT_TRUE(made);
     for (const glm::dvec3& n :
          {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-0.48, -0.6, 0.64)})
