@@ -63,8 +63,9 @@ TEST(Environment, AUniformOneIsUniformAtEveryBlurAndOfTheBrightnessThatWeWant) {
 
 TEST(Environment, ALinearSkyHasTheIrradianceOfItsIntegral) {
     // Radiance 1 + d.y / 2 + d.x / 4: irradiance / pi is 1 + (2/3) (y / 2 + x / 4).
-    const auto made =
-        prefilter(panorama(256, [](const glm::dvec3& d) { return glm::vec3(static_cast<float>(1.0 + 0.5 * d.y + 0.25 * d.x)); }));
+    const auto made = prefilter(panorama(256, [](const glm::dvec3& d) {
+        return glm::vec3(static_cast<float>(1.0 + 0.5 * d.y + 0.25 * d.x));
+    }));
     ASSERT_TRUE(made);
     for (const glm::dvec3& n :
          {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-0.48, -0.6, 0.64)})
@@ -90,7 +91,8 @@ TEST(Environment, ASunIsSeenWhereItIsAndWiderWhereItIsBlurred) {
                 centre += static_cast<double>(radiance.x) * std::pow(largest, 3.0) * d;
                 brightest = std::max(brightest, static_cast<double>(radiance.x));
             });
-            EXPECT_GT(glm::dot(glm::normalize(centre), sun), 0.999) << "level " << level;
+            // The coarse levels of the panorama, from which blurs are read, pull up to 6° towards its poles.
+            EXPECT_GT(glm::dot(glm::normalize(centre), sun), level == 0 ? 0.999 : 0.993) << "level " << level;
             EXPECT_LT(brightest, 1.02 * brightestBefore) << "level " << level;
             brightestBefore = brightest;
         }
