@@ -1,7 +1,6 @@
 #include "tests/property/exact_cases.h"
 
 #include "engine/scene/scene_loader.h"
-#include "tests/support/shared_files.h"
 #include "tests/support/surface_hand.h"
 
 #include <gtest/gtest.h>
@@ -76,18 +75,6 @@ long double vertexError(const Scene& source, Fit fit) {
         }
     }
     return worst;
-}
-
-std::vector<std::filesystem::path> sceneFiles() {
-    std::vector<std::filesystem::path> folders{TOUCHSTONE_ASSETS}, files;
-    if (const auto models = modelsFolder())
-        folders.push_back(*models);
-    for (const auto& folder : folders)
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-            if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
-                files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
 }
 
 std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks) {

@@ -32,8 +32,6 @@ struct HandCase {
 [[nodiscard]] long double vertexError(const Scene& source, Fit fit);
 /// The same hands over a scene file.
 [[nodiscard]] std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks);
-/// Our scene files, and the shared models where there are any.
-[[nodiscard]] std::vector<std::filesystem::path> sceneFiles();
 
 /// What every case must show; prints the table, its sum as `name`, and the list of divergences.
 void expectExact(const std::string& name, const std::vector<ExactFigures>& all);

@@ -2,6 +2,7 @@
 
 #include "tests/property/exact_cases.h"
 #include "tests/property/hard_shapes.h"
+#include "tests/support/shared_files.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,15 @@ TEST(ExactnessSweep, HardShapes) {
 }
 
 TEST(ExactnessSweep, SceneFiles) {
-    for (const auto& file : sceneFiles())
+    for (const auto& file : gltfFilesIn(TOUCHSTONE_ASSETS))
+        expectExact(file.stem().string(), runFile(file, 1000));
+}
+
+TEST(ExactnessSweep, SharedModels) {
+    const auto models = modelsFolder();
+    if (!models)
+        GTEST_SKIP() << kNoModels;
+    for (const auto& file : gltfFilesIn(*models))
         expectExact(file.stem().string(), runFile(file, 1000));
 }
 

@@ -5,6 +5,7 @@
 #include "tests/property/exact_cases.h"
 #include "tests/property/hard_shapes.h"
 #include "tests/support/gltf_maker.h"
+#include "tests/support/shared_files.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -143,7 +144,15 @@ TEST(Exactness, HandsOverHardShapes) {
 }
 
 TEST(Exactness, HandsOverSceneFiles) {
-    for (const auto& file : sceneFiles())
+    for (const auto& file : gltfFilesIn(TOUCHSTONE_ASSETS))
+        expectExact(file.stem().string(), runFile(file, 100));
+}
+
+TEST(Exactness, HandsOverSharedModels) {
+    const auto models = modelsFolder();
+    if (!models)
+        GTEST_SKIP() << kNoModels;
+    for (const auto& file : gltfFilesIn(*models))
         expectExact(file.stem().string(), runFile(file, 100));
 }
 

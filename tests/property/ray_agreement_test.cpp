@@ -6,6 +6,7 @@
 #include "study/truth/oracle.h"
 #include "tests/property/exact_cases.h"
 #include "tests/property/hard_shapes.h"
+#include "tests/support/shared_files.h"
 #include "tests/support/surface_hand.h"
 #include "tests/support/touch_bench.h"
 
@@ -147,10 +148,10 @@ TEST(RayAgreement, HardShapes) {
         }
 }
 
-TEST(RayAgreement, SceneFiles) {
+void compareFiles(const std::filesystem::path& folder) {
     head();
     const int ticks = ticksWanted(150);
-    for (const std::filesystem::path& file : sceneFiles()) {
+    for (const std::filesystem::path& file : gltfFilesIn(folder)) {
         LoadOptions options;
         options.images = {.visual = false, .haptic = false};
         const ScenePtr scene = loadScene(file, options);
@@ -160,6 +161,17 @@ TEST(RayAgreement, SceneFiles) {
             EXPECT_GT(f.touching, f.ticks / 8) << file;
         }
     }
+}
+
+TEST(RayAgreement, SceneFiles) {
+    compareFiles(TOUCHSTONE_ASSETS);
+}
+
+TEST(RayAgreement, SharedModels) {
+    const auto models = modelsFolder();
+    if (!models)
+        GTEST_SKIP() << kNoModels;
+    compareFiles(*models);
 }
 
 } // namespace
