@@ -122,6 +122,10 @@ std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* ani
     return {pose.sceneFromMesh().begin(), pose.sceneFromMesh().end()};
 }
 
+const Animation* playedAnimation(const Scene& scene) {
+    return scene.animations.empty() ? nullptr : scene.animations.data();
+}
+
 double loopedTime(const Animation& animation, double time) noexcept {
     if (!(animation.duration > 0.0))
         return 0.0;

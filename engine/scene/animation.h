@@ -8,6 +8,10 @@
 
 namespace touchstone {
 
+/// The animation that plays, for the hand and for the eye: the first one, for ever again. Null: nothing
+/// moves.
+[[nodiscard]] const Animation* playedAnimation(const Scene& scene);
+
 /// One channel at `time` s: clamped to its first and last key outside of them (glTF 2.0, section 3.11).
 /// Linear rotations are slerped the short way, cubic ones normalised. Rotations are x, y, z, w. Any thread,
 /// no allocation.

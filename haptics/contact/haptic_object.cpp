@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -202,6 +203,38 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     return object;
 }
 
+namespace {
+
+/// How many triangles the ray crosses between `near` and `far`, which are close together: the two faces of a
+/// plate without thickness lie in one place, and Embree tells one of them. One where there are too many to
+/// count, or where the ray meets an edge that rounding lets it miss here.
+int crossingsAt(const HapticObject& object, const glm::dvec3& from, const glm::dvec3& direction, double near,
+                double far) noexcept {
+    std::array<TriangleTree::Near, 64> found;
+    const double middle = 0.5 * (near + far);
+    const size_t count = object.tree.collect(glm::vec3(from + middle * direction),
+                                             static_cast<float>(far - middle) + TriangleTree::kDoubt, found);
+    if (count >= found.size())
+        return 1;
+    int crossings = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t* corner = &object.indices[3 * size_t{found[i].triangle}];
+        const glm::dvec3 a(object.vertices[corner[0]]), ab = glm::dvec3(object.vertices[corner[1]]) - a,
+                                                        ac = glm::dvec3(object.vertices[corner[2]]) - a,
+                                                        across = glm::cross(direction, ac);
+        const double volume = glm::dot(ab, across);
+        if (volume == 0.0)
+            continue;
+        const glm::dvec3 turned = glm::cross(from - a, ab);
+        const double u = glm::dot(from - a, across) / volume, v = glm::dot(direction, turned) / volume,
+                     at = glm::dot(ac, turned) / volume;
+        crossings += u >= 0.0 && v >= 0.0 && u + v <= 1.0 && at >= near && at <= far;
+    }
+    return std::max(crossings, 1);
+}
+
+} // namespace
+
 bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept {
     if (!object.closed || glm::length(point) > object.boundingRadius)
         return false;
@@ -209,7 +242,7 @@ bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept 
     constexpr glm::vec3 kDirections[3] = {
         {0.4823f, 0.7617f, 0.4327f}, {-0.8019f, 0.2673f, 0.5345f}, {0.1690f, -0.5071f, -0.8452f}};
     constexpr int kMaxCrossings = 256;
-    constexpr float kFar = 8.0f;
+    constexpr float kFar = 8.0f, kTogether = 1e-6f; // lengths of the object's frame
     const glm::vec3 from(point);
     int votes = 0;
     for (const glm::vec3& direction : kDirections) {
@@ -219,8 +252,11 @@ bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept 
             const std::optional<RayHit> hit = castRay(object, from, direction, start, kFar);
             if (!hit)
                 break;
-            inside = !inside;
-            start = hit->distance + 1e-6f;
+            const float end = hit->distance + kTogether;
+            const int crossings = crossingsAt(object, point, glm::dvec3(direction),
+                                              std::max(start, hit->distance - kTogether), end);
+            inside = inside != (crossings % 2 == 1);
+            start = end;
         }
         votes += inside ? 1 : 0;
     }

@@ -1,6 +1,6 @@
 #include "haptics/proxy/ray_proxy.h"
 
-#include "haptics/proxy/few_planes.h"
+#include "engine/math/few_planes.h"
 #include "haptics/proxy/mesh_proxy.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/tick_flags.h"

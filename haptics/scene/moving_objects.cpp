@@ -1,5 +1,7 @@
 #include "haptics/scene/moving_objects.h"
 
+#include "engine/math/nearest_similarity.h"
+
 #include <cmath>
 #include <string>
 
@@ -16,24 +18,6 @@ bool moves(const Scene& scene, const Animation& animation, int node) {
     return false;
 }
 
-/// The similarity nearest to a matrix: scale from the volume, axes made orthogonal by Gram and Schmidt, who
-/// keep the rotation of a matrix that has one. False for what mirrors, flattens or is not finite.
-bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) {
-    const glm::dmat3 linear(matrix);
-    const double volume = glm::determinant(linear);
-    if (!(volume > 0.0) || !std::isfinite(volume))
-        return false;
-    const glm::dvec3 x = glm::normalize(linear[0]);
-    const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
-    const Similarity nearest{std::cbrt(volume),
-                             glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)))),
-                             glm::dvec3(matrix[3])};
-    if (!std::isfinite(glm::dot(nearest.translation, nearest.translation)) || !(nearest.scale > 0.0))
-        return false;
-    similarity = nearest;
-    return true;
-}
-
 /// Whether two poses are one but for the rounding of keys in a file: a thousandth of the object.
 bool meet(const Similarity& a, const Similarity& b) {
     constexpr double kSame = 1e-3;
@@ -42,19 +26,7 @@ bool meet(const Similarity& a, const Similarity& b) {
            std::abs(glm::dot(a.rotation, b.rotation)) > 1.0 - 0.125 * kSame * kSame;
 }
 
-glm::dmat4 matrixOf(const Similarity& similarity) {
-    glm::dmat4 matrix = glm::mat4_cast(similarity.rotation);
-    for (int column = 0; column < 3; ++column)
-        matrix[column] *= similarity.scale;
-    matrix[3] = glm::dvec4(similarity.translation, 1.0);
-    return matrix;
-}
-
 } // namespace
-
-const Animation* playedAnimation(const Scene& scene) {
-    return scene.animations.empty() ? nullptr : scene.animations.data();
-}
 
 std::vector<Warning> animationWarnings(const Scene& scene) {
     const Animation* animation = playedAnimation(scene);

@@ -13,10 +13,6 @@
 
 namespace touchstone {
 
-/// The animation that plays, for the hand and for the eye: the first one, for ever again. Null: nothing
-/// moves.
-[[nodiscard]] const Animation* playedAnimation(const Scene& scene);
-
 /// What the hand feels otherwise than the eye sees it, of the animation that plays.
 [[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
 

@@ -1,7 +1,7 @@
 // The third contact method, the god-object moved by rays, in both precisions: beside the sweep, on what is
 // hard, and at its limits (the table in docs/architecture.md).
 
-#include "haptics/proxy/few_planes.h"
+#include "engine/math/few_planes.h"
 #include "haptics/proxy/ray_path.h"
 #include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"

@@ -1,0 +1,39 @@
+#pragma once
+// Between matrices and similarities.
+
+#include "engine/math/similarity.h"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+
+namespace touchstone {
+
+/// The similarity nearest to a matrix: scale from the volume, axes made orthogonal by Gram and Schmidt, who
+/// keep the rotation of a matrix that has one. False for what mirrors, flattens or is not finite:
+/// `similarity` stays as it was.
+inline bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) {
+    const glm::dmat3 linear(matrix);
+    const double volume = glm::determinant(linear);
+    if (!(volume > 0.0) || !std::isfinite(volume))
+        return false;
+    const glm::dvec3 x = glm::normalize(linear[0]);
+    const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
+    const Similarity nearest{std::cbrt(volume),
+                             glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)))),
+                             glm::dvec3(matrix[3])};
+    if (!std::isfinite(glm::dot(nearest.translation, nearest.translation)) || !(nearest.scale > 0.0))
+        return false;
+    similarity = nearest;
+    return true;
+}
+
+[[nodiscard]] inline glm::dmat4 matrixOf(const Similarity& similarity) {
+    glm::dmat4 matrix = glm::mat4_cast(similarity.rotation);
+    for (int column = 0; column < 3; ++column)
+        matrix[column] *= similarity.scale;
+    matrix[3] = glm::dvec4(similarity.translation, 1.0);
+    return matrix;
+}
+
+} // namespace touchstone
