@@ -4,7 +4,7 @@ namespace touchstone {
 
 DeviceSample SimulatedHand::sample(double time) noexcept {
     DeviceSample sample;
-    sample.position = path_->position(time);
+    sample.position = path_->positionIn(time, time);
     sample.valid = true;
     return sample;
 }

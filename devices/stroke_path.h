@@ -1,6 +1,8 @@
 #pragma once
 // Paths on which a simulated hand strokes a model that nobody has seen before.
 
+#include "devices/part_motion.h"
+#include "devices/triangle_source.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
 
@@ -45,6 +47,17 @@ class StrokePath {
 
     [[nodiscard]] glm::dvec3 position(double time) const noexcept; ///< m, device frame; time in s
     [[nodiscard]] glm::dvec3 velocity(double time) const noexcept; ///< m/s
+    /// The same path for a hand that rides on a part of the scene. Null: on what rests.
+    [[nodiscard]] StrokePath carriedBy(std::shared_ptr<const PartMotion> part) const {
+        StrokePath path = *this;
+        path.part_ = std::move(part);
+        return path;
+    }
+    /// Where the hand is at `time` of the path and `sceneTime` of the animation; position(time) on what
+    /// rests.
+    [[nodiscard]] glm::dvec3 positionIn(double time, double sceneTime) const noexcept {
+        return part_ == nullptr ? position(time) : part_->at(sceneTime).point(position(time));
+    }
     /// m: what stays where it is when the hand's workspace is zoomed; of a tour, where it begins.
     [[nodiscard]] const glm::dvec3& place() const { return place_; }
     [[nodiscard]] double period() const { return interval_ * static_cast<double>(control_.size()); } ///< s
@@ -58,17 +71,23 @@ class StrokePath {
     std::vector<glm::dvec3> control_;
     double interval_; // s
     glm::dvec3 place_;
+    std::shared_ptr<const PartMotion> part_;
 };
 
-/// A stroke over whatever `scene` holds (rest pose), placed by `deviceFromScene`: from above the model down
+/// A stroke over whatever `scene` holds (static pose), placed by `deviceFromScene`: from above the model down
 /// onto it, `depth` below its surface around a wavy ellipse on the side that faces `front`, then off and
 /// again. The hand hops over gaps, steps and walls however low: it does not yield, and a proxy caught behind
 /// one would draw it with ever more force. Where no such ellipse meets the model (wires, sparse parts), it
-/// presses on single triangles one after the other. Owner thread; time grows with the triangles (about 0.1 s
-/// a million). Throws Error when there is no triangle to touch.
+/// presses on single triangles one after the other. The hand is nowhere farther than 1.5 times the depth from
+/// a point proxy that follows it: what would be is mended or left out. Owner thread; time grows with the
+/// triangles (about 0.1 s a million). Throws Error when there is no triangle to touch, or no place that can
+/// be pressed without going deeper.
 [[nodiscard]] StrokePath strokeOver(const Scene& scene, const Similarity& deviceFromScene,
                                     const StrokeOptions& options = {});
 /// The same over triangles given by their corners, three each, in the device frame.
 [[nodiscard]] StrokePath strokeOver(std::span<const glm::dvec3> corners, const StrokeOptions& options = {});
+/// The same over any triangles, by a hand that keeps out of some boxes.
+[[nodiscard]] StrokePath strokeOver(const TriangleSource& triangles, const StrokeOptions& options,
+                                    std::span<const Bounds> keepOut);
 
 } // namespace touchstone

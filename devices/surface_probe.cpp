@@ -1,6 +1,6 @@
 #include "devices/surface_probe.h"
 
-#include "engine/scene/scene.h"
+#include "engine/math/orientation.h"
 
 #include <algorithm>
 #include <array>
@@ -63,6 +63,40 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
+/// In one place of the program, so that equal corners give equal bits: inlined twice, a compiler may contract
+/// the products differently.
+[[gnu::noinline]] glm::dvec3 viewedFrom(const View& view, const glm::dvec3& p) {
+    return view.viewed(p);
+}
+
+/// A triangle as a view sees it.
+struct ViewedTriangle {
+    glm::dvec3 a, b, c;
+    glm::dvec2 a2, b2, c2;
+    double area; ///< twice, in the plane of the view; its sign is exact
+
+    ViewedTriangle(const View& view, const SurfaceTriangle& t)
+        : a(viewedFrom(view, t.a)), b(viewedFrom(view, t.b)), c(viewedFrom(view, t.c)), a2(a), b2(b), c2(c),
+          area(orientation(a2, b2, c2)) {}
+
+    /// Whether `p` is on it, borders included. Weights cannot tell: those of two triangles that share an edge
+    /// are rounded differently, and a point on it is rejected by both. (1 - wa - wb, taken for the third
+    /// weight, is off by the rounding of the other two, and lost the diagonal of every square face.)
+    [[nodiscard]] bool covers(const glm::dvec2& p) const {
+        const double sign = area > 0.0 ? 1.0 : -1.0;
+        return sign * orientation(p, a2, b2) >= 0.0 && sign * orientation(p, b2, c2) >= 0.0 &&
+               sign * orientation(p, c2, a2) >= 0.0;
+    }
+    [[nodiscard]] double heightAt(const glm::dvec2& p) const {
+        const double flat = cross(b2 - a2, c2 - a2);
+        const double wa = cross(b2 - p, c2 - p) / flat, wb = cross(c2 - p, a2 - p) / flat;
+        const double height = wa * a.z + wb * b.z + (1.0 - wa - wb) * c.z;
+        const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
+        // Where the area is less than its rounding the triangle is a wall: its top.
+        return std::isfinite(height) ? std::clamp(height, lowest, highest) : highest;
+    }
+};
+
 /// Distance from `p` to a triangle: to its plane above the inside, else to the nearest edge.
 double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners,
                           const glm::dvec3& normal) {
@@ -88,39 +122,6 @@ constexpr double kFree = 0.25;
 
 } // namespace
 
-TriangleSource trianglesOf(const Scene& scene, const Similarity& deviceFromScene) {
-    return [&scene, deviceFromScene](const TriangleVisitor& visit) {
-        for (const Instance& instance : scene.instances) {
-            const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-            const auto corner = [&](size_t index) {
-                const glm::dvec4 local(glm::dvec3(mesh.positions[mesh.indices[index]]), 1.0);
-                return deviceFromScene.point(glm::dvec3(instance.sceneFromMesh * local));
-            };
-            for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-                visit(corner(i), corner(i + 1), corner(i + 2));
-        }
-    };
-}
-
-TriangleSource trianglesOf(std::span<const glm::dvec3> corners) {
-    return [corners](const TriangleVisitor& visit) {
-        for (size_t i = 0; i + 2 < corners.size(); i += 3)
-            visit(corners[i], corners[i + 1], corners[i + 2]);
-    };
-}
-
-std::vector<glm::dvec3> trianglesNear(const TriangleSource& triangles, const glm::dvec3& centre,
-                                      double half) {
-    std::vector<glm::dvec3> corners;
-    const glm::dvec3 low = centre - half, high = centre + half;
-    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-        const glm::dvec3 least = glm::min(a, glm::min(b, c)), most = glm::max(a, glm::max(b, c));
-        if (glm::all(glm::lessThanEqual(least, high)) && glm::all(glm::greaterThanEqual(most, low)))
-            corners.insert(corners.end(), {a, b, c});
-    });
-    return corners;
-}
-
 View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
     View view;
     view.centre = bounds.centre();
@@ -142,29 +143,27 @@ std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, co
     const PointGrid grid(points);
     std::vector<double> highest(points.size(), -std::numeric_limits<double>::infinity());
 
-    triangles([&](const glm::dvec3& a3, const glm::dvec3& b3, const glm::dvec3& c3) {
-        const glm::dvec3 a = view.viewed(a3), b = view.viewed(b3), c = view.viewed(c3);
-        const glm::dvec2 a2(a), b2(b), c2(c);
-        const double area = cross(b2 - a2, c2 - a2);
-        if (area == 0.0)
-            return; // seen edge-on
-        grid.near(glm::min(a2, glm::min(b2, c2)), glm::max(a2, glm::max(b2, c2)), [&](uint32_t i) {
-            // Barycentric weights, borders included: no point falls between two triangles that share an edge.
-            const double wa = cross(b2 - points[i], c2 - points[i]) / area;
-            const double wb = cross(c2 - points[i], a2 - points[i]) / area;
-            const double wc = 1.0 - wa - wb;
-            if (wa < 0.0 || wb < 0.0 || wc < 0.0)
+    triangles([&](const SurfaceTriangle& triangle) {
+        if (!triangle.feltFrom(view.towards))
+            return;
+        const ViewedTriangle seen(view, triangle);
+        if (seen.area == 0.0)
+            return; // edge-on: a point on it is on the border of a neighbour
+        const glm::dvec2 low = glm::min(seen.a2, glm::min(seen.b2, seen.c2)),
+                         high = glm::max(seen.a2, glm::max(seen.b2, seen.c2));
+        grid.near(low, high, [&](uint32_t i) {
+            if (!seen.covers(points[i]))
                 return;
-            const double height = wa * a.z + wb * b.z + wc * c.z;
+            const double height = seen.heightAt(points[i]);
             if (height <= highest[i] || height > ceiling)
                 return;
-            const glm::dvec3 normal = glm::cross(b3 - a3, c3 - a3);
+            const glm::dvec3 normal = glm::cross(triangle.b - triangle.a, triangle.c - triangle.a);
             const double length = glm::length(normal);
             if (!(length > 0.0))
                 return;
             highest[i] = height;
             hits[i] = SurfaceHit{view.point({points[i].x, points[i].y, height}),
-                                 normal * ((area > 0.0 ? 1.0 : -1.0) / length)};
+                                 normal * ((seen.area > 0.0 ? 1.0 : -1.0) / length), triangle.object};
         });
     });
     return hits;
@@ -177,7 +176,8 @@ std::vector<double> wallsBeside(const TriangleSource& triangles, const View& vie
     if (points.empty())
         return highest;
     const PointGrid grid(points);
-    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    triangles([&](const SurfaceTriangle& triangle) {
+        const auto& [a, b, c, object, front] = triangle;
         const glm::dvec3 cross3 = glm::cross(b - a, c - a);
         const double length = glm::length(cross3);
         if (!(length > 0.0))

@@ -1,32 +1,17 @@
 #pragma once
 // Looks down on a triangle soup along one direction: enough to plan a path, once, before the servo starts.
 
+#include "devices/triangle_source.h"
 #include "engine/math/similarity.h"
 
 #include <glm/glm.hpp>
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace touchstone {
-
-struct Scene;
-
-using TriangleVisitor = std::function<void(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)>;
-/// Calls its visitor with every triangle, always in the same order. m, device frame.
-using TriangleSource = std::function<void(const TriangleVisitor&)>;
-
-/// The triangles of `scene` (rest pose) as `deviceFromScene` places them. The scene outlives it.
-[[nodiscard]] TriangleSource trianglesOf(const Scene& scene, const Similarity& deviceFromScene);
-/// Those given by their corners, three each, in the device frame; the corners outlive it.
-[[nodiscard]] TriangleSource trianglesOf(std::span<const glm::dvec3> corners);
-
-/// The corners of those triangles that come into the cube of `half` m to each side of `centre`.
-[[nodiscard]] std::vector<glm::dvec3> trianglesNear(const TriangleSource& triangles, const glm::dvec3& centre,
-                                                    double half);
 
 /// A view without perspective of what lies in some bounds. Coordinates (right, up, height) are m from the
 /// bounds' centre, height towards the viewer.
@@ -47,12 +32,15 @@ struct View {
 [[nodiscard]] View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer);
 
 struct SurfaceHit {
-    glm::dvec3 point;  ///< m
-    glm::dvec3 normal; ///< unit, of the flat triangle, facing the viewer
+    glm::dvec3 point;    ///< m
+    glm::dvec3 normal;   ///< unit, of the flat triangle, facing the viewer
+    uint32_t object = 0; ///< SurfaceTriangle::object
 };
 
-/// The first surface under each of `points` (right, up) that is not higher than `ceiling`. Goes through the
-/// triangles once and keeps none of them, so that a model of ten million costs no memory here.
+/// The first surface under each of `points` (right, up) that is not higher than `ceiling` and is felt from
+/// there. Watertight: a point inside the outline of a surface without holes meets it, on its edges and
+/// vertices too. Goes through the triangles once and keeps none of them, so that a model of ten million costs
+/// no memory here.
 [[nodiscard]] std::vector<std::optional<SurfaceHit>>
 probe(const TriangleSource& triangles, const View& view, std::span<const glm::dvec2> points,
       double ceiling = std::numeric_limits<double>::infinity());

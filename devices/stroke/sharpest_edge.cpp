@@ -88,7 +88,8 @@ std::vector<EdgeSite> sharpestEdges(const TriangleSource& source, const Bounds& 
     std::vector<Triangle> triangles;
     std::vector<Side> sides;
     const double grid = kWeld * bounds.diagonal();
-    source([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    source([&](const SurfaceTriangle& triangle) {
+        const glm::dvec3 &a = triangle.a, &b = triangle.b, &c = triangle.c;
         if (!(glm::length(glm::cross(b - a, c - a)) > 0.0))
             return;
         const uint64_t hashes[3] = {cornerHash(a, bounds, grid), cornerHash(b, bounds, grid),

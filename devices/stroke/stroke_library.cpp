@@ -2,6 +2,9 @@
 
 #include "devices/stroke/stroke_library.h"
 
+#include "devices/stroke/press_place.h"
+#include "devices/stroke/scene_motion.h"
+#include "devices/stroke/stroke_check.h"
 #include "devices/stroke/stroke_motion.h"
 #include "devices/stroke/stroke_place.h"
 #include "engine/core/error.h"
@@ -18,7 +21,8 @@ namespace {
 
 using Curve = std::vector<glm::dvec2>; ///< m in the site's view
 
-constexpr double kHover = 0.008;    ///< m over the surface, before and after
+/// m over the surface, before and after; the less, where another part of the model is above.
+constexpr std::array kHovers{0.008, 0.002, 0.0005};
 constexpr double kLanding = 0.08;   ///< m/s at most, from there onto the surface and back, in the air
 constexpr double kSpacing = 2.5e-4; ///< m between the points that are laid
 constexpr double kDeepest = 0.1;    ///< of the model's diagonal: a small model is not pierced
@@ -81,9 +85,10 @@ Curve raster(double reach) {
     });
 }
 
-/// What a stroke is told: its speed and depth, the depth as the model allows it.
+/// What a stroke is told: its speed and depth, the depth as the model allows it, and its height in the air.
 struct Told {
     double speed = 0.0, depth = 0.0;
+    double hover = kHovers[0];
 };
 /// In the air as fast as hands come down; what is slower than that goes on slowly from the surface on.
 void land(StrokeMotion& motion, const Told& told) {
@@ -94,7 +99,7 @@ void land(StrokeMotion& motion, const Told& told) {
 void leave(StrokeMotion& motion, const Told& told) {
     if (told.speed < kLanding)
         motion.liftTo(told.depth, told.speed);
-    motion.liftTo(told.depth + kHover, kLanding);
+    motion.liftTo(told.depth + told.hover, kLanding);
     motion.rest(0.2);
 }
 
@@ -114,7 +119,7 @@ void press(StrokeMotion& motion, const LaidCurve&, const Told& told) {
 void tap(StrokeMotion& motion, const LaidCurve&, const Told& told) {
     for (int i = 0; i < 5; ++i) {
         motion.liftTo(0.0, told.speed);
-        motion.liftTo(told.depth + kHover, told.speed);
+        motion.liftTo(told.depth + told.hover, told.speed);
         motion.rest(0.2);
     }
 }
@@ -193,39 +198,96 @@ const StrokeKind* findKind(std::string_view name) {
     return found != kKinds.end() ? &*found : nullptr;
 }
 
-/// Over the sharpest edge that has room for it on both sides.
-std::optional<LaidCurve> laidAcrossEdge(const TriangleSource& triangles, const Bounds& bounds,
-                                        const glm::dvec3& front, double reach, double depth) {
-    for (const EdgeSite& edge : sharpestEdges(triangles, bounds, front)) {
-        const std::vector<glm::dvec3> around = trianglesNear(triangles, edge.point, 2.0 * (reach + depth));
-        for (const double size : kEdgeSizes)
-            if (auto curve = LaidCurve::acrossEdge(trianglesOf(around), edge, size * reach, depth))
-                return curve;
+/// What a stroke is laid on.
+struct Ground {
+    const TriangleSource& triangles;
+    const Bounds bounds;
+    std::span<const Bounds> keepOut; ///< boxes into which the hand must not come
+};
+
+/// Moves along `curve`, where that keeps to its depth over `near`; nothing where no hover makes it do so.
+std::optional<StrokePath> held(const Ground& ground, const TriangleSource& near, const StrokeKind& kind,
+                               const LaidCurve& curve, Told told) {
+    for (const double hover : kHovers) {
+        told.hover = hover;
+        StrokeMotion motion(curve, told.depth + hover);
+        kind.move(motion, curve, told);
+        StrokePath path = motion.finish(curve.at(0.0, told.depth));
+        const glm::dvec3 start = curve.at(0.0, told.depth + hover);
+        if (strokeHolds(near, path, told.depth, ground.keepOut) &&
+            !maybeInside(ground.triangles, start, glm::normalize(start - curve.at(0.0, 0.0))))
+            return path;
     }
     return std::nullopt;
 }
 
-/// The curve of `kind` at its place, as large as fits there.
-LaidCurve laid(const TriangleSource& triangles, const Bounds& bounds, const StrokeKind& kind,
-               const StrokeRequest& request, const Told& told) {
+/// Over the sharpest edge that has room for it on both sides.
+std::optional<StrokePath> laidAcrossEdge(const Ground& ground, const StrokeKind& kind,
+                                         const glm::dvec3& front, double reach, const Told& told) {
+    for (const EdgeSite& edge : sharpestEdges(ground.triangles, ground.bounds, front)) {
+        const std::vector<SurfaceTriangle> around =
+            trianglesNear(ground.triangles, edge.point, 2.0 * (reach + told.depth));
+        for (const double size : kEdgeSizes)
+            if (const auto curve = LaidCurve::acrossEdge(trianglesOf(around), edge, size * reach, told.depth))
+                if (auto path = held(ground, ground.triangles, kind, *curve, told))
+                    return path;
+    }
+    return std::nullopt;
+}
+
+/// On one point: of the best site, else wherever a hand can press.
+std::optional<StrokePath> laidOnPoint(const Ground& ground, const StrokeKind& kind,
+                                      std::span<const StrokeSite> sites, const glm::dvec3& front,
+                                      const Told& told) {
+    std::vector<PressPlace> places;
+    for (const StrokeSite& site : sites)
+        places.push_back({site.view.centre, site.view.towards});
+    for (const PressPlace& place : pressPlaces(ground.triangles, ground.bounds, front))
+        places.push_back(place);
+    std::optional<StrokePath> path;
+    for (const bool anywhere : {false, true}) {
+        (void)firstPress(ground.triangles, places, kHovers[0], told.depth,
+                         [&](const PressPlace& place, const TriangleSource& near) {
+                             if (!anywhere && !isSupported(near, place))
+                                 return false;
+                             Told shallower = told;
+                             shallower.depth = place.depth;
+                             const LaidCurve point(place.point, place.normal, place.depth);
+                             path = held(ground, near, kind, point, shallower);
+                             return path.has_value();
+                         });
+        if (path)
+            break;
+    }
+    return path;
+}
+
+/// The stroke of `kind` at its place, as large as fits there.
+std::optional<StrokePath> laid(const Ground& ground, const StrokeKind& kind, const StrokeRequest& request,
+                               const Told& told) {
+    const auto& [triangles, bounds, keepOut] = ground;
     const double reach = std::min(kind.reach, kOfModel * bounds.diagonal());
     if (kind.move == cross)
-        if (auto curve = laidAcrossEdge(triangles, bounds, request.front, reach, told.depth))
-            return *std::move(curve);
+        if (auto path = laidAcrossEdge(ground, kind, request.front, reach, told))
+            return path;
     const std::vector<StrokeSite> sites = sitesOf(triangles, bounds, request);
     const double soft = std::max(told.depth, kSoftTime * told.speed);
     const auto draw = kind.draw != nullptr ? kind.draw : ring;
-    std::vector<std::vector<glm::dvec3>> around;
-    for (const StrokeSite& site : sites)
-        around.push_back(
-            trianglesNear(triangles, site.view.centre, 2.0 * (reach + site.ceiling + told.depth)));
-    if (reach > 0.0)
-        for (const double size : kSizes)
-            for (size_t i = 0; i < sites.size(); ++i)
-                if (auto curve = LaidCurve::over(trianglesOf(around[i]), sites[i].view, draw(size * reach),
-                                                 told.depth, soft, sites[i].ceiling + size * reach))
-                    return *std::move(curve);
-    return {sites[0].view.centre, sites[0].view.towards, told.depth};
+    std::vector<std::vector<SurfaceTriangle>> around(sites.size());
+    for (const double size : reach > 0.0 ? std::span<const double>(kSizes) : std::span<const double>())
+        for (size_t i = 0; i < sites.size(); ++i) {
+            const StrokeSite& site = sites[i];
+            if (around[i].empty())
+                around[i] =
+                    trianglesNear(triangles, site.view.centre, 2.0 * (reach + site.ceiling + told.depth));
+            const auto curve = LaidCurve::over(trianglesOf(around[i]), site.view, draw(size * reach),
+                                               told.depth, soft, site.ceiling + size * reach);
+            if (!curve)
+                continue;
+            if (auto path = held(ground, trianglesOf(around[i]), kind, *curve, told))
+                return path;
+        }
+    return laidOnPoint(ground, kind, sites, request.front, told);
 }
 
 double withinRange(double asked, double own, double least, double most, const char* what) {
@@ -237,19 +299,16 @@ double withinRange(double asked, double own, double least, double most, const ch
     return asked;
 }
 
-StrokePath layKind(const TriangleSource& triangles, const StrokeKind& kind, const StrokeRequest& request,
-                   const Told& told) {
-    Bounds bounds;
-    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-        bounds.include(a);
-        bounds.include(b);
-        bounds.include(c);
-    });
-    const Told allowed{told.speed, std::min(told.depth, kDeepest * bounds.diagonal())};
-    const LaidCurve curve = laid(triangles, bounds, kind, request, allowed);
-    StrokeMotion motion(curve, allowed.depth + kHover);
-    kind.move(motion, curve, allowed);
-    return motion.finish(curve.at(0.0, allowed.depth));
+StrokePath layKind(const TriangleSource& triangles, std::span<const Bounds> keepOut, const StrokeKind& kind,
+                   const StrokeRequest& request, const Told& told) {
+    if (kind.move == nullptr)
+        return strokeOver(triangles, {.speed = told.speed, .depth = told.depth, .front = request.front},
+                          keepOut);
+    const Ground ground{triangles, boundsOf(triangles), keepOut};
+    const Told allowed{told.speed, std::min(told.depth, kDeepest * ground.bounds.diagonal())};
+    if (auto path = laid(ground, kind, request, allowed))
+        return *std::move(path);
+    throw noPlaceToPress(triangles);
 }
 
 /// The kind that is asked for, with its speed and depth; throws where there is none.
@@ -290,17 +349,23 @@ std::string strokeProblem(std::string_view name) {
 
 StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, const StrokeRequest& request) {
     const auto [kind, told] = understood(request);
-    if (kind->move == nullptr)
-        return strokeOver(scene, deviceFromScene,
-                          {.speed = told.speed, .depth = told.depth, .front = request.front});
-    return layKind(trianglesOf(scene, deviceFromScene), *kind, request, told);
+    const TriangleSource triangles = trianglesOf(scene, deviceFromScene);
+    const std::vector<MovingPart> parts = movingParts(scene, deviceFromScene, request);
+    if (parts.empty())
+        return layKind(triangles, {}, *kind, request, told);
+    for (const MovingPart& part : parts)
+        try {
+            return layKind(trianglesOf(triangles, part), part.keepOut, *kind, request, told)
+                .carriedBy(part.motion);
+        } catch (const Error&) {
+            continue; // the others sweep over all of it
+        }
+    throw noPlaceToPress(triangles);
 }
 
 StrokePath layStroke(std::span<const glm::dvec3> corners, const StrokeRequest& request) {
     const auto [kind, told] = understood(request);
-    if (kind->move == nullptr)
-        return strokeOver(corners, {.speed = told.speed, .depth = told.depth, .front = request.front});
-    return layKind(trianglesOf(corners), *kind, request, told);
+    return layKind(trianglesOf(corners), {}, *kind, request, told);
 }
 
 } // namespace touchstone

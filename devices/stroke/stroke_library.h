@@ -47,14 +47,19 @@ inline constexpr double kShallowestStroke = 0.0001, kDeepestStroke = 0.01; ///< 
 /// What is wrong with the name, with those that there are; empty: nothing.
 [[nodiscard]] std::string strokeProblem(std::string_view name);
 
-/// Lays the stroke onto the model as `deviceFromScene` places it (rest pose): a closed path that begins in
-/// the air over the surface, comes down, strokes and lifts off again, for ever. Position, velocity and
-/// acceleration are continuous and the speed is nowhere above the stroke's, but in the air above the surface
-/// up to 0.08 m/s. Curves become smaller until they
-/// find surface without gaps, steps and walls under all of them; where even the smallest does not (wires),
-/// the hand presses where it would have begun. The depth is at most a tenth of the model's diagonal. Any
-/// thread, not the servo's; deterministic; time grows with the triangles (0.1 to 0.5 s a million). Throws
-/// Error for a name or a number that cannot be, and where there is no triangle to touch.
+/// Lays the stroke onto the model as `deviceFromScene` places it: a closed path that begins in the air over
+/// the surface, comes down, strokes and lifts off again, for ever. Position, velocity and acceleration are
+/// continuous and the speed is nowhere above the stroke's, but in the air above the surface up to 0.08 m/s.
+/// Where the scene's animation moves the part that it is laid on the path rides on it
+/// (StrokePath::positionIn), and keeps out of what the other parts sweep over.
+///
+/// The hand is nowhere farther than 1.5 times the depth from a point proxy that follows it, which is checked
+/// before the path is returned. Curves become smaller until they find surface without gaps, steps and walls
+/// under all of them; where even the smallest does not (wires), the hand presses a single place, at the last
+/// less deep. The depth is at most a tenth of the model's diagonal. Any thread, not the servo's;
+/// deterministic; time grows with the triangles (0.1 to 0.5 s a million). Throws Error for a name or a number
+/// that cannot be, where there is no triangle to touch, and where no place can be pressed without going
+/// deeper.
 [[nodiscard]] StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene,
                                    const StrokeRequest& request);
 /// The same over triangles given by their corners, three each, in the device frame.

@@ -49,18 +49,6 @@ StrokeSite siteAt(const TriangleSource& triangles, const Bounds& bounds, const S
     return site;
 }
 
-std::optional<SurfaceHit> hitAt(const TriangleSource& triangles, const StrokePlace& place) {
-    const double length = glm::length(place.normal);
-    if (!(length > 0.0) || !std::isfinite(length))
-        return std::nullopt;
-    Bounds point;
-    point.include(place.point);
-    const View view = viewOf(point, place.normal / length);
-    const std::array<glm::dvec2, 1> middle{glm::dvec2(0.0)};
-    const std::optional<SurfaceHit> hit = probe(triangles, view, middle, kNear)[0];
-    return hit && view.viewed(hit->point).z >= -kNear ? hit : std::nullopt;
-}
-
 /// Touchable hits, those first that are nearest the middle and face the viewer best, some way apart.
 std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds& bounds,
                                    const glm::dvec3& front) {
@@ -92,18 +80,32 @@ std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds
 std::optional<SurfaceHit> largestTriangle(const TriangleSource& triangles, const glm::dvec3& front) {
     std::optional<SurfaceHit> largest;
     double most = 0.0;
-    triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    triangles([&](const SurfaceTriangle& triangle) {
+        const glm::dvec3 &a = triangle.a, &b = triangle.b, &c = triangle.c;
         const glm::dvec3 cross = glm::cross(b - a, c - a);
         const double area = glm::length(cross);
         if (!(area > most))
             return;
         most = area;
-        largest = SurfaceHit{(a + b + c) / 3.0, cross / (glm::dot(cross, front) < 0.0 ? -area : area)};
+        largest = SurfaceHit{(a + b + c) / 3.0, cross / (glm::dot(cross, front) < 0.0 ? -area : area),
+                             triangle.object};
     });
     return largest;
 }
 
 } // namespace
+
+std::optional<SurfaceHit> hitAt(const TriangleSource& triangles, const StrokePlace& place) {
+    const double length = glm::length(place.normal);
+    if (!(length > 0.0) || !std::isfinite(length))
+        return std::nullopt;
+    Bounds point;
+    point.include(place.point);
+    const View view = viewOf(point, place.normal / length);
+    const std::array<glm::dvec2, 1> middle{glm::dvec2(0.0)};
+    const std::optional<SurfaceHit> hit = probe(triangles, view, middle, kNear)[0];
+    return hit && view.viewed(hit->point).z >= -kNear ? hit : std::nullopt;
+}
 
 std::vector<StrokeSite> sitesOf(const TriangleSource& triangles, const Bounds& bounds,
                                 const StrokeRequest& request) {

@@ -13,6 +13,9 @@ struct StrokeSite {
     double ceiling = 0.0; ///< m over the centre: what is higher is another part of the model
 };
 
+/// The surface within 5 mm of a place, seen along its normal.
+[[nodiscard]] std::optional<SurfaceHit> hitAt(const TriangleSource& triangles, const StrokePlace& place);
+
 /// At the place that was asked for, where the surface is within 5 mm of it; else some near the middle of what
 /// faces `front`, where a hand gets to them, the best first; else on the largest triangle. At least one.
 /// Throws Error without any triangle of some area.

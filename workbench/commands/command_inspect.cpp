@@ -161,8 +161,14 @@ Json vectorJson(const glm::dvec3& v) {
 Json tickCostJson(const Model& model) {
     if (!model.scene->touchable())
         return nullptr;
+    std::shared_ptr<const StrokePath> path;
+    try {
+        path = std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene));
+    } catch (const Error&) {
+        return nullptr; // nowhere to press
+    }
     enterFloatMode();
-    SimulatedHand hand(std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene)));
+    SimulatedHand hand(path);
     constexpr int kTicks = 2000;
     std::array<Samples, kStageCount> stages;
     Samples whole;

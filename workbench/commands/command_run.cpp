@@ -12,6 +12,7 @@
 #include "renderer/scene_renderer.h"
 #include "workbench/commands.h"
 #include "workbench/commands/device_test.h"
+#include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/stolen_time.h"
 #include "workbench/figures/tick_csv.h"
@@ -272,6 +273,9 @@ int runCommand(const RunOptions& options) {
                 static_cast<unsigned long long>(counters.missed), frames.seconds,
                 static_cast<unsigned long long>(reader.statistics.contactTicks()),
                 static_cast<unsigned long long>(frames.count));
+    if (device == nullptr)
+        requireTouch(options.scene, options.stroke, path.path().period(), frames.seconds,
+                     reader.statistics.contactTicks());
     return desk.failed() ? 1 : 0;
 }
 

@@ -13,6 +13,7 @@
 #include "haptics/servo/realtime_thread.h"
 #include "study/timing/clock_cost.h"
 #include "workbench/commands.h"
+#include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
@@ -52,15 +53,14 @@ struct OfflineTick {
 };
 
 /// A stroke over the model as a path: once round, or as long as was asked for.
-HipPath strokePath(const Model& model, const TouchOptions& options) {
-    const StrokePath stroke = layStroke(*model.scene, model.workspaceFromScene, options.stroke);
+HipPath pathOf(const StrokePath& stroke, const TouchOptions& options) {
     const double rate = options.rateHz > 0.0 ? options.rateHz : 1000.0;
     const double seconds = options.seconds > 0.0 ? options.seconds : stroke.period();
     HipPath path;
     const auto count = static_cast<size_t>(std::floor(seconds * rate * (1.0 + 1e-12))) + 1;
     for (size_t i = 0; i < count; ++i) {
         path.times.push_back(static_cast<double>(i) / rate);
-        path.positions.push_back(stroke.position(path.times.back()));
+        path.positions.push_back(stroke.positionIn(path.times.back(), path.times.back()));
     }
     return path;
 }
@@ -235,8 +235,11 @@ int touchCommand(const TouchOptions& options) {
                                          options.closedLoop ? limitsOf(options.plant) : DeviceLimits{});
     printWarnings(model);
     prepareFor(model, options.settings);
-    if (!path)
-        path = strokePath(model, options);
+    std::optional<StrokePath> stroke;
+    if (!path) {
+        stroke = layStroke(*model.scene, model.workspaceFromScene, options.stroke);
+        path = pathOf(*stroke, options);
+    }
     OutputFile out(options.out);
     std::optional<OutputFile> report;
     if (!options.json.empty())
@@ -320,6 +323,10 @@ int touchCommand(const TouchOptions& options) {
     out.commit();
     std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
                 static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
+    if (stroke) // a path of the user's own may well be one through the air
+        requireTouch(options.scene, options.stroke, stroke->period(),
+                     path->times.back() - path->times.front() + planned.front().dt,
+                     statistics.contactTicks());
     return 0;
 }
 

@@ -86,7 +86,7 @@ DeviceSample HandSwitch::sample(double time) noexcept {
     if (driven_ != nullptr) {
         sample = driven_->sample(time);
     } else if (path != nullptr) { // it begins where it begins, once the hand is there
-        sample.position = path->position(std::max(0.0, time - glideStart_ - kGlideTime));
+        sample.position = path->positionIn(std::max(0.0, time - glideStart_ - kGlideTime), time);
         sample.age = 0.0;
         sample.valid = true;
     }

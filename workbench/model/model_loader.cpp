@@ -1,5 +1,8 @@
 #include "workbench/model/model_loader.h"
 
+#include "devices/stroke/stroke_library.h"
+#include "engine/core/error.h"
+
 #include <sys/resource.h>
 
 #include <utility>
@@ -29,6 +32,19 @@ void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& l
     next_ = Request{path, limits};
 }
 
+namespace {
+
+/// Null where the simulated hand finds no place to press: a person may still touch the model.
+std::shared_ptr<const StrokePath> tourOver(const Model& model) {
+    try {
+        return std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, {}));
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+} // namespace
+
 void ModelLoader::begin(const Request& request) {
     cancelled_.store(false, std::memory_order_relaxed);
     finished_.store(false, std::memory_order_relaxed);
@@ -49,8 +65,7 @@ void ModelLoader::begin(const Request& request) {
             LoadedModel loaded{
                 loadModel(request.path, Fit::Workspace, request.limits, options), nullptr, {}, nullptr};
             if (loaded.model.scene->touchable())
-                loaded.path = std::make_shared<StrokePath>(
-                    strokeOver(*loaded.model.scene, loaded.model.workspaceFromScene));
+                loaded.path = tourOver(loaded.model);
             loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
             options.progress(1.0, "simplifying what is drawn");
             loaded.prepared = prepareScene(loaded.model.scene, {.cancel = &cancelled_});

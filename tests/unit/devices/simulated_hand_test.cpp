@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 namespace touchstone {
@@ -47,6 +48,16 @@ Account account(const StrokePath& path, const std::function<double(const glm::dv
     return result;
 }
 
+void addQuad(std::vector<glm::dvec3>& corners, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+             const glm::dvec3& d) {
+    corners.insert(corners.end(), {a, b, c, a, c, d});
+}
+
+/// A level sheet from x0 to x1 at height z, 0.1 m long in y.
+void addSheet(std::vector<glm::dvec3>& corners, double x0, double x1, double z) {
+    addQuad(corners, {x0, -0.05, z}, {x1, -0.05, z}, {x1, 0.05, z}, {x0, 0.05, z});
+}
+
 TEST(SimulatedHand, PressesAMillimetreIntoASphere) {
     const StrokePath path = strokeOver(corners(assets::sphere(0.05, 60, 60)));
     const Account sphere = account(path, [](const glm::dvec3& p) { return glm::length(p) - 0.05; });
@@ -82,6 +93,42 @@ TEST(SimulatedHand, TakesAnotherSideOfASheetSeenEdgeOn) {
     EXPECT_GT(sheet.below, 0.7);
 }
 
+TEST(SimulatedHand, DoesNotGoThroughTheDiagonalsOfACube) {
+    // A probe lost the diagonals of the faces, and the hand went for what lay behind: 150 mm deep.
+    const auto height = [](const glm::dvec3& p) {
+        const glm::dvec3 q = glm::abs(p) - 0.075;
+        return std::max({q.x, q.y, q.z});
+    };
+    for (const auto& shape :
+         {assets::boxWithSharedCorners(glm::dvec3(0.15)), assets::box(glm::dvec3(0.15))}) {
+        const Account cube = account(strokeOver(corners(shape)), height);
+        EXPECT_NEAR(cube.deepest, 0.001, 0.0001);
+        EXPECT_GT(cube.below, 0.7);
+    }
+}
+
+TEST(SimulatedHand, KeepsToItsDepthInAGrooveAndUnderAThinRoof) {
+    // A groove of 30 degrees: a millimetre under both of its walls is 4 mm from a proxy at its bottom.
+    std::vector<glm::dvec3> groove;
+    const double wide = 0.02 * std::tan(std::numbers::pi / 12.0);
+    addSheet(groove, -0.05, -wide, 0.02);
+    addSheet(groove, wide, 0.05, 0.02);
+    addQuad(groove, {-wide, -0.05, 0.02}, {0, -0.05, 0}, {0, 0.05, 0}, {-wide, 0.05, 0.02});
+    addQuad(groove, {0, -0.05, 0}, {wide, -0.05, 0.02}, {wide, 0.05, 0.02}, {0, 0.05, 0});
+    const StrokePath path = strokeOver(groove);
+    double bottom = 1.0;
+    bool touches = false;
+    for (double t = 0.0; t < path.period(); t += kTick) {
+        const glm::dvec3 p = path.position(t);
+        touches = touches || (std::abs(p.x) > wide && p.z < 0.0192);
+        if (std::abs(p.x) < wide)
+            bottom = std::min(bottom, p.z);
+    }
+    EXPECT_TRUE(touches);
+    // Where its walls are 2 d apart the proxy is held by both: no deeper than that.
+    EXPECT_GT(bottom, -0.0015);
+}
+
 TEST(SimulatedHand, HopsOverGaps) {
     // Two boxes 100 mm apart.
     std::vector<glm::dvec3> two = corners(assets::box(glm::dvec3(0.05)));
@@ -108,16 +155,6 @@ TEST(SimulatedHand, HopsOverGaps) {
     }
     EXPECT_TRUE(left && right) << "both are touched";
     EXPECT_TRUE(leftHigh) << "in between the hand is in the air";
-}
-
-void addQuad(std::vector<glm::dvec3>& corners, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-             const glm::dvec3& d) {
-    corners.insert(corners.end(), {a, b, c, a, c, d});
-}
-
-/// A level sheet from x0 to x1 at height z, 0.1 m long in y.
-void addSheet(std::vector<glm::dvec3>& corners, double x0, double x1, double z) {
-    addQuad(corners, {x0, -0.05, z}, {x1, -0.05, z}, {x1, 0.05, z}, {x0, 0.05, z});
 }
 
 TEST(SimulatedHand, KeepsOffTheFootOfAStepHoweverLow) {

@@ -4,8 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/scene/scene_loader.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/felt_stroke.h"
 #include "tests/support/shared_files.h"
 
 #include <gtest/gtest.h>
@@ -36,48 +36,6 @@ StrokePath laid(const std::vector<glm::dvec3>& triangles, const std::string& nam
     return layStroke(triangles, {.name = name, .place = place});
 }
 
-/// How a period goes when the whole haptic step feels it.
-struct Felt {
-    int ticks = 0, contact = 0;
-    bool began = false, inside = false;                  // in contact at the first tick; ever inside a body
-    double deepest = 0.0, fastest = 0.0, jerkiest = 0.0; // m, m/s, m/s²
-    double fastestInTouch = 0.0;                         // m/s
-};
-
-Felt feel(const HapticScene& scene, const StrokePath& path) {
-    HapticSettings settings; // the bare surface: what the hand does, not what the material makes of it
-    settings.texture = TextureMode::Off;
-    settings.friction = FrictionMode::Off;
-    settings.forceShading = ShadingMode::Off;
-    std::vector<DeviceState> state(1);
-    WorldState world;
-    HapticOutput output;
-    NoStopwatch none;
-    Felt felt;
-    felt.ticks = static_cast<int>(path.period() / kTick);
-    for (int tick = 0; tick < felt.ticks; ++tick) {
-        const double time = tick * kTick;
-        DeviceSample sample;
-        sample.position = path.position(time);
-        sample.valid = true;
-        TickInput input;
-        input.tick = static_cast<uint64_t>(tick);
-        input.time = time;
-        input.devices = {&sample, 1};
-        hapticStep(scene, settings, input, world, state, {&output, 1}, none);
-        felt.contact += output.contacts > 0;
-        felt.began = felt.began || (tick == 0 && output.contacts > 0);
-        felt.inside = felt.inside || has(output.flags, TickFlag::StartedInside);
-        felt.deepest = std::max(felt.deepest, output.penetration);
-        const glm::dvec3 velocity = path.velocity(time);
-        felt.fastest = std::max(felt.fastest, glm::length(velocity));
-        if (output.contacts > 0)
-            felt.fastestInTouch = std::max(felt.fastestInTouch, glm::length(velocity));
-        felt.jerkiest = std::max(felt.jerkiest, glm::distance(path.velocity(time + 1e-4), velocity) / 1e-4);
-    }
-    return felt;
-}
-
 std::vector<std::filesystem::path> scenes() {
     std::vector<std::filesystem::path> found;
     const auto add = [&](const std::filesystem::path& folder) {
@@ -100,7 +58,7 @@ TEST(StrokeLibrary, EveryStrokeTouchesEveryModelAsItSays) {
         for (const StrokeInfo& info : strokeInfos()) {
             SCOPED_TRACE(file.filename().string() + ", " + std::string(info.name));
             const StrokePath path = layStroke(*scene, fit, {.name = std::string(info.name)});
-            const Felt felt = feel(*haptic, path);
+            const test::FeltStroke felt = test::feel(*haptic, path);
             EXPECT_FALSE(felt.began) << "it begins in the air";
             EXPECT_FALSE(felt.inside);
             EXPECT_GT(felt.contact, 0.15 * felt.ticks);

@@ -1,0 +1,193 @@
+#include "devices/stroke/scene_motion.h"
+
+#include "devices/stroke/stroke_place.h"
+#include "devices/surface_probe.h"
+#include "engine/math/nearest_similarity.h"
+#include "engine/scene/animation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+constexpr size_t kMostParts = 8;
+constexpr double kSampleTime = 1e-3; ///< s; what moves at 10 m/s² is 1 µm off its chord
+constexpr double kMostSamples = 20000.0;
+constexpr int kSide = 24;      ///< rays to a side of the view that count what shows
+constexpr size_t kBoxes = 256; ///< poses of the others that are boxed in, at most
+
+/// The lowest node above an instance that the animation moves: those under the same one move as one. -1:
+/// none.
+int moverOf(const Scene& scene, const Animation& animation, const Instance& instance) {
+    if (!instance.followsNode)
+        return -1;
+    for (int node = instance.node; node >= 0; node = scene.nodes[static_cast<size_t>(node)].parent)
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.node == node)
+                return node;
+    return -1;
+}
+
+/// Where an instance takes its static pose, device frame; the identity for what is flattened or mirrored.
+Similarity motionOf(const glm::dmat4& deviceFromScene, const glm::dmat4& now, const glm::dmat4& rest) {
+    Similarity motion;
+    const double volume = glm::determinant(glm::dmat3(rest));
+    if (volume != 0.0 && std::isfinite(volume))
+        nearestSimilarity(deviceFromScene * now * glm::inverse(rest) * glm::inverse(deviceFromScene), motion);
+    return motion;
+}
+
+class Movement {
+  public:
+    Movement(const Scene& scene, const Animation& animation, const Similarity& deviceFromScene)
+        : scene_(scene), animation_(animation), deviceFromScene_(matrixOf(deviceFromScene)), pose_(scene),
+          rest_(pose_.sceneFromMesh().begin(), pose_.sceneFromMesh().end()) {}
+
+    void evaluate(double time) { pose_.evaluate(scene_, &animation_, time); }
+    [[nodiscard]] Similarity of(size_t instance) const {
+        return motionOf(deviceFromScene_, pose_.sceneFromMesh()[instance], rest_[instance]);
+    }
+    std::shared_ptr<const PartMotion> over(size_t instance) {
+        const double steps = std::clamp(std::ceil(animation_.duration / kSampleTime), 1.0, kMostSamples);
+        std::vector<Similarity> samples;
+        for (double i = 0.0; i <= steps; i += 1.0) {
+            evaluate(animation_.duration * i / steps);
+            samples.push_back(of(instance));
+        }
+        return std::make_shared<const PartMotion>(std::move(samples), animation_.duration);
+    }
+
+  private:
+    const Scene& scene_;
+    const Animation& animation_;
+    glm::dmat4 deviceFromScene_;
+    ScenePose pose_;
+    std::vector<glm::dmat4> rest_;
+};
+
+/// The box of what `rest` becomes, with half of what its corners moved since the pose before.
+void sweep(Bounds& swept, const Bounds& rest, const Similarity& before, const Similarity& now) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? rest.low.x : rest.high.x, corner & 2 ? rest.low.y : rest.high.y,
+                           corner & 4 ? rest.low.z : rest.high.z);
+        const glm::dvec3 at = now.point(p);
+        const double moved = 0.5 * glm::distance(at, before.point(p));
+        swept.include(at - moved);
+        swept.include(at + moved);
+    }
+}
+
+std::vector<Bounds> boxesOf(const TriangleSource& triangles, size_t instances) {
+    std::vector<Bounds> boxes(instances);
+    triangles([&](const SurfaceTriangle& t) {
+        for (const glm::dvec3& p : {t.a, t.b, t.c})
+            boxes[t.object].include(p);
+    });
+    return boxes;
+}
+
+/// `first` is one of the part's instances.
+std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const Bounds> boxes,
+                            const MovingPart& part, size_t first) {
+    const size_t count = boxes.size();
+    const size_t poses = std::clamp<size_t>(200000 / std::max<size_t>(count, 1), 16, kBoxes);
+    std::vector<Bounds> swept(count);
+    std::vector<Similarity> before(count);
+    for (size_t k = 0; k <= poses; ++k) {
+        movement.evaluate(duration * static_cast<double>(k) / static_cast<double>(poses));
+        const Similarity carrier = movement.of(first);
+        for (size_t i = 0; i < count; ++i) {
+            if (part.instances[i] || boxes[i].empty())
+                continue;
+            const Similarity now = carrier.inverseTimes(movement.of(i));
+            sweep(swept[i], boxes[i], k == 0 ? now : before[i], now);
+            before[i] = now;
+        }
+    }
+    std::erase_if(swept, [](const Bounds& box) { return box.empty(); });
+    return swept;
+}
+
+/// By instance: how many rays from the viewer meet it first; many more for that at the place asked for.
+std::vector<size_t> showing(const TriangleSource& triangles, std::span<const Bounds> boxes,
+                            const StrokeRequest& request) {
+    std::vector<size_t> counts(boxes.size(), 0);
+    Bounds all;
+    for (const Bounds& box : boxes)
+        if (!box.empty()) {
+            all.include(box.low);
+            all.include(box.high);
+        }
+    const double length = glm::length(request.front);
+    const View view =
+        viewOf(all, length > 0.0 && std::isfinite(length) ? request.front / length : glm::dvec3(0, 0, 1));
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i < kSide * kSide; ++i)
+        points.push_back(
+            glm::dvec2((i % kSide + 0.5) / kSide * 2.0 - 1.0, (i / kSide + 0.5) / kSide * 2.0 - 1.0) *
+            glm::dvec2(view.half));
+    for (const auto& hit : probe(triangles, view, points))
+        if (hit)
+            ++counts[hit->object];
+    if (request.place)
+        if (const auto hit = hitAt(triangles, *request.place))
+            counts[hit->object] += 2 * points.size();
+    return counts;
+}
+
+} // namespace
+
+std::vector<MovingPart> movingParts(const Scene& scene, const Similarity& deviceFromScene,
+                                    const StrokeRequest& request) {
+    const Animation* animation = playedAnimation(scene);
+    if (animation == nullptr)
+        return {};
+    std::map<int, std::vector<size_t>> byMover;
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+        byMover[moverOf(scene, *animation, scene.instances[i])].push_back(i);
+    if (byMover.empty() || (byMover.size() == 1 && byMover.begin()->first == -1))
+        return {};
+    const TriangleSource triangles = trianglesOf(scene, deviceFromScene);
+    const std::vector<Bounds> boxes = boxesOf(triangles, scene.instances.size());
+    const std::vector<size_t> counts = showing(triangles, boxes, request);
+    std::vector<std::pair<size_t, int>> order; // rays, mover
+    for (const auto& [mover, instances] : byMover) {
+        size_t rays = 0;
+        for (const size_t i : instances)
+            rays += counts[i];
+        if (std::ranges::any_of(instances, [&](size_t i) { return !boxes[i].empty(); }))
+            order.emplace_back(rays, mover);
+    }
+    std::ranges::stable_sort(order, std::greater{}, [](const auto& entry) { return entry.first; });
+    order.resize(std::min(order.size(), kMostParts));
+    Movement movement(scene, *animation, deviceFromScene);
+    std::vector<MovingPart> parts;
+    for (const auto& [rays, mover] : order) {
+        MovingPart& part = parts.emplace_back();
+        part.instances.assign(scene.instances.size(), false);
+        for (const size_t i : byMover[mover])
+            part.instances[i] = true;
+        const size_t first = byMover[mover].front();
+        if (mover >= 0)
+            part.motion = movement.over(first);
+        part.keepOut = keptOut(movement, animation->duration, boxes, part, first);
+    }
+    return parts;
+}
+
+TriangleSource trianglesOf(TriangleSource triangles, const MovingPart& part) {
+    return [triangles = std::move(triangles), &part](const TriangleVisitor& visit) {
+        triangles([&](const SurfaceTriangle& t) {
+            if (part.instances[t.object])
+                visit(t);
+        });
+    };
+}
+
+} // namespace touchstone

@@ -1,0 +1,54 @@
+#include "tests/support/felt_stroke.h"
+
+#include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace touchstone::test {
+
+FeltStroke feel(const HapticScene& scene, const StrokePath& path, ScenePtr source, int periods) {
+    constexpr double kTick = 0.001; // s
+    HapticSettings settings;        // the bare surface: what the hand does, not what the material makes of it
+    settings.texture = TextureMode::Off;
+    settings.friction = FrictionMode::Off;
+    settings.forceShading = ShadingMode::Off;
+    MovingObjects moving;
+    if (source != nullptr)
+        moving = MovingObjects(source, scene);
+    std::vector<DeviceState> state(1);
+    WorldState world;
+    HapticOutput output;
+    NoStopwatch none;
+    FeltStroke felt;
+    felt.ticks = static_cast<int>(periods * path.period() / kTick);
+    for (int tick = 0; tick < felt.ticks; ++tick) {
+        const double time = tick * kTick;
+        DeviceSample sample;
+        sample.position = source != nullptr ? path.positionIn(time, time) : path.position(time);
+        sample.valid = true;
+        TickInput input;
+        input.tick = static_cast<uint64_t>(tick);
+        input.time = time;
+        input.devices = {&sample, 1};
+        input.objects = moving.at(time);
+        hapticStep(scene, settings, input, world, state, {&output, 1}, none);
+        felt.contact += output.contacts > 0;
+        felt.began = felt.began || (tick == 0 && output.contacts > 0);
+        felt.inside = felt.inside || has(output.flags, TickFlag::StartedInside);
+        if (output.penetration > felt.deepest) {
+            felt.deepest = output.penetration;
+            felt.deepestAt = time;
+        }
+        const glm::dvec3 velocity = path.velocity(time);
+        felt.fastest = std::max(felt.fastest, glm::length(velocity));
+        if (output.contacts > 0)
+            felt.fastestInTouch = std::max(felt.fastestInTouch, glm::length(velocity));
+        felt.jerkiest = std::max(felt.jerkiest, glm::distance(path.velocity(time + 1e-4), velocity) / 1e-4);
+    }
+    return felt;
+}
+
+} // namespace touchstone::test
