@@ -41,7 +41,7 @@ struct DeviceState {
     /// one that has grown is still being lifted out. What is nearer is being come through.
     double clearance = 0.0;
     CandidateCache candidates;
-    CandidateCache carryCandidates; ///< of one object that moves towards the proxy
+    CandidateCache carryCandidates; ///< of one object that moves towards the proxy, or of a place far from it
     std::vector<CarriedObject> carried = std::vector<CarriedObject>(256); ///< those near, while a tick runs
     PinchedObjects pinched;
     double gatherMargin = 1e-3; ///< object units; adapts to the density of triangles

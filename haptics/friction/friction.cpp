@@ -37,17 +37,42 @@ bool slide(const glm::dvec3&, Model&) {
     return false;
 }
 
+/// True where the proxy may go back to the place that it held. A place that was on the surface is so no more
+/// where another object pushed the proxy there and left, or the radius changed.
+bool mayStay(const glm::dvec3& held, MeshProxy& proxy) {
+    return proxy.touchesAt(held);
+}
+template <class Model>
+bool mayStay(const glm::dvec3&, Model&) {
+    return true;
+}
+
+/// Back to a place where a solve ended; `hip` is what it was solved for. True where it is on the surface.
+bool goBack(const glm::dvec3& place, const glm::dvec3&, MeshProxy& proxy, const ProxyRest& rest) {
+    proxy.placeAt(place);
+    proxy.moveTowards(place);
+    return touches(rest);
+}
+template <class Model>
+bool goBack(const glm::dvec3&, const glm::dvec3& hip, Model& proxy, const ProxyRest&) {
+    proxy.moveTowards(hip);
+    return true;
+}
+
 /// Onto the surface at `goal`, a place on the chord between two places of the surface: below it where the
 /// surface bulges, above it, in the air, where it is hollow.
 template <class Model>
 bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Model& proxy,
             const DeviceState& state, const ProxyRest& rest) {
     proxy.moveTowards(goal);
-    if (rest.contactCount == 0)
+    if (!touches(rest))
         proxy.dropTowards(goal + down);
-    return rest.contactCount > 0 && glm::length(state.proxy - goal) <= tolerance;
+    return touches(rest) && glm::length(state.proxy - goal) <= tolerance;
 }
 
+/// The proxy to the place of the surface at `stretch` from the one without friction. Wherever it ends is a
+/// place where a solve came down on the surface: what ends in the air, since the moves are used up or the way
+/// down goes past a rim, is not kept. A place in the air would hold the proxy there for as long as it sticks.
 template <class Model>
 void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec3& down, Model& proxy,
               DeviceState& state, const ProxyRest& rest) {
@@ -62,9 +87,12 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
     if (settle(frictionless + stretch, down, tolerance, proxy, state, rest))
         return;
     startAt(frictionless, proxy);
-    if (settle(frictionless + stretch, down, tolerance, proxy, state, rest) || rest.contactCount > 0)
+    if (settle(frictionless + stretch, down, tolerance, proxy, state, rest) || touches(rest))
         return;
-    proxy.moveTowards(frictionless + down);
+    // The place without friction is in the air itself where the budget ended that solve.
+    const glm::dvec3 hip = frictionless + down;
+    if (!goBack(frictionless, hip, proxy, rest) && !goBack(held, hip, proxy, rest))
+        goBack(frictionless, hip, proxy, rest);
 }
 
 } // namespace
@@ -77,6 +105,8 @@ glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::
         state.friction = FrictionState::Free;
         return glm::dvec3(0.0);
     }
+    if (state.friction == FrictionState::Free && !touches(rest))
+        return glm::dvec3(0.0); // the budget ended the first touch in the air: nothing sticks there
     const glm::dvec3 before = state.frictionless;
     const glm::dvec3 frictionless = state.frictionless = state.proxy;
     if (state.friction == FrictionState::Free) {
@@ -97,7 +127,7 @@ glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::
                                                 .dynamicFriction = feel.dynamicFriction});
     state.friction = answer.state;
     const bool ownPlace = mode != FrictionMode::Ho;
-    if (answer.stays && ownPlace) {
+    if (answer.stays && ownPlace && mayStay(held, proxy)) {
         proxy.placeAt(held);
         state.stictionPoint = held;
         return held - frictionless;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace touchstone {
 
@@ -12,6 +13,9 @@ namespace {
 
 /// Moves without progress after which the proxy counts as resting.
 constexpr int kFruitlessMoves = 2;
+
+/// Moves of a drop that may exceed the budget: one, and what a small ball of candidates adds to it.
+constexpr int kDropMoves = 4;
 
 /// Moves after which the proxy may be creeping around an edge.
 constexpr uint32_t kCreeping = 5;
@@ -77,6 +81,15 @@ void MeshProxy::measureClearance() noexcept {
         std::min(stands, radius_) * motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.scale;
 }
 
+bool MeshProxy::gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept {
+    const auto within = [&](auto bounds) {
+        return cache.gather(scene_.objects, motions_, bounds, state_.anchor, centre, radius);
+    };
+    return motions_.data() == scene_.restMotions.data()
+               ? within(std::span<const glm::dvec4>(scene_.restSpheres))
+               : within(std::span<const double>(scene_.boundingRadii));
+}
+
 /// Makes sure that all triangles are known that a proxy moving by `length` along `direction` could touch; or
 /// as far as the hand went in this tick, if that is less: a long move that a near surface ends must not
 /// gather what lies behind it. How far they are known; negative if not even the place itself can be covered.
@@ -94,18 +107,12 @@ double MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
         if (known >= wanted)
             return known;
     }
-    const bool atRest = motions_.data() == scene_.restMotions.data();
     constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const double margin = state_.gatherMargin;
         // The ball lies ahead of the hand, where it lasts longer.
         const glm::dvec3 centre = state_.proxy + kAhead * margin * heading_;
-        const auto gather = [&](auto bounds) {
-            return state_.candidates.gather(scene_.objects, motions_, bounds, state_.anchor, centre,
-                                            reach + margin);
-        };
-        const bool fits = atRest ? gather(std::span<const glm::dvec4>(scene_.restSpheres))
-                                 : gather(std::span<const double>(scene_.boundingRadii));
+        const bool fits = gather(state_.candidates, centre, reach + margin);
         const size_t count = state_.candidates.count();
         double next = margin;
         if (!fits)
@@ -212,13 +219,51 @@ void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
 }
 
 void MeshProxy::dropTowards(const glm::dvec3& goal) noexcept {
-    do {
-        if (!advance(goal))
-            return;
+    const int budget =
+        std::exchange(budget_, std::max(budget_, static_cast<int>(rest_.iterations) + kDropMoves));
+    bool landed = false;
+    while (!landed && advance(goal)) {
         findContacts();
-    } while (rest_.contactCount == 0);
+        landed = rest_.contactCount > 0;
+    }
+    budget_ = budget;
+    if (!landed)
+        return;
     buildPlanes();
     rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+}
+
+bool MeshProxy::touchesAt(const glm::dvec3& p) noexcept {
+    // Against rounding, where other objects carry the proxy along.
+    constexpr double kRounding = 1e-9;
+    CandidateCache& cache = state_.candidates;
+    const double reach = radius_ + kContactReach, least = radius_ - kRounding;
+    // Mostly a facet that the proxy touches now holds it there, too.
+    for (uint32_t i = 0; i < rest_.contactCount; ++i) {
+        if (rest_.contacts[i].candidate >= cache.count())
+            break;
+        const double distance = distanceTo(cache.triangle(rest_.contacts[i].candidate), p).distance;
+        if (distance <= reach)
+            return distance >= least;
+    }
+    if (cache.freeAlong(p, glm::dvec3(0.0), reach) >= 0.0)
+        return isTouching(cache, p, least);
+    // Too far from the proxy for its ball: a small one about p.
+    CandidateCache& about = state_.carryCandidates;
+    about.standsClearBy(cache.standing());
+    return gather(about, p, reach) && isTouching(about, p, least);
+}
+
+/// The same for a ball of candidates that covers p; `least`: nearer than this is inside.
+bool MeshProxy::isTouching(CandidateCache& cache, const glm::dvec3& p, double least) const noexcept {
+    const double reach = radius_ + kContactReach;
+    double nearest = INFINITY;
+    cache.eachNear(p, reach, [&](size_t i) {
+        const double distance = distanceTo(cache.triangle(i), p).distance;
+        if (distance <= reach && !cache.passes(i, p, distance, radius_))
+            nearest = std::min(nearest, distance);
+    });
+    return nearest >= least && nearest <= reach;
 }
 
 bool MeshProxy::slideOnFacet(const glm::dvec3& goal) noexcept {

@@ -37,6 +37,15 @@ inline constexpr double kRestLength = 1e-11;
                       : std::ldexp(kRestLength, (std::min(static_cast<int>(moves), 28) - 8) / 2);
 }
 
+/// False where nothing is touched, and where the budget ended the last move in the air: its contacts are then
+/// what the proxy was sliding on, farther away than a surface that is touched.
+[[nodiscard]] inline bool touches(const ProxyRest& rest) noexcept {
+    for (uint32_t i = 0; i < rest.contactCount; ++i)
+        if (rest.contacts[i].gap <= kContactReach)
+            return true;
+    return false;
+}
+
 /// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object
 /// units.
 class MeshProxy {
@@ -50,8 +59,14 @@ class MeshProxy {
     /// without leaving free space. Anytime: every move ends in free space and none goes away from the goal.
     void moveTowards(const glm::dvec3& goal) noexcept;
 
-    /// Moves the proxy straight towards `goal` until it touches something, without sliding on from there.
+    /// Moves the proxy straight towards `goal` until it touches something, without sliding on from there. May
+    /// exceed the budget by kDropMoves: where the budget ended a slide in the air, the drop is what brings
+    /// the proxy back to the surface.
     void dropTowards(const glm::dvec3& goal) noexcept;
+
+    /// True where a proxy at `p` (anchor frame) would touch a surface and be nearer than its radius to none.
+    /// Nothing moves. Only after a solve.
+    [[nodiscard]] bool touchesAt(const glm::dvec3& p) noexcept;
 
     /// Straight to the place nearest to `goal` on the plane of the one facet that the proxy rests on, where
     /// nothing is in the way and that facet holds the proxy there too. False, and nothing moved, where it is
@@ -85,6 +100,8 @@ class MeshProxy {
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
+    bool gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept;
+    bool isTouching(CandidateCache& cache, const glm::dvec3& p, double least) const noexcept;
     void buildPlanes() noexcept;
 
     const HapticScene& scene_;
