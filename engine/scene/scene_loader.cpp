@@ -8,6 +8,7 @@
 #include "engine/scene/import/gltf_schema.h"
 #include "engine/scene/import/gltf_validation.h"
 #include "engine/scene/import/scene_build.h"
+#include "engine/scene/import/static_pose/skin.h"
 
 #include <new>
 
@@ -39,6 +40,7 @@ ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stam
     scene->materials = materials.take();
     scene->textures = readTextures(context, document);
     scene->animations = readAnimations(context, document, forest, scene->nodes);
+    warnOfStillSkins(context, document, forest, *scene);
     scene->bounds = sceneBounds(context, *scene);
 
     // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.

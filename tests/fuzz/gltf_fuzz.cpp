@@ -99,6 +99,35 @@ namespace {
 using nlohmann::json;
 using test::GltfMaker;
 
+/// A skinned and morphed square on a node of its own, and three copies of it on another.
+void addPoses(GltfMaker& maker) {
+    json mesh = maker.json["meshes"][0];
+    json& primitive = mesh["primitives"][0];
+    primitive["attributes"]["JOINTS_0"] =
+        maker.addAccessor<uint8_t>({0, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1}, "VEC4");
+    primitive["attributes"]["WEIGHTS_0"] = maker.addAccessor<uint8_t>(
+        {255, 0, 0, 0, 100, 155, 0, 0, 0, 255, 0, 0, 55, 100, 50, 50}, "VEC4", true);
+    primitive["targets"] = {
+        {{"POSITION", maker.addAccessor<int8_t>({0, 0, 9, 0, 0, -9, 1, 1, 1, 0, 0, 0}, "VEC3", true)},
+         {"NORMAL", maker.addAccessor<float>({0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3")}},
+        {{"TEXCOORD_0", maker.addAccessor<float>({0, 1, 0, 0, 0, 1, 0, 1}, "VEC2")}}};
+    mesh["weights"] = {0.5, 1.0};
+    const std::vector<float> binds = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                      2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
+    const size_t view = maker.addView(binds.data(), binds.size() * sizeof(float));
+    const size_t matrices = maker.append(
+        "accessors", {{"bufferView", view}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+    maker.append("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", matrices}});
+    const size_t posed = maker.show(maker.append("meshes", mesh));
+    maker.json["nodes"][posed]["skin"] = 0;
+    const size_t copied = maker.show(1);
+    maker.json["nodes"][copied]["weights"] = {0.0, -1.0};
+    maker.json["nodes"][copied]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", maker.addAccessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3")},
+        {"ROTATION", maker.addAccessor<int16_t>({0, 0, 0, 32767, 0, 1, 0, 0, 9, 9, 9, 9}, "VEC4", true)},
+        {"SCALE", maker.addAccessor<float>({1, 1, 1, 2, -1, 1, 1, 1, 3}, "VEC3")}};
+}
+
 /// One file that uses much of what the importer can read.
 GltfMaker richFile() {
     GltfMaker maker = GltfMaker::square();
@@ -148,6 +177,7 @@ GltfMaker richFile() {
     maker.json["meshes"][0]["extensions"]["MPEG_material_haptic"] = 0;
     maker.json["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"] = {{{"staticFriction", 0.9}}};
     maker.json["nodes"][0]["extensions"]["KHR_physics_rigid_bodies"]["collider"]["physicsMaterial"] = 0;
+    addPoses(maker);
     return maker;
 }
 

@@ -133,6 +133,24 @@ std::vector<float> readFloats(ImportContext& context, const GltfDocument& docume
     return values;
 }
 
+std::vector<glm::mat4> readMatrices(ImportContext& context, const GltfDocument& document, int index,
+                                    size_t count, const std::string& place) {
+    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+        context.fail(place, "should be a MAT4 accessor of floats");
+    if (accessor.count < count)
+        context.fail(place, "has " + std::to_string(accessor.count) + " matrices where " +
+                                std::to_string(count) + " are needed");
+    context.spendGeometry(count * sizeof(glm::mat4), place);
+    std::vector<glm::mat4> matrices(count, glm::mat4(0.0f));
+    visitElements(context, document, accessor, element("accessors", static_cast<size_t>(index)),
+                  [&](uint64_t i, const uint8_t* bytes) {
+                      if (i < count)
+                          std::memcpy(&matrices[i], bytes, sizeof(glm::mat4));
+                  });
+    return matrices;
+}
+
 void visitStoredValues(ImportContext& context, const GltfDocument& document, int index,
                        const std::function<void(size_t, double)>& visit) {
     const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];

@@ -3,6 +3,8 @@
 
 #include "engine/scene/import/gltf_document.h"
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -20,6 +22,11 @@ namespace touchstone {
 /// memory.
 [[nodiscard]] std::vector<float> readFloats(ImportContext& context, const GltfDocument& document,
                                             int accessor, const std::string& place);
+
+/// The first `count` matrices of a MAT4 accessor of floats. Fails for other types and for fewer matrices.
+/// Spends geometry memory.
+[[nodiscard]] std::vector<glm::mat4> readMatrices(ImportContext& context, const GltfDocument& document,
+                                                  int accessor, size_t count, const std::string& place);
 
 /// Calls visit(component, value) for every number as stored: not normalised, replaced ones too. Not for
 /// matrices.

@@ -129,7 +129,7 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
     if (!path)
         context.warn(channelPlace + ".target.path",
                      gltf.target_path == "weights"
-                         ? "morph targets stay in their rest pose"
+                         ? "morph weights are not animated: the mesh keeps its static pose"
                          : "\"" + gltf.target_path.substr(0, 40) + "\" cannot be animated");
     const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<size_t>(gltf.sampler)];
     const std::string samplerPlace = place + "." + element("samplers", static_cast<size_t>(gltf.sampler));

@@ -18,12 +18,13 @@ constexpr double kMaxOffset =
 constexpr double kMaxInt = 2147483647.0; // what the typed model holds in an int
 
 enum class Type {
-    Count,    // integer in [low, high]
-    Index,    // integer below the size of the top-level array `target`
-    IndexMap, // object whose values are each an Index
-    Indices,  // array of Index
-    Number,   // in [low, high]
-    Numbers,  // array of `size` numbers in [low, high]
+    Count,     // integer in [low, high]
+    Index,     // integer below the size of the top-level array `target`
+    IndexMap,  // object whose values are each an Index
+    IndexMaps, // array of them
+    Indices,   // array of Index
+    Number,    // in [low, high]
+    Numbers,   // array of `size` numbers in [low, high]
     Flag,
     Text,
     Object,  // checked with `rules`
@@ -133,18 +134,23 @@ constexpr Rule kPrimitive[] = {{"attributes", Type::IndexMap, true, 0, kAny, "ac
                                index("indices", "accessors"),
                                mendable(index("material", "materials")),
                                count("mode", false, 0, 6),
-                               other("targets")};
-constexpr Rule kMesh[] = {kName, objects("primitives", kPrimitive), other("weights")};
+                               {"targets", Type::IndexMaps, false, 0, kAny, "accessors"}};
+constexpr Rule kMesh[] = {kName, objects("primitives", kPrimitive), numbers("weights", 0)};
 constexpr Rule kNode[] = {kName,
                           {"children", Type::Indices, false, 0, kAny, "nodes"},
                           other("camera"),
-                          other("skin"),
-                          other("weights"),
                           index("mesh", "meshes"),
+                          index("skin", "skins"),
+                          numbers("weights", 0),
                           numbers("matrix", 16),
                           numbers("translation", 3),
                           numbers("rotation", 4),
                           numbers("scale", 3)};
+// `skeleton` changes no place (section 3.7.3.2) and is not read.
+constexpr Rule kSkin[] = {kName,
+                          other("skeleton"),
+                          index("inverseBindMatrices", "accessors"),
+                          {"joints", Type::Indices, true, 0, kAny, "nodes"}};
 constexpr Rule kScene[] = {kName, {"nodes", Type::Indices, false, 0, kAny, "nodes"}};
 constexpr Rule kTarget[] = {index("node", "nodes"), text("path", true)};
 constexpr Rule kChannel[] = {count("sampler", true, 0, kMaxInt), object("target", kTarget, true)};
@@ -166,10 +172,10 @@ constexpr Rule kRoot[] = {object("asset", kAsset, true),
                           mendable(objects("materials", kMaterial)),
                           objects("meshes", kMesh),
                           objects("nodes", kNode),
+                          objects("skins", kSkin),
                           objects("scenes", kScene),
                           mendable(objects("animations", kAnimation)),
                           other("cameras"),
-                          other("skins"),
                           other("extensionsUsed"),
                           other("extensionsRequired"),
                           index("scene", "scenes")};
@@ -255,10 +261,13 @@ class SchemaCheck {
             checkIndex(value, sizeOf(rule.target), rule.target, place);
             break;
         case Type::IndexMap:
-            if (!value.is_object())
-                wrongType(place, value, "an object");
-            for (auto entry = value.begin(); entry != value.end(); ++entry)
-                checkIndex(entry.value(), sizeOf(rule.target), rule.target, place + "." + entry.key());
+            checkIndexMap(value, rule, place);
+            break;
+        case Type::IndexMaps:
+            if (!value.is_array())
+                wrongType(place, value, "an array");
+            for (size_t i = 0; i < value.size(); ++i)
+                checkIndexMap(value[i], rule, place + "[" + std::to_string(i) + "]");
             break;
         case Type::Indices:
             checkIndices(value, rule, place);
@@ -313,6 +322,13 @@ class SchemaCheck {
             context_.fail(place,
                           "refers to " + std::string(target) + "[" + value.dump() + "], but there " +
                               (size == 1 ? "is 1 of them" : "are " + std::to_string(size) + " of them"));
+    }
+
+    void checkIndexMap(json& value, const Rule& rule, const std::string& place) const {
+        if (!value.is_object())
+            wrongType(place, value, "an object");
+        for (auto entry = value.begin(); entry != value.end(); ++entry)
+            checkIndex(entry.value(), sizeOf(rule.target), rule.target, place + "." + entry.key());
     }
 
     void checkIndices(json& value, const Rule& rule, const std::string& place) const {
@@ -396,11 +412,9 @@ void checkSchema(ImportContext& context, json& gltf) {
                      "split the model into several files");
     checkGltfVersion(context, gltf);
     SchemaCheck(context, gltf, true).checkObject(gltf, kRoot, "");
-    for (const char* unused : {"cameras", "skins"}) {
-        const auto found = gltf.find(unused);
-        if (found != gltf.end() && (!found->is_array() || found->empty()))
-            context.warn(unused, "is not an array with entries; it is not used here");
-    }
+    const auto cameras = gltf.find("cameras");
+    if (cameras != gltf.end() && (!cameras->is_array() || cameras->empty()))
+        context.warn("cameras", "is not an array with entries; it is not used here");
 }
 
 void checkTextureInfo(ImportContext& context, const json& gltf, const json& info, const std::string& place) {

@@ -33,6 +33,10 @@ inline constexpr size_t kMaxMaterials = 65'536;
 inline constexpr size_t kMaxTextBytes = 64u << 20;
 /// Meshes placed in the scene.
 inline constexpr size_t kMaxInstances = 262'144;
+/// Copies of meshes that the nodes of any file may place together (EXT_mesh_gpu_instancing); beyond it, one
+/// for every kFileBytesPerCopy of the file's own data, which is less than a copy's translation takes.
+inline constexpr uint64_t kFreeCopies = 10'000;
+inline constexpr uint64_t kFileBytesPerCopy = 8;
 /// Triangles that any file may place, over all instances; beyond it, one for every byte of the file's own
 /// data. What is built from a scene (BVHs, vertex buffers) grows with them.
 inline constexpr uint64_t kFreePlacedTriangles = 5'000'000;

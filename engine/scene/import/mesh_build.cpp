@@ -3,6 +3,7 @@
 #include "engine/scene/import/gltf_accessors.h"
 #include "engine/scene/import/json_fields.h"
 #include "engine/scene/import/primitive_restart.h"
+#include "engine/scene/import/static_pose/morph.h"
 #include "engine/scene/import/vertex_attributes.h"
 #include "engine/scene/mesh_vertices.h"
 #include "engine/scene/tangent_space.h"
@@ -146,7 +147,6 @@ void makeDrawnOnly(ImportContext& context, std::vector<uint32_t> drawn, int mode
         mesh.lineIndices = segmentList(context, drawn, mode, place);
     // The renderer has a vertex for each: a few vertices under many small indices must not become gigabytes.
     context.spendGeometry((mesh.lineIndices.size() + mesh.pointIndices.size()) * kDrawnVertexBytes, place);
-    mendNormals(mesh);
     mesh.tangents = {};
     mesh.tangentsFromFile = false;
 }
@@ -178,8 +178,8 @@ bool hasData(const GltfDocument& document, const tinygltf::Primitive& primitive)
 
 } // namespace
 
-std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& document, size_t meshIndex,
-                              size_t primitiveIndex, const Material& material) {
+std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& document, size_t meshIndex,
+                                   size_t primitiveIndex, const Material& material, const MeshPose& pose) {
     const tinygltf::Mesh& gltf = document.model.meshes[meshIndex];
     const tinygltf::Primitive& primitive = gltf.primitives[primitiveIndex];
     const std::string place = element("meshes", meshIndex) + "." + element("primitives", primitiveIndex);
@@ -196,9 +196,11 @@ std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& docume
         draco = decodeDraco(context, document, *extension, primitive,
                             place + ".extensions.KHR_draco_mesh_compression");
 
-    Mesh mesh;
+    PosedMesh posed;
+    Mesh& mesh = posed.mesh;
     mesh.name = gltf.name;
-    readVertexAttributes(context, document, primitive, draco ? &*draco : nullptr, place, mesh);
+    const MorphTargets morph(context, document, primitive, pose.weights, place);
+    readVertexAttributes(context, document, primitive, draco ? &*draco : nullptr, morph, place, mesh);
     if (mesh.positions.empty()) {
         context.warn(place, "has no POSITION: there is nothing to show or touch in it");
         return std::nullopt;
@@ -206,21 +208,27 @@ std::optional<Mesh> buildMesh(ImportContext& context, const GltfDocument& docume
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     auto drawn =
         drawnVertices(context, document, primitive, draco ? &*draco : nullptr, mesh.positions.size(), place);
-    if (!primitive.targets.empty())
-        context.warn(place, "its morph targets stay in their rest pose");
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
+    if (mode < TINYGLTF_MODE_TRIANGLES)
         makeDrawnOnly(context, std::move(drawn), mode, place, mesh);
+    else
+        mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
+    // Flat normals, mended ones and made tangents are those of the posed surface.
+    if (pose.skin != nullptr)
+        if (const auto influences = readInfluences(context, document, primitive, draco ? &*draco : nullptr,
+                                                   *pose.skin, mesh.positions.size(), place))
+            posed.origin = poseVertices(context, *influences, *pose.skin, place, mesh);
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        mendNormals(mesh);
         checkMesh(mesh, context.file(), place);
-        return mesh;
+        return posed;
     }
-    mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
     if (!mesh.normalsFromFile)
         makeFlat(context, mesh, place);
     else
         mendNormals(mesh);
     settleTangents(context, mesh, material, place);
     checkMesh(mesh, context.file(), place);
-    return mesh;
+    return posed;
 }
 
 } // namespace touchstone

@@ -2,89 +2,18 @@
 
 #include "engine/scene/animation.h"
 #include "engine/scene/import/gltf_haptics.h"
-#include "engine/scene/import/gltf_mpeg.h"
-#include "engine/scene/import/mesh_build.h"
-#include "engine/scene/mesh_vertices.h"
+#include "engine/scene/import/mesh_variants.h"
+#include "engine/scene/import/static_pose/instancing.h"
+#include "engine/scene/import/static_pose/morph.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace touchstone {
 namespace {
 
 /// Beyond this many vertices over all instances the bounds come from the meshes' boxes: never too small.
 constexpr uint64_t kExactBoundsVertices = 100'000'000;
-
-uint64_t bytesOf(const Mesh& mesh) {
-    const size_t indices = mesh.indices.size() + mesh.lineIndices.size() + mesh.pointIndices.size();
-    return sizeof(Mesh) + sizeof(Material) + mesh.positions.size() * bytesPerVertex(mesh) +
-           indices * sizeof(mesh.indices[0]);
-}
-
-/// The scene's meshes of one glTF mesh, by the physics material that its nodes give it.
-class MeshVariants {
-  public:
-    MeshVariants(ImportContext& context, const GltfDocument& document, MaterialTable& materials, Scene& scene)
-        : context_(context), document_(document), materials_(materials), scene_(scene) {}
-
-    /// Indices into scene.meshes, one per primitive that has something to draw.
-    const std::vector<int>& get(size_t gltfMesh, int physics) {
-        const auto [found, isNew] = made_.try_emplace({gltfMesh, physics});
-        if (!isNew)
-            return found->second;
-        const auto other = made_.lower_bound({gltfMesh, -1});
-        const bool copy = other != made_.end() && other->first.first == gltfMesh && other != found &&
-                          !other->second.empty();
-        // The first variant is built from the file, later ones are copies that differ in their material.
-        found->second = copy ? copyAll(gltfMesh, physics, other->second) : buildAll(gltfMesh, physics);
-        return found->second;
-    }
-
-  private:
-    int materialFor(size_t gltfMesh, size_t primitive, int physics) {
-        const int mpeg = mpegMaterialOf(context_, document_, gltfMesh).value_or(-1);
-        return materials_.indexOf(
-            {document_.model.meshes[gltfMesh].primitives[primitive].material, mpeg, physics});
-    }
-
-    std::vector<int> buildAll(size_t gltfMesh, int physics) {
-        std::vector<int> indices;
-        for (size_t p = 0; p < document_.model.meshes[gltfMesh].primitives.size(); ++p) {
-            const int material = materialFor(gltfMesh, p, physics);
-            auto mesh = buildMesh(context_, document_, gltfMesh, p, materials_.material(material));
-            if (!mesh)
-                continue;
-            mesh->material = material;
-            indices.push_back(static_cast<int>(scene_.meshes.size()));
-            scene_.meshes.push_back(std::move(*mesh));
-            primitiveOf_.push_back(p);
-        }
-        return indices;
-    }
-
-    std::vector<int> copyAll(size_t gltfMesh, int physics, const std::vector<int>& from) {
-        std::vector<int> indices;
-        for (const int source : from) {
-            const size_t primitive = primitiveOf_[static_cast<size_t>(source)];
-            context_.spendGeometry(bytesOf(scene_.meshes[static_cast<size_t>(source)]),
-                                   element("meshes", gltfMesh));
-            Mesh mesh = scene_.meshes[static_cast<size_t>(source)];
-            mesh.material = materialFor(gltfMesh, primitive, physics);
-            indices.push_back(static_cast<int>(scene_.meshes.size()));
-            scene_.meshes.push_back(std::move(mesh));
-            primitiveOf_.push_back(primitive);
-        }
-        return indices;
-    }
-
-    ImportContext& context_;
-    const GltfDocument& document_;
-    MaterialTable& materials_;
-    Scene& scene_;
-    std::map<std::pair<size_t, int>, std::vector<int>> made_;
-    std::vector<size_t> primitiveOf_; // by scene mesh
-};
 
 bool isFinite(const glm::dmat4& m) {
     for (int c = 0; c < 4; ++c)
@@ -101,54 +30,135 @@ bool isFlattened(const glm::dmat4& m) {
     return !(std::abs(glm::determinant(glm::dmat3(m))) > 1e-12 * size);
 }
 
+std::vector<glm::dmat4> sceneFromNodes(const std::vector<Node>& nodes) {
+    std::vector<glm::dmat4> sceneFromNode(nodes.size());
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const glm::dmat4 local = parentFromNode(nodes[n]);
+        sceneFromNode[n] =
+            nodes[n].parent >= 0 ? sceneFromNode[static_cast<size_t>(nodes[n].parent)] * local : local;
+    }
+    return sceneFromNode;
+}
+
+/// Places meshes on nodes: fills scene.instances, within the limits of an import.
+class Placement {
+  public:
+    Placement(ImportContext& context, const GltfDocument& document, Scene& scene)
+        : context_(context), document_(document), scene_(scene) {}
+
+    /// Places what `node` shows, as many times as it has copies. Instances that are flattened are left out
+    /// with a warning.
+    void place(size_t node, size_t gltfNode, const glm::dmat4& sceneFromNode,
+               const std::vector<MeshVariant>& meshes) {
+        place_ = element("nodes", gltfNode);
+        const auto copies = readCopies(context_, document_, gltfNode, copies_);
+        if (!copies) {
+            (void)add(node, sceneFromNode, glm::dmat4(1.0), false, meshes);
+            return;
+        }
+        copies_ += copies->size();
+        size_t flattened = 0;
+        for (const glm::dmat4& nodeFromMesh : *copies)
+            flattened += add(node, sceneFromNode, nodeFromMesh, true, meshes) ? 0 : 1;
+        if (flattened > 0)
+            context_.warn(place_, std::to_string(flattened) +
+                                      " of its copies are scaled to nothing in some direction; left out");
+    }
+
+  private:
+    /// False if the copy is flattened.
+    bool add(size_t node, const glm::dmat4& sceneFromNode, const glm::dmat4& nodeFromMesh, bool isCopy,
+             const std::vector<MeshVariant>& meshes) {
+        if (scene_.instances.size() + meshes.size() > kMaxInstances)
+            context_.fail(place_, "places more than " + std::to_string(kMaxInstances) + " meshes",
+                          "split the model into several files");
+        const glm::dmat4 rigid = isCopy ? sceneFromNode * nodeFromMesh : sceneFromNode;
+        bool stands = true;
+        for (const MeshVariant& variant : meshes) {
+            Instance instance;
+            instance.node = static_cast<int>(node);
+            instance.mesh = variant.mesh;
+            instance.nodeFromMesh = nodeFromMesh;
+            instance.followsNode = !variant.origin;
+            instance.sceneFromMesh =
+                variant.origin ? sceneFromSkin(*variant.origin, sceneFromNode, nodeFromMesh, isCopy) : rigid;
+            if (!isFinite(instance.sceneFromMesh))
+                context_.fail(place_, "its place is beyond what numbers can hold",
+                              "check the scales of the node and its parents");
+            if (isFlattened(instance.sceneFromMesh)) {
+                stands = false;
+                if (!isCopy)
+                    context_.warn(place_, "is scaled to nothing in some direction; its mesh is left out");
+                continue;
+            }
+            const Mesh& mesh = scene_.meshes[static_cast<size_t>(variant.mesh)];
+            spendPrimitives(mesh.triangleCount() + mesh.lineCount() + mesh.pointCount());
+            scene_.instances.push_back(instance);
+        }
+        return stands;
+    }
+
+    /// A skin stands where its joints are. A copy of it is displaced from there as a rigid mesh is displaced
+    /// from the node's own place: by sceneFromNode * nodeFromMesh * nodeFromScene.
+    glm::dmat4 sceneFromSkin(const glm::dvec3& origin, const glm::dmat4& sceneFromNode,
+                             const glm::dmat4& nodeFromMesh, bool isCopy) {
+        glm::dmat4 sceneFromMesh(1.0);
+        sceneFromMesh[3] = glm::dvec4(origin, 1.0);
+        if (!isCopy)
+            return sceneFromMesh;
+        if (!isFinite(sceneFromNode) || isFlattened(sceneFromNode)) {
+            context_.warn(place_,
+                          "places copies of a skinned mesh in a frame that is flat: they are placed in the "
+                          "scene's frame");
+            return nodeFromMesh * sceneFromMesh;
+        }
+        return sceneFromNode * nodeFromMesh * glm::inverse(sceneFromNode) * sceneFromMesh;
+    }
+
+    void spendPrimitives(uint64_t count) {
+        placed_ += count;
+        if (placed_ > std::max(kFreePlacedTriangles, context_.fileBytes()))
+            context_.fail(place_,
+                          "the scene places more than " + std::to_string(placed_) +
+                              " triangles, lines and points, far beyond the file's own data",
+                          "place its meshes fewer times, or simplify them");
+    }
+
+    ImportContext& context_;
+    const GltfDocument& document_;
+    Scene& scene_;
+    std::string place_;
+    uint64_t copies_ = 0, placed_ = 0;
+};
+
 } // namespace
 
 void buildMeshesAndInstances(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
                              MaterialTable& materials, Scene& scene) {
     const std::vector<int> physics = physicsMaterialOfNodes(context, document);
-    std::vector<glm::dmat4> sceneFromNode(scene.nodes.size());
-    MeshVariants variants(context, document, materials, scene);
-    bool skinned = false;
-    uint64_t placedTriangles = 0;
+    const std::vector<glm::dmat4> sceneFromNode = sceneFromNodes(scene.nodes);
+    SkinPoses skins(context, document, forest, scene.nodes, sceneFromNode);
+    MeshVariants variants(context, document, materials, skins, scene);
+    Placement placement(context, document, scene);
+    const std::vector<size_t> targets = morphTargetCounts(context, document);
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
-        const Node& node = scene.nodes[n];
-        const glm::dmat4 local = parentFromNode(node);
-        sceneFromNode[n] = node.parent >= 0 ? sceneFromNode[static_cast<size_t>(node.parent)] * local : local;
         const size_t gltfNode = static_cast<size_t>(forest.gltfOfNode[n]);
-        const int gltfMesh = document.model.nodes[gltfNode].mesh;
-        if (gltfMesh < 0 || !forest.shown[n])
+        const tinygltf::Node& node = document.model.nodes[gltfNode];
+        if (node.mesh < 0 || !forest.shown[n])
             continue;
-        const std::string place = element("nodes", gltfNode);
         context.step(0.1 + 0.4 * static_cast<double>(n) / static_cast<double>(scene.nodes.size()),
                      "building meshes");
-        if (!isFinite(sceneFromNode[n]))
-            context.fail(place, "its place is beyond what numbers can hold",
-                         "check the scales of the node and its parents");
-        const std::vector<int>& meshes = variants.get(static_cast<size_t>(gltfMesh), physics[gltfNode]);
-        skinned = skinned || document.json["nodes"][gltfNode].contains("skin");
-        if (isFlattened(sceneFromNode[n])) {
-            context.warn(place, "is scaled to nothing in some direction; its mesh is left out");
-            continue;
-        }
-        if (scene.instances.size() + meshes.size() > kMaxInstances)
-            context.fail(place, "places more than " + std::to_string(kMaxInstances) + " meshes",
-                         "split the model into several files");
-        for (const int mesh : meshes) {
-            const Mesh& placed = scene.meshes[static_cast<size_t>(mesh)];
-            placedTriangles += placed.triangleCount() + placed.lineCount() + placed.pointCount();
-            scene.instances.push_back({static_cast<int>(n), mesh, sceneFromNode[n]});
-        }
-        if (placedTriangles > std::max(kFreePlacedTriangles, context.fileBytes()))
-            context.fail(place,
-                         "the scene places more than " + std::to_string(placedTriangles) +
-                             " triangles, lines and points, far beyond the file's own data",
-                         "place its meshes fewer times, or simplify them");
+        const auto gltfMesh = static_cast<size_t>(node.mesh);
+        const ShownMesh shown{
+            gltfMesh, node.skin,
+            morphWeights(context, document, gltfMesh, targets[gltfMesh], static_cast<int>(gltfNode)),
+            physics[gltfNode]};
+        placement.place(n, gltfNode, sceneFromNode[n], variants.get(shown));
     }
-    if (skinned)
-        context.warn("skins", "skinned meshes stay in their rest pose");
     // Meshes that nobody placed are checked like the others: a broken file should not depend on who looks.
     for (size_t m = 0; m < document.model.meshes.size(); ++m)
-        (void)variants.get(m, -1);
+        if (!variants.has(m))
+            (void)variants.get({m, -1, morphWeights(context, document, m, targets[m], -1), -1});
 }
 
 Bounds sceneBounds(const ImportContext& context, const Scene& scene) {

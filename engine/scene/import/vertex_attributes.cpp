@@ -1,6 +1,7 @@
 #include "engine/scene/import/vertex_attributes.h"
 
 #include "engine/scene/import/gltf_accessors.h"
+#include "engine/scene/import/static_pose/morph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,9 @@ constexpr float kUnitTolerance = 0.1f;
 class AttributeReader {
   public:
     AttributeReader(ImportContext& context, const GltfDocument& document,
-                    const tinygltf::Primitive& primitive, DracoPrimitive* draco, const std::string& place)
-        : context_(context), document_(document), primitive_(primitive), draco_(draco),
+                    const tinygltf::Primitive& primitive, DracoPrimitive* draco, const MorphTargets* morph,
+                    const std::string& place)
+        : context_(context), document_(document), primitive_(primitive), draco_(draco), morph_(morph),
           place_(place + ".attributes.") {}
 
     [[nodiscard]] std::string at(const char* name) const { return place_ + name; }
@@ -38,6 +40,8 @@ class AttributeReader {
         if (count != 0 && vertices != count)
             context_.fail(at(name), "has " + std::to_string(vertices) + " vertices where POSITION has " +
                                         std::to_string(count));
+        if (morph_ != nullptr)
+            morph_->displace(name, attribute);
         size_t broken = 0;
         for (size_t i = 0; i < attribute.values.size(); ++i) {
             if (std::isfinite(attribute.values[i]))
@@ -91,12 +95,15 @@ class AttributeReader {
     const GltfDocument& document_;
     const tinygltf::Primitive& primitive_;
     DracoPrimitive* draco_;
+    const MorphTargets* morph_; ///< null: as stored
     std::string place_;
 };
 
-/// Brings `vectors` to unit length. Those without a direction become zero and are counted.
+/// Brings `vectors` to unit length. Those without a direction become zero and are counted. A length that
+/// morph targets changed (`displaced`) is no flaw of the file.
 template <class Vector>
-size_t normaliseAll(ImportContext& context, std::vector<Vector>& vectors, const std::string& place) {
+size_t normaliseAll(ImportContext& context, std::vector<Vector>& vectors, bool displaced,
+                    const std::string& place) {
     size_t odd = 0, lost = 0;
     for (Vector& v : vectors) {
         const glm::dvec3 exact(v.x, v.y, v.z);
@@ -111,14 +118,14 @@ size_t normaliseAll(ImportContext& context, std::vector<Vector>& vectors, const 
         v.y = unit.y;
         v.z = unit.z;
     }
-    if (odd > 0)
+    if (odd > 0 && !displaced)
         context.warn(place, std::to_string(odd) + " vectors are not of unit length and were normalised");
     if (lost > 0)
         context.warn(place, std::to_string(lost) + " vectors have no direction and were computed anew");
     return lost;
 }
 
-void readColors(ImportContext& context, AttributeReader& reader, size_t count,
+void readColors(ImportContext& context, AttributeReader& reader, size_t count, bool displaced,
                 std::vector<glm::vec4>& colors) {
     const auto raw = reader.raw("COLOR_0", count, {3, 4}, AttributeReader::NotFinite::Zero);
     if (!raw)
@@ -132,14 +139,14 @@ void readColors(ImportContext& context, AttributeReader& reader, size_t count,
         colors[i] = glm::clamp(stated, 0.0f, 1.0f);
         outside += colors[i] != stated ? 1 : 0;
     }
-    if (outside > 0)
+    if (outside > 0 && !displaced)
         context.warn(reader.at("COLOR_0"),
                      std::to_string(outside) + " colours are outside 0..1 and were clamped");
 }
 
 /// Tangents whose handedness is known; none where one of them has none, since generated frames are worth more
 /// than frames with gaps.
-void readTangents(ImportContext& context, AttributeReader& reader, size_t count,
+void readTangents(ImportContext& context, AttributeReader& reader, size_t count, bool displaced,
                   std::vector<glm::vec4>& tangents) {
     tangents = reader.vectors<glm::vec4>("TANGENT", count, AttributeReader::NotFinite::Zero);
     constexpr float kRounding = 1e-3f, kSign = 0.5f;
@@ -152,7 +159,7 @@ void readTangents(ImportContext& context, AttributeReader& reader, size_t count,
     if (odd > 0)
         context.warn(reader.at("TANGENT"), std::to_string(odd) + " have a w that is neither 1 nor -1; " +
                                                (lost > 0 ? "all are computed anew" : "its sign is taken"));
-    if (normaliseAll(context, tangents, reader.at("TANGENT")) > 0 || lost > 0)
+    if (normaliseAll(context, tangents, displaced, reader.at("TANGENT")) > 0 || lost > 0)
         tangents.clear();
 }
 
@@ -160,8 +167,8 @@ void readTangents(ImportContext& context, AttributeReader& reader, size_t count,
 
 void readVertexAttributes(ImportContext& context, const GltfDocument& document,
                           const tinygltf::Primitive& primitive, DracoPrimitive* draco,
-                          const std::string& place, Mesh& mesh) {
-    AttributeReader reader(context, document, primitive, draco, place);
+                          const MorphTargets& morph, const std::string& place, Mesh& mesh) {
+    AttributeReader reader(context, document, primitive, draco, &morph, place);
     mesh.positions = reader.vectors<glm::vec3>("POSITION", 0);
     const size_t count = mesh.positions.size();
     constexpr auto kZero = AttributeReader::NotFinite::Zero;
@@ -169,17 +176,24 @@ void readVertexAttributes(ImportContext& context, const GltfDocument& document,
     const auto optional = [&](auto&& read) { (void)context.attempt("it is left out", read); };
     optional([&] { mesh.normals = reader.vectors<glm::vec3>("NORMAL", count, kZero); });
     mesh.normalsFromFile = !mesh.normals.empty();
-    (void)normaliseAll(context, mesh.normals, reader.at("NORMAL"));
-    optional([&] { readTangents(context, reader, count, mesh.tangents); });
+    (void)normaliseAll(context, mesh.normals, morph.displaces("NORMAL"), reader.at("NORMAL"));
+    optional([&] { readTangents(context, reader, count, morph.displaces("TANGENT"), mesh.tangents); });
     mesh.tangentsFromFile = !mesh.tangents.empty();
     optional([&] { mesh.uv0 = reader.vectors<glm::vec2>("TEXCOORD_0", count, kZero); });
     optional([&] { mesh.uv1 = reader.vectors<glm::vec2>("TEXCOORD_1", count, kZero); });
-    optional([&] { readColors(context, reader, count, mesh.colors); });
+    optional([&] { readColors(context, reader, count, morph.displaces("COLOR_0"), mesh.colors); });
     mesh.stiffness = reader.factors("_STIFFNESS", count);
     mesh.damping = reader.factors("_DAMPING", count);
     mesh.friction = reader.factors("_FRICTION", count);
     if (auto heights = reader.raw("_HEIGHT", count, {1}))
         mesh.heights = std::move(heights->values);
+}
+
+RawAttribute readAttribute(ImportContext& context, const GltfDocument& document,
+                           const tinygltf::Primitive& primitive, DracoPrimitive* draco,
+                           const std::string& place, const std::string& name, size_t count, int components) {
+    return *AttributeReader(context, document, primitive, draco, nullptr, place)
+                .raw(name.c_str(), count, {components});
 }
 
 } // namespace touchstone

@@ -28,9 +28,19 @@ struct DracoPrimitive {
                                          const nlohmann::json& extension,
                                          const tinygltf::Primitive& primitive, const std::string& place);
 
-/// Fills the vertex arrays of `mesh`. Accessors that `draco` (may be null) does not replace are read.
+class MorphTargets;
+
+/// Fills the vertex arrays of `mesh`, displaced by `morph`. Accessors that `draco` (may be null) does not
+/// replace are read.
 void readVertexAttributes(ImportContext& context, const GltfDocument& document,
                           const tinygltf::Primitive& primitive, DracoPrimitive* draco,
-                          const std::string& place, Mesh& mesh);
+                          const MorphTargets& morph, const std::string& place, Mesh& mesh);
+
+/// One attribute that the primitive has, of `count` vertices and the given components, all finite and as
+/// stored: not displaced. Throws Error for others. Takes it out of `draco` (may be null).
+[[nodiscard]] RawAttribute readAttribute(ImportContext& context, const GltfDocument& document,
+                                         const tinygltf::Primitive& primitive, DracoPrimitive* draco,
+                                         const std::string& place, const std::string& name, size_t count,
+                                         int components);
 
 } // namespace touchstone

@@ -358,11 +358,5 @@ TEST(GltfMeshes, ColoursOutsideTheirRangeAreClamped) {
     EXPECT_TRUE(warns(*scene, "COLOR_0", "2 colours"));
 }
 
-TEST(GltfMeshes, MorphTargetsStayInRestWithAWarning) {
-    GltfMaker maker = GltfMaker::square();
-    maker.primitive()["targets"] = {{{"POSITION", 0}}};
-    EXPECT_TRUE(warns(*load(maker), "meshes[0].primitives[0]", "morph targets"));
-}
-
 } // namespace
 } // namespace touchstone

@@ -131,12 +131,5 @@ TEST(GltfNodes, PlacesBeyondAllNumbersAreRefused) {
     EXPECT_REFUSED(maker, "nodes[1]", "beyond what numbers can hold");
 }
 
-TEST(GltfNodes, SkinsStayInRestWithAWarning) {
-    GltfMaker maker = GltfMaker::square();
-    maker.json["skins"] = {{{"joints", {0}}}};
-    maker.json["nodes"][0]["skin"] = 0;
-    EXPECT_TRUE(warns(*load(maker), "skins", "rest pose"));
-}
-
 } // namespace
 } // namespace touchstone

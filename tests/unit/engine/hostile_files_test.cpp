@@ -105,7 +105,7 @@ constexpr HostileFile kHostileFiles[] = {
     {"mesh_data/index_buffer_oob.gltf", Outcome::Refused, "meshes[0].primitives[0].indices", "index 5 exceeds 3, the last vertex", "geometry"},
     {"mesh_data/index_buffer_primitive_restart.gltf", Outcome::Warned, "meshes[0].primitives[0].indices", "index 2 is 255, the primitive-restart value, whi", "there is a vertex of that number"},
     {"mesh_data/joints_no_weights.gltf", Outcome::Refused, "bufferViews[0]", "reaches to byte 32 of a buffer of 16 bytes", "geometry"},
-    {"mesh_data/joints_weights_complex.gltf", Outcome::Warned, "meshes[0].primitives[0]", "holds points or lines: they are drawn, but cannot be touched", "joints are not used: skins stay in their rest pose; its primitive is points"},
+    {"mesh_data/joints_weights_complex.gltf", Outcome::Refused, "meshes[0].primitives[0].attributes.JOINTS_1", "vertex 1 follows joint 9.0, but skins[0] has 9", "geometry: the vertex weighs on a joint that does not exist"},
     {"mesh_data/normals_tangents_non_unit_invalid_sign.gltf", Outcome::Warned, "meshes[0].primitives[0].attributes.TANGENT", "1 have a w that is neither 1 nor -1; all are com", "the shape is the same; tangents are generated"},
     {"root/custom_property.gltf", Outcome::Warned, "customProperty", "is not a property of glTF; it is ignored", "a property that nobody knows"},
     {"root/custom_property_escaped_name.gltf", Outcome::Warned, "asset/customProperty", "is not a property of glTF; it is ignored", "a property that nobody knows"},
@@ -129,7 +129,7 @@ constexpr HostileFile kHostileFiles[] = {
     {"scene/unresolved_default_scene.gltf", Outcome::Refused, "scene", "refers to scenes[0], but there are 0 of them", "structure"},
     {"scene/unresolved_node.gltf", Outcome::Refused, "scenes[0].nodes[0]", "refers to nodes[0], but there are 0 of them", "structure"},
     {"scene/valid.gltf", Outcome::Loads, "", "", "valid"},
-    {"skin_data/invalid_ibm.gltf", Outcome::Loads, "", "", "skins are not used"},
+    {"skin_data/invalid_ibm.gltf", Outcome::Loads, "", "", "no node shows a mesh with the skin"},
     {"tinygltf/issue-416.gltf", Outcome::Refused, "asset.version", "glTF version \"\" is not supported", "no report; its version is empty and its URI malformed"},
 };
 // clang-format on
