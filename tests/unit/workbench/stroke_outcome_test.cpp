@@ -1,6 +1,5 @@
-#include "workbench/commands/stroke_outcome.h"
-
 #include "engine/core/error.h"
+#include "workbench/commands/stroke_outcome.h"
 
 #include <gtest/gtest.h>
 
