@@ -20,6 +20,7 @@ pkg_check_modules(portaudio REQUIRED IMPORTED_TARGET portaudio-2.0)
 pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
 pkg_check_modules(jack REQUIRED IMPORTED_TARGET jack)
 pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+pkg_check_modules(xcb REQUIRED IMPORTED_TARGET xcb)
 
 # Debian ships Dear ImGui as one static library that already holds the GLFW and Vulkan backends and
 # leaves stb undefined.

@@ -13,6 +13,8 @@ class Device {
     virtual ~Device() = default;
     [[nodiscard]] virtual std::string name() const = 0;    ///< owner thread
     [[nodiscard]] virtual DeviceLimits limits() const = 0; ///< owner thread
+    /// Servo thread, before each sample. Only a hand that the program moves has a use for it.
+    virtual void feel(const TouchFeedback& felt) noexcept { (void)felt; }
     [[nodiscard]] virtual DeviceSample
     sample(double time) noexcept = 0;                              ///< servo thread; time in s since start
     virtual void apply(const DeviceCommand& command) noexcept = 0; ///< servo thread

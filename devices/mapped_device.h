@@ -15,6 +15,7 @@ class MappedDevice final : public Device {
 
     [[nodiscard]] std::string name() const override { return device_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return device_.limits(); }
+    void feel(const TouchFeedback& felt) noexcept override { device_.feel(felt); }
     [[nodiscard]] DeviceSample sample(double time) noexcept override {
         DeviceSample sample = device_.sample(time);
         map_.apply(sample, {.zoom = zoom_, .clutch = (sample.buttons & kClutchButton) != 0}, time - last_);

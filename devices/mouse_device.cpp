@@ -5,42 +5,131 @@
 
 namespace touchstone {
 
+namespace {
+
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The direction of what of `stretch` the planes hold off: without what friction adds along them. With one
+/// plane its normal; with three, or none, the direction of all of it.
+glm::dvec3 normalPart(const glm::dvec3& stretch, std::span<const glm::dvec3> planes) {
+    constexpr double kLeast = 1e-9; // of the stretch, and of a unit vector: planes that are nearly one
+    glm::dvec3 along(0.0);
+    std::array<glm::dvec3, 3> basis{};
+    size_t count = 0;
+    for (glm::dvec3 axis : planes) {
+        for (size_t i = 0; i < count; ++i)
+            axis -= glm::dot(axis, basis[i]) * basis[i];
+        const double length = glm::length(axis);
+        if (!(length > kLeast) || count == basis.size())
+            continue;
+        basis[count] = axis / length;
+        along += glm::dot(stretch, basis[count]) * basis[count];
+        ++count;
+    }
+    const double length = glm::length(along);
+    return length > kLeast * glm::length(stretch) ? along / length : glm::normalize(stretch);
+}
+
+} // namespace
+
 MouseDevice::MouseDevice(const MouseSmoothing& smoothing) : smoothing_(smoothing) {}
 
-void MouseDevice::moveTo(const glm::dvec3& goal, uint32_t buttons) noexcept {
-    if (!std::isfinite(goal.x) || !std::isfinite(goal.y) || !std::isfinite(goal.z))
-        return;
-    goal_.write({goal, buttons, true});
+void MouseDevice::moveTo(const MouseGoal& goal) noexcept {
+    if (finite(goal.position) && goal.press >= 0.0 && goal.stiffness > 0.0)
+        told_.write({goal, true, releases_});
 }
 
 void MouseDevice::release() noexcept {
-    goal_.write({});
+    told_.write({{}, false, ++releases_});
+}
+
+void MouseDevice::feel(const TouchFeedback& felt) noexcept {
+    constexpr double kStill = 1e-7; // m: 0.1 mm/s at 1 kHz
+    // Both are where the objects stood in the last tick.
+    proxySlid_ = felt.touching && felt_.touching && glm::distance(felt.proxy, felt_.proxy) > kStill;
+    felt_ = felt;
+    const size_t count = std::min(felt.planes.size(), planes_.size());
+    std::copy_n(felt.planes.begin(), count, planes_.begin());
+    felt_.planes = {planes_.data(), count};
+    felt_.touching = felt.touching && finite(felt.force) && finite(felt.proxy) && finite(felt.hip);
+    if (!felt_.touching)
+        felt_.force = glm::dvec3(0.0);
+}
+
+const ObjectMotion* MouseDevice::motionOf(int object) const noexcept {
+    return object >= 0 && static_cast<size_t>(object) < felt_.objects.size()
+               ? &felt_.objects[static_cast<size_t>(object)]
+               : nullptr;
 }
 
 DeviceSample MouseDevice::sample(double time) noexcept {
-    if (goal_.update())
-        goalTime_ = time;
-    const Goal& goal = goal_.value();
-    if (!goal.held) {
-        moving_ = false;
-        force_ = glm::dvec3(0.0);
-        return {};
-    }
-    if (!moving_) {
-        position_ = goal.position;
-        velocity_ = glm::dvec3(0.0);
-        lastTime_ = time;
-        moving_ = true;
-    }
-    follow(goal.position + force_ / smoothing_.stiffness, std::clamp(time - lastTime_, 0.0, kLongestStep));
-    lastTime_ = std::max(lastTime_, time);
-
+    told_.update();
+    const auto& [goal, held, releases] = told_.value();
+    const ObjectMotion* const carrier = motionOf(goal.object);
     DeviceSample sample;
+    sample.inSight = true;
+    if (!held || (goal.object >= 0 && carrier == nullptr)) {
+        moving_ = false;
+        return sample;
+    }
+    const glm::dvec3 to =
+        carrier != nullptr ? carrier->workspaceFromObject.point(goal.position) : goal.position;
+    if (!moving_ || begunAfter_ != releases) {
+        position_ = to;
+        velocity_ = glm::dvec3(0.0);
+        felt_ = TouchFeedback{};
+        lastTime_ = time;
+        begunAfter_ = releases;
+        press_ = goal.press;
+        moving_ = sample.begins = true;
+    }
+    const double dt = std::clamp(time - lastTime_, 0.0, kLongestStep);
+    easePress(dt);
+    rideAlong();
+    const glm::dvec3 from = position_;
+    follow(to + felt_.force / smoothing_.stiffness, dt);
+    boundPress(from);
+    lastTime_ = std::max(lastTime_, time);
     sample.position = position_;
     sample.buttons = goal.buttons;
-    sample.age = std::max(0.0, time - goalTime_);
     sample.valid = true;
     return sample;
+}
+
+/// A press that is let go of does not throw the hand out: what it may press with falls more slowly than the
+/// hand, which comes out by itself, (1 + w t) exp(-w t).
+void MouseDevice::easePress(double dt) noexcept {
+    constexpr double kSlower = 0.25;
+    const double asked = told_.value().goal.press;
+    const double before = std::isfinite(press_) ? press_ : glm::length(felt_.force);
+    press_ = std::isfinite(asked) ? std::max(asked, before * std::exp(-kSlower * smoothing_.frequency * dt))
+                                  : asked;
+}
+
+/// Hand and touch go along with the objects, so that the motion of these in a tick presses on nothing. What
+/// has been put elsewhere takes nothing along.
+void MouseDevice::rideAlong() noexcept {
+    if (const ObjectMotion* motion = motionOf(told_.value().goal.object);
+        motion != nullptr && !motion->jumped) {
+        position_ = motion->workspaceFromObject.point(motion->before.inversePoint(position_));
+        velocity_ =
+            motion->workspaceFromObject.rotation * (glm::conjugate(motion->before.rotation) * velocity_);
+    }
+    if (const ObjectMotion* motion = motionOf(felt_.object); motion != nullptr && !motion->jumped) {
+        const auto moved = [motion](const glm::dvec3& p) {
+            return motion->workspaceFromObject.point(motion->before.inversePoint(p));
+        };
+        const auto turned = [motion](const glm::dvec3& v) {
+            return motion->workspaceFromObject.rotation * (glm::conjugate(motion->before.rotation) * v);
+        };
+        felt_.proxy = moved(felt_.proxy);
+        felt_.hip = moved(felt_.hip);
+        felt_.force = turned(felt_.force);
+        for (glm::dvec3& plane : planes_)
+            plane = turned(plane);
+    }
 }
 
 /// The exact step of x'' = w^2 (target - x) - 2 w x' for a target that holds still over dt. With the error
@@ -57,6 +146,48 @@ void MouseDevice::follow(const glm::dvec3& goal, double dt) noexcept {
     const glm::dvec3 pull = (velocity_ - w * error) * dt;
     position_ += error + (pull - error) * decay;
     velocity_ = (velocity_ - w * pull) * decay;
+}
+
+/// Keeps the force within the press that was asked for. With the last tick's force F, normal part N along n
+/// and tangential part T, a hand that goes deeper by e feels N + k e along n: so
+/// e <= (sqrt(press^2 - T^2) - N) / k. T grows by k times the way along the surface at most: to kGrip of what
+/// it is where the proxy has slid (the static coefficient over the dynamic one, nothing without friction), to
+/// kStick of the press where it may stick (coefficients up to 1.3). The place of the last proxy, gone along
+/// with its object, is free: the proxy of this tick is no farther from the hand. In the air, where the next
+/// surface may be anywhere, a hand that presses goes press / k in a tick.
+void MouseDevice::boundPress(const glm::dvec3& from) noexcept {
+    const MouseGoal& goal = told_.value().goal;
+    if (!std::isfinite(press_))
+        return;
+    constexpr double kGrip = 1.3, kStick = 0.8;
+    const double press = std::max(press_, kHoverForce);
+    const glm::dvec3 stretch = felt_.proxy - felt_.hip;
+    const double length = glm::length(stretch);
+    if (!felt_.touching || !(length > 0.0)) {
+        const glm::dvec3 way = position_ - from;
+        const double most = press / goal.stiffness, gone = glm::length(way);
+        if (goal.press > 0.0 && gone > most) {
+            position_ = from + most / gone * way;
+            velocity_ *= most / gone;
+        }
+        return;
+    }
+    const glm::dvec3 n = normalPart(stretch, felt_.planes);
+    const double along = glm::dot(felt_.force, n);
+    const double stiffness = std::max(goal.stiffness, glm::length(felt_.force) / length);
+    glm::dvec3 across = felt_.force - along * n;
+    double tangential = glm::length(across);
+    const glm::dvec3 way = position_ - felt_.hip;
+    across -= stiffness * (way - glm::dot(way, n) * n);
+    tangential =
+        std::max(tangential, std::min(glm::length(across), proxySlid_ ? kGrip * tangential : kStick * press));
+    const double most = std::sqrt(std::max(0.0, press * press - tangential * tangential));
+    const double deepest = glm::dot(stretch, n) + (most - along) / stiffness;
+    const double excess = glm::dot(felt_.proxy - position_, n) - deepest;
+    if (!(excess > 0.0))
+        return;
+    position_ += excess * n;
+    velocity_ -= std::min(0.0, glm::dot(velocity_, n)) * n;
 }
 
 } // namespace touchstone

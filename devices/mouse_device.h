@@ -4,6 +4,11 @@
 #include "devices/device.h"
 #include "engine/exchange/triple_buffer.h"
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
 namespace touchstone {
 
 /// How goals that come with the frames of a window become motion of a hand.
@@ -22,52 +27,77 @@ struct MouseSmoothing {
     double stiffness = 150.0;
 };
 
+/// Where the hand of a mouse is to be.
+struct MouseGoal {
+    glm::dvec3 position{0.0}; ///< m, in the frame of `object`
+    /// The object of the haptic scene with which the goal goes along; -1: it stands in the workspace.
+    int object = -1;
+    /// N: the force with which the hand may press at most; 0: it hovers.
+    double press = INFINITY;
+    double stiffness = 600.0; ///< N/m of what is pressed on
+    uint32_t buttons = 0;
+};
+
 /// Turns goals given at the rate of a window into smooth motion at the rate of the servo: position and
-/// velocity are continuous, |velocity| <= maxSpeed, and a stalled servo resumes where it was instead of
-/// jumping. The hand yields to the force of the command.
+/// velocity are continuous, |velocity| <= maxSpeed relative to the object that the goal goes along with, and
+/// a stalled servo resumes where it was instead of jumping.
+///
+/// The hand yields to the felt force (TouchFeedback), not to the command: otherwise it would sink in by
+/// press / smoothing.stiffness, 4 mm for 0.6 N, whenever the safety stage fades the force, and be pushed out
+/// again. It presses with MouseGoal::press at most: the force of the last tick and the way into the surface
+/// in this one, times the stiffness, never come to more. So however long no goal comes, and however the
+/// objects move meanwhile, the force stays what was asked for. Samples have no age: a picture that stalls
+/// does not make the place of the hand less certain.
 class MouseDevice final : public Device {
   public:
+    /// N with which a hand that hovers may resist what runs into it.
+    static constexpr double kHoverForce = 0.05;
+
     explicit MouseDevice(const MouseSmoothing& smoothing = {});
 
-    /// Main thread, once every frame even when the mouse rests: what the servo sees ages from here, so that a
-    /// frozen window counts as stale input. `goal` in the device frame, m; a goal that is not finite is
-    /// ignored.
-    void moveTo(const glm::dvec3& goal, uint32_t buttons = 0) noexcept;
-    /// Main thread: the hand is gone (samples become invalid) until the next moveTo, which it starts from.
+    /// Main thread. A goal that is not finite is ignored.
+    void moveTo(const MouseGoal& goal) noexcept;
+    /// Free in the workspace, pressing as hard as its spring does.
+    void moveTo(const glm::dvec3& position) noexcept { moveTo(MouseGoal{.position = position}); }
+    /// Main thread: the hand is lifted off (samples are not valid). It begins again at the next goal.
     void release() noexcept;
 
     [[nodiscard]] std::string name() const override { return "mouse"; }
-    /// Goals come with the frames of a window, which may stutter: they go stale later than a device's
-    /// samples.
-    [[nodiscard]] DeviceLimits limits() const override {
-        DeviceLimits limits;
-        limits.staleAge = 0.25;
-        return limits;
-    }
+    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    void feel(const TouchFeedback& felt) noexcept override;
     /// Servo thread. `time` must not run backwards (then the hand stands still).
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
-    /// Servo thread: what the hand yields to from the next sample on.
-    void apply(const DeviceCommand& command) noexcept override { force_ = command.force(); }
+    void apply(const DeviceCommand&) noexcept override {}
 
     /// Longest time the hand moves on in one sample, s: what a stall may cost in distance is maxSpeed times
     /// this.
     static constexpr double kLongestStep = 0.010;
 
   private:
-    struct Goal {
-        glm::dvec3 position{0.0};
-        uint32_t buttons = 0;
+    struct Told {
+        MouseGoal goal;
         bool held = false;
+        uint32_t releases = 0; // before it
     };
 
+    [[nodiscard]] const ObjectMotion* motionOf(int object) const noexcept;
+    void easePress(double dt) noexcept;
+    void rideAlong() noexcept;
     void follow(const glm::dvec3& goal, double dt) noexcept;
+    void boundPress(const glm::dvec3& from) noexcept;
 
     MouseSmoothing smoothing_;
-    TripleBuffer<Goal> goal_;
+    TripleBuffer<Told> told_;
+    uint32_t releases_ = 0; // main thread
     // Servo thread:
-    glm::dvec3 position_{0.0}, velocity_{0.0}, force_{0.0};
-    double lastTime_ = 0.0, goalTime_ = 0.0;
+    TouchFeedback felt_;
+    std::array<glm::dvec3, 3> planes_{};
+    glm::dvec3 position_{0.0}, velocity_{0.0};
+    double lastTime_ = 0.0;
+    double press_ = INFINITY; // N, that holds in this tick
+    uint32_t begunAfter_ = 0; // of Told::releases
     bool moving_ = false;
+    bool proxySlid_ = false; // in the last tick, on its object
 };
 
 } // namespace touchstone

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "engine/math/similarity.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -17,10 +19,12 @@ struct ViewAxes {
 
 /// What lies under the pointer.
 struct PointedSurface {
-    glm::dvec3 point{0.0};    ///< m, device frame
-    glm::dvec3 normal{0.0};   ///< unit, towards the viewer
-    double stiffness = 600.0; ///< N/m with which it will push back
-    double room = INFINITY;   ///< m in front of it in which a hand that does not press may stay
+    glm::dvec3 point{0.0};            ///< m, device frame
+    glm::dvec3 normal{0.0};           ///< unit, towards the viewer
+    double stiffness = 600.0;         ///< N/m with which it will push back
+    double room = INFINITY;           ///< m in front of it in which a hand that does not press may stay
+    int object = -1;                  ///< HapticScene::objects; -1: nothing of the scene moves
+    Similarity workspaceFromObject{}; ///< when it was looked at
 };
 
 /// How hard a hand that is on the surface presses, and how softly it is held.

@@ -8,7 +8,7 @@
 namespace touchstone {
 
 /// A hand without a person: follows a path in time, whatever the force. (Its answer to force comes with the
-/// closed loop.) Deterministic: the sample depends on the time alone.
+/// closed loop.) Deterministic: the place depends on the time alone.
 class SimulatedHand final : public Device {
   public:
     explicit SimulatedHand(std::shared_ptr<const StrokePath> path) : path_(std::move(path)) {}
@@ -22,6 +22,7 @@ class SimulatedHand final : public Device {
 
   private:
     std::shared_ptr<const StrokePath> path_;
+    bool begun_ = false;
 };
 
 } // namespace touchstone

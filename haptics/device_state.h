@@ -34,7 +34,10 @@ struct DeviceState {
 
     // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor
     // moves it carries the proxy along.
-    bool placed = false;   ///< the proxy is in free space or on a surface; false: not yet outside
+    bool placed = false; ///< the proxy is in free space or on a surface; false: not yet outside
+    /// The model came to be where the hand was (a scene swap, a device that is taken up or comes back):
+    /// nothing is felt before the hand is clear of it (proxy/clear_of_model.h).
+    bool mustLeave = false;
     int anchor = -1;       ///< HapticScene::objects
     glm::dvec3 proxy{0.0}; ///< anchor frame, object units
     /// Workspace m that the proxy stands clear of one-sided surfaces, while placed: the radius, less while
@@ -66,7 +69,7 @@ struct DeviceState {
 
     /// Forgets the touch, keeps what the device still feels (the limiter's last command).
     void forgetTouch() noexcept {
-        sampled = placed = shaded = watch.touching = false;
+        sampled = placed = mustLeave = shaded = watch.touching = false;
         shadedTurn = glm::dvec3(0.0);
         velocity = glm::dvec3(0.0);
         anchor = -1;

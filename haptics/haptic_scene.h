@@ -3,12 +3,12 @@
 // Immutable after compileHapticScene; read by the servo, the oracle and the studies alike.
 
 #include "engine/device_io/device_io.h"
+#include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
 #include "haptics/contact/haptic_object.h"
 #include "haptics/contact/mesh_adjacency.h"
 #include "haptics/effect_plan.h"
-#include "haptics/object_motion.h"
 #include "haptics/texture/haptic_material.h"
 
 #include <atomic>

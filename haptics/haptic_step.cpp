@@ -279,6 +279,12 @@ void touchAsPlanned(const HapticScene& scene, const HapticSettings& settings, co
         touch<Model, false>(scene, settings, input, state, output, stopwatch);
 }
 
+/// Touch begins again where the hand is next seen.
+[[gnu::noinline]] void beginTouch(DeviceState& state, bool mustLeave) {
+    state.forgetTouch();
+    state.mustLeave = mustLeave;
+}
+
 /// A tick without a sample in a scene that moves: the proxy goes on with the objects, as if the hand stood. A
 /// watch that touches goes with its anchor; one in the free would have to know where every object was when
 /// the hand was last seen, and begins anew.
@@ -334,6 +340,8 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         // 1. Sample.
         const DeviceSample& sample = input.devices[i];
         const Similarity& workspaceFromDevice = sample.mapping.workspaceFromDevice;
+        if (sample.begins)
+            beginTouch(state, !sample.inSight);
         const bool sampled = takeSample(sample, input.dt, state, output.flags);
         output.zoom = workspaceFromDevice.scale;
         output.hip = output.proxy = state.hip;
@@ -363,7 +371,7 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         // A hand that was gone for as long as a full force takes to fade may come back anywhere: it is not
         // pulled to where it was, but begins anew.
         if (state.unsampled >= kForceRampOutTime)
-            state.forgetTouch();
+            beginTouch(state, true);
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
         stopwatch.lap(Stage::Safety);
     }

@@ -2,10 +2,10 @@
 // One tick of touch. Read haptic_step.cpp: it tells the whole story in order.
 
 #include "engine/device_io/device_io.h"
+#include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_settings.h"
-#include "haptics/object_motion.h"
 #include "haptics/stage_trace.h"
 #include "haptics/stopwatch.h"
 #include "haptics/tick_flags.h"

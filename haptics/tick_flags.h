@@ -7,8 +7,9 @@ namespace touchstone {
 /// Hard facts about a tick, as bits.
 enum class TickFlag : uint32_t {
     None = 0,
-    InputInvalid = 1u << 0,  ///< no sample, stale or not finite: no force
-    StartedInside = 1u << 1, ///< the HIP was inside a closed object when touch began: feels nothing until out
+    InputInvalid = 1u << 0, ///< no sample, stale or not finite: no force
+    StartedInside =
+        1u << 1, ///< the HIP was inside, or had to leave the model, when touch began: feels nothing until out
     BudgetReached = 1u << 2, ///< proxy solve stopped at the iteration budget: sticky, still safe
     CandidatesFull =
         1u << 3, ///< more triangles near the proxy than the tick has room for; motion was cut short

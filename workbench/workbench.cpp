@@ -17,7 +17,10 @@
 #include "workbench/model/opening.h"
 #include "workbench/state_folder.h"
 #include "workbench/timeline/timeline_desk.h"
+#include "workbench/touch/force_key.h"
 #include "workbench/touch/live_touch.h"
+#include "workbench/window/key_queue.h"
+#include "workbench/window/key_watch.h"
 #include "workbench/window/layout.h"
 #include "workbench/window/leaving.h"
 #include "workbench/window/model_picture.h"
@@ -79,6 +82,9 @@ class Workbench {
           window_("Touchstone", firstSize(options.size, memory_.size)),
           screen_(window_, gpuOptions(options.gpu)), quality_(qualityOn(screen_.gpu())),
           touch_(options, [this](const std::string& text) { notice_ = text; }),
+          forceKey_(touch_.forceSwitch()),
+          forceWatch_(window_.handle(), GLFW_KEY_SPACE, [this](bool plain) { forceKey_.press(plain); }),
+          keys_(window_.handle(), [this](int key, int modifiers) { keyDown(key, modifiers); }),
           timeline_(touch_.again(), recordingFolders(options.recording)), status_(options.statusJson) {
         // What the command line asks for goes before what the last run left.
         state_.settings = memory_.settings;
@@ -127,8 +133,13 @@ class Workbench {
             leaveFor(*dropped);
         leave();
         touch_.update(start);
+        // While a recording is looked at the force is off: then the key only takes it away for afterwards.
+        state_.settings.forceEnabled =
+            forceKey_.settle(state_.settings.forceEnabled,
+                             !ImGui::GetIO().WantTextInput && !timeline_.looking(), forceWatch_.presses());
         lookBack(start);
         onScreen([this] {
+            keys_.feed();
             if (screen_.target().beginFrame())
                 draw();
             else
@@ -203,6 +214,7 @@ class Workbench {
 
     void show(LoadedModel loaded) {
         const ScenePtr scene = loaded.model.scene;
+        notice_.clear(); // of the model before
         touch_.show(std::move(loaded), scene->path == defaultScene().string());
         drawn_.shown(scene);
         leaving_.begin();
@@ -280,9 +292,17 @@ class Workbench {
 
     /// The settings as they are chosen; but the force is off while a recording is looked at.
     void sendSettings() {
+        forceKey_.set(state_.settings.forceEnabled);
         HapticSettings settings = state_.settings;
         settings.forceEnabled = settings.forceEnabled && !timeline_.looking();
         touch_.send(settings);
+    }
+
+    /// When the event is handled, not in the frame that takes it.
+    void keyDown(int key, int modifiers) {
+        constexpr int kNotPlain = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
+        if (key == GLFW_KEY_SPACE)
+            forceKey_.pressInWindow((modifiers & kNotPlain) == 0, forceWatch_.presses());
     }
 
     void showMaterials() {
@@ -312,8 +332,10 @@ class Workbench {
     /// Tells the hand where it is to be, whichever it is.
     void moveHand() {
         HandSwitch& hand = touch_.hand();
+        if (touch_.takeBuiltAgain())
+            view_.lift();
         if (const auto goal = view_.handGoal())
-            hand.mouse().moveTo(*goal); // in every frame: a frozen window is a hand that is gone
+            hand.mouse().moveTo(*goal);
         else
             hand.mouse().release();
         hand.simulate(state_.simulatedHand);
@@ -441,6 +463,9 @@ class Workbench {
         input.deviceStatus = touch_.devices().status();
         input.sound = touch_.sound().status();
         input.servo = &touch_.figures();
+        input.servoStart = touch_.startedAt();
+        input.forcePresses = touch_.forceSwitch().state().presses();
+        input.typing = ImGui::GetIO().WantTextInput;
         input.timeline = &timeline_;
         input.tick = timeline_.looking() ? &shownTick() : &touch_.figures().last;
         input.forces = &touch_.forces();
@@ -462,6 +487,8 @@ class Workbench {
             opening_.cancel(screen_.renderer()), timeline_.cancelOpening();
         if (std::exchange(state_.dismissPressed, false))
             problem_.clear();
+        if (std::exchange(state_.noticeDismissed, false))
+            notice_.clear();
         if (std::exchange(state_.quitPressed, false))
             window_.close();
         if (const auto gone = std::exchange(state_.forget, std::nullopt)) {
@@ -539,6 +566,9 @@ class Workbench {
     DrawQuality quality_;
     std::string notice_; // of the recorder
     LiveTouch touch_;
+    ForceKey forceKey_;
+    KeyWatch forceWatch_;
+    KeyQueue keys_;
     TimelineDesk timeline_;
     Opening opening_;
     DrawnMaterials drawn_;

@@ -1,12 +1,14 @@
 #pragma once
 // The two plain structs through which the haptic step and a device talk. Neither side links the other.
 
+#include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include <cstdint>
+#include <span>
 
 namespace touchstone {
 
@@ -27,10 +29,26 @@ struct DeviceSample {
     uint32_t buttons = 0;
     double age = 0.0;   ///< s since the device measured it
     bool valid = false; ///< false: nothing is known of the hand (unplugged, not started)
+    /// Touch begins again with this sample: the hand did not move here from where the last sample was.
+    bool begins = false;
+    /// The hand is moved by something that sees the model (mouse, simulated hand). Where it begins was then
+    /// chosen in the open, and while it is not valid it has been lifted on purpose: no fault of a device.
+    bool inSight = false;
     DeviceMapping mapping{};
 
     /// The haptic interface point, workspace.
     [[nodiscard]] glm::dvec3 inWorkspace() const { return mapping.workspaceFromDevice.point(position); }
+};
+
+/// What the last tick came to and how the objects have moved since, for a hand that the program itself moves.
+/// Workspace. `objects` holds during the call that passes it.
+struct TouchFeedback {
+    bool touching = false;
+    glm::dvec3 hip{0.0}, proxy{0.0};      ///< m, at the end of the last tick
+    glm::dvec3 force{0.0};                ///< N, stage 7: before safety, also while the force is off
+    std::span<const glm::dvec3> planes{}; ///< unit normals of the active constraint planes
+    int object = -1;                      ///< touched; index into `objects`
+    ObjectMotions objects{};              ///< to this tick; empty: nothing moves
 };
 
 /// What may be sent to a device, in the device frame. Only the safety stage can make one that is not zero.

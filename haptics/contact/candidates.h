@@ -2,10 +2,10 @@
 // The triangles near the proxy: gathered once from its object's tree, reused by every move until the proxy
 // leaves the ball.
 
+#include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 #include "haptics/contact/haptic_object.h"
 #include "haptics/contact/triangle.h"
-#include "haptics/object_motion.h"
 
 #include <glm/glm.hpp>
 

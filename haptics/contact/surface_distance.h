@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/object_motion.h"
+#include "engine/math/object_motion.h"
 
 #include <glm/glm.hpp>
 

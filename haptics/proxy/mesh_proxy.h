@@ -2,9 +2,9 @@
 // The mesh contact model: stages 2 and 3. A sphere moves towards a goal and never through a surface
 // (Ruspini, Kolarov and Khatib [000, 001]).
 
+#include "engine/math/object_motion.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/object_motion.h"
 #include "haptics/proxy/proxy_rest.h"
 
 #include <glm/glm.hpp>

@@ -41,7 +41,7 @@ bool NeighbourhoodWatch::place() noexcept {
         return true;
     state_.proxy = motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
     state_.watch.touching = false;
-    state_.placed = !isInsideAny(scene_, motions_, state_.hip);
+    state_.placed = mayBegin(scene_, motions_, state_);
     return state_.placed;
 }
 

@@ -2,10 +2,10 @@
 // The second contact model, stages 2 and 3: Ho, Basdogan and Srinivasan's neighbourhood watch (Presence 8(5),
 // 1999, §3; [000] has its results). Made to be compared with the sweep, which is the better one.
 
+#include "engine/math/object_motion.h"
 #include "haptics/contact/surface_walk.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/object_motion.h"
 #include "haptics/proxy/proxy_rest.h"
 
 #include <glm/glm.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 // Where an object is within a tick, of which only the two ends are known.
 
-#include "haptics/object_motion.h"
+#include "engine/math/object_motion.h"
 
 namespace touchstone {
 

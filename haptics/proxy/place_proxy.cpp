@@ -1,5 +1,7 @@
 #include "haptics/proxy/place_proxy.h"
 
+#include "haptics/proxy/clear_of_model.h"
+
 #include <cmath>
 
 namespace touchstone {
@@ -27,12 +29,21 @@ bool isInsideAny(const HapticScene& scene, ObjectMotions motions, const glm::dve
     return false;
 }
 
+bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
+    if (state.mustLeave && !clearOfModel(scene, motions, state.hip))
+        return false;
+    if (isInsideAny(scene, motions, state.hip))
+        return false;
+    state.mustLeave = false;
+    return true;
+}
+
 bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip, MeshProxy& proxy,
                 DeviceState& state) noexcept {
     if (state.placed)
         return true;
     proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inversePoint(hip));
-    if (isInsideAny(scene, motions, hip))
+    if (!mayBegin(scene, motions, state))
         return false;
     state.candidates.invalidate(); // what moved since the last try is not where it was gathered
     state.placed = proxy.isFree();

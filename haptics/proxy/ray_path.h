@@ -1,8 +1,8 @@
 #pragma once
 // What a straight move meets, found by Embree's rays and judged in the precision that is asked for.
 
+#include "engine/math/object_motion.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/object_motion.h"
 
 #include <glm/glm.hpp>
 

@@ -47,7 +47,7 @@ bool RayProxy<Real>::place() noexcept {
     if (state_.placed)
         return true;
     placeAt(motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip));
-    state_.placed = !isInsideAny(scene_, motions_, state_.hip);
+    state_.placed = mayBegin(scene_, motions_, state_);
     return state_.placed;
 }
 

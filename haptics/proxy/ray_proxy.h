@@ -2,9 +2,9 @@
 // The third contact model, stages 2 and 3: Zilles and Salisbury's god-object [001], a point that is moved by
 // rays. Made to be compared with the sweep, which is the better one.
 
+#include "engine/math/object_motion.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/object_motion.h"
 #include "haptics/proxy/proxy_rest.h"
 #include "haptics/proxy/ray_path.h"
 

@@ -12,7 +12,8 @@ std::optional<Fault> FaultWatch::add(const RecordedTick& tick) {
     constexpr double kForget = 0.1; // s of invalid input that a second of valid input makes good
     const bool faulty = has(tick.flags, TickFlag::ForceFault);
     const bool latched = has(tick.flags, TickFlag::SafetyLatched);
-    const bool invalid = has(tick.flags, TickFlag::InputInvalid);
+    // A hand in sight has been lifted on purpose, or its picture stalls: no device has failed.
+    const bool invalid = has(tick.flags, TickFlag::InputInvalid) && !tick.sample.inSight;
     sinceContact_ = tick.contacts > 0 ? 0.0 : sinceContact_ + tick.dt;
     invalid_ = invalid ? invalid_ + tick.dt : std::max(0.0, invalid_ - kForget * tick.dt);
     valid_ = invalid ? 0.0 : valid_ + tick.dt;

@@ -12,7 +12,7 @@ namespace touchstone {
 namespace {
 
 // Bits of a tick.
-constexpr uint32_t kSampleValid = 1, kLate = 2, kMissed = 4, kCheckpoint = 8;
+constexpr uint32_t kSampleValid = 1, kLate = 2, kMissed = 4, kCheckpoint = 8, kBegins = 16, kInSight = 32;
 
 void put(ByteWriter& bytes, const RecordingOrigin& origin) {
     for (const std::string* text :
@@ -103,7 +103,8 @@ void put(ByteWriter& bytes, const RecordedTick& tick) {
     bytes.put(tick.settings);
     bytes.put(tick.scene);
     bytes.put((tick.sample.valid ? kSampleValid : 0) | (tick.late ? kLate : 0) | (tick.missed ? kMissed : 0) |
-              (tick.checkpoint ? kCheckpoint : 0));
+              (tick.checkpoint ? kCheckpoint : 0) | (tick.sample.begins ? kBegins : 0) |
+              (tick.sample.inSight ? kInSight : 0));
     bytes.put(tick.wakeLatencyNs);
     bytes.put(tick.stepNs);
     for (const uint32_t hash : tick.hashes)
@@ -140,6 +141,8 @@ void get(ByteReader& bytes, RecordedTick& tick) {
     tick.late = (bits & kLate) != 0;
     tick.missed = (bits & kMissed) != 0;
     tick.checkpoint = (bits & kCheckpoint) != 0;
+    tick.sample.begins = (bits & kBegins) != 0;
+    tick.sample.inSight = (bits & kInSight) != 0;
     // Samples may be anything, they come from devices. These two come from us.
     if (!std::isfinite(tick.time) || !std::isfinite(tick.dt))
         throw Error("", "tick " + std::to_string(tick.tick), "has no time", "");

@@ -21,6 +21,7 @@ void eachField(State& s, const Visit& visit) {
     visit(s.velocity);
     visit(s.unsampled);
     visit(s.placed);
+    visit(s.mustLeave);
     visit(s.anchor);
     visit(s.proxy);
     visit(s.clearance);
@@ -58,7 +59,7 @@ struct CarriedFields {
     bool sampled = false;
     glm::dvec3 hip{0.0}, travel{0.0}, velocity{0.0};
     double unsampled = 0.0;
-    bool placed = false;
+    bool placed = false, mustLeave = false;
     int anchor = -1;
     glm::dvec3 proxy{0.0};
     double clearance = 0.0;

@@ -1,10 +1,10 @@
 #pragma once
 // Where the objects are at a tick: glTF node animation sampled at the tick's time.
 
+#include "engine/math/object_motion.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/object_motion.h"
 
 #include <glm/glm.hpp>
 

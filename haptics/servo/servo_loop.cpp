@@ -23,17 +23,30 @@ int32_t saturated(long long nanoseconds) {
 
 struct ServoLoop::Touch {
     const Offer* offer = nullptr;
-    uint32_t geometry = 0; // of the offer; 0: none
+    uint32_t geometry = 0;                    // of the offer; 0: none
+    const HapticSettings* settings = nullptr; // of this tick
     WorldState world;
     DeviceState device;
+    TouchFeedback felt; // of the tick before
+    std::array<glm::dvec3, 3> planes{};
     bool late = false; // the previous tick ended after its next deadline
     uint64_t nextCheckpoint = 0;
     double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the tick before in this scene
     TouchCheckpoint checkpoint;
+
+    void feelFrom(const HapticOutput& output) noexcept {
+        planes = output.planes;
+        felt = {.touching = output.contacts > 0,
+                .hip = output.hip,
+                .proxy = output.proxy,
+                .force = output.force,
+                .planes = {planes.data(), output.planeCount},
+                .object = output.object};
+    }
 };
 
 ServoLoop::ServoLoop(DevicePort port, const ServoConfig& config)
-    : port_(port), config_(config), records_(config.ringCapacity) {
+    : port_(port), config_(config), records_(config.ringCapacity), stepped_(std::make_unique<Touch>()) {
     if (port.sample == nullptr || port.apply == nullptr)
         throw Error("servo", "", "the device port is incomplete", "");
     if (!(config.rateHz >= kLeastServoRate && config.rateHz <= kMostServoRate))
@@ -74,21 +87,24 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
 }
 
 void ServoLoop::setSettings(const HapticSettings& settings) {
-    offeredSettings_.push_back({offeredSettings_.back().number + 1, settings});
+    HapticSettings withoutForce = settings;
+    withoutForce.forceEnabled = false;
+    offeredSettings_.push_back({offeredSettings_.back().number + 1, settings, withoutForce});
     settings_.write(offeredSettings_.back());
 }
 
 const HapticSettings& ServoLoop::settingsOf(uint32_t number) const {
     const auto found = std::lower_bound(
-        offeredSettings_.begin(), offeredSettings_.end(), number,
+        offeredSettings_.begin(), offeredSettings_.end(), number & ~kWithoutForce,
         [](const NumberedSettings& offered, uint32_t wanted) { return offered.number < wanted; });
-    return (found != offeredSettings_.end() ? *found : offeredSettings_.back()).settings;
+    const NumberedSettings& offered = found != offeredSettings_.end() ? *found : offeredSettings_.back();
+    return (number & kWithoutForce) != 0 ? offered.withoutForce : offered.settings;
 }
 
 bool ServoLoop::popRecord(TickRecord& record) {
     if (!records_.pop(record))
         return false;
-    while (offeredSettings_.front().number < record.settings)
+    while (offeredSettings_.front().number < (record.settings & ~kWithoutForce))
         offeredSettings_.pop_front();
     return true;
 }
@@ -120,6 +136,8 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     // A new world: forget the proxy, fade the force in, but remember what the device still holds.
     touch.world = WorldState{};
     touch.device.forgetTouch();
+    touch.device.mustLeave = true;
+    touch.felt = TouchFeedback{};
     ForceLimiter::restartRamp(touch.device.limiter);
     touch.previousTime = std::numeric_limits<double>::quiet_NaN();
 }
@@ -127,7 +145,12 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
 /// What a tick begins with: the newest scene and settings, and a checkpoint where one is due.
 void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     settings_.update();
+    touch.settings = &settings_.value().settings;
     record.settings = settings_.value().number;
+    if (forceSwitch_.off()) {
+        touch.settings = &settings_.value().withoutForce;
+        record.settings |= kWithoutForce;
+    }
     const Offer* offer = scene_.adopt();
     bool due = record.tick >= touch.nextCheckpoint;
     if (offer != touch.offer) {
@@ -156,6 +179,12 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     record.dt = dt;
     record.late = touch.late;
     prepare(touch, record);
+    const ObjectMotions objects =
+        touch.offer != nullptr ? touch.offer->moving.at(record.time) : ObjectMotions();
+    if (port_.feel != nullptr) {
+        touch.felt.objects = objects;
+        port_.feel(port_.context, touch.felt);
+    }
     record.sample = port_.sample(port_.context, record.time);
     if (touch.offer != nullptr) {
         TickInput input;
@@ -164,17 +193,28 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         input.dt = dt;
         input.late = touch.late;
         input.devices = {&record.sample, 1};
-        input.objects = touch.offer->moving.at(record.time);
+        input.objects = objects;
         StageStopwatch clock;
         StageTracer tracer(touch.device, record.trace, config_.stageTimes ? &clock : nullptr);
         const long long begin = monotonicNs();
-        hapticStep(*touch.offer->scene, settings_.value().settings, input, touch.world, {&touch.device, 1},
+        hapticStep(*touch.offer->scene, *touch.settings, input, touch.world, {&touch.device, 1},
                    {&record.output, 1}, tracer);
         record.stepNs = saturated(monotonicNs() - begin);
         std::ranges::transform(clock.nanoseconds, record.stageNs.begin(), saturated);
         touch.previousTime = record.time;
+        touch.feelFrom(record.output);
     }
     port_.apply(port_.context, record.output.command);
+    return record;
+}
+
+TickRecord ServoLoop::step(uint64_t number) noexcept {
+    const uint64_t elapsed = number > lastStepped_ ? number - lastStepped_ : 1;
+    lastStepped_ = number;
+    TickRecord record = tick(*stepped_, number, static_cast<double>(elapsed) / config_.rateHz);
+    record.step = ticks_.fetch_add(1, std::memory_order_relaxed);
+    records_.push(record);
+    snapshot_.write(record);
     return record;
 }
 
@@ -189,6 +229,7 @@ void ServoLoop::run() noexcept {
 
     const auto period = static_cast<long long>(1e9 / config_.rateHz + 0.5);
     const long long start = monotonicNs() + period;
+    startedNs_.store(start, std::memory_order_relaxed);
     Touch touch;
     uint64_t number = 0, previous = 0;
     while (!stopping_.load(std::memory_order_relaxed)) {

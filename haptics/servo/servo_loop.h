@@ -8,6 +8,7 @@
 #include "haptics/haptic_step.h"
 #include "haptics/recording/touch_checkpoint.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/servo/force_switch.h"
 #include "haptics/servo/realtime_thread.h"
 
 #include <array>
@@ -51,12 +52,14 @@ struct ServoConfig {
 inline constexpr double kLeastServoRate = 100.0; ///< Hz; below it a stiff wall can no longer be stable
 inline constexpr double kMostServoRate = 4000.0; ///< Hz; above it wake-up latency is no longer small
 
-/// Reads one sample and takes one command; both are called on the servo thread and must not block, allocate
-/// or throw. Two plain functions, so that haptics links no device.
+/// Reads one sample and takes one command; all are called on the servo thread and must not block, allocate
+/// or throw. Plain functions, so that haptics links no device.
 struct DevicePort {
     void* context = nullptr;
     DeviceSample (*sample)(void* context, double time) noexcept = nullptr;
     void (*apply)(void* context, const DeviceCommand& command) noexcept = nullptr;
+    /// Before each sample; may be null.
+    void (*feel)(void* context, const TouchFeedback& felt) noexcept = nullptr;
 };
 
 /// What a new scene is to the touch that goes on.
@@ -77,6 +80,10 @@ class ServoLoop {
     void start(); ///< returns once the thread has its scheduling; no-op while running
     void stop(); ///< joins; the last command sent is zero. May be started again: time and ticks go on from 0.
 
+    /// Makes tick `number` at once on the calling thread, without a clock: the same code, deterministic. Not
+    /// while it runs. The caller enters the float mode (engine/core/float_mode.h). `number` grows.
+    TickRecord step(uint64_t number) noexcept;
+
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
     /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
     /// Returns the number by which TickRecord::scene names it.
@@ -85,6 +92,9 @@ class ServoLoop {
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
                         SceneSwap swap = SceneSwap::Anew);
     void setSettings(const HapticSettings& settings);
+    /// Takes the force away from any thread. While it is off a tick has the settings with forceEnabled off,
+    /// under a number of their own.
+    [[nodiscard]] ForceSwitch& forceSwitch() { return forceSwitch_; }
     /// Owner thread: what TickRecord::settings of the record popped last, or of a later one, stands for.
     [[nodiscard]] const HapticSettings& settingsOf(uint32_t number) const;
     /// Owner thread: the next tick takes one, wherever the last one was.
@@ -110,6 +120,8 @@ class ServoLoop {
     };
     [[nodiscard]] Counters counters() const;          ///< any thread
     [[nodiscard]] ServoScheduling scheduling() const; ///< after start
+    /// CLOCK_MONOTONIC, ns, at which the time of the ticks is 0; 0: never started. Any thread.
+    [[nodiscard]] int64_t startedNs() const { return startedNs_.load(std::memory_order_relaxed); }
     [[nodiscard]] double rateHz() const { return config_.rateHz; }
 
   private:
@@ -122,8 +134,10 @@ class ServoLoop {
     };
     struct NumberedSettings {
         uint32_t number = 0;
-        HapticSettings settings;
+        HapticSettings settings, withoutForce{.forceEnabled = false};
     };
+    /// Bit of a settings' number: with the force taken away.
+    static constexpr uint32_t kWithoutForce = 1u << 31;
     struct Touch; // what the loop carries from tick to tick
 
     void run() noexcept;
@@ -136,6 +150,7 @@ class ServoLoop {
     TripleBuffer<NumberedSettings> settings_;
     TripleBuffer<TickRecord> snapshot_;
     RecordRing<TickRecord> records_;
+    ForceSwitch forceSwitch_;
     RecordRing<TouchCheckpoint> checkpoints_{64};
     std::atomic<bool> checkpointWanted_{false};
     Handover<Offer> scene_;
@@ -146,7 +161,10 @@ class ServoLoop {
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;
     std::atomic<bool> scheduled_{false};
+    std::atomic<int64_t> startedNs_{0};
     std::thread thread_;
+    std::unique_ptr<Touch> stepped_; // of `step`
+    uint64_t lastStepped_ = 0;
 };
 
 } // namespace touchstone

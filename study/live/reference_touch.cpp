@@ -51,12 +51,14 @@ void ReferenceTouch::enter(std::shared_ptr<const HapticScene> scene, ScenePtr so
     moving_ =
         scene_ != nullptr && source != nullptr ? MovingObjects(std::move(source), *scene_) : MovingObjects();
     state_.forgetTouch();
+    state_.mustLeave = true;
     follows_ = false;
 }
 
 void ReferenceTouch::adopt(const TickRecord& record, const HapticSettings& settings, ObjectMotions motions) {
     const HapticOutput& felt = record.output;
     state_.forgetTouch();
+    state_.mustLeave = has(felt.flags, TickFlag::StartedInside) && !record.sample.inSight;
     state_.sampled = !has(felt.flags, TickFlag::InputInvalid);
     state_.hip = felt.hip;
     state_.velocity = felt.hipVelocity;

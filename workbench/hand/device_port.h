@@ -7,13 +7,14 @@ namespace touchstone {
 
 /// Plugs a device into the servo; the device outlives the loop.
 [[nodiscard]] inline DevicePort portOf(Device& device) {
-    return {.context = &device,
-            .sample = [](void* context,
-                         double time) noexcept { return static_cast<Device*>(context)->sample(time); },
-            .apply =
-                [](void* context, const DeviceCommand& command) noexcept {
-                    static_cast<Device*>(context)->apply(command);
-                }};
+    return {
+        .context = &device,
+        .sample = [](void* context,
+                     double time) noexcept { return static_cast<Device*>(context)->sample(time); },
+        .apply = [](void* context,
+                    const DeviceCommand& command) noexcept { static_cast<Device*>(context)->apply(command); },
+        .feel = [](void* context,
+                   const TouchFeedback& felt) noexcept { static_cast<Device*>(context)->feel(felt); }};
 }
 
 } // namespace touchstone

@@ -31,8 +31,15 @@ void HandSwitch::apply(const DeviceCommand& command) noexcept {
     if (driven_ != nullptr) {
         away_ = away_ && (gliding_ || command.force() != kNothing || command.torque() != kNothing);
         driven_->apply(away_ ? DeviceCommand{} : command);
-    } else
-        mouse_.apply(followed_ == nullptr && !gliding_ ? command : DeviceCommand{});
+    }
+}
+
+/// What another hand feels, or one on its way, is not the mouse's.
+void HandSwitch::feel(const TouchFeedback& felt) noexcept {
+    if (followed_ == nullptr && !gliding_)
+        mouse_.feel(felt);
+    else
+        mouse_.feel({.objects = felt.objects});
 }
 
 /// What a glide feels is not where the device is, and what is left of the force of the hand before is not the
@@ -46,9 +53,13 @@ void HandSwitch::couple(DeviceSample& sample, double time) noexcept {
 /// Turns to another hand, or to another path.
 void HandSwitch::follow(const StrokePath* path, double time) noexcept {
     const void* follows = driven_ != nullptr ? static_cast<const void*>(driven_) : path;
-    if (follows == followed_)
+    const uint32_t left = leaves_.load(std::memory_order_acquire);
+    const bool again = left != left_ && path != nullptr;
+    left_ = left;
+    if (follows == followed_ && !again)
         return;
     followed_ = follows;
+    begins_ = true;
     gliding_ = started_;
     away_ = started_ && driven_ != nullptr;
     glideStart_ = time;
@@ -62,6 +73,17 @@ void HandSwitch::follow(const StrokePath* path, double time) noexcept {
     changed_ = !sameFrame(before, now);
     if (started_)
         glideFrom_ = now.inversePoint(lastHip_);
+}
+
+/// Touch begins where the hand comes to be: a device that is taken up may be inside the model, to where the
+/// glide has pulled the proxy along. On its way nothing else begins.
+void HandSwitch::begin(DeviceSample& sample) noexcept {
+    if (followed_ != nullptr || gliding_)
+        sample.begins = false;
+    sample.inSight = driven_ == nullptr;
+    if (gliding_ || !sample.valid)
+        return;
+    sample.begins = sample.begins || std::exchange(begins_, false);
 }
 
 /// Clutch and zoom.
@@ -97,6 +119,7 @@ DeviceSample HandSwitch::sample(double time) noexcept {
     }
     if (std::exchange(changed_, false))
         sample.valid = false;
+    begin(sample);
     if (followed_ != nullptr)
         place(sample, time);
     couple(sample, time);

@@ -38,12 +38,19 @@ class HandSwitch final : public Device {
     }
     /// The device's origin becomes the workspace's again, at once and without touch.
     void centre() noexcept { centres_.fetch_add(1, std::memory_order_relaxed); }
+    /// Another model, or the same built again, is where the hand is: the mouse is lifted off until its next
+    /// goal, a stroke begins again. Before that model is offered to the servo.
+    void leave() noexcept {
+        mouse_.release();
+        leaves_.fetch_add(1, std::memory_order_release);
+    }
     /// Frees what the servo has let go.
     void collect() { held_.collect(); }
     [[nodiscard]] MouseDevice& mouse() { return mouse_; }
 
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] DeviceLimits limits() const override;
+    void feel(const TouchFeedback& felt) noexcept override;
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void apply(const DeviceCommand& command) noexcept override;
 
@@ -56,6 +63,7 @@ class HandSwitch final : public Device {
         return {zoom_.load(std::memory_order_relaxed), clutch_.load(std::memory_order_relaxed)};
     }
     void follow(const StrokePath* path, double time) noexcept;
+    void begin(DeviceSample& sample) noexcept;
     void place(DeviceSample& sample, double time) noexcept;
     void couple(DeviceSample& sample, double time) noexcept;
 
@@ -66,7 +74,7 @@ class HandSwitch final : public Device {
     Handover<StrokePath> path_;
     std::atomic<double> zoom_{1.0};
     std::atomic<bool> clutch_{false};
-    std::atomic<uint32_t> centres_{0};
+    std::atomic<uint32_t> centres_{0}, leaves_{0};
     // Servo thread:
     const void* followed_ = nullptr;           // the path or the device; null: the mouse
     LinkedDevice* driven_ = nullptr;           // in this tick
@@ -75,9 +83,10 @@ class HandSwitch final : public Device {
     WorkspaceMap map_;
     glm::dvec3 centre_{0.0}; // of what is followed
     double lastTime_ = 0.0;
-    uint32_t centred_ = 0; // of centres_
+    uint32_t centred_ = 0, left_ = 0; // of centres_, leaves_
     bool changed_ = false; // another hand, in another place of the workspace: nothing is known in this tick
     bool started_ = false, gliding_ = false;
+    bool begins_ = false; // where the hand comes to be: touch begins there
     bool away_ = false; // the device is not where the hand is, or what comes is left of another hand's force
     double coupling_ = 1.0;
 };

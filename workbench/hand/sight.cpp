@@ -16,14 +16,20 @@ void Sight::show(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
 std::optional<PointedSurface> Sight::look(const Ray& ray, double time, const HapticSettings& settings) {
     if (scene_ == nullptr)
         return std::nullopt;
-    const auto hit = pickSurface(*scene_, moving_.at(time), ray.origin, ray.direction);
+    const ObjectMotions motions = moving_.at(time);
+    const auto hit = pickSurface(*scene_, motions, ray.origin, ray.direction);
     if (!hit)
         return std::nullopt;
     const double own = scene_->materials[static_cast<size_t>(hit->material)].stiffness;
     const double stiffness = settings.stiffness > 0.0 ? settings.stiffness
                              : std::isnan(own)        ? scene_->limits.recommendedStiffness
                                                       : own;
-    return PointedSurface{hit->point, hit->normal, std::min(stiffness, scene_->limits.maxStiffness)};
+    PointedSurface surface{hit->point, hit->normal, std::min(stiffness, scene_->limits.maxStiffness)};
+    if (!motions.empty()) {
+        surface.object = hit->object;
+        surface.workspaceFromObject = motions[static_cast<size_t>(hit->object)].workspaceFromObject;
+    }
+    return surface;
 }
 
 Similarity Sight::restFromNow(int object, double time) {

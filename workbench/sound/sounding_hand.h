@@ -28,6 +28,7 @@ class SoundingHand final : public Device {
 
     [[nodiscard]] std::string name() const override { return hand_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return hand_.limits(); }
+    void feel(const TouchFeedback& felt) noexcept override { hand_.feel(felt); }
     [[nodiscard]] DeviceSample sample(double time) noexcept override {
         sampled_ = time;
         return last_ = hand_.sample(time);

@@ -39,6 +39,7 @@ DeviceSample RecordedPath::at(double time) const noexcept {
     DeviceSample out;
     const Sample& before = after == samples_.begin() ? samples_.front() : *std::prev(after);
     out.valid = before.valid;
+    out.inSight = true;
     out.position = before.position;
     if (after == samples_.end() && options_.repeats)
         out.position = glide(samples_.back().position, samples_.front().position,
@@ -47,6 +48,14 @@ DeviceSample RecordedPath::at(double time) const noexcept {
         out.position = glm::mix(before.position, after->position,
                                 (seconds - before.seconds) / (after->seconds - before.seconds));
     return out;
+}
+
+/// What the recorded hand feels, or one on its way, is not one's own.
+void AgainHand::feel(const TouchFeedback& felt) noexcept {
+    if (followed_ == nullptr && !gliding_)
+        own_.feel(felt);
+    else
+        own_.feel({.objects = felt.objects});
 }
 
 DeviceSample AgainHand::sample(double time) noexcept {
@@ -67,6 +76,8 @@ DeviceSample AgainHand::sample(double time) noexcept {
         const glm::dvec3 hip = glide(glideFrom_, sample.inWorkspace(), (time - glideStart_) / kGlideTime);
         sample.position = sample.mapping.workspaceFromDevice.inversePoint(hip);
         gliding_ = time - glideStart_ < kGlideTime;
+        // One's own hand may be anywhere by now, inside the model too: touch begins where it is.
+        sample.begins = path == nullptr && !gliding_;
     }
     const Similarity& now = sample.mapping.workspaceFromDevice;
     if (goesOver && started_ && !sameFrame(now, lastMap_))

@@ -71,6 +71,7 @@ class AgainHand final : public Device {
 
     [[nodiscard]] std::string name() const override { return own_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return own_.limits(); }
+    void feel(const TouchFeedback& felt) noexcept override;
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void apply(const DeviceCommand& command) noexcept override { own_.apply(command); }
 

@@ -109,8 +109,11 @@ std::shared_ptr<HapticScene> LiveTouch::limited(const HapticScene& scene) const 
 void LiveTouch::offerScene(SceneSwap swap) {
     shown_.identity.limits = shown_.model.haptic->limits;
     sight_.show(shown_.model.haptic, shown_.model.scene);
-    if (swap == SceneSwap::Anew)
+    if (swap == SceneSwap::Anew) {
         sound_.interrupt();
+        hand_.leave();
+        builtAgain_ = true;
+    }
     offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene, swap);
     desk_.recorder().sceneOffered(offered_, shown_.identity);
     liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);

@@ -20,6 +20,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 
@@ -43,6 +44,9 @@ class LiveTouch {
     void show(LoadedModel loaded, bool generated);
     /// Goes on with other materials of the same model; touch goes on where it may.
     void change(const MadeMaterials& made);
+    /// Whether the touch of the model began again since the last call: it was opened, or its geometry was
+    /// built again, or another device limits it.
+    [[nodiscard]] bool takeBuiltAgain() { return std::exchange(builtAgain_, false); }
     /// The model's file has been written, with these edits in it.
     void saved(const std::filesystem::path& path, const FileStamp& stamp, std::string edits);
 
@@ -66,6 +70,9 @@ class LiveTouch {
         return sight_.look(ray, tick().time, settings);
     }
     [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); } ///< the newest at `update`
+    [[nodiscard]] ForceSwitch& forceSwitch() { return servo_.forceSwitch(); }
+    /// CLOCK_MONOTONIC, s, at which the time of the ticks is 0.
+    [[nodiscard]] double startedAt() const { return 1e-9 * static_cast<double>(servo_.startedNs()); }
     [[nodiscard]] double rateHz() const { return servo_.rateHz(); }
     [[nodiscard]] const ServoView& figures() const { return servoView_; }
     [[nodiscard]] const ForceHistory& forces() const { return forces_; }
@@ -90,6 +97,7 @@ class LiveTouch {
     ServoView servoView_;
     ForceHistory forces_;
     LoadedModel shown_;
+    bool builtAgain_ = false;
     uint32_t offered_ = 0;               // number of the newest scene
     std::optional<HapticSettings> sent_; // to the servo
     BackgroundBuild build_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace touchstone {
 
@@ -47,6 +48,13 @@ bool anyDown(std::initializer_list<int> keys) {
     return std::any_of(keys.begin(), keys.end(), [](int key) { return ImGui::IsKeyDown(key); });
 }
 
+/// With Ctrl: what a text field does itself.
+bool editsText(int key) {
+    constexpr std::string_view kEditing = "acvxyz";
+    return std::any_of(kEditing.begin(), kEditing.end(), [key](char sign) { return keyOf(sign) == key; }) ||
+           (key >= GLFW_KEY_ENTER && key <= GLFW_KEY_END);
+}
+
 } // namespace
 
 int keyOf(char sign) {
@@ -55,7 +63,9 @@ int keyOf(char sign) {
 
 bool keyPressed(int key) {
     const ImGuiIO& io = ImGui::GetIO();
-    return !io.WantTextInput && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper && ImGui::IsKeyPressed(key, false);
+    const bool writesNothing = key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25;
+    return (!io.WantTextInput || writesNothing) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper &&
+           ImGui::IsKeyPressed(key, false);
 }
 
 bool keyPressed(std::initializer_list<int> keys) {
@@ -64,7 +74,8 @@ bool keyPressed(std::initializer_list<int> keys) {
 
 bool ctrlPressed(int key, bool repeat) {
     const ImGuiIO& io = ImGui::GetIO();
-    return !io.WantTextInput && io.KeyCtrl && !io.KeyAlt && !io.KeySuper && ImGui::IsKeyPressed(key, repeat);
+    return !(io.WantTextInput && editsText(key)) && io.KeyCtrl && !io.KeyAlt && !io.KeySuper &&
+           ImGui::IsKeyPressed(key, repeat);
 }
 
 double keyAxis(std::initializer_list<int> less, std::initializer_list<int> more) {

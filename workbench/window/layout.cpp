@@ -72,11 +72,7 @@ void foldSide(PanelFolds& folds, bool PanelFolds::*side, bool PanelFolds::*other
         folds.*other = true;
 }
 
-void effectKeys(const PanelInput& input, PanelState& state) {
-    HapticSettings& settings = state.settings;
-    // While a recording is looked at the force is off, whatever this says: then it only stays off afterwards.
-    if (keyPressed(GLFW_KEY_SPACE))
-        settings.forceEnabled = !settings.forceEnabled && !input.timeline->looking();
+void effectKeys(PanelState& state) {
     if (keyPressed(GLFW_KEY_F5))
         kShadingSwitch.toggle(state);
     if (keyPressed(GLFW_KEY_F6))
@@ -263,7 +259,7 @@ PictureRect pictureRect(const PanelFolds& wanted, const glm::vec2& window, float
 std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     Widgets widgets(input.scale);
-    effectKeys(input, state);
+    effectKeys(state);
     escape(input, state);
     answerKeys(input, state);
     windowKeys(input, state);

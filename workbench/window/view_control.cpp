@@ -76,8 +76,17 @@ void ViewControl::lookAt(const Bounds& bounds, double aspect) {
     const glm::dvec3 centre = bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
     hand_ = MouseHand(centre + glm::dvec3(0.0, 0.0, 0.5 * bounds.extent().z + kClearance));
     over_ = hand_.goal();
-    lifted_ = 0.0;
-    pressing_ = false;
+    pressed_ = {.press = 0.0};
+    lift(); // from where the model before was touched
+    pressing_ = armed_ = false;
+}
+
+std::optional<MouseGoal> ViewControl::handGoal() const {
+    if (lifted_ > 0.0)
+        return std::nullopt;
+    MouseGoal goal = pressed_;
+    goal.position = goal.object >= 0 ? pointedAt_.inversePoint(hand_.goal()) : hand_.goal();
+    return goal;
 }
 
 void ViewControl::go(CameraMove move, const Situation& now) {
@@ -109,6 +118,8 @@ void ViewControl::go(CameraMove move, const Situation& now) {
 }
 
 void ViewControl::update(const Situation& now, ViewOptions& options) {
+    putDown_ = lifted_ > 0.0 && lifted_ <= now.seconds;
+    lifted_ = std::max(0.0, lifted_ - now.seconds);
     if (!now.covered) {
         if (const std::optional<CameraMove> move = keyMove(now.looksBack))
             options.move = move;
@@ -129,6 +140,7 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
 void ViewControl::letGo() {
     pressing_ = false;
     hand_.pointAt({.point = over_, .normal = glm::dvec3(0.0)}, {.force = 0.0});
+    pressed_.press = 0.0;
 }
 
 /// Arrows orbit, with Shift they pan; plus and minus zoom.
@@ -167,7 +179,7 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
     if (!now.mouseIsHand)
         return;
     if (options.freeHand || !now.look) {
-        lifted_ = 0.0;
+        pressed_ = {.press = INFINITY};
         moveFreeHand(now);
         over_ = hand_.goal();
         return;
@@ -198,15 +210,19 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
     if (!ImGui::IsMousePosValid())
         return;
     const Ray sight = camera_.rayThroughPixel(pointer - now.origin, now.area);
-    const bool back = lifted_ > 0.0 && lifted_ <= now.seconds;
-    lifted_ = std::max(0.0, lifted_ - now.seconds);
+    armed_ = armed_ || !io.MouseDown[0];
     if (const std::optional<PointedSurface> seen = now.look(sight)) {
         const PointedSurface surface = withRoom(now, *seen);
         liftWhereBlocked(now, MouseHand::hoverOver(surface));
         // It comes back in the air, before it presses.
-        pressing_ = io.MouseDown[0] && !back;
+        pressing_ = io.MouseDown[0] && armed_ && !putDown_;
+        pressed_ = {.object = surface.object,
+                    .press = pressing_ ? options.press : 0.0,
+                    .stiffness = surface.stiffness};
+        pointedAt_ = surface.workspaceFromObject;
         return hand_.pointAt(surface, {.force = pressing_ ? options.press : 0.0});
     }
+    pressed_ = {.press = 0.0};
     hand_.pointPast({camera_.right(), camera_.up(), camera_.forward()}, sight.origin, sight.direction);
     liftWhereBlocked(now, hand_.goal());
 }
@@ -225,14 +241,13 @@ PointedSurface ViewControl::withRoom(const Situation& now, const PointedSurface&
 /// an edge or from one part to another, the hand is lifted off and put down there: for long enough that touch
 /// begins anew. Dragged through, it would stay held on the side that it came from.
 void ViewControl::liftWhereBlocked(const Situation& now, const glm::dvec3& to) {
-    constexpr double kGone = 0.08; // s; kForceRampOutTime is 0.05
     const glm::dvec3 from = std::exchange(over_, to), way = to - from;
     const double length = glm::length(way);
     if (!(length > 0.0))
         return;
     const std::optional<PointedSurface> met = now.look({from, way / length});
     if (met && glm::distance(met->point, from) < length)
-        lifted_ = kGone;
+        lift();
 }
 
 } // namespace touchstone

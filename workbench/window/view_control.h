@@ -1,5 +1,6 @@
 #pragma once
 
+#include "devices/mouse_device.h"
 #include "devices/mouse_hand.h"
 #include "engine/math/similarity.h"
 #include "renderer/camera.h"
@@ -43,10 +44,10 @@ class ViewControl {
     [[nodiscard]] glm::dquat workspaceFromView() const {
         return glm::quat_cast(glm::dmat3(camera_.right(), camera_.up(), -camera_.forward()));
     }
-    /// Workspace, m; none while the hand is lifted off the model.
-    [[nodiscard]] std::optional<glm::dvec3> handGoal() const {
-        return lifted_ > 0.0 ? std::nullopt : std::optional(hand_.goal());
-    }
+    /// None while the hand is lifted off the model.
+    [[nodiscard]] std::optional<MouseGoal> handGoal() const;
+    /// The model has been built again where the hand is: it is lifted off and put down in sight of it.
+    void lift() { lifted_ = kLifted; }
 
   private:
     void go(CameraMove move, const Situation& now);
@@ -61,8 +62,15 @@ class ViewControl {
     Bounds bounds_;
     MouseHand hand_{glm::dvec3(0.0, 0.0, 0.1)};
     glm::dvec3 over_{0.0}; ///< where the hand last hovered, or would have if it did not press
+    /// s; kForceRampOutTime is 0.05: the force has faded when the hand is put down.
+    static constexpr double kLifted = 0.08;
+
     bool pressing_ = false;
-    double lifted_ = 0.0; ///< s for which the hand is still gone
+    bool armed_ = true;    ///< the button has been up since the model was opened
+    MouseGoal pressed_;    ///< but for its position: what the hand points at, and how hard
+    Similarity pointedAt_; ///< workspaceFromObject of pressed_.object, when it was pointed at
+    bool putDown_ = false; ///< in this frame, having been lifted
+    double lifted_ = 0.0;  ///< s for which the hand is still gone
 };
 
 } // namespace touchstone

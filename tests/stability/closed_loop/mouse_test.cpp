@@ -4,6 +4,7 @@
 #include "devices/mouse_device.h"
 #include "devices/mouse_hand.h"
 #include "haptics/contact/surface_pick.h"
+#include "haptics/safety/passivity.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
 
@@ -31,10 +32,16 @@ struct Pointer {
         const glm::dvec3 eye(at.x, 0.5, -at.y), along(0.0, -1.0, 0.0);
         if (const auto pick = pickSurface(*bench.scene, {}, eye, along))
             hand.pointAt({pick->point, pick->normal, bench.settings.stiffness}, press);
-        mouse.moveTo(hand.goal());
+        mouse.moveTo({.position = hand.goal(), .press = press.force, .stiffness = bench.settings.stiffness});
         for (int i = 0; i < 33; ++i) {
+            const HapticOutput& felt = bench.output;
+            mouse.feel({.touching = felt.contacts > 0,
+                        .hip = felt.hip,
+                        .proxy = felt.proxy,
+                        .force = felt.force,
+                        .planes = {felt.planes.data(), felt.planeCount}});
             bench.step(mouse.sample(kTick * static_cast<double>(ticks++)).position);
-            mouse.apply(bench.output.command);
+            most = std::max(most, glm::length(felt.force));
             jump = std::max(jump, glm::length(bench.output.force - last));
             last = bench.output.force;
         }
@@ -50,6 +57,7 @@ struct Pointer {
     MouseDevice mouse;
     MousePress press;
     int ticks = 0;
+    double most = 0.0; ///< N, the most so far
     double jump = 0.0; ///< N in a tick, the most since rest()
     glm::dvec3 last{0.0};
 };
@@ -69,7 +77,25 @@ TEST(MouseLoop, PressesWithTheForceItWasAskedFor) {
             pointer.press.force = force;
             pointer.rest({0.01, 0.02}, 1.0);
             EXPECT_NEAR(pointer.bench.output.force.y, force, 1e-3 * force) << stiffness << " N/m";
+            EXPECT_LT(pointer.most, 1.0001 * force) << "not even when it lands";
         }
+}
+
+TEST(MouseLoop, LettingGoThrowsNobodyOut) {
+    for (const double stiffness : {600.0, 3500.0}) {
+        Pointer pointer(wall(stiffness, 0.0));
+        pointer.press.force = 3.0;
+        pointer.rest({0.01, 0.02}, 1.0);
+        glm::dvec3 last = pointer.bench.output.hip;
+        pointer.press.force = 0.0;
+        for (int i = 0; i < 30; ++i) {
+            pointer.frame({0.01, 0.02});
+            EXPECT_LE(glm::distance(last, pointer.bench.output.hip), 33 * kTick * MouseSmoothing{}.maxSpeed);
+            EXPECT_LT(pointer.bench.output.energyBalance, kNoticedEnergy) << stiffness << " N/m";
+            last = pointer.bench.output.hip;
+        }
+        EXPECT_EQ(pointer.bench.output.contacts, 0u);
+    }
 }
 
 TEST(MouseLoop, FrictionIsSeenAsLag) {

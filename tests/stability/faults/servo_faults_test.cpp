@@ -133,6 +133,9 @@ TEST_F(ServoFaults, ADeviceUnpluggedInContactAndPluggedInDeepInside) {
             case 5:
                 sample.position.z -= 0.015;
                 break; // back, in the middle of the tube
+            case 6:
+                sample.position.z += 0.01;
+                break; // out of it
             default:
                 break;
             }
@@ -151,21 +154,38 @@ TEST_F(ServoFaults, ADeviceUnpluggedInContactAndPluggedInDeepInside) {
         EXPECT_EQ(forceOf(rig.records.back()), 0.0) << "faded out, fault " << kind;
         fault = 5;
         rig.ticks(200);
+        EXPECT_EQ(forceOf(rig.records.back()), 0.0) << "inside";
+        fault = 6;
+        rig.ticks(50);
     }
     expectSound(rig);
     EXPECT_GT(rig.countOf(TickFlag::InputInvalid), 1000u);
 }
 
 TEST_F(ServoFaults, ScenesSwappedInContact) {
-    RecordedServo rig([&](double time) { return at(overTheDoughnut(time)); }, kUsual);
+    std::atomic<bool> lifted{false}; // what comes where the hand is, is felt when the hand has left it
+    RecordedServo rig(
+        [&](double time) {
+            return at(overTheDoughnut(time) + glm::dvec3(0.0, 0.0, lifted.load() ? 0.01 : 0.0));
+        },
+        kUsual);
     begin(rig);
     rig.ticks(400);
     const TouchedScene moving = touchedScene("moving.glb");
     for (int i = 0; i < 8; ++i) {
         rig.offer(floorScene(i % 2 == 0 ? 0.1f : -0.02f, {.recommendedStiffness = 3000.0}));
         rig.ticks(120);
+        const size_t before = rig.inContact();
         rig.offer(i % 3 == 0 ? moving : doughnut_);
+        rig.ticks(60);
+        EXPECT_EQ(rig.inContact(), before) << "not left yet";
+        lifted = true;
+        rig.ticks(60);
+        lifted = false;
         rig.ticks(250);
+        if (i % 3 != 0) {
+            EXPECT_GT(rig.inContact(), before + 30);
+        }
     }
     expectSound(rig);
     size_t swaps = 0;

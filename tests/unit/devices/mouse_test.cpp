@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace touchstone {
 namespace {
@@ -88,13 +89,17 @@ TEST(MouseDevice, ArrivesAndRests) {
     EXPECT_LT(glm::distance(last, goal), 1e-9);
 }
 
-TEST(MouseDevice, AgesWhileTheWindowIsSilent) {
+TEST(MouseDevice, HasNoAgeWhileTheWindowIsSilent) {
     MouseDevice mouse;
-    mouse.moveTo(glm::dvec3(0.0));
-    EXPECT_EQ(mouse.sample(1.0).age, 0.0);
-    EXPECT_NEAR(mouse.sample(1.5).age, 0.5, 1e-12);
-    mouse.moveTo(glm::dvec3(0.0));
-    EXPECT_EQ(mouse.sample(1.6).age, 0.0);
+    mouse.moveTo(glm::dvec3(0.01));
+    for (const double time : {1.0, 1.5, 100.0}) {
+        const DeviceSample sample = mouse.sample(time);
+        EXPECT_TRUE(sample.valid);
+        EXPECT_TRUE(sample.inSight);
+        EXPECT_EQ(sample.begins, time == 1.0);
+        EXPECT_EQ(sample.age, 0.0);
+        EXPECT_EQ(sample.position, glm::dvec3(0.01));
+    }
 }
 
 TEST(MouseDevice, AStalledServoResumesWhereItWas) {
@@ -114,10 +119,36 @@ TEST(MouseDevice, StartsAnewAfterRelease) {
     (void)mouse.sample(0.0);
     mouse.release();
     EXPECT_FALSE(mouse.sample(0.001).valid);
-    mouse.moveTo(glm::dvec3(-0.1), 5);
-    const DeviceSample sample = mouse.sample(0.002);
+    EXPECT_TRUE(mouse.sample(0.001).inSight) << "lifted on purpose";
+    mouse.moveTo({.position = glm::dvec3(-0.1), .buttons = 5});
+    DeviceSample sample = mouse.sample(0.002);
     EXPECT_EQ(sample.position, glm::dvec3(-0.1));
     EXPECT_EQ(sample.buttons, 5u);
+    EXPECT_TRUE(sample.begins);
+    // Also where the servo has not seen that it was gone.
+    mouse.release();
+    mouse.moveTo(glm::dvec3(0.1));
+    sample = mouse.sample(0.003);
+    EXPECT_EQ(sample.position, glm::dvec3(0.1));
+    EXPECT_TRUE(sample.begins);
+}
+
+TEST(MouseDevice, GoesAlongWithTheObjectThatItPointsAt) {
+    MouseDevice mouse;
+    mouse.moveTo({.position = glm::dvec3(0.0, 0.01, 0.0), .object = 1});
+    std::vector<ObjectMotion> motions(2);
+    for (int tick = 0; tick < 3000; ++tick) {
+        motions[1].before = motions[1].workspaceFromObject;
+        motions[1].workspaceFromObject.translation.x += 0.002; // 2 m/s, four times as fast as a hand
+        mouse.feel({.objects = motions});
+        const DeviceSample sample = mouse.sample(tick * kTick);
+        ASSERT_TRUE(sample.valid);
+        ASSERT_LT(glm::distance(sample.position,
+                                motions[1].workspaceFromObject.translation + glm::dvec3(0.0, 0.01, 0.0)),
+                  1e-12);
+    }
+    mouse.feel({});
+    EXPECT_FALSE(mouse.sample(3.0).valid) << "another scene, in which there is no such object";
 }
 
 TEST(MouseDevice, IgnoresGoalsThatAreNoPlace) {

@@ -21,7 +21,7 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
     if (input.timeline->looking())
         return {"Touched again, force off", kAmber};
     if (has(tick.flags, TickFlag::StartedInside))
-        return {"Inside: move out to touch", kAmber};
+        return {"Inside or too near: move out to touch", kAmber};
     if (has(tick.flags, TickFlag::InputInvalid))
         return {"No hand", kGrey};
     if (const double coupling = input.servo->last.sample.mapping.coupling; coupling < 1.0)

@@ -37,8 +37,11 @@ struct PanelInput {
     /// Shows the picture of an entry of the gallery between two corners, window coordinates.
     std::function<void(size_t, const glm::vec2&, const glm::vec2&)> showPicture;
     std::vector<std::string> warnings;
-    std::string problem; ///< of the last load, with its remedy; empty: none
-    std::string notice;  ///< of the recorder: what went wrong, or what was kept
+    std::string problem;       ///< of the last load, with its remedy; empty: none
+    uint32_t forcePresses = 0; ///< of the force key so far
+    bool typing = false;       ///< into a text field
+    double servoStart = 0.0;   ///< CLOCK_MONOTONIC, s, at which the time of the ticks is 0
+    std::string notice;        ///< of the recorder: what went wrong, or what was kept
     bool recording = false;
     std::string recordingFile; ///< the last one; empty: none yet
     double recordedSeconds = 0.0;
@@ -105,6 +108,7 @@ struct PanelState {
     std::optional<std::filesystem::path> leaving;
     enum class Leave : uint8_t { Undecided, Save, Discard, Stay } leave = Leave::Undecided; ///< in this frame
     bool recordPressed = false, cancelPressed = false, dismissPressed = false, quitPressed = false;
+    bool noticeDismissed = false;
     std::optional<ChartFile> chartWanted;
     std::optional<std::filesystem::path> open, forget; ///< forget: that it was opened
 };

@@ -15,7 +15,7 @@ void nextStroke(PanelState& state, int step);
 /// "clutch", "force comes back", "zoom 2.0x", both or nothing.
 [[nodiscard]] std::string workspaceText(const DeviceMapping& mapping);
 /// The model's nodes, what is touched among them, and what was wrong with the file.
-void drawScene(const PanelInput& input, const PanelState& state, Widgets& widgets);
+void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// What the touched material is felt as, and which effects it has and why.
 void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);
 

@@ -72,7 +72,7 @@ class NodeTree {
 
 } // namespace
 
-void drawScene(const PanelInput& input, const PanelState&, Widgets& widgets) {
+void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextUnformatted(input.modelName.empty() ? "none yet" : input.modelName.c_str());
     widgets.mark("model");
     if (!input.modelFacts.empty())
@@ -83,8 +83,12 @@ void drawScene(const PanelInput& input, const PanelState&, Widgets& widgets) {
         return;
     widgets.section("WARNINGS");
     ImGui::PushTextWrapPos(0.0f);
-    if (!input.notice.empty())
+    if (!input.notice.empty()) {
         ImGui::TextUnformatted(input.notice.c_str());
+        if (ImGui::SmallButton("Dismiss##notice"))
+            state.noticeDismissed = true;
+        widgets.mark("dismissNotice");
+    }
     for (const std::string& warning : input.warnings)
         ImGui::TextUnformatted(warning.c_str());
     ImGui::PopTextWrapPos();

@@ -1,0 +1,239 @@
+// A picture that stalls while the mouse presses: the press stays what was asked for, no energy is added, and
+// no device is to blame. Frames are 33 ticks apart; a stalled one tells the hand nothing.
+
+#include "devices/mouse_device.h"
+#include "devices/mouse_hand.h"
+#include "haptics/contact/surface_pick.h"
+#include "haptics/recording/fault_watch.h"
+#include "haptics/recording/recording_writer.h"
+#include "tests/stability/handover/stepped_servo.h"
+#include "tests/support/recorded_servo.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace touchstone::test {
+namespace {
+
+constexpr double kTick = 1e-3;
+constexpr int kFrame = 33;
+
+/// A line of sight.
+struct Sight {
+    glm::dvec3 eye, along;
+};
+
+/// The window's mouse without a window: what it points at, a button and a press.
+class StalledWindow {
+  public:
+    StalledWindow(const std::string& file, const HapticSettings& settings, const Sight& sight)
+        : scene_(touchedScene(file)), sight_(sight), servo_(mouse_), seen_(scene_.source, *scene_.haptic) {
+        servo_.loop.setSettings(settings);
+        (void)servo_.loop.offerScene(scene_.haptic, scene_.source);
+        stiffness_ = settings.stiffness;
+    }
+
+    /// The goal that ViewControl gives.
+    void frame(double press) {
+        const double time = servo_.record.time;
+        const ObjectMotions motions = seen_.at(time);
+        const auto hit = pickSurface(*scene_.haptic, motions, sight_.eye, sight_.along);
+        if (!hit)
+            return mouse_.release();
+        MouseHand hand(hit->point);
+        hand.pointAt({hit->point, hit->normal, stiffness_}, {.force = press});
+        MouseGoal goal{.position = hand.goal(), .press = press, .stiffness = stiffness_};
+        if (!motions.empty()) {
+            goal.object = hit->object;
+            goal.position =
+                motions[static_cast<size_t>(hit->object)].workspaceFromObject.inversePoint(hand.goal());
+        }
+        mouse_.moveTo(goal);
+        press_ = press;
+    }
+    void frames(int count, double press) {
+        for (int i = 0; i < count; ++i) {
+            frame(press);
+            ticks(kFrame);
+        }
+    }
+    /// Without a picture.
+    void ticks(int count) {
+        for (int i = 0; i < count; ++i)
+            tick();
+    }
+    /// The whole process stands still.
+    void skip(int count) {
+        servo_.next += static_cast<uint64_t>(count);
+        tick();
+    }
+    void tick() {
+        const TickRecord before = servo_.record;
+        const TickRecord& now = servo_.step();
+        double& most = press_ > 0.0 ? mostForce : mostHovering;
+        most = std::max(most, glm::length(now.output.force) / (press_ > 0.0 ? press_ : 1.0));
+        const ObjectMotions motions = moved_.at(now.time);
+        glm::dvec3 way = now.output.hip - before.output.hip;
+        if (const int object = before.output.object; object >= 0 && !motions.empty()) {
+            const ObjectMotion& motion = motions[static_cast<size_t>(object)];
+            way = now.output.hip -
+                  motion.workspaceFromObject.point(motion.before.inversePoint(before.output.hip));
+        }
+        work_ += glm::dot(before.output.command.force(), way);
+        mostEnergy = std::max(mostEnergy, work_ + stored() - storedBefore_);
+        mostBalance = std::max(mostBalance, now.output.energyBalance);
+        if (const std::optional<Fault> fault = watch_.add(recordedTick(now)))
+            faults += fault->name + " ";
+    }
+    void switchForce(bool on) {
+        ForceSwitch& force = servo_.loop.forceSwitch();
+        if (on)
+            EXPECT_TRUE(force.giveBack(force.state()));
+        else
+            force.takeAway(true);
+    }
+    [[nodiscard]] double force() const { return glm::length(servo_.record.output.force); }
+    [[nodiscard]] bool touching() const { return servo_.record.output.contacts > 0; }
+
+    void countEnergy() {
+        work_ = mostEnergy = 0.0;
+        storedBefore_ = stored();
+    }
+
+    double mostForce = 0.0;    ///< while it presses, of what was asked for
+    double mostHovering = 0.0; ///< N, while it does not
+    /// J since countEnergy: given to the hand beyond what the objects' own motion did, and more in the
+    /// springs than then.
+    double mostEnergy = 0.0;
+    double mostBalance = 0.0; ///< J
+    std::string faults;
+
+  private:
+    [[nodiscard]] double stored() const { return 0.5 * force() * servo_.record.output.penetration; }
+
+    TouchedScene scene_;
+    Sight sight_;
+    MouseDevice mouse_;
+    SteppedServo servo_;
+    MovingObjects seen_, moved_{scene_.source, *scene_.haptic};
+    FaultWatch watch_;
+    double press_ = 0.0, stiffness_ = 600.0;
+    double work_ = 0.0, storedBefore_ = 0.0;
+};
+
+const Sight kFromAbove{{0.01, 0.5, 0.02}, {0.0, -1.0, 0.0}};
+Sight fromTheFront(double x, double y) {
+    return {{x, y, 0.5}, {0.0, 0.0, -1.0}};
+}
+
+struct Place {
+    const char* file;
+    Sight sight;
+};
+const Place kPlaces[]{{"plane.glb", kFromAbove},
+                      {"doughnut.glb", fromTheFront(0.0529, 0.0)},
+                      {"box.glb", fromTheFront(0.01, 0.01)},
+                      {"swatches.glb", fromTheFront(0.01, 0.02)},
+                      {"moving.glb", kFromAbove}};
+
+HapticSettings settingsWith(double stiffness) {
+    HapticSettings settings;
+    settings.stiffness = stiffness;
+    return settings;
+}
+
+TEST(MouseStall, NeverPressesHarderThanAsked) {
+    int touched = 0;
+    for (const Place& place : kPlaces)
+        for (const double stiffness : {600.0, 3500.0})
+            for (const double press : {0.6, 3.0})
+                for (const int stall : {20, 200, 2000}) {
+                    StalledWindow window(place.file, settingsWith(stiffness), place.sight);
+                    window.frames(6, 0.0);
+                    window.frames(30, press);
+                    if (!window.touching())
+                        continue; // what moves has moved away
+                    ++touched;
+                    window.countEnergy();
+                    window.ticks(stall);
+                    const std::string what = std::string(place.file) + ", " + std::to_string(stiffness) +
+                                             " N/m, " + std::to_string(press) + " N, " +
+                                             std::to_string(stall) + " ms";
+                    EXPECT_TRUE(window.touching()) << what;
+                    const bool moving = std::string(place.file) == "moving.glb";
+                    // Where the hand still slides after what moves, a tick gives k (v T)^2 / 2 by sampling.
+                    EXPECT_LT(window.mostEnergy, moving ? 3e-6 : 1e-9) << what;
+                    window.frames(10, press);
+                    EXPECT_LT(window.mostForce, 1.05) << what;
+                    EXPECT_EQ(window.faults, "") << what;
+                    if (!moving) {
+                        EXPECT_NEAR(window.force(), press, 0.05 * press) << what;
+                        EXPECT_LT(window.mostEnergy, 1e-6) << what << ": nor when the picture goes on";
+                    }
+                }
+    EXPECT_EQ(touched, 5 * 2 * 2 * 3);
+}
+
+TEST(MouseStall, NorWhenTheWholeProcessStoodStill) {
+    for (const Place& place : kPlaces)
+        for (const double stiffness : {600.0, 3500.0}) {
+            StalledWindow window(place.file, settingsWith(stiffness), place.sight);
+            window.frames(6, 0.0);
+            window.frames(30, 0.6);
+            if (!window.touching())
+                continue;
+            window.countEnergy();
+            window.skip(2000);
+            window.ticks(20);
+            EXPECT_LT(window.mostForce, 1.05) << place.file;
+            // What moves is elsewhere, two seconds on: the hand is there too, but for what sticks.
+            EXPECT_LT(window.mostEnergy, std::string(place.file) == "moving.glb" ? 1e-4 : 1e-9) << place.file;
+            EXPECT_EQ(window.faults, "");
+        }
+}
+
+/// What moves takes along a hand that presses, and one that hovers.
+TEST(MouseStall, AMovingModelIsPressedWithWhatWasAskedForAllTheTime) {
+    int touching = 0;
+    for (int start = 0; start < 10; ++start) {
+        StalledWindow window("moving.glb", settingsWith(600.0), kFromAbove);
+        window.ticks(300 * start);
+        window.frames(6, 0.0);
+        EXPECT_FALSE(window.touching());
+        window.ticks(2000);
+        EXPECT_FALSE(window.touching()) << "it hovers";
+        window.frames(2, 0.0);
+        window.frames(20, 0.6);
+        touching += window.touching() ? 1 : 0;
+        window.ticks(2000);
+        EXPECT_LT(window.mostForce, 1.05) << "from tick " << 300 * start;
+        EXPECT_LT(window.mostHovering, 0.15) << "what runs into it pushes it aside";
+        EXPECT_EQ(window.faults, "");
+    }
+    EXPECT_GT(touching, 4);
+}
+
+/// The safety stage fades and takes the force away for many reasons. The hand does not sink in meanwhile, to
+/// be pushed out again.
+TEST(MouseStall, AForceThatIsOffLetsTheHandStayWhereItPresses) {
+    StalledWindow window("plane.glb", settingsWith(3500.0), kFromAbove);
+    window.frames(6, 0.0);
+    window.frames(30, 0.6);
+    EXPECT_NEAR(window.force(), 0.6, 0.01);
+    for (int i = 0; i < 5; ++i) {
+        window.switchForce(false);
+        window.frames(20, 0.6);
+        EXPECT_NEAR(window.force(), 0.6, 0.01);
+        window.switchForce(true);
+        window.frames(20, 0.6);
+    }
+    EXPECT_LT(window.mostForce, 1.05);
+    EXPECT_LT(window.mostBalance, 1e-6);
+}
+
+} // namespace
+} // namespace touchstone::test

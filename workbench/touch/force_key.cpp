@@ -1,0 +1,54 @@
+#include "workbench/touch/force_key.h"
+
+#include <algorithm>
+
+namespace touchstone {
+
+void ForceKey::pressInWindow(bool plain, std::optional<uint32_t> watched) {
+    if (watched)
+        ++inWindow_;
+    else
+        press(plain);
+}
+
+/// Both see each press, in either order. The differences are modulo 2^32.
+void ForceKey::compare(std::optional<uint32_t> watched) {
+    const auto more = watched ? static_cast<int32_t>(inWindow_ - *watched) : 0;
+    if (more > 0)
+        behind_ = std::max(behind_, 0) + 1;
+    else if (more < 0)
+        behind_ = std::min(behind_, 0) - 1;
+    else
+        behind_ = 0;
+    if (behind_ > kPatience)
+        press(false);
+    if (behind_ > kPatience || behind_ < -kForget) {
+        inWindow_ = *watched;
+        behind_ = 0;
+    }
+}
+
+bool ForceKey::settle(bool on, bool mayGiveBack, std::optional<uint32_t> watched) {
+    compare(watched);
+    for (ForceSwitch::State now = force_.state(); !(now == settled_); now = force_.state()) {
+        const uint32_t presses = (now.presses() - settled_.presses()) & 0x7fffffffu;
+        const bool onlyPresses = presses == now.asked() - settled_.asked();
+        const bool wanted = mayGiveBack && onlyPresses && on == (presses % 2 == 0);
+        if (wanted && !force_.giveBack(now))
+            continue; // another press came meanwhile
+        settled_ = wanted ? now.givenBack() : now;
+        return wanted;
+    }
+    return on;
+}
+
+void ForceKey::set(bool on) {
+    if (on == !force_.off())
+        return;
+    if (!on)
+        force_.takeAway(false);
+    else if (force_.giveBack(settled_))
+        settled_ = settled_.givenBack();
+}
+
+} // namespace touchstone
