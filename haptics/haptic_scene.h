@@ -2,6 +2,7 @@
 // The scene as the hand knows it: welded objects with their BVH, haptic maps and the effect plan.
 // Immutable after compileHapticScene; read by the servo, the oracle and the studies alike.
 
+#include "engine/core/built_once.h"
 #include "engine/device_io/device_io.h"
 #include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
@@ -13,40 +14,11 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace touchstone {
-
-/// What is built when somebody first asks for it, and once; a servo may be touching meanwhile.
-template <class T>
-class BuiltOnce {
-  public:
-    /// Null until it is built. Wait-free.
-    [[nodiscard]] const T* get() const noexcept { return there_.load(std::memory_order_acquire); }
-    /// Any thread but the servo.
-    template <class Make>
-    void build(const Make& make) const {
-        const std::lock_guard lock(building_);
-        if (built_ != nullptr)
-            return;
-        built_ = std::make_shared<const T>(make());
-        there_.store(built_.get(), std::memory_order_release);
-    }
-    /// Takes the other's, if it is built. Any thread but the servo.
-    void share(const BuiltOnce& other) {
-        const std::scoped_lock lock(building_, other.building_);
-        built_ = other.built_;
-        there_.store(built_.get(), std::memory_order_release);
-    }
-
-  private:
-    mutable std::mutex building_;
-    mutable std::shared_ptr<const T> built_;
-    mutable std::atomic<const T*> there_{nullptr};
-};
 
 class HapticScene {
   public:
@@ -64,11 +36,16 @@ class HapticScene {
     DeviceLimits limits;
     std::vector<Warning> warnings;
 
+    /// Every object's `rays` is built: contact=rays can touch it. Wait-free.
+    [[nodiscard]] bool hasRays() const noexcept { return hasRays_.load(std::memory_order_acquire); }
+    /// Any thread but the servo. Throws Error when Embree fails, and Cancelled.
+    void buildRays(const Progress& progress = {}) const;
+
     /// What contact=neighbourhood walks on, one per object; null until somebody asked for it. Wait-free.
     [[nodiscard]] const std::vector<MeshAdjacency>* neighbourhoods() const noexcept {
         return neighbourhoods_.get();
     }
-    /// Any thread but the servo.
+    /// Any thread but the servo. Builds the rays, too.
     void buildNeighbourhoods() const;
     /// Takes those of a scene of the same geometry, if it has them. Before the scene is handed to a servo.
     void shareNeighbourhoods(const HapticScene& other) { neighbourhoods_.share(other.neighbourhoods_); }
@@ -80,6 +57,7 @@ class HapticScene {
     void buildSlopes() const;
 
   private:
+    mutable std::atomic<bool> hasRays_{false};
     BuiltOnce<std::vector<MeshAdjacency>> neighbourhoods_;
     BuiltOnce<std::vector<HapticMap::Slopes>> slopes_;
 };
@@ -103,8 +81,18 @@ void settlePlan(HapticScene& scene);
 /// Takes one effect off a material and its objects, and settles the plan. Only on a copy.
 void removeEffect(HapticScene& scene, int material, Effect effect);
 
-/// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error.
-[[nodiscard]] std::shared_ptr<const HapticScene>
-compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, const DeviceLimits& limits = {});
+struct CompileOptions {
+    /// False: HapticScene::buildRays is left to whoever needs it. contact=sweep never does; for others it
+    /// takes a third of the time to build a scene, and half of its memory.
+    bool rays = true;
+    Progress progress;
+};
+
+/// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error,
+/// and Cancelled.
+[[nodiscard]] std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
+                                                                    const Similarity& workspaceFromScene,
+                                                                    const DeviceLimits& limits = {},
+                                                                    const CompileOptions& options = {});
 
 } // namespace touchstone

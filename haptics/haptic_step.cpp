@@ -292,9 +292,9 @@ void carryUnseen(const HapticScene& scene, const HapticSettings& settings, Objec
                  DeviceState& state, uint32_t& flags) {
     if (!state.placed || state.anchor < 0)
         return;
-    if (settings.contact == ContactMethod::Rays)
+    if (settings.contact == ContactMethod::Rays && scene.hasRays())
         return carry<RayProxy<double>>(scene, motions, settings, state, flags);
-    if (settings.contact == ContactMethod::Sweep || scene.neighbourhoods() == nullptr)
+    if (settings.contact != ContactMethod::Neighbourhood || scene.neighbourhoods() == nullptr)
         return carry<MeshProxy>(scene, motions, settings, state, flags);
     carry<NeighbourhoodWatch>(scene, motions, settings, state, flags);
     if (!state.watch.touching)
@@ -306,11 +306,11 @@ template <class Stopwatch>
 [[gnu::noinline]] void touchOtherwise(const HapticScene& scene, const HapticSettings& settings,
                                       const TickInput& input, DeviceState& state, HapticOutput& output,
                                       Stopwatch& stopwatch) {
-    if (settings.contact == ContactMethod::Rays)
+    if (settings.contact == ContactMethod::Rays && scene.hasRays())
         return settings.precision == Precision::Single
                    ? touchAsPlanned<RayProxy<float>>(scene, settings, input, state, output, stopwatch)
                    : touchAsPlanned<RayProxy<double>>(scene, settings, input, state, output, stopwatch);
-    if (scene.neighbourhoods() != nullptr)
+    if (settings.contact == ContactMethod::Neighbourhood && scene.neighbourhoods() != nullptr)
         return touchAsPlanned<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
     touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
     output.flags = output.flags | TickFlag::NeighbourhoodMissing;

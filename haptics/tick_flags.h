@@ -19,7 +19,7 @@ enum class TickFlag : uint32_t {
     ForceFault = 1u << 7,     ///< safety saw NaN or infinity in this tick: command is zero
     Teleported = 1u << 8,     ///< the HIP jumped farther than a hand can: the proxy swept there all the same
     ForceRamping = 1u << 9,   ///< safety fades the force in (enabled, scene swapped) or out (input stale)
-    NeighbourhoodMissing = 1u << 11, ///< contact=neighbourhood, but its adjacency is not built yet: swept
+    NeighbourhoodMissing = 1u << 11, ///< what contact=neighbourhood or =rays needs is not built yet: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
     Pinched = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
     EnergyGiven = 1u << 14,  ///< the device gave more energy than it took, by more than kNoticedEnergy

@@ -432,7 +432,7 @@ class Workbench {
             for (std::string& warning : settingWarnings(state_.settings))
                 input.warnings.push_back(std::move(warning));
             if (has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
-                input.warnings.emplace_back("the neighbourhood watch is being prepared: swept until then");
+                input.warnings.emplace_back("the contact method is being prepared: swept until then");
         }
         input.problem = problem_;
         input.gallery = gallery_.entries();

@@ -1,8 +1,9 @@
 #pragma once
-// One touchable object: a welded triangle soup in its own frame, and Embree's BVH over it.
+// One touchable object: a welded triangle soup in its own frame, and the search trees over it.
 
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
+#include "haptics/contact/ray_tree.h"
 #include "haptics/contact/triangle.h"
 #include "haptics/contact/triangle_tree.h"
 #include "haptics/contact/vertex_gradients.h"
@@ -14,8 +15,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-struct RTCSceneTy;
 
 namespace touchstone {
 
@@ -73,11 +72,11 @@ struct HapticObject {
     bool closed = false;            ///< every edge has an even number of triangles
     bool anySmooth = false;
     bool oneSided = false; ///< the material's `sides` is front: there only for who comes from outside
-    std::shared_ptr<RTCSceneTy> bvh; ///< for rays
-    TriangleTree tree;               ///< for what is near
+    RayTree rays;          ///< Embree's, for rays; built when somebody needs it
+    TriangleTree tree;     ///< for what is near
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
-    [[nodiscard]] uint64_t memoryBytes() const;
+    [[nodiscard]] uint64_t memoryBytes() const;          ///< without Embree's part
     [[nodiscard]] AttributeBytes attributeBytes() const; ///< part of memoryBytes
 };
 
@@ -88,10 +87,12 @@ struct HapticObject {
             glm::dvec3(object.vertices[corner[2]])};
 }
 
-/// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails.
+/// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails, and
+/// Cancelled.
 [[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,
                                                                     const Similarity& workspaceFromScene,
-                                                                    const ObjectUse& use);
+                                                                    const ObjectUse& use,
+                                                                    const Progress& progress = {});
 
 /// Centre and radius of a sphere around the object at a pose, workspace.
 [[nodiscard]] inline glm::dvec4 boundingSphere(const HapticObject& object,

@@ -22,7 +22,8 @@ inline constexpr float kEmbreeReach = 1e18f;
 /// The first triangle of an object that the ray from + t * direction meets at near <= t <= far (near >= 0);
 /// object frame. Nothing where the ray begins beyond kEmbreeReach, as it does from the HIP to an object 1e-18
 /// of its size beside it: floats could not tell what it meets there. One rtcIntersect1 of Embree's, ROBUST
-/// and in float; inline, since the ray floor is nothing else. Safe on the servo thread.
+/// and in float; inline, since the ray floor is nothing else. The object's rays are built. Safe on the servo
+/// thread.
 [[nodiscard]] inline std::optional<RayHit> castRay(const HapticObject& object, const glm::vec3& from,
                                                    const glm::vec3& direction, float near,
                                                    float far) noexcept {
@@ -48,7 +49,7 @@ inline constexpr float kEmbreeReach = 1e18f;
     hit.ray.flags = 0;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(object.bvh.get(), &context, &hit);
+    rtcIntersect1(object.rays.get(), &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     return RayHit{hit.hit.primID, hit.ray.tfar};

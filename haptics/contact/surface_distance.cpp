@@ -31,7 +31,8 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 } // namespace
 
 double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
-                       double within) noexcept {
+                       double within) {
+    scene.buildRays();
     if (motions.empty())
         motions = scene.restMotions;
     for (size_t k = 0; k < scene.objects.size(); ++k) {
@@ -45,7 +46,7 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
         query.radius = static_cast<float>(start + 4e-7 * (1.0 + glm::length(nearest.point)));
         RTCPointQueryContext context;
         rtcInitPointQueryContext(&context);
-        rtcPointQuery(scene.objects[k]->bvh.get(), &query, &context, visit, &nearest);
+        rtcPointQuery(scene.objects[k]->rays.get(), &query, &context, visit, &nearest);
         if (nearest.distance < start)
             within = nearest.distance * motions[k].workspaceFromObject.scale;
     }

@@ -18,9 +18,8 @@ struct SurfacePick {
     int material = -1;      ///< of the Scene
 };
 
-/// The surface that `from` sees along `direction` (workspace, unit), one-sided ones from their front only;
-/// none within float range. `motions`: the objects' poses, empty: at rest. Any thread; Embree's float tells
-/// the triangle, doubles the place.
+/// The surface that `from` sees along `direction` (workspace, unit), one-sided ones from their front only.
+/// `motions`: the objects' poses, empty: at rest. Any thread.
 [[nodiscard]] std::optional<SurfacePick> pickSurface(const HapticScene& scene, ObjectMotions motions,
                                                      const glm::dvec3& from,
                                                      const glm::dvec3& direction) noexcept;

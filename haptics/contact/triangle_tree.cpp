@@ -1,37 +1,52 @@
 #include "haptics/contact/triangle_tree.h"
 
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 #include "haptics/contact/embree_device.h"
 
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <tuple>
+#include <numeric>
 
 namespace touchstone {
 
 namespace {
 
+constexpr const char* kBoxes = "boxing triangles";
+constexpr const char* kSearchTree = "building the search tree";
+constexpr const char* kFlat = "packing the search tree";
+
 /// Embree's allocator hands these out while it builds; they are gone when the tree stands.
 struct TemporaryNode {
+    static constexpr size_t kWidth = 8;
     bool isLeaf;
     uint32_t count;
-    std::array<TemporaryNode*, 8> child;
-    std::array<RTCBounds, 8> bounds;
+    std::array<TemporaryNode*, kWidth> child;
+    std::array<RTCBounds, kWidth> bounds;
 };
 struct TemporaryLeaf {
+    static constexpr size_t kSize = 16;
     bool isLeaf;
     uint32_t count;
-    std::array<uint32_t, 16> triangle;
+    std::array<uint32_t, kSize> triangle;
 };
 static_assert(offsetof(TemporaryNode, isLeaf) == offsetof(TemporaryLeaf, isLeaf));
 
-void* createNode(RTCThreadLocalAllocator allocator, unsigned count, void*) {
+/// What the callbacks of one build share.
+struct Build {
+    std::atomic<size_t> nodes{0}, leaves{0};
+    EstimatedProgress* progress = nullptr;
+};
+
+void* createNode(RTCThreadLocalAllocator allocator, unsigned count, void* build) {
+    static_cast<Build*>(build)->nodes.fetch_add(1, std::memory_order_relaxed);
     void* memory = rtcThreadLocalAlloc(allocator, sizeof(TemporaryNode), 16);
     return new (memory) TemporaryNode{.isLeaf = false, .count = count, .child = {}, .bounds = {}};
 }
@@ -47,7 +62,8 @@ void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count,
-                 void*) {
+                 void* build) {
+    static_cast<Build*>(build)->leaves.fetch_add(1, std::memory_order_relaxed);
     void* memory = rtcThreadLocalAlloc(allocator, sizeof(TemporaryLeaf), 16);
     auto* leaf =
         new (memory) TemporaryLeaf{.isLeaf = true, .count = static_cast<uint32_t>(count), .triangle = {}};
@@ -56,30 +72,105 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return leaf;
 }
 
+bool goesOn(void* build, double fraction) {
+    return static_cast<Build*>(build)->progress->at(fraction);
+}
+
+bool isCollapsed(const uint32_t* corner) {
+    return corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
+}
+
+struct Boxes {
+    std::unique_ptr<RTCBuildPrimitive[]> box; // left uninitialised until the threads fill it
+    size_t count = 0;
+};
+
+/// The boxes of all triangles but those with two equal corners, in their order.
+Boxes boxesOf(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
+              const Progress& progress) {
+    const size_t triangles = indices.size() / 3;
+    std::vector<size_t> first(triangles / kProgressWork + 2, 0); // of each block of triangles
+    inParallel(triangles, progress.part(0.0, 0.2), kBoxes, [&](size_t begin, size_t end) {
+        size_t kept = 0;
+        for (size_t t = begin; t < end; ++t)
+            kept += isCollapsed(&indices[3 * t]) ? 0 : 1;
+        first[begin / kProgressWork + 1] = kept;
+    });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    Boxes boxes{std::make_unique_for_overwrite<RTCBuildPrimitive[]>(first.back()), first.back()};
+    inParallel(triangles, progress.part(0.2, 1.0), kBoxes, [&](size_t begin, size_t end) {
+        size_t to = first[begin / kProgressWork];
+        for (size_t t = begin; t < end; ++t) {
+            const uint32_t* corner = &indices[3 * t];
+            if (isCollapsed(corner))
+                continue;
+            const glm::vec3 &a = vertices[corner[0]], &b = vertices[corner[1]], &c = vertices[corner[2]];
+            const glm::vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+            boxes.box[to++] = {.lower_x = low.x,
+                               .lower_y = low.y,
+                               .lower_z = low.z,
+                               .geomID = 0,
+                               .upper_x = high.x,
+                               .upper_y = high.y,
+                               .upper_z = high.z,
+                               .primID = static_cast<unsigned>(t)};
+        }
+    });
+    return boxes;
+}
+
+/// Embree's tree, whose nodes live as long as `bvh`. Reorders `boxes`.
+const TemporaryNode* buildTemporary(RTCBVHTy* bvh, const Boxes& boxes, Build& build,
+                                    const Progress& progress) {
+    constexpr double kTimePerTriangle = 3e-7; // s, on two cores
+    EstimatedProgress estimate(progress, kSearchTree, kTimePerTriangle * static_cast<double>(boxes.count));
+    build.progress = &estimate;
+    RTCBuildArguments arguments = rtcDefaultBuildArguments();
+    arguments.maxBranchingFactor = TemporaryNode::kWidth;
+    arguments.maxDepth = 48;
+    arguments.sahBlockSize = TemporaryLeaf::kSize;
+    arguments.maxLeafSize = TemporaryLeaf::kSize;
+    arguments.bvh = bvh;
+    arguments.primitives = boxes.box.get();
+    arguments.primitiveCount = arguments.primitiveArrayCapacity = boxes.count;
+    arguments.createNode = createNode;
+    arguments.setNodeChildren = setChildren;
+    arguments.setNodeBounds = setBounds;
+    arguments.createLeaf = createLeaf;
+    arguments.buildProgress = goesOn;
+    arguments.userPtr = &build;
+    const auto* root = static_cast<const TemporaryNode*>(rtcBuildBVH(&arguments));
+    const RTCError error = rtcGetDeviceError(embreeDevice());
+    progress.stopIfCancelled();
+    if (error != RTC_ERROR_NONE || root == nullptr)
+        throw Error("Embree", "", "the search tree could not be built",
+                    "the model may need more memory than is free");
+    return root;
+}
+
 } // namespace
 
-/// Puts Embree's tree into two flat arrays, parents before children.
-struct TriangleTree::Builder {
-    static_assert(std::tuple_size_v<decltype(TemporaryNode::child)> == kWidth);
-    static_assert(std::tuple_size_v<decltype(TemporaryLeaf::triangle)> == kLeafSize);
-    TriangleTree& tree;
-    std::span<const glm::vec3> vertices;
-    std::span<const uint32_t> indices;
+/// Puts Embree's tree into two flat arrays, parents before children. The leaves are numbered first and packed
+/// afterwards, by several threads.
+struct TriangleTree::Flattener {
+    static_assert(TemporaryNode::kWidth == kWidth);
+    static_assert(TemporaryLeaf::kSize == kLeafSize);
+    std::vector<Node>& nodes;
+    std::vector<const TemporaryLeaf*>& leaves;
+    const Progress progress;
+    const size_t expected;
 
     uint32_t add(const TemporaryNode* node, size_t depth) {
         if (depth >= kMaxDepth)
             throw Error("Embree", "", "the search tree is deeper than it can be walked", "report this model");
         if (node->isLeaf) {
-            const auto* from = reinterpret_cast<const TemporaryLeaf*>(node);
-            Leaf leaf{};
-            leaf.count = from->count;
-            std::copy_n(from->triangle.begin(), from->count, leaf.triangle.begin());
-            pack(leaf, vertices, indices);
-            tree.leaves_.push_back(leaf);
-            return static_cast<uint32_t>(tree.leaves_.size() - 1) | kLeafBit;
+            if (leaves.size() % kProgressWork == 0)
+                progress.step(share(leaves.size(), expected), kFlat);
+            leaves.push_back(reinterpret_cast<const TemporaryLeaf*>(node));
+            return static_cast<uint32_t>(leaves.size() - 1) | kLeafBit;
         }
-        const size_t index = tree.nodes_.size();
-        Node& made = tree.nodes_.emplace_back();
+        const size_t index = nodes.size();
+        Node& made = nodes.emplace_back();
         made.child.fill(0);
         for (size_t axis = 0; axis < 3; ++axis) {
             made.low[axis].fill(std::numeric_limits<float>::infinity());
@@ -96,7 +187,7 @@ struct TriangleTree::Builder {
         }
         for (size_t i = 0; i < node->count; ++i) {
             const uint32_t child = add(node->child[i], depth + 1);
-            tree.nodes_[index].child[i] = child; // `made` has moved
+            nodes[index].child[i] = child; // `made` may have moved
         }
         return static_cast<uint32_t>(index);
     }
@@ -130,44 +221,15 @@ void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> vertices, std::sp
     }
 }
 
-TriangleTree::TriangleTree(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices) {
-    std::vector<RTCBuildPrimitive> primitives;
-    primitives.reserve(indices.size() / 3);
-    for (size_t t = 0; t < indices.size() / 3; ++t) {
-        const uint32_t* corner = &indices[3 * t];
-        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
-            continue;
-        const glm::vec3 &a = vertices[corner[0]], &b = vertices[corner[1]], &c = vertices[corner[2]];
-        const glm::vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-        primitives.push_back({.lower_x = low.x,
-                              .lower_y = low.y,
-                              .lower_z = low.z,
-                              .geomID = 0,
-                              .upper_x = high.x,
-                              .upper_y = high.y,
-                              .upper_z = high.z,
-                              .primID = static_cast<unsigned>(t)});
-    }
-    if (primitives.empty())
+TriangleTree::TriangleTree(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
+                           const Progress& progress) {
+    Boxes boxes = boxesOf(vertices, indices, progress.part(0.0, 0.08));
+    if (boxes.count == 0)
         return;
-    RTCDevice device = embreeDevice();
-    const std::shared_ptr<RTCBVHTy> bvh(rtcNewBVH(device), rtcReleaseBVH);
-    RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.maxBranchingFactor = kWidth;
-    arguments.maxDepth = 48;
-    arguments.sahBlockSize = kLeafSize;
-    arguments.maxLeafSize = kLeafSize;
-    arguments.bvh = bvh.get();
-    arguments.primitives = primitives.data();
-    arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
-    arguments.createNode = createNode;
-    arguments.setNodeChildren = setChildren;
-    arguments.setNodeBounds = setBounds;
-    arguments.createLeaf = createLeaf;
-    const auto* root = static_cast<const TemporaryNode*>(rtcBuildBVH(&arguments));
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE || root == nullptr)
-        throw Error("Embree", "", "the search tree could not be built",
-                    "the model may need more memory than is free");
+    const std::shared_ptr<RTCBVHTy> bvh(rtcNewBVH(embreeDevice()), rtcReleaseBVH);
+    Build build;
+    const TemporaryNode* root = buildTemporary(bvh.get(), boxes, build, progress.part(0.08, 0.85));
+    boxes = {};
     TemporaryNode above{.isLeaf = false, .count = 1, .child = {}, .bounds = {}};
     if (root->isLeaf) { // a handful of triangles: one node over one leaf
         constexpr float kAll = 1e30f;
@@ -182,9 +244,19 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> vertices, std::span<const 
                            .align1 = 0.0f};
         root = &above;
     }
-    Builder{*this, vertices, indices}.add(root, 0);
+    nodes_.reserve(build.nodes + 1);
+    std::vector<const TemporaryLeaf*> unpacked;
+    unpacked.reserve(build.leaves);
+    Flattener{nodes_, unpacked, progress.part(0.85, 0.92), build.leaves}.add(root, 0);
     nodes_.shrink_to_fit();
-    leaves_.shrink_to_fit();
+    leaves_.resize(unpacked.size());
+    inParallel(unpacked.size(), progress.part(0.92, 1.0), kFlat, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            leaves_[i].count = unpacked[i]->count;
+            std::copy_n(unpacked[i]->triangle.begin(), unpacked[i]->count, leaves_[i].triangle.begin());
+            pack(leaves_[i], vertices, indices);
+        }
+    });
 }
 
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 // Which triangles are near a point: the search that the tick lives on.
 
+#include "engine/core/progress.h"
+
 #include <glm/glm.hpp>
 
 #include <array>
@@ -28,19 +30,27 @@ class TriangleTree {
 
     TriangleTree() = default;
     /// Three indices a triangle; triangles with two equal corners are left out. Coordinates of magnitude one.
-    /// Throws Error when Embree fails.
-    TriangleTree(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices);
+    /// Throws Error when Embree fails, and Cancelled.
+    TriangleTree(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
+                 const Progress& progress = {});
 
     /// Writes all triangles whose boxes meet the ball; at most a few that do not. Returns their number, or
     /// `out.size()` when there may be more than fit. Deterministic; safe on the servo thread.
     [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept;
+
+    /// Calls visit(triangle) for all triangles whose boxes the ray start + t * direction meets at 0 <= t <=
+    /// end, and for some more, until it returns false; `visit` may shorten `end`. `start` of magnitude one.
+    /// Defined in triangle_tree_ray.h. Safe on the servo thread.
+    template <class Visit>
+    void walkRay(const glm::dvec3& start, const glm::dvec3& direction, const double& end,
+                 const Visit& visit) const noexcept;
 
     [[nodiscard]] uint64_t memoryBytes() const noexcept {
         return nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Leaf);
     }
 
   private:
-    struct Builder;
+    struct Flattener;
 
     static constexpr size_t kWidth = 8;
     static constexpr size_t kLeafSize = 16;

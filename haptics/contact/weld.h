@@ -1,5 +1,7 @@
 #pragma once
 
+#include "engine/core/progress.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -15,11 +17,14 @@ struct WeldResult {
 };
 
 /// Joins vertices nearer than `tolerance` (same unit) to the first such vertex. Positions never move farther
-/// than `tolerance`. O(n) by hashing.
-[[nodiscard]] WeldResult weldVertices(std::span<const glm::vec3> positions, double tolerance);
+/// than `tolerance`. O(n) by hashing. Throws Cancelled.
+[[nodiscard]] WeldResult weldVertices(std::span<const glm::vec3> positions, double tolerance,
+                                      const Progress& progress = {});
 
 /// True when every edge has an even number of triangles: the surface bounds a volume whatever its windings
-/// say, and rays cross it an even number of times. Triangles with two equal corners do not count.
-[[nodiscard]] bool isClosed(std::span<const uint32_t> indices);
+/// say, and rays cross it an even number of times. Triangles with two equal corners do not count. Three
+/// indices a triangle, below `vertexCount`. O(n). Throws Cancelled.
+[[nodiscard]] bool isClosed(std::span<const uint32_t> indices, size_t vertexCount,
+                            const Progress& progress = {});
 
 } // namespace touchstone

@@ -139,10 +139,13 @@ void Replayer::step(const RecordedTick& tick) {
     int64_t stepNs = 0;
     if (Touched* const touched = this->touched(tick.scene)) {
         const HapticScene& scene = *touched->scene.haptic;
-        // What the watch walks on came when it was built, in the middle of the run.
-        if (settings->second.contact == ContactMethod::Neighbourhood &&
-            !has(tick.flags, TickFlag::NeighbourhoodMissing))
-            scene.buildNeighbourhoods();
+        // What the watch walks on, and what rays need, came when it was built, in the middle of the run.
+        if (!has(tick.flags, TickFlag::NeighbourhoodMissing)) {
+            if (settings->second.contact == ContactMethod::Neighbourhood)
+                scene.buildNeighbourhoods();
+            if (settings->second.contact == ContactMethod::Rays)
+                scene.buildRays();
+        }
         TickInput input;
         input.tick = tick.tick;
         input.time = tick.time;

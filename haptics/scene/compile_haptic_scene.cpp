@@ -31,10 +31,25 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     copy->plan = scene.plan;
     copy->workspaceFromScene = scene.workspaceFromScene;
     copy->limits = scene.limits;
+    if (scene.hasRays())
+        copy->buildRays(); // its objects have theirs
     return copy;
 }
 
+void HapticScene::buildRays(const Progress& progress) const {
+    size_t all = 0, done = 0;
+    for (const auto& object : objects)
+        all += object->triangleCount();
+    for (const auto& object : objects) {
+        const size_t after = done + object->triangleCount();
+        object->rays.build(*object, progress.part(share(done, all), share(after, all)));
+        done = after;
+    }
+    hasRays_.store(true, std::memory_order_release);
+}
+
 void HapticScene::buildNeighbourhoods() const {
+    buildRays();
     neighbourhoods_.build([&] {
         std::vector<MeshAdjacency> all;
         all.reserve(objects.size());
@@ -54,8 +69,15 @@ void HapticScene::buildSlopes() const {
     });
 }
 
-std::shared_ptr<const HapticScene>
-compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, const DeviceLimits& limits) {
+std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
+                                                      const Similarity& workspaceFromScene,
+                                                      const DeviceLimits& limits,
+                                                      const CompileOptions& options) {
+    // Of a smaller object's parts no report is worth its time.
+    constexpr size_t kWorthReporting = 4096; // triangles
+    constexpr double kMaps = 0.02;           // of all work
+    const Progress progress = options.progress.part(0.0, options.rays ? 0.7 : 1.0);
+    progress.step(0.0, "filtering maps");
     auto haptic = std::make_shared<HapticScene>();
     haptic->workspaceFromScene = workspaceFromScene;
     haptic->limits = limits;
@@ -67,13 +89,20 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
             at.placed ? buildHapticMaterial(scene, scene.materials[m], m, at.sets, haptic->warnings)
                       : HapticMaterialData{});
     }
+    const uint64_t triangles = scene.triangleCount();
+    uint64_t done = 0;
+    const auto fraction = [&](uint64_t of) { return kMaps + (1.0 - kMaps) * share(of, triangles); };
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
         if (mesh.triangleCount() == 0)
             continue;
         const auto material = static_cast<size_t>(mesh.material);
+        const Progress part = progress.part(fraction(done), fraction(done + mesh.triangleCount()));
+        part.step(0.0, "placing vertices");
         auto object = buildHapticObject(scene, static_cast<int>(i), workspaceFromScene,
-                                        objectUse(scene.materials[material], haptic->materials[material]));
+                                        objectUse(scene.materials[material], haptic->materials[material]),
+                                        mesh.triangleCount() < kWorthReporting ? part.silent() : part);
+        done += mesh.triangleCount();
         uses[material].add(*object);
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
         haptic->restSpheres.push_back(boundingSphere(*object, object->workspaceFromObject));
@@ -83,6 +112,9 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     for (size_t m = 0; m < scene.materials.size(); ++m)
         planMaterial(static_cast<int>(m), scene.materials[m], haptic->materials[m], uses[m], haptic->plan);
     settlePlan(*haptic);
+    if (options.rays)
+        haptic->buildRays(options.progress.part(0.7, 1.0));
+    options.progress.report(1.0, "touchable");
     return haptic;
 }
 
@@ -107,6 +139,8 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
             object = buildHapticObject(scene, object->instance, compiled.workspaceFromScene, use);
         uses[m].add(*object);
     }
+    if (compiled.hasRays())
+        haptic->buildRays(); // of the objects that were built again
     for (size_t m = 0; m < after.size(); ++m)
         planMaterial(static_cast<int>(m), after[m], haptic->materials[m], uses[m], haptic->plan);
     settlePlan(*haptic);

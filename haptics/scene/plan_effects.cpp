@@ -250,12 +250,14 @@ void removeEffect(HapticScene& scene, int material, Effect effect) {
     for (auto& object : scene.objects) {
         if (object->material != material)
             continue;
-        HapticObject copy = *object; // the search trees are shared or plain data
+        HapticObject copy = *object; // but for the search tree of rays
         std::vector<float>* attribute = attributeOf(effect, copy);
         if (attribute == nullptr || attribute->empty())
             continue;
         attribute->clear();
         object = std::make_shared<const HapticObject>(std::move(copy));
+        if (scene.hasRays())
+            object->rays.build(*object);
     }
     settlePlan(scene);
 }

@@ -1,8 +1,11 @@
 // What Embree hands us against brute force: no triangle near the proxy is ever left out.
 
 #include "haptics/contact/candidates.h"
+#include "haptics/contact/ray.h"
 #include "haptics/contact/ray_floor.h"
+#include "haptics/contact/ray_walk.h"
 #include "study/truth/brute_force.h"
+#include "tests/property/hard_shapes.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +67,82 @@ TEST(Embree, TheInsideTestAgreesWithTheClosedForm) {
         inside += found ? 1 : 0;
     }
     EXPECT_GT(inside, 500);
+}
+
+/// The distances at which a ray crosses an object, by trying all triangles in long double.
+std::vector<long double> crossedBy(const HapticObject& object, const LVec3& from, const LVec3& direction) {
+    std::vector<long double> found;
+    for (uint32_t t = 0; t < object.triangleCount(); ++t) {
+        const auto corner = [&](size_t k) {
+            return LVec3(object.vertices[object.indices[3 * t + k]]) - from;
+        };
+        const LVec3 a = corner(0), b = corner(1), c = corner(2), area = glm::cross(b - a, c - a);
+        const long double ab = glm::dot(direction, glm::cross(a, b)),
+                          bc = glm::dot(direction, glm::cross(b, c)),
+                          ca = glm::dot(direction, glm::cross(c, a));
+        const bool one = ab > 0 && bc > 0 && ca > 0, other = ab < 0 && bc < 0 && ca < 0;
+        if ((one || other) && glm::dot(a, area) / glm::dot(direction, area) > 0)
+            found.push_back(glm::dot(a, area) / glm::dot(direction, area));
+    }
+    return found;
+}
+
+TEST(RayWalk, CountsAndFindsWhatLongDoubleDoesOnHardShapes) {
+    std::mt19937 random(21);
+    std::normal_distribution<double> any;
+    std::uniform_real_distribution<double> in(-0.6, 0.6), depth(-7.0, -1.0);
+    size_t crossed = 0, agreed = 0;
+    for (const HardShape& hard : hardShapes()) {
+        const auto scene =
+            compileHapticScene(sceneOf(hard.shape), Similarity{}, {}, {.rays = true, .progress = {}});
+        const HapticObject& object = *scene->objects[0];
+        for (int trial = 0; trial < 300; ++trial) {
+            glm::dvec3 from(in(random), in(random), in(random));
+            // A third starts next to the surface, a third far away.
+            if (trial % 3 == 0)
+                from = glm::dvec3(object.vertices[random() % (object.vertices.size() - 1)]) +
+                       std::pow(10.0, depth(random)) * glm::dvec3(any(random), any(random), any(random));
+            if (trial % 3 == 1)
+                from *= 100.0;
+            const glm::dvec3 at(0.7 * in(random), 0.7 * in(random), 0.7 * in(random));
+            const glm::dvec3 direction =
+                trial % 3 == 1 ? glm::normalize(at - from)
+                               : glm::normalize(glm::dvec3(any(random), any(random), any(random)));
+            const std::vector<long double> truth = crossedBy(object, LVec3(from), LVec3(direction));
+            EXPECT_EQ(crossings(object, from, direction), truth.size()) << hard.name << " " << trial;
+            const auto first = firstCrossing(object, from, direction, false);
+            ASSERT_EQ(first.has_value(), !truth.empty()) << hard.name << " " << trial;
+            if (!first)
+                continue;
+            const auto nearest = static_cast<double>(*std::min_element(truth.begin(), truth.end()));
+            EXPECT_NEAR(first->distance, nearest, 1e-9 * (1.0 + nearest)) << hard.name << " " << trial;
+            ++crossed;
+            const auto hit = castRay(object, glm::vec3(from), glm::vec3(direction), 0.0f, 1e30f);
+            agreed += hit && std::abs(static_cast<double>(hit->distance) - nearest) < 1e-4 * (1.0 + nearest)
+                          ? 1
+                          : 0;
+        }
+    }
+    EXPECT_GT(crossed, 500u);
+    EXPECT_GT(static_cast<double>(agreed), 0.98 * static_cast<double>(crossed)) << "Embree's, in float";
+}
+
+TEST(RayWalk, ARayThroughEdgesLeaksThroughNoClosedMesh) {
+    const auto scene = compileHapticScene(sceneOf(assets::torus(0.06, 0.025, 72, 45)), Similarity{});
+    const HapticObject& object = *scene->objects[0];
+    std::mt19937 random(5);
+    std::normal_distribution<double> any;
+    for (int trial = 0; trial < 20000; ++trial) {
+        // Through the very middle of an edge, as nearly as doubles go.
+        const uint32_t corner = static_cast<uint32_t>(random() % object.indices.size());
+        const uint32_t next = corner - corner % 3 + (corner + 1) % 3;
+        const glm::dvec3 middle = 0.5 * (glm::dvec3(object.vertices[object.indices[corner]]) +
+                                         glm::dvec3(object.vertices[object.indices[next]]));
+        const glm::dvec3 from = 2.0 * glm::normalize(glm::dvec3(any(random), any(random), any(random)));
+        const auto count = crossings(object, from, middle - from);
+        ASSERT_TRUE(count);
+        EXPECT_EQ(*count % 2, 0u) << trial;
+    }
 }
 
 TEST(Embree, TheFloorRayMeetsTheSurfaceBetweenProxyAndHip) {

@@ -174,6 +174,7 @@ int runCommand(const RunOptions& options) {
         loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : simulatedLimits);
     printWarnings(model);
     prepareFor(model, options.settings);
+    model.haptic->buildRays(); // the report's proxy gap is measured with Embree, in the middle of the run
     SimulatedHand path(
         std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options.stroke)));
     YieldingHand yielding(path, options.plant);

@@ -235,6 +235,8 @@ int touchCommand(const TouchOptions& options) {
                                          options.closedLoop ? limitsOf(options.plant) : DeviceLimits{});
     printWarnings(model);
     prepareFor(model, options.settings);
+    if (!options.json.empty())
+        model.haptic->buildRays(); // for the ray floor and the proxy's gap
     std::optional<StrokePath> stroke;
     if (!path) {
         stroke = layStroke(*model.scene, model.workspaceFromScene, options.stroke);

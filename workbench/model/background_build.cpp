@@ -12,12 +12,15 @@ void BackgroundBuild::update(const std::shared_ptr<const HapticScene>& scene,
         building_.get();
     }
     const bool walk = settings.contact == ContactMethod::Neighbourhood && scene->neighbourhoods() == nullptr,
+               rays = settings.contact == ContactMethod::Rays && !scene->hasRays(),
                slopes =
                    settings.textureGradient == TextureGradient::Precomputed && scene->slopes() == nullptr;
-    if (walk || slopes)
-        building_ = std::async(std::launch::async, [scene, walk, slopes] {
+    if (walk || rays || slopes)
+        building_ = std::async(std::launch::async, [scene, walk, rays, slopes] {
             if (walk)
                 scene->buildNeighbourhoods();
+            if (rays)
+                scene->buildRays();
             if (slopes)
                 scene->buildSlopes();
         });

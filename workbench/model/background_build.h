@@ -8,8 +8,9 @@
 
 namespace touchstone {
 
-/// What contact=neighbourhood walks on and the slopes of textureGradient=precomputed, built on a worker when
-/// they are first asked for. Until they are there the servo sweeps, or works the slopes out. Main thread.
+/// What contact=neighbourhood walks on, what contact=rays casts into and the slopes of
+/// textureGradient=precomputed, built on a worker when they are first asked for. Until they are there the
+/// servo sweeps, or works the slopes out. Main thread.
 class BackgroundBuild {
   public:
     /// In every frame: begins what `settings` ask of `scene` and is not there. Throws what stopped the last

@@ -42,6 +42,8 @@ void prepareFor(const Model& model, const HapticSettings& settings) {
         std::fprintf(stderr, "touchstone: warning: %s\n", warning.c_str());
     if (settings.contact == ContactMethod::Neighbourhood)
         model.haptic->buildNeighbourhoods();
+    if (settings.contact == ContactMethod::Rays)
+        model.haptic->buildRays();
     if (settings.textureGradient == TextureGradient::Precomputed)
         model.haptic->buildSlopes();
 }
