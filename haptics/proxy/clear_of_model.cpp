@@ -1,11 +1,11 @@
 #include "haptics/proxy/clear_of_model.h"
 
-#include "haptics/contact/ray.h"
+#include "haptics/contact/ray_walk.h"
 #include "haptics/contact/triangle.h"
 
-#include <embree3/rtcore.h>
-
+#include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace touchstone {
 
@@ -23,36 +23,22 @@ constexpr std::array<glm::dvec3, kAxes> kDirections{{{0.8138, 0.4698, 0.3420},
                                                      {-0.9021, 0.0200, 0.4310},
                                                      {-0.2742, -0.9306, 0.2426}}};
 
-struct NearSearch {
-    const HapticObject* object;
-    glm::dvec3 point;
-    double reach; ///< object units
-    bool found = false;
-};
-
-bool visit(RTCPointQueryFunctionArguments* arguments) {
-    auto& search = *static_cast<NearSearch*>(arguments->userPtr);
-    if (search.found ||
-        distanceTo(triangleOf(*search.object, arguments->primID), search.point).distance >= search.reach)
-        return false;
-    search.found = true;
-    arguments->query->radius = 0.0f; // one is enough
-    return true;
-}
+/// Boxes that the ball around a hand may meet before the surface counts as near without a closer look.
+constexpr size_t kLookedAt = 512;
 
 bool isNear(const HapticObject& object, const Similarity& pose, const glm::dvec3& hip) noexcept {
-    NearSearch search{&object, pose.inversePoint(hip), kModelReach / pose.scale};
-    if (glm::length(search.point) > object.boundingRadius + search.reach)
+    const glm::dvec3 point = pose.inversePoint(hip);
+    const double reach = kModelReach / pose.scale;
+    if (glm::length(point) > object.boundingRadius + reach)
         return false;
-    RTCPointQuery query{};
-    query.x = static_cast<float>(search.point.x);
-    query.y = static_cast<float>(search.point.y);
-    query.z = static_cast<float>(search.point.z);
-    query.radius = static_cast<float>(search.reach);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(object.bvh.get(), &query, &context, visit, &search);
-    return search.found;
+    std::array<TriangleTree::Near, kLookedAt> boxes;
+    const size_t count = object.tree.collect(glm::vec3(point), static_cast<float>(reach), boxes);
+    if (count == boxes.size())
+        return true;
+    return std::any_of(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const TriangleTree::Near& box) {
+                           return distanceTo(triangleOf(object, box.triangle), point).distance < reach;
+                       });
 }
 
 /// A surface with both sides that the ray from `hip` along the unit vector `direction` meets.
@@ -65,12 +51,7 @@ bool isBarred(const HapticScene& scene, ObjectMotions motions, const glm::dvec3&
         const Similarity& pose = motions[k].workspaceFromObject;
         const glm::dvec3 from = pose.inversePoint(hip);
         const glm::dvec3 along = glm::conjugate(pose.rotation) * direction;
-        const double ahead = -glm::dot(from, along), square = glm::dot(from, from),
-                     radius = object.boundingRadius;
-        if (square > radius * radius && (ahead < 0.0 || square - ahead * ahead > radius * radius))
-            continue;
-        if (castRay(object, glm::vec3(from), glm::vec3(along), 0.0f,
-                    static_cast<float>(ahead + radius + 1e-3)))
+        if (firstCrossing(object, from, along, false))
             return true;
     }
     return false;

@@ -16,7 +16,8 @@ inline constexpr double kModelReach = 5e-3;
 /// enclosed. A closed object encloses by parity (isInsideAny). One that is open has no inside; it encloses
 /// where 10 of 14 directions meet a two-sided surface. From outside the convex hull of the surfaces 7 do at
 /// most, since of two opposite directions one leads away from it; a sheet is met by 7.
-/// Servo thread: bounded by objects times 14 rays and one query for a near triangle.
+/// Servo thread: bounded by objects times 14 rays and one search for a near triangle. Boxes that the ball
+/// around the hand meets in greater number than are looked at one by one count as near.
 [[nodiscard]] bool clearOfModel(const HapticScene& scene, ObjectMotions motions,
                                 const glm::dvec3& hip) noexcept;
 
