@@ -15,6 +15,10 @@ target_include_directories(touchstone_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PR
 if(TOUCHSTONE_SANITIZE)
     target_compile_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
+    # Undefined behaviour ends the program as an address error does, or a test that meets it would pass. The library's
+    # assertions see an index past a vector's size but inside its capacity, which the address sanitizer cannot.
+    target_compile_options(touchstone_flags INTERFACE -fno-sanitize-recover=undefined,float-cast-overflow)
+    target_compile_definitions(touchstone_flags INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 
 # touchstone_library(NAME SOURCES... ) makes touchstone_NAME, the one static library of the folder NAME.

@@ -1,76 +1,24 @@
 // Feeds the importer bytes that are nearly glTF. It may refuse them with an Error; it may not crash, hang,
 // throw anything else, or make a scene that breaks what scene.h promises.
 #include "engine/core/error.h"
-#include "engine/scene/mesh_vertices.h"
 #include "engine/scene/scene_loader.h"
+#include "tests/support/scene_promises.h"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 namespace touchstone {
 namespace {
 
-#define TOUCHSTONE_PROMISE(condition)                                                                        \
-    do {                                                                                                     \
-        if (!(condition)) {                                                                                  \
-            std::fprintf(stderr, "scene breaks its promise: %s\n", #condition);                              \
-            std::abort();                                                                                    \
-        }                                                                                                    \
-    } while (false)
-
-void checkMesh(const Scene& scene, const Mesh& mesh) {
-    TOUCHSTONE_PROMISE(mesh.material >= 0 && static_cast<size_t>(mesh.material) < scene.materials.size());
-    const bool drawnOnly = !mesh.lineIndices.empty() || !mesh.pointIndices.empty();
-    TOUCHSTONE_PROMISE(mesh.normals.size() == mesh.positions.size() || (drawnOnly && mesh.normals.empty()));
-    TOUCHSTONE_PROMISE(!drawnOnly || mesh.indices.empty());
-    TOUCHSTONE_PROMISE(!meshFault(mesh));
-    for (const glm::vec3& normal : mesh.normals)
-        TOUCHSTONE_PROMISE(std::abs(glm::length(normal) - 1.0f) < 1e-3f);
-    for (const glm::vec4& tangent : mesh.tangents)
-        TOUCHSTONE_PROMISE(std::abs(glm::length(glm::vec3(tangent)) - 1.0f) < 1e-3f &&
-                           std::abs(tangent.w) == 1.0f);
-}
-
-void checkTexture(const Scene& scene, const TextureRef& texture) {
-    TOUCHSTONE_PROMISE(!texture || (static_cast<size_t>(texture.image) < scene.images.size() &&
-                                    texture.texCoord >= 0 && texture.texCoord <= 1));
-}
-
-void checkScene(const Scene& scene) {
-    TOUCHSTONE_PROMISE(!scene.materials.empty());
-    for (const Mesh& mesh : scene.meshes)
-        checkMesh(scene, mesh);
-    for (size_t n = 0; n < scene.nodes.size(); ++n)
-        TOUCHSTONE_PROMISE(scene.nodes[n].parent < static_cast<int>(n));
-    for (const Instance& instance : scene.instances)
-        TOUCHSTONE_PROMISE(static_cast<size_t>(instance.mesh) < scene.meshes.size() &&
-                           static_cast<size_t>(instance.node) < scene.nodes.size());
-    for (const Material& material : scene.materials) {
-        for (const TextureRef* texture : material.lookTextures())
-            checkTexture(scene, *texture);
-        if (material.haptic.height.value)
-            checkTexture(scene, material.haptic.height.value->texture);
-    }
-    for (const Image& image : scene.images)
-        TOUCHSTONE_PROMISE(!image.decoded || !image.pixels.bytes.empty());
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels) {
-            TOUCHSTONE_PROMISE(static_cast<size_t>(channel.node) < scene.nodes.size() &&
-                               !channel.times.empty());
-            TOUCHSTONE_PROMISE(channel.values.size() ==
-                               channel.times.size() *
-                                   (channel.interpolation == Interpolation::CubicSpline ? 3 : 1));
-        }
-    TOUCHSTONE_PROMISE(scene.bounds.empty() || std::isfinite(scene.bounds.diagonal()));
-}
-
 /// True if it loaded.
 bool loadAndCheck(const uint8_t* data, size_t size) {
     try {
         // A folder without files: no URI of a mutant finds anything.
         const ScenePtr scene = loadSceneFromMemory({data, data + size}, "/nonexistent");
-        checkScene(*scene);
+        if (const auto broken = test::brokenPromise(*scene)) {
+            std::fprintf(stderr, "scene breaks its promise: %s\n", broken->c_str());
+            std::abort();
+        }
         return true;
     } catch (const Error&) {
         return false;

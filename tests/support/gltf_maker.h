@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +13,21 @@
 #include <vector>
 
 namespace touchstone::test {
+
+/// As a data URI has it.
+inline std::string base64(const std::vector<uint8_t>& bytes) {
+    static constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        const size_t left = std::min<size_t>(3, bytes.size() - i);
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (k < left ? bytes[i + k] : 0);
+        for (size_t k = 0; k < 4; ++k)
+            text += k <= left ? kAlphabet[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
 
 /// Grows a glTF: `json` may be changed at will, `add…` put bytes into the one buffer and return indices.
 struct GltfMaker {

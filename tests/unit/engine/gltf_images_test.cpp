@@ -8,26 +8,13 @@ namespace touchstone {
 namespace {
 
 using nlohmann::json;
+using test::base64;
 using test::contains;
 using test::GltfMaker;
 using test::load;
 using test::warns;
 
 const std::vector<uint8_t> kFourColours = {255, 0, 0, 10, 0, 255, 0, 20, 0, 0, 255, 200, 255, 255, 255, 255};
-
-std::string base64(const std::vector<uint8_t>& bytes) {
-    static constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        const size_t left = std::min<size_t>(3, bytes.size() - i);
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (k < left ? bytes[i + k] : 0);
-        for (size_t k = 0; k < 4; ++k)
-            text += k <= left ? kAlphabet[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
 
 /// The square with the image as its base colour.
 GltfMaker textured(const json& image) {

@@ -1,0 +1,238 @@
+#include "tests/valid_files/touch_check.h"
+
+#include "devices/stroke_path.h"
+#include "engine/core/error.h"
+#include "engine/core/float_mode.h"
+#include "haptics/haptic_step.h"
+#include "haptics/scene/moving_objects.h"
+#include "tests/support/scene_promises.h"
+#include "tests/valid_files/draw.h"
+#include "workbench/figures/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace touchstone::test {
+namespace {
+
+constexpr double kTick = 1e-3; // s
+constexpr int kStrokeTicks = 400, kWildTicks = 150;
+
+class KeptFloatMode {
+  public:
+    KeptFloatMode() : mode_(_mm_getcsr()) { enterFloatMode(); }
+    ~KeptFloatMode() { _mm_setcsr(mode_); }
+    KeptFloatMode(const KeptFloatMode&) = delete;
+    KeptFloatMode& operator=(const KeptFloatMode&) = delete;
+
+  private:
+    unsigned mode_;
+};
+
+HapticSettings anySettings(Draw& draw) {
+    HapticSettings settings;
+    const auto set = [&](const char* name, const std::vector<std::string>& values) {
+        const std::string wrong = setSetting(settings, name, draw.pick(values));
+        if (!wrong.empty())
+            throw std::logic_error(wrong);
+    };
+    set("contact", {"sweep", "sweep", "neighbourhood", "rays"});
+    set("precision", {"double", "single"});
+    set("forceShading", {"material", "off", "twoPass", "projected", "direction"});
+    set("texture", {"law", "off", "blinn", "minsky"});
+    set("textureFilter", {"mip", "nearest", "bilinear", "bicubic"});
+    set("textureGradient", {"central", "precomputed", "analytic"});
+    set("friction", {"zilles", "ho", "elastoplastic", "off"});
+    set("passivity", {"observe", "control", "off"});
+    settings.proxyRadius = draw.pick(std::vector{0.0, 0.0005, 0.005});
+    settings.stiffness = draw.pick(std::vector{0.0, 0.0, 300.0, 3000.0});
+    settings.damping = draw.pick(std::vector{-1.0, 0.0, 2.0});
+    settings.staticFriction = draw.pick(std::vector{-1.0, 0.0, 0.8});
+    settings.dynamicFriction = draw.pick(std::vector{-1.0, 0.0, 0.5});
+    settings.textureStrength = draw.pick(std::vector{0.0, 0.5, 1.0});
+    settings.iterationBudget = draw.pick(std::vector{1, 4, 64});
+    return settings;
+}
+
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// One touch of the model with one set of settings: a device's state, and what it must never show.
+class Touch {
+  public:
+    Touch(const Model& model, const HapticSettings& settings, TouchReport& report)
+        : model_(model), settings_(settings), report_(report), moving_(model.scene, *model.haptic) {
+        if (settings.contact == ContactMethod::Neighbourhood)
+            model.haptic->buildNeighbourhoods();
+        if (settings.textureGradient == TextureGradient::Precomputed)
+            model.haptic->buildSlopes();
+    }
+
+    void step(const glm::dvec3& hip, bool valid = true) {
+        DeviceSample sample;
+        sample.position = hip;
+        sample.valid = valid;
+        TickInput input;
+        input.tick = tick_;
+        input.time = kTick * static_cast<double>(tick_);
+        input.dt = kTick;
+        input.devices = {&sample, 1};
+        input.objects = moving_.at(input.time);
+        NoStopwatch none;
+        hapticStep(*model_.haptic, settings_, input, world_, {&state_, 1}, {&output_, 1}, none);
+        check(valid && finite(hip));
+        last_ = output_.command.force();
+        ++tick_;
+    }
+
+    [[nodiscard]] const HapticOutput& output() const { return output_; }
+
+  private:
+    void require(bool holds, const char* what) {
+        if (holds || told_)
+            return;
+        told_ = true; // the first of a touch; the rest mostly follows from it
+        std::string with;
+        for (const SettingInfo& info : settingInfos())
+            with += " " + std::string(info.name) + "=" + settingValue(settings_, info.name);
+        report_.findings.push_back(std::string(what) + " in tick " + std::to_string(tick_) + " with" + with);
+    }
+
+    void check(bool usable) {
+        const HapticOutput& o = output_;
+        require(finite(o.force), "a force that is not finite");
+        require(finite(o.proxy) && finite(o.hip) && finite(o.hipVelocity), "a place that is not finite");
+        require(std::isfinite(o.penetration) && std::isfinite(o.height), "a length that is not finite");
+        require(std::isfinite(o.energyBalance), "an energy that is not finite");
+        require(finite(o.normal) &&
+                    (o.normal == glm::dvec3(0.0) || std::abs(glm::length(o.normal) - 1.0) < 1e-6),
+                "a normal that is not unit");
+        const glm::dvec3 command = o.command.force();
+        const DeviceLimits& limits = model_.haptic->limits;
+        require(finite(command) && glm::length(command) <= limits.maxForce * (1.0 + 1e-9),
+                "a command beyond maxForce");
+        require(glm::length(command - last_) <= limits.maxForceRate * kTick * (1.0 + 1e-9),
+                "a command beyond maxForceRate");
+        require(!has(o.flags, TickFlag::ForceFault), "a fault of the force");
+        require(!has(o.flags, TickFlag::NeighbourhoodMissing), "no neighbourhood though it was built");
+        require(has(o.flags, TickFlag::InputInvalid) == !usable, "a wrong InputInvalid");
+        if (o.object >= 0) {
+            require(static_cast<size_t>(o.object) < model_.haptic->objects.size() && o.triangle >= 0 &&
+                        static_cast<size_t>(o.triangle) <
+                            model_.haptic->objects[static_cast<size_t>(o.object)]->triangleCount(),
+                    "a touched triangle that is not there");
+        }
+        report_.contactTicks += o.contacts > 0 ? 1 : 0;
+    }
+
+    const Model& model_;
+    HapticSettings settings_;
+    TouchReport& report_;
+    MovingObjects moving_;
+    DeviceState state_;
+    WorldState world_;
+    HapticOutput output_;
+    glm::dvec3 last_{0.0};
+    uint64_t tick_ = 0;
+    bool told_ = false;
+};
+
+/// A stroke as `run` does it, then a hand out of control: anywhere in the bounds and beyond, fast and slow,
+/// now and then without a usable sample.
+void touch(const Model& model, const StrokePath& stroke, const HapticSettings& settings, Draw& draw,
+           TouchReport& report) {
+    Touch touch(model, settings, report);
+    for (int i = 0; i < kStrokeTicks; ++i)
+        touch.step(stroke.position(kTick * i));
+    glm::dvec3 hip = stroke.position(kTick * kStrokeTicks);
+    for (int i = 0; i < kWildTicks; ++i) {
+        const double reach = draw.pick(std::vector{1e-5, 1e-4, 2e-3, 0.1});
+        hip += glm::dvec3(draw.real(-reach, reach), draw.real(-reach, reach), draw.real(-reach, reach));
+        hip = glm::clamp(hip, glm::dvec3(-0.15), glm::dvec3(0.15));
+        if (draw.chance(0.02))
+            touch.step({hip.x, std::numeric_limits<double>::quiet_NaN(), hip.z});
+        else
+            touch.step(hip, !draw.chance(0.02));
+    }
+}
+
+/// Some triangle has an area that a hand could find: above rounding, of an object that is not lost beside
+/// others.
+bool hasSurface(const HapticScene& scene) {
+    for (const auto& object : scene.objects)
+        for (uint32_t t = 0; object->workspaceFromObject.scale > 1e-6 && t < object->triangleCount(); ++t)
+            if (const Triangle triangle = triangleOf(*object, t);
+                glm::length(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a)) > 1e-6)
+                return true;
+    return false;
+}
+
+std::optional<StrokePath> strokeFor(const Model& model, TouchReport& report) {
+    try {
+        return strokeOver(*model.scene, model.workspaceFromScene, {.speed = 0.2, .clearance = 0.004});
+    } catch (const Error& error) {
+        if (hasSurface(*model.haptic))
+            report.findings.push_back(std::string("no stroke: ") + error.what());
+        return std::nullopt;
+    }
+}
+
+void touchAll(const Model& model, uint64_t seed, TouchReport& report) {
+    const std::vector<glm::dvec3> nowhere(4, glm::dvec3(0.0));
+    const std::optional<StrokePath> planned = strokeFor(model, report);
+    const StrokePath stroke = planned ? *planned : StrokePath::around(nowhere, 0.1);
+    Draw draw(seed);
+    touch(model, stroke, HapticSettings{}, draw, report);
+    for (int i = 0; i < 3; ++i)
+        touch(model, stroke, anySettings(draw), draw, report);
+}
+
+/// What has no number in it that is none: those are null in JSON.
+void checkInspection(const nlohmann::ordered_json& inspection, TouchReport& report) {
+    const auto require = [&](bool holds, const char* what) {
+        if (!holds)
+            report.findings.push_back(std::string("the inspection has ") + what);
+    };
+    require(inspection["triangles"] == report.triangles, "another number of triangles");
+    const auto dumped = nlohmann::json::parse(
+        inspection.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    require(!dumped["workspace_from_scene_scale"].is_null(), "no scale");
+    if (report.touchable)
+        for (const char* end : {"low", "high"})
+            for (const auto& number : dumped["bounds_m"][end])
+                require(number.is_number(), "bounds that are not finite");
+    for (const auto& object : dumped["objects"])
+        require(object["memory_bytes"] > 0, "an object without memory");
+}
+
+} // namespace
+
+TouchReport openAndTouch(const std::vector<uint8_t>& file, uint64_t seed) {
+    TouchReport report;
+    try {
+        Model model;
+        model.scene = loadSceneFromMemory(file, "/nonexistent");
+        if (const auto broken = brokenPromise(*model.scene))
+            report.findings.push_back("the scene breaks its promise: " + *broken);
+        report.triangles = model.scene->triangleCount();
+        report.touchable = model.scene->touchable();
+        model.workspaceFromScene = workspaceFromScene(*model.scene, Fit::Workspace);
+        model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene);
+        for (const auto* list : {&model.scene->warnings, &model.haptic->warnings})
+            for (const Warning& warning : *list)
+                report.warnings.push_back(warning.place + ": " + warning.message);
+        const KeptFloatMode kept;
+        checkInspection(inspectionOf(model), report);
+        if (report.touchable)
+            touchAll(model, seed, report);
+    } catch (const Error& refused) {
+        report.findings.push_back(std::string("refused: ") + refused.what());
+    }
+    return report;
+}
+
+} // namespace touchstone::test

@@ -1,0 +1,61 @@
+// Valid files are opened, inspected and touched: each feature alone, then random sets of them (the short form
+// of valid_files, which runs any number).
+#include "tests/valid_files/touch_check.h"
+#include "tests/valid_files/valid_file.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+namespace touchstone::test {
+namespace {
+
+class EachFeature : public testing::TestWithParam<size_t> {};
+
+TEST_P(EachFeature, IsOpenedAndTouched) {
+    for (const uint64_t seed : {1u, 2u}) {
+        const Recipe recipe = recipeOf(seed, GetParam());
+        const TouchReport report = openAndTouch(validFile(recipe), recipe.seed);
+        for (const std::string& finding : report.findings)
+            ADD_FAILURE() << recipe.text() << ": " << finding;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Features, EachFeature, testing::Range(size_t{0}, kFeatureCount),
+                         [](const auto& feature) {
+                             return std::string(featureName(static_cast<Feature>(feature.param)));
+                         });
+
+/// On a finding rapidcheck drops features until none can go, and prints what is left with its seed.
+TEST(ValidFiles, SetsOfFeaturesAreOpenedAndTouched) {
+    const bool held = rc::check("a valid file is opened and touched", [] {
+        Recipe recipe;
+        recipe.seed = *rc::gen::noShrink(rc::gen::inRange<uint64_t>(0, uint64_t{1} << 62));
+        for (const size_t feature :
+             *rc::gen::container<std::vector<size_t>>(rc::gen::inRange<size_t>(0, kFeatureCount)))
+            recipe.features.set(feature);
+        const TouchReport report = openAndTouch(validFile(recipe), recipe.seed);
+        RC_TAG(report.touchable ? "touchable" : "nothing to touch");
+        if (!report.findings.empty())
+            RC_FAIL(recipe.text() + ": " + report.findings.front());
+    });
+    EXPECT_TRUE(held);
+}
+
+/// A generator whose files show nothing would find nothing.
+TEST(ValidFiles, MostOfThemAreTouched) {
+    size_t touched = 0;
+    constexpr size_t kFiles = 40;
+    for (size_t i = 0; i < kFiles; ++i) {
+        const Recipe recipe = recipeOf(3, kFeatureCount + i);
+        const std::vector<uint8_t> file = validFile(recipe);
+        EXPECT_EQ(file, validFile(recipe)) << "equal recipes make equal files";
+        const TouchReport report = openAndTouch(file, recipe.seed);
+        for (const std::string& finding : report.findings)
+            ADD_FAILURE() << recipe.text() << ": " << finding;
+        touched += report.contactTicks > 0 ? 1 : 0;
+    }
+    EXPECT_GT(touched, kFiles / 2);
+}
+
+} // namespace
+} // namespace touchstone::test

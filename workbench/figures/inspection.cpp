@@ -1,0 +1,260 @@
+#include "workbench/figures/inspection.h"
+
+#include "devices/simulated_hand.h"
+#include "engine/core/error.h"
+#include "engine/core/float_mode.h"
+#include "engine/time/samples.h"
+#include "haptics/haptic_step.h"
+#include "haptics/servo/realtime_thread.h"
+#include "workbench/commands/effect_cost.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace touchstone {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* sourceName(HapticSource source) {
+    switch (source) {
+    case HapticSource::Touchstone:
+        return "TOUCHSTONE_materials_haptic";
+    case HapticSource::Mpeg:
+        return "MPEG_haptic_material";
+    case HapticSource::Physics:
+        return "KHR_physics_rigid_bodies";
+    case HapticSource::DerivedFromPbr:
+        return "derived from the PBR material";
+    case HapticSource::Default:
+        return "default";
+    }
+    return "";
+}
+
+std::string mapName(const Scene& scene, const TextureRef& texture) {
+    return texture ? "map '" + scene.images[static_cast<size_t>(texture.image)].name + "'" : "no map";
+}
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+std::string shown(const Scene&, const float& value) {
+    return number(static_cast<double>(value));
+}
+std::string shown(const Scene& scene, const HeightMap& map) {
+    return mapName(scene, map.texture) + ", " + number(1e3 * static_cast<double>(map.scale)) +
+           " mm black to white";
+}
+std::string shown(const Scene& scene, const FactorMap& map) {
+    return mapName(scene, map.texture) + ", factor " + number(static_cast<double>(map.min)) + " to " +
+           number(static_cast<double>(map.max));
+}
+
+/// The haptic fields that the file or its PBR material gives, each with where it comes from.
+Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
+    Json fields = Json::object();
+    const auto add = [&](const char* name, const auto& field, const char* unit) {
+        if (field.value)
+            fields[name] = {
+                {"value", shown(scene, *field.value)}, {"unit", unit}, {"source", sourceName(field.source)}};
+    };
+    add("stiffness", haptic.stiffness, "N/m");
+    add("damping", haptic.damping, "N s/m");
+    add("staticFriction", haptic.staticFriction, "");
+    add("dynamicFriction", haptic.dynamicFriction, "");
+    add("viscousFriction", haptic.viscousFriction, "N s/m");
+    add("normalTextureInfluence", haptic.normalTextureInfluence, "");
+    add("heightTexture", haptic.height, "");
+    add("frictionTexture", haptic.friction, "");
+    add("stiffnessTexture", haptic.stiffnessMap, "");
+    add("dampingTexture", haptic.dampingMap, "");
+    return fields;
+}
+
+Json costJson(const EffectCost& cost) {
+    if (!cost.nanoseconds)
+        return nullptr;
+    return *cost.nanoseconds;
+}
+
+Json materialsJson(const Model& model) {
+    const std::vector<EffectCost> costs = effectCosts(*model.haptic);
+    constexpr std::array kShading{"auto", "off", "twoPass", "projected", "direction", "bezier"};
+    Json materials = Json::array();
+    for (size_t m = 0; m < model.scene->materials.size(); ++m) {
+        const Material& material = model.scene->materials[m];
+        Json effects = Json::array();
+        for (size_t i = 0; i < costs.size(); ++i) {
+            const PlannedEffect& effect = model.haptic->plan.effects[i];
+            if (effect.material == static_cast<int>(m))
+                effects.push_back({{"effect", effectName(effect.effect)},
+                                   {"on", effect.on},
+                                   {"reason", effect.reason},
+                                   {"memory_bytes", effect.memoryBytes},
+                                   {"ns_per_tick", costJson(costs[i])},
+                                   {"ns_over_ticks", costs[i].ticks}});
+        }
+        Json json{{"index", m},
+                  {"name", material.name},
+                  {"haptic", fieldsJson(*model.scene, material.haptic)},
+                  {"forceShading", kShading[static_cast<size_t>(material.haptic.forceShading)]},
+                  {"sides", material.haptic.sides == SideChoice::Both ? "both" : "front"},
+                  {"effects", effects}};
+        if (!material.haptic.unavailable.is_null())
+            json["not_yet_available"] = material.haptic.unavailable;
+        materials.push_back(std::move(json));
+    }
+    return materials;
+}
+
+Json imagesJson(const Scene& scene) {
+    Json images = Json::array();
+    for (const Image& image : scene.images)
+        images.push_back({{"name", image.name},
+                          {"width", image.width},
+                          {"height", image.height},
+                          {"channels", image.channels},
+                          {"decoded", image.decoded},
+                          {"encoded_bytes", image.encodedBytes},
+                          {"problem", image.problem}});
+    return images;
+}
+
+Json objectsJson(const Model& model) {
+    Json objects = Json::array();
+    for (const auto& object : model.haptic->objects)
+        objects.push_back({{"name", object->name},
+                           {"triangles", object->triangleCount()},
+                           {"vertices", object->vertices.size() - 1},
+                           {"welded_vertices", object->weldedVertices},
+                           {"dropped_triangles", object->droppedTriangles},
+                           {"closed", object->closed},
+                           {"material", object->material},
+                           {"memory_bytes", object->memoryBytes()}});
+    return objects;
+}
+
+Json warningsJson(const Model& model) {
+    Json warnings = Json::array();
+    for (const auto* list : {&model.scene->warnings, &model.haptic->warnings})
+        for (const Warning& warning : *list)
+            warnings.push_back({{"place", warning.place}, {"message", warning.message}});
+    return warnings;
+}
+
+Json vectorJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// Strokes the model for two seconds of its own time and tells the median cost of each stage of a tick, over
+/// the ticks in contact. Null where no stroke can be laid (all triangles without area, for one) or it met
+/// nothing.
+Json tickCostJson(const Model& model) {
+    std::shared_ptr<const StrokePath> path;
+    try {
+        path = std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene));
+    } catch (const Error&) {
+        return nullptr;
+    }
+    enterFloatMode();
+    SimulatedHand hand(path);
+    constexpr int kTicks = 2000;
+    std::array<Samples, kStageCount> stages;
+    Samples whole;
+    DeviceState state;
+    WorldState world;
+    HapticOutput output;
+    StageStopwatch stopwatch;
+    for (int i = 0; i < kTicks; ++i) {
+        TickInput input;
+        input.tick = static_cast<uint64_t>(i);
+        input.time = 1e-3 * i;
+        const DeviceSample sample = hand.sample(input.time);
+        input.devices = {&sample, 1};
+        hapticStep(*model.haptic, HapticSettings{}, input, world, {&state, 1}, {&output, 1}, stopwatch);
+        if (output.contacts == 0)
+            continue;
+        int64_t sum = 0;
+        for (size_t s = 0; s < kStageCount; ++s) {
+            stages[s].add(stopwatch.nanoseconds[s]);
+            sum += stopwatch.nanoseconds[s];
+        }
+        whole.add(sum);
+    }
+    if (whole.empty())
+        return nullptr;
+    Json json{{"ticks_in_contact", whole.count()}, {"all", whole.percentile(0.5)}};
+    for (size_t s = 0; s < kStageCount; ++s)
+        json[std::string(kStageNames[s])] = stages[s].percentile(0.5);
+    return json;
+}
+
+/// What contact=neighbourhood would cost this model: nothing of it is there unless that is asked for.
+Json neighbourhoodJson(const Model& model) {
+    const long long begin = monotonicNs();
+    model.haptic->buildNeighbourhoods();
+    const double seconds = 1e-9 * static_cast<double>(monotonicNs() - begin);
+    uint64_t bytes = 0, borders = 0, nonManifold = 0;
+    for (const MeshAdjacency& adjacency : *model.haptic->neighbourhoods()) {
+        bytes += adjacency.memoryBytes();
+        borders += adjacency.borderEdges();
+        nonManifold += adjacency.nonManifoldEdges();
+    }
+    return {{"memory_bytes", bytes},
+            {"build_s", seconds},
+            {"border_edges", borders},
+            {"non_manifold_edges", nonManifold}};
+}
+
+/// The same for textureGradient=precomputed.
+Json slopesJson(const Model& model) {
+    const long long begin = monotonicNs();
+    model.haptic->buildSlopes();
+    const double seconds = 1e-9 * static_cast<double>(monotonicNs() - begin);
+    uint64_t bytes = 0;
+    for (const HapticMap::Slopes& map : *model.haptic->slopes())
+        for (const auto& level : map)
+            bytes += sizeof(level[0]) * level.size();
+    return {{"memory_bytes", bytes}, {"build_s", seconds}};
+}
+
+} // namespace
+
+Json inspectionOf(const Model& model) {
+    const Scene& scene = *model.scene;
+    Json animations = Json::array();
+    for (const Animation& animation : scene.animations)
+        animations.push_back({{"name", animation.name},
+                              {"duration_s", animation.duration},
+                              {"channels", animation.channels.size()}});
+    return {{"command", "inspect"},
+            {"scene", scene.path},
+            {"meshes", scene.meshes.size()},
+            {"instances", scene.instances.size()},
+            {"nodes", scene.nodes.size()},
+            {"triangles", scene.triangleCount()},
+            {"lines", scene.lineCount()},
+            {"points", scene.pointCount()},
+            {"touchable", scene.touchable()},
+            {"bounds_m", scene.bounds.empty() ? Json()
+                                              : Json{{"low", vectorJson(scene.bounds.low)},
+                                                     {"high", vectorJson(scene.bounds.high)}}},
+            {"workspace_from_scene_scale", model.workspaceFromScene.scale},
+            {"extensions_used", scene.extensionsUsed},
+            {"animations", animations},
+            {"images", imagesJson(scene)},
+            {"materials", materialsJson(model)},
+            {"objects", objectsJson(model)},
+            {"tick_p50_ns", tickCostJson(model)},
+            {"neighbourhood", neighbourhoodJson(model)},
+            {"slopes", slopesJson(model)},
+            {"warnings", warningsJson(model)}};
+}
+
+} // namespace touchstone
