@@ -67,6 +67,8 @@ class Touch {
         : model_(model), settings_(settings), report_(report), moving_(model.scene, *model.haptic) {
         if (settings.contact == ContactMethod::Neighbourhood)
             model.haptic->buildNeighbourhoods();
+        if (settings.contact == ContactMethod::Rays)
+            model.haptic->buildRays();
         if (settings.textureGradient == TextureGradient::Precomputed)
             model.haptic->buildSlopes();
     }
