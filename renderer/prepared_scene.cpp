@@ -32,16 +32,21 @@ SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
 
 /// Halves the triangles again and again. Errors are of each step against the one before and go as often in as
 /// out: their squares add up.
-void simplify(const Mesh& mesh, const PrepareOptions& options, std::vector<uint32_t>& indices,
-              PreparedMesh& out) {
+void simplify(const Mesh& mesh, const PrepareOptions& options, const Progress& progress,
+              std::vector<uint32_t>& indices, PreparedMesh& out) {
+    constexpr double kTimePerTriangle = 1e-6; // s, of one halving
     const float* positions = &mesh.positions[0].x;
     const auto scale =
         static_cast<double>(meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(glm::vec3)));
     std::vector<uint32_t> current = mesh.indices, coarser(mesh.indices.size());
-    double squared = 0.0;
+    double squared = 0.0, done = 0.0; // each halving takes half of the time of the one before
     while (options.coarsest > 0 && current.size() / 3 > 2 * options.coarsest) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
             return;
+        const double after = 0.5 * (1.0 + done);
+        const EstimatedProgress estimate(progress.part(done, after), "simplifying what is drawn",
+                                         kTimePerTriangle * static_cast<double>(current.size() / 3));
+        done = after;
         float step = 0.0f;
         const size_t target = current.size() / 6 * 3;
         const size_t count =
@@ -59,7 +64,9 @@ void simplify(const Mesh& mesh, const PrepareOptions& options, std::vector<uint3
     }
 }
 
-void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene& out) {
+void prepareMesh(const Mesh& mesh, const PrepareOptions& options, const Progress& progress,
+                 PreparedScene& out) {
+    progress.report(0.0, "packing what is drawn");
     PreparedMesh prepared;
     prepared.firstVertex = static_cast<int32_t>(out.vertices.size());
     Bounds bounds;
@@ -79,7 +86,7 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, PreparedScene&
         {static_cast<uint32_t>(out.indices.size()), static_cast<uint32_t>(mesh.indices.size()), 0.0});
     out.indices.insert(out.indices.end(), mesh.indices.begin(), mesh.indices.end());
     if (!mesh.indices.empty())
-        simplify(mesh, options, out.indices, prepared);
+        simplify(mesh, options, progress.part(0.1, 1.0), out.indices, prepared);
     out.meshes.push_back(std::move(prepared));
 }
 
@@ -138,8 +145,16 @@ std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene, const PrepareO
     }
     prepared->vertices.reserve(vertices);
     prepared->indices.reserve(options.coarsest > 0 ? 2 * indices : indices);
-    for (const Mesh& mesh : prepared->scene->meshes)
-        prepareMesh(mesh, options, *prepared);
+    size_t done = 0;
+    for (const Mesh& mesh : prepared->scene->meshes) {
+        const size_t after = done + mesh.indices.size();
+        const Progress part = options.progress.part(share(done, indices), share(after, indices));
+        // A thread for the estimates of each small mesh would take longer than the mesh.
+        constexpr size_t kWorthReporting = 300'000; // indices
+        prepareMesh(mesh, options, mesh.indices.size() < kWorthReporting ? part.silent() : part, *prepared);
+        part.report(1.0, "packing what is drawn");
+        done = after;
+    }
     for (size_t m = 0; m < prepared->meshes.size(); ++m)
         prepareStrokes(prepared->scene->meshes[m], prepared->meshes[m], prepared->vertices);
     prepareTextures(options, *prepared);

@@ -2,6 +2,7 @@
 // A scene as the device wants it, made by a worker so that the window need only copy it: packed vertices,
 // simplified meshes, texture levels. Pure; any thread.
 
+#include "engine/core/progress.h"
 #include "engine/scene/scene.h"
 #include "renderer/scene_vertex.h"
 #include "renderer/texture_levels.h"
@@ -46,6 +47,7 @@ struct PrepareOptions {
     size_t coarsest = 2000;
     /// Set it to stop: then the scene may lack levels and textures. May be null.
     const std::atomic<bool>* cancel = nullptr;
+    Progress progress = {}; ///< only reports: what cancels is `cancel`
 };
 
 /// `scene` must not be null. A million triangles take about two seconds with simplification, and 60 MB until

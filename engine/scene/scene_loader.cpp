@@ -18,13 +18,14 @@ namespace {
 ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
     // 1. Check and mend: the shape of the JSON, then how its parts relate. What passes may be read without
     // more asking.
-    context.step(0.02, "checking");
+    context.step(0.2, "checking");
     checkSchema(context, file.json);
     validateGltf(context, file.json);
 
     // 2. Bytes: buffers from wherever they lie, decompressed.
-    context.step(0.05, "reading buffers");
+    context.step(0.22, "reading buffers");
     const GltfDocument document = makeDocument(context, file);
+    context.enter(context.progress().part(0.25, 0.35));
     warnOfAccessorValues(context, document);
 
     // 3. Structure: nodes parents first, materials as they look and feel, meshes placed on the nodes.
@@ -41,6 +42,7 @@ ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stam
     scene->textures = readTextures(context, document);
     scene->animations = readAnimations(context, document, forest, scene->nodes);
     warnOfStillSkins(context, document, forest, *scene);
+    context.enter(context.progress().part(0.8, 0.85));
     scene->bounds = sceneBounds(context, *scene);
 
     // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.
@@ -60,6 +62,7 @@ ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stam
 
 ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
                      const std::filesystem::path& folder) {
+    context.step(0.15, "knowing the file again");
     const FileStamp stamp = stampOf(bytes);
     if (const std::string& edits = context.options().edits; !edits.empty())
         bytes = withMaterials(bytes, patchesFrom(edits), context.file());
@@ -72,7 +75,8 @@ ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options
     ImportContext context(path.string(), options);
     try {
         context.step(0.0, "reading the file");
-        return importBytes(context, readWholeFile(path, context.file()), path.parent_path());
+        return importBytes(context, readWholeFile(path, context.file(), context.progress().part(0.0, 0.15)),
+                           path.parent_path());
     } catch (const std::bad_alloc&) {
         context.fail("", "there is not enough memory for it", "close other programs, or simplify the model");
     }

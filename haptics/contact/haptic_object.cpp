@@ -84,7 +84,13 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, c
 }
 
 /// What texture needs to follow a smooth surface rather than its facets; nothing where no height is felt.
-void addGradients(const ObjectUse& use, HapticObject& object) {
+void addGradients(const ObjectUse& use, HapticObject& object, const Progress& progress) {
+    constexpr double kTimePerTriangle = 1e-6; // s
+    progress.stopIfCancelled();
+    if (object.heights.empty() && !use.uvGradients[0] && !use.uvGradients[1])
+        return;
+    const EstimatedProgress estimate(progress, kGradients,
+                                     kTimePerTriangle * static_cast<double>(object.triangleCount()));
     const GradientMesh mesh{object.vertices, object.indices, object.sourceIndices, object.normals};
     for (size_t set = 0; set < 2; ++set)
         if (use.uvGradients[set] && !object.uv[set].empty())
@@ -217,8 +223,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     object->smooth.assign(object->triangleCount(), 0);
     if (use.normals)
         markSmoothTriangles(*object, progress.part(0.29, 0.34));
-    progress.step(0.34, kGradients);
-    addGradients(use, *object);
+    addGradients(use, *object, progress.part(0.34, 0.35));
     if (!object->anySmooth)
         object->normals = {};
     object->tree = TriangleTree(object->vertices, object->indices, progress.part(0.35, 1.0));

@@ -215,6 +215,21 @@ void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks,
     sink = sum; // so that no ray is left out
 }
 
+/// Where the time from the program's start to the first tick went.
+nlohmann::ordered_json loadJson(const std::vector<StageTime>& stages, uint64_t peak) {
+    nlohmann::ordered_json json{
+        {"s", 0.0}, {"cpu_s", 0.0}, {"peak_bytes", peak}, {"stages", nlohmann::ordered_json::array()}};
+    double wall = 0.0, cpu = 0.0;
+    for (const StageTime& stage : stages) {
+        json["stages"].push_back({{"stage", stage.what}, {"s", stage.wall}, {"cpu_s", stage.cpu}});
+        wall += stage.wall;
+        cpu += stage.cpu;
+    }
+    json["s"] = wall;
+    json["cpu_s"] = cpu;
+    return json;
+}
+
 /// Nulls where no tick was in contact.
 nlohmann::ordered_json floorJson(const Samples& rays) {
     nlohmann::ordered_json json{{"count", rays.count()}, {"p50_ns", nullptr}, {"p99_ns", nullptr}};
@@ -231,17 +246,22 @@ int touchCommand(const TouchOptions& options) {
     std::optional<HipPath> path;
     if (!options.path.empty())
         path = readHipPath(options.path);
-    const Model model = loadModelToTouch(options.scene, options.fit,
-                                         options.closedLoop ? limitsOf(options.plant) : DeviceLimits{});
+    StageClock clock;
+    const Model model = loadModelToTouch(
+        options.scene, options.fit, options.closedLoop ? limitsOf(options.plant) : DeviceLimits{}, &clock);
     printWarnings(model);
+    clock.at("preparing for the settings");
     prepareFor(model, options.settings);
-    if (!options.json.empty())
-        model.haptic->buildRays(); // for the ray floor and the proxy's gap
+    clock.at("laying the stroke");
     std::optional<StrokePath> stroke;
     if (!path) {
         stroke = layStroke(*model.scene, model.workspaceFromScene, options.stroke);
         path = pathOf(*stroke, options);
     }
+    const std::vector<StageTime> stages = clock.take();
+    const uint64_t peak = peakMemory();
+    if (!options.json.empty())
+        model.haptic->buildRays(); // for the ray floor and the proxy's gap
     OutputFile out(options.out);
     std::optional<OutputFile> report;
     if (!options.json.empty())
@@ -306,6 +326,7 @@ int touchCommand(const TouchOptions& options) {
             {"loop", options.closedLoop ? plantJson(touch.plant()) : nlohmann::ordered_json("open")},
             {"settings", settingsJson(options.settings)},
             {"setting_warnings", settingWarnings(options.settings)},
+            {"load", loadJson(stages, peak)},
             {"ticks", planned.size()},
             {"step", statistics.stepJson()},
             {"ray_floor", floorJson(rays)},

@@ -8,22 +8,23 @@ namespace touchstone {
 
 Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
                 const LoadOptions& options) {
+    constexpr double kReading = 0.25; // of a million triangles on two cores
+    const Progress whole(&options.progress, options.cancel);
     LoadOptions loading = options;
-    if (options.progress)
-        loading.progress = [&](double fraction, const char* what) { options.progress(0.9 * fraction, what); };
+    loading.progress = [&](double fraction, const char* what) { whole.report(kReading * fraction, what); };
     Model model;
     model.scene = loadScene(path, loading);
     model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
-    if (options.progress)
-        options.progress(0.9, "making it touchable");
-    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene, limits);
-    if (options.progress)
-        options.progress(1.0, "ready");
+    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene, limits,
+                                      {.rays = false, .progress = whole.part(kReading, 1.0)});
     return model;
 }
 
-Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits) {
+Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
+                       StageClock* clock) {
     LoadOptions options;
+    if (clock != nullptr)
+        options.progress = [clock](double, const char* what) { clock->at(what); };
     options.images.visual = false;
     return loadModel(path, fit, limits, options);
 }

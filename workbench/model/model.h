@@ -2,6 +2,7 @@
 // A model as both eye and hand have it.
 
 #include "engine/scene/scene_loader.h"
+#include "engine/time/stage_clock.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_settings.h"
 
@@ -16,12 +17,14 @@ struct Model {
     Similarity workspaceFromScene;
 };
 
-/// Loads and compiles for a device. Any thread; throws Error. The hand's share of the progress is its last
-/// tenth.
+/// Loads and compiles for a device, without the rays (HapticScene::buildRays). Any thread; throws Error, and
+/// Cancelled.
 [[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
                               const LoadOptions& options = {});
 /// For who touches and draws nothing: what only the eye would need is not decoded.
-[[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits);
+/// `clock` may be null.
+[[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
+                                     StageClock* clock = nullptr);
 /// The eye's half only; `falseColor`: it wants to see what the hand would feel.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor);
 

@@ -62,13 +62,25 @@ void ModelLoader::begin(const Request& request) {
             activity_.store(what, std::memory_order_relaxed);
         };
         try {
+            // Of a million triangles on two cores; the simplification is by far the longest.
+            const Progress whole(&options.progress, &cancelled_);
+            LoadOptions loading = options;
+            loading.progress = [&](double fraction, const char* what) {
+                whole.report(0.25 * fraction, what);
+            };
             LoadedModel loaded{
-                loadModel(request.path, Fit::Workspace, request.limits, options), nullptr, {}, nullptr};
-            if (loaded.model.scene->touchable())
+                loadModel(request.path, Fit::Workspace, request.limits, loading), nullptr, {}, nullptr};
+            if (loaded.model.scene->touchable()) {
+                constexpr double kTimePerTriangle = 1e-7; // s
+                const EstimatedProgress estimate(
+                    whole.part(0.25, 0.29), "laying the stroke",
+                    kTimePerTriangle * static_cast<double>(loaded.model.scene->triangleCount()));
                 loaded.path = tourOver(loaded.model);
+            }
+            whole.step(0.29, "knowing the model again");
             loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
-            options.progress(1.0, "simplifying what is drawn");
-            loaded.prepared = prepareScene(loaded.model.scene, {.cancel = &cancelled_});
+            loaded.prepared =
+                prepareScene(loaded.model.scene, {.cancel = &cancelled_, .progress = whole.part(0.3, 1.0)});
             result_ = std::move(loaded);
         } catch (...) {
             failure_ = std::current_exception();

@@ -20,20 +20,11 @@ double slack(double declared) {
     return 1e-4 * std::abs(declared);
 }
 
-void warnOf(ImportContext& context, const GltfDocument& document, size_t index) {
+void warnOf(ImportContext& context, const GltfDocument& document, size_t index, const Progress& progress) {
     const tinygltf::Accessor& accessor = document.model.accessors[index];
     const std::string place = element("accessors", index);
-    const size_t components = static_cast<size_t>(accessorComponents(document, static_cast<int>(index)));
-    std::vector<double> low(components, INFINITY), high(components, -INFINITY);
-    size_t broken = 0;
-    visitStoredValues(context, document, static_cast<int>(index), [&](size_t component, double value) {
-        if (!std::isfinite(value)) {
-            ++broken;
-            return;
-        }
-        low[component] = std::min(low[component], value);
-        high[component] = std::max(high[component], value);
-    });
+    const auto [low, high, broken] = storedRange(context, document, static_cast<int>(index), progress);
+    const size_t components = low.size();
     if (broken > 0)
         context.warn(place, std::to_string(broken) + " of its numbers are not finite");
     for (size_t c = 0; c < components; ++c) {
@@ -59,7 +50,8 @@ void warnOfAccessorValues(ImportContext& context, const GltfDocument& document) 
             return;
         left -= accessor.count;
         context.stopIfCancelled();
-        warnOf(context, document, i);
+        const size_t all = document.model.accessors.size();
+        warnOf(context, document, i, context.part().part(share(i, all), share(i + 1, all)));
     }
 }
 

@@ -3,6 +3,7 @@
 #include "engine/scene/import/gltf_validation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -151,19 +152,55 @@ std::vector<glm::mat4> readMatrices(ImportContext& context, const GltfDocument& 
     return matrices;
 }
 
-void visitStoredValues(ImportContext& context, const GltfDocument& document, int index,
-                       const std::function<void(size_t, double)>& visit) {
+namespace {
+
+template <class T>
+void rangeOf(ImportContext& context, const GltfDocument& document, const tinygltf::Accessor& accessor,
+             const std::string& place, const Progress& progress, StoredRange& range) {
+    const size_t components = range.low.size();
+    visitElements(context, document, accessor, place, [&](uint64_t i, const uint8_t* bytes) {
+        if (i % kProgressWork == 0)
+            progress.step(share(i, accessor.count), "looking at accessors");
+        for (size_t c = 0; c < components; ++c) {
+            const auto value = static_cast<double>(loadUnaligned<T>(bytes + c * sizeof(T)));
+            if (!std::isfinite(value)) {
+                ++range.broken;
+                continue;
+            }
+            range.low[c] = std::min(range.low[c], value);
+            range.high[c] = std::max(range.high[c], value);
+        }
+    });
+}
+
+} // namespace
+
+StoredRange storedRange(ImportContext& context, const GltfDocument& document, int index,
+                        const Progress& progress) {
     const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
-    const size_t components = static_cast<size_t>(accessorComponents(document, index));
-    const uint64_t step = componentBytes(accessor.componentType);
-    const Convert convert = converter(accessor.componentType);
-    const bool wide = accessor.componentType == 5125; // a float would round it
-    visitElements(context, document, accessor, element("accessors", static_cast<size_t>(index)),
-                  [&](uint64_t, const uint8_t* bytes) {
-                      for (size_t c = 0; c < components; ++c)
-                          visit(c, wide ? static_cast<double>(loadUnaligned<uint32_t>(bytes + c * step))
-                                        : static_cast<double>(convert(bytes + c * step, false)));
-                  });
+    const auto components = static_cast<size_t>(accessorComponents(document, index));
+    StoredRange range{std::vector<double>(components, INFINITY), std::vector<double>(components, -INFINITY)};
+    const std::string place = element("accessors", static_cast<size_t>(index));
+    switch (accessor.componentType) {
+    case 5120:
+        rangeOf<int8_t>(context, document, accessor, place, progress, range);
+        break;
+    case 5121:
+        rangeOf<uint8_t>(context, document, accessor, place, progress, range);
+        break;
+    case 5122:
+        rangeOf<int16_t>(context, document, accessor, place, progress, range);
+        break;
+    case 5123:
+        rangeOf<uint16_t>(context, document, accessor, place, progress, range);
+        break;
+    case 5125:
+        rangeOf<uint32_t>(context, document, accessor, place, progress, range);
+        break;
+    default:
+        rangeOf<float>(context, document, accessor, place, progress, range);
+    }
+    return range;
 }
 
 std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& document, int index,

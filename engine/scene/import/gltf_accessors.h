@@ -6,7 +6,6 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,10 +27,15 @@ namespace touchstone {
 [[nodiscard]] std::vector<glm::mat4> readMatrices(ImportContext& context, const GltfDocument& document,
                                                   int accessor, size_t count, const std::string& place);
 
-/// Calls visit(component, value) for every number as stored: not normalised, replaced ones too. Not for
-/// matrices.
-void visitStoredValues(ImportContext& context, const GltfDocument& document, int accessor,
-                       const std::function<void(size_t, double)>& visit);
+/// What the numbers of an accessor are as stored: not normalised, replaced ones too.
+struct StoredRange {
+    std::vector<double> low,
+        high;          ///< by component, of the finite ones; infinity and -infinity where there is none
+    size_t broken = 0; ///< not finite
+};
+/// Not for matrices.
+[[nodiscard]] StoredRange storedRange(ImportContext& context, const GltfDocument& document, int accessor,
+                                      const Progress& progress);
 
 /// A SCALAR accessor of unsigned integers. Fails for other types.
 [[nodiscard]] std::vector<uint32_t> readIndices(ImportContext& context, const GltfDocument& document,

@@ -179,7 +179,9 @@ json parseJson(ImportContext& context, ByteSpan text, Comments comments) {
     return json::parse(text.begin(), text.end(), nullptr, true, ignore);
 }
 
-std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& shownAs) {
+std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& shownAs,
+                                   const Progress& progress) {
+    constexpr uint64_t kBlock = 8 << 20;
     namespace fs = std::filesystem;
     std::error_code problem;
     const fs::file_status status = fs::status(path, problem);
@@ -199,9 +201,13 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std:
         throw Error(shownAs, "", std::string("cannot be opened: ") + std::strerror(errno),
                     "check its permissions");
     std::vector<uint8_t> bytes(size);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (static_cast<uint64_t>(stream.gcount()) != size)
-        throw Error(shownAs, "", "could not be read to its end", "try again");
+    for (uint64_t at = 0; at < size; at += kBlock) {
+        progress.step(share(at, size), "reading the file");
+        const uint64_t wanted = std::min(kBlock, size - at);
+        stream.read(reinterpret_cast<char*>(bytes.data() + at), static_cast<std::streamsize>(wanted));
+        if (static_cast<uint64_t>(stream.gcount()) != wanted)
+            throw Error(shownAs, "", "could not be read to its end", "try again");
+    }
     return bytes;
 }
 

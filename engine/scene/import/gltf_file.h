@@ -30,9 +30,10 @@ enum class Comments { Refuse, Ignore };
 /// The JSON in `text`, within the limits of an import. Throws Error.
 [[nodiscard]] nlohmann::json parseJson(ImportContext& context, ByteSpan text, Comments comments);
 
-/// Reads a regular file whole. Throws Error (missing, a folder, unreadable, beyond kMaxFileBytes).
+/// Reads a regular file whole. Throws Error (missing, a folder, unreadable, beyond kMaxFileBytes) and
+/// Cancelled.
 [[nodiscard]] std::vector<uint8_t> readWholeFile(const std::filesystem::path& path,
-                                                 const std::string& shownAs);
+                                                 const std::string& shownAs, const Progress& progress = {});
 
 /// Reads and takes apart `path`. Checks the GLB header and chunk table against the file's real size.
 [[nodiscard]] GltfFile readGltfFile(ImportContext& context, const std::filesystem::path& path);

@@ -168,7 +168,7 @@ std::vector<Image> readImages(ImportContext& context, const GltfFile& file, cons
     const std::vector<bool> used = usedImages(images.size(), scene, use);
     ImageSource source(context, file, document);
     for (size_t i = 0; i < images.size(); ++i) {
-        context.step(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(images.size()),
+        context.step(0.85 + 0.15 * static_cast<double>(i) / static_cast<double>(images.size()),
                      "reading images");
         Image& image = images[i];
         const std::string place = element("images", i);

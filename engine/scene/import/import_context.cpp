@@ -47,17 +47,6 @@ void ImportContext::warn(std::string place, const std::string& message) {
     kinds_.push_back({{std::move(place), message}, {}, 0});
 }
 
-void ImportContext::stopIfCancelled() const {
-    if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed))
-        throw Error(file_, "", "cancelled", "");
-}
-
-void ImportContext::step(double fraction, const char* what) const {
-    stopIfCancelled();
-    if (options_.progress)
-        options_.progress(fraction, what);
-}
-
 void ImportContext::spendGeometry(uint64_t bytes, const std::string& place) {
     const uint64_t limit = std::max(kFreeGeometryBytes, kGeometryExpansion * fileBytes_);
     if (bytes > limit - geometrySpent_)

@@ -3,6 +3,7 @@
 // One import, one thread.
 
 #include "engine/core/error.h"
+#include "engine/core/progress.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/scene_loader.h"
 
@@ -82,9 +83,13 @@ class ImportContext {
         }
     }
 
-    /// Reports progress and stops a cancelled import.
-    void step(double fraction, const char* what) const;
-    void stopIfCancelled() const;
+    /// Reports progress and stops a cancelled import; `fraction` of the whole import.
+    void step(double fraction, const char* what) const { progress().step(fraction, what); }
+    void stopIfCancelled() const { progress().stopIfCancelled(); }
+    [[nodiscard]] Progress progress() const { return {&options_.progress, options_.cancel}; }
+    /// The part of the import that is being done, for reports inside it.
+    void enter(const Progress& part) { part_ = part; }
+    [[nodiscard]] const Progress& part() const { return part_; }
 
     /// The sizes of the file's own data, from which the limits above grow.
     [[nodiscard]] uint64_t fileBytes() const { return fileBytes_; }
@@ -112,6 +117,7 @@ class ImportContext {
     std::unordered_map<std::string, size_t> kindOf_; ///< by place and message without their numbers
     std::unordered_set<size_t> told_;                ///< hashes of place and message
     size_t droppedWarnings_ = 0;
+    Progress part_ = progress();
     uint64_t fileBytes_ = 0, geometrySpent_ = 0, pixelsSpent_ = 0;
 };
 

@@ -167,6 +167,9 @@ void settleTangents(ImportContext& context, Mesh& mesh, const Material& material
     if (!mesh.tangents.empty())
         return;
     context.spendGeometry(mesh.triangleCount() * kTangentBytesPerTriangle, place);
+    constexpr double kTimePerTriangle = 1.5e-6; // s
+    const EstimatedProgress estimate(context.part().part(0.5, 1.0), "making tangents",
+                                     kTimePerTriangle * static_cast<double>(mesh.triangleCount()));
     generateTangents(mesh, map.texCoord);
 }
 
@@ -206,8 +209,10 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
         return std::nullopt;
     }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    context.part().step(0.3, "reading indices");
     auto drawn =
         drawnVertices(context, document, primitive, draco ? &*draco : nullptr, mesh.positions.size(), place);
+    context.part().step(0.4, "making triangles");
     if (mode < TINYGLTF_MODE_TRIANGLES)
         makeDrawnOnly(context, std::move(drawn), mode, place, mesh);
     else

@@ -51,7 +51,10 @@ std::vector<MeshVariant> MeshVariants::buildAll(const ShownMesh& shown) {
     const MeshPose pose{shown.weights,
                         shown.skin >= 0 ? &skins_.get(static_cast<size_t>(shown.skin)) : nullptr};
     std::vector<MeshVariant> variants;
-    for (size_t p = 0; p < document_.model.meshes[shown.gltfMesh].primitives.size(); ++p) {
+    const Progress all = context_.part();
+    const size_t primitives = document_.model.meshes[shown.gltfMesh].primitives.size();
+    for (size_t p = 0; p < primitives; ++p) {
+        context_.enter(all.part(share(p, primitives), share(p + 1, primitives)));
         const int material = materialFor(shown, p);
         auto posed = buildMesh(context_, document_, shown.gltfMesh, p, materials_.material(material), pose);
         if (!posed)

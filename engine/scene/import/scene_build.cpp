@@ -141,13 +141,14 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
     MeshVariants variants(context, document, materials, skins, scene);
     Placement placement(context, document, scene);
     const std::vector<size_t> targets = morphTargetCounts(context, document);
+    const Progress nodes = context.progress().part(0.35, 0.79);
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
         const size_t gltfNode = static_cast<size_t>(forest.gltfOfNode[n]);
         const tinygltf::Node& node = document.model.nodes[gltfNode];
         if (node.mesh < 0 || !forest.shown[n])
             continue;
-        context.step(0.1 + 0.4 * static_cast<double>(n) / static_cast<double>(scene.nodes.size()),
-                     "building meshes");
+        context.enter(nodes.part(share(n, scene.nodes.size()), share(n + 1, scene.nodes.size())));
+        context.part().step(0.0, "building meshes");
         const auto gltfMesh = static_cast<size_t>(node.mesh);
         const ShownMesh shown{
             gltfMesh, node.skin,
@@ -156,9 +157,13 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
         placement.place(n, gltfNode, sceneFromNode[n], variants.get(shown));
     }
     // Meshes that nobody placed are checked like the others: a broken file should not depend on who looks.
-    for (size_t m = 0; m < document.model.meshes.size(); ++m)
+    const Progress others = context.progress().part(0.79, 0.8);
+    for (size_t m = 0; m < document.model.meshes.size(); ++m) {
+        context.enter(
+            others.part(share(m, document.model.meshes.size()), share(m + 1, document.model.meshes.size())));
         if (!variants.has(m))
             (void)variants.get({m, -1, morphWeights(context, document, m, targets[m], -1), -1});
+    }
 }
 
 Bounds sceneBounds(const ImportContext& context, const Scene& scene) {
@@ -171,6 +176,12 @@ Bounds sceneBounds(const ImportContext& context, const Scene& scene) {
         for (const glm::vec3& p : scene.meshes[m].positions)
             boxes[m].include(glm::dvec3(p));
 
+    const auto indexCount = [](const Mesh& mesh) {
+        return mesh.indices.size() + mesh.lineIndices.size() + mesh.pointIndices.size();
+    };
+    size_t indicesOfAll = 0, done = 0;
+    for (const Instance& instance : scene.instances)
+        indicesOfAll += indexCount(scene.meshes[static_cast<size_t>(instance.mesh)]);
     Bounds bounds;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
@@ -179,9 +190,17 @@ Bounds sceneBounds(const ImportContext& context, const Scene& scene) {
         };
         if (exact) {
             // Only vertices that are drawn: exporters leave strays behind.
+            std::vector<bool> included(mesh.positions.size(), false);
             for (const auto* indices : {&mesh.indices, &mesh.lineIndices, &mesh.pointIndices})
-                for (const uint32_t index : *indices)
-                    include(glm::dvec3(mesh.positions[index]));
+                for (size_t i = 0; i < indices->size(); ++i) {
+                    if (i % kProgressWork == 0)
+                        context.part().step(share(done + i, indicesOfAll), "measuring the scene");
+                    if (const uint32_t index = (*indices)[i]; !included[index]) {
+                        included[index] = true;
+                        include(glm::dvec3(mesh.positions[index]));
+                    }
+                }
+            done += indexCount(mesh);
             continue;
         }
         const Bounds& box = boxes[static_cast<size_t>(instance.mesh)];

@@ -101,8 +101,7 @@ TEST(Weld, ClosedAgreesWithCountingOnAnySoup) {
     const auto below = [&](uint32_t end) { return static_cast<uint32_t>(random() % end); };
     size_t closed = 0;
     for (int trial = 0; trial < 4000; ++trial) {
-        const uint32_t vertices =
-            3 + below(4); // few: edges of two, three, four triangles, collapsed ones
+        const uint32_t vertices = 3 + below(4); // few: edges of two, three, four triangles, collapsed ones
         std::vector<uint32_t> indices;
         for (size_t t = 0; t < 1 + below(5); ++t) {
             const uint32_t a = below(vertices), b = below(vertices), c = below(vertices);
