@@ -46,7 +46,7 @@ struct ServoLoop::Touch {
 };
 
 ServoLoop::ServoLoop(DevicePort port, const ServoConfig& config)
-    : port_(port), config_(config), records_(config.ringCapacity), stepped_(std::make_unique<Touch>()) {
+    : port_(port), config_(config), records_(config.ringCapacity) {
     if (port.sample == nullptr || port.apply == nullptr)
         throw Error("servo", "", "the device port is incomplete", "");
     if (!(config.rateHz >= kLeastServoRate && config.rateHz <= kMostServoRate))
@@ -208,7 +208,9 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     return record;
 }
 
-TickRecord ServoLoop::step(uint64_t number) noexcept {
+TickRecord ServoLoop::step(uint64_t number) {
+    if (stepped_ == nullptr)
+        stepped_ = std::make_unique<Touch>();
     const uint64_t elapsed = number > lastStepped_ ? number - lastStepped_ : 1;
     lastStepped_ = number;
     TickRecord record = tick(*stepped_, number, static_cast<double>(elapsed) / config_.rateHz);

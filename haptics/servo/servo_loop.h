@@ -81,8 +81,9 @@ class ServoLoop {
     void stop(); ///< joins; the last command sent is zero. May be started again: time and ticks go on from 0.
 
     /// Makes tick `number` at once on the calling thread, without a clock: the same code, deterministic. Not
-    /// while it runs. The caller enters the float mode (engine/core/float_mode.h). `number` grows.
-    TickRecord step(uint64_t number) noexcept;
+    /// while it runs. Allocates in the first call. The caller enters the float mode
+    /// (engine/core/float_mode.h). `number` grows.
+    TickRecord step(uint64_t number);
 
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
     /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
