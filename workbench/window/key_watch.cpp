@@ -36,7 +36,8 @@ struct KeyWatch::Connection {
     xcb_window_t window = 0;
     xcb_keycode_t key = 0;
     int stop = -1; // an eventfd
-    std::optional<xcb_timestamp_t> released;
+    bool down = false;
+    std::optional<xcb_timestamp_t> released; // when it came up after it had been down
 
     ~Connection() {
         if (server != nullptr)
@@ -67,16 +68,17 @@ struct KeyWatch::Connection {
     }
 
     /// Whether the key has gone down. The server repeats a key that is held by a release and a press of the
-    /// same time.
+    /// same time. A release of a key that is up means nothing: xdotool sends one before each press, often in
+    /// the same millisecond.
     [[nodiscard]] bool isPress(const xcb_generic_event_t& event) {
         const auto& input = reinterpret_cast<const xcb_key_press_event_t&>(event);
         const auto type = event.response_type & kEventType;
         if ((type != XCB_KEY_PRESS && type != XCB_KEY_RELEASE) || input.detail != key)
             return false;
-        if (type == XCB_KEY_PRESS)
-            return released != input.time;
-        released = input.time;
-        return false;
+        const bool pressed = type == XCB_KEY_PRESS, repeated = pressed && released == input.time;
+        released = !pressed && down ? std::optional(input.time) : std::nullopt;
+        down = pressed;
+        return pressed && !repeated;
     }
 };
 
