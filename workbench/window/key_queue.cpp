@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace touchstone {
@@ -54,9 +55,15 @@ bool KeyQueue::fits(const Event& event, Frame& frame) const {
     }
     if (text && writes(event.key, event.modifiers))
         return !frame.pressed;
-    if (event.action == GLFW_RELEASE)
-        return !(frame.pressed && (event.key == frame.down || isModifier(event.key)));
-    if (frame.pressed || frame.wrote)
+    if (event.action == GLFW_RELEASE) {
+        if (frame.pressed && (event.key == frame.down || isModifier(event.key)))
+            return false;
+        frame.released.push_back(event.key);
+        return true;
+    }
+    // ImGui looks once a frame at what is down: a key that came up and went down again in between was held.
+    const bool cameUp = std::ranges::find(frame.released, event.key) != frame.released.end();
+    if (frame.pressed || frame.wrote || cameUp)
         return false;
     if (!isModifier(event.key)) {
         frame.pressed = true;

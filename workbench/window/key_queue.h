@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <vector>
 
 struct GLFWwindow;
 
@@ -32,6 +33,7 @@ class KeyQueue {
     struct Frame {
         int down = 0; ///< the key that went down in it
         bool pressed = false, wrote = false;
+        std::vector<int> released; ///< keys that came up in it
     };
     [[nodiscard]] bool fits(const Event& event, Frame& frame) const;
     void pass(const Event& event);

@@ -264,6 +264,10 @@ TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
     EXPECT_EQ(last, 0.0) << "nothing of what is touched again";
     hand.follow(nullptr);
     run(1000, [&](int) { return pressed; });
+    EXPECT_EQ(last, 0.0) << "it is inside, where touch begins";
+    run(470, [](int i) { return overTheDoughnut(kTick * (469 - i)); });
+    EXPECT_EQ(last, 0.0);
+    run(470, [](int i) { return overTheDoughnut(kTick * i); });
     EXPECT_GT(last, 0.5 * held) << "it is back";
     EXPECT_LE(steepest, 1.001 * haptic->limits.maxForceRate);
 }
@@ -313,6 +317,9 @@ TEST_F(AgainTest, GoingOverFromAZoomedHandBooksNoEnergy) {
     run(1000, [&](int) { return there; });
     hand.follow(nullptr);
     run(1000, [&](int) { return there; });
+    EXPECT_EQ(pressed, 0.0) << "it is inside, where touch begins";
+    run(470, [](int i) { return overTheDoughnut(kTick * (469 - i)); });
+    run(470, [](int i) { return overTheDoughnut(kTick * i); });
     EXPECT_GT(pressed, 0.1) << "it is back";
     EXPECT_EQ(unknown, 2) << "a tick each way";
     EXPECT_LT(balance, kNoticedEnergy);
