@@ -42,29 +42,44 @@ static_assert(offsetof(TemporaryNode, isLeaf) == offsetof(TemporaryLeaf, isLeaf)
 /// What the callbacks of one build share.
 struct Build {
     std::atomic<size_t> nodes{0}, leaves{0};
+    std::atomic<bool> outOfMemory{false};
     EstimatedProgress* progress = nullptr;
 };
 
-void* createNode(RTCThreadLocalAllocator allocator, unsigned count, void* build) {
-    static_cast<Build*>(build)->nodes.fetch_add(1, std::memory_order_relaxed);
-    void* memory = rtcThreadLocalAlloc(allocator, sizeof(TemporaryNode), 16);
+/// Null, and noted in the build, where Embree finds no memory: it reports that only after the build.
+void* allocate(RTCThreadLocalAllocator allocator, size_t bytes, Build& build) {
+    void* memory = rtcThreadLocalAlloc(allocator, bytes, 16);
+    if (memory == nullptr)
+        build.outOfMemory.store(true, std::memory_order_relaxed);
+    return memory;
+}
+
+void* createNode(RTCThreadLocalAllocator allocator, unsigned count, void* user) {
+    Build& build = *static_cast<Build*>(user);
+    build.nodes.fetch_add(1, std::memory_order_relaxed);
+    void* memory = allocate(allocator, sizeof(TemporaryNode), build);
+    if (memory == nullptr)
+        return nullptr;
     return new (memory) TemporaryNode{.isLeaf = false, .count = count, .child = {}, .bounds = {}};
 }
 
 void setChildren(void* node, void** children, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i)
+    for (unsigned i = 0; node != nullptr && i < count; ++i)
         static_cast<TemporaryNode*>(node)->child[i] = static_cast<TemporaryNode*>(children[i]);
 }
 
 void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i)
+    for (unsigned i = 0; node != nullptr && i < count; ++i)
         static_cast<TemporaryNode*>(node)->bounds[i] = *bounds[i];
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count,
-                 void* build) {
-    static_cast<Build*>(build)->leaves.fetch_add(1, std::memory_order_relaxed);
-    void* memory = rtcThreadLocalAlloc(allocator, sizeof(TemporaryLeaf), 16);
+                 void* user) {
+    Build& build = *static_cast<Build*>(user);
+    build.leaves.fetch_add(1, std::memory_order_relaxed);
+    void* memory = allocate(allocator, sizeof(TemporaryLeaf), build);
+    if (memory == nullptr)
+        return nullptr;
     auto* leaf =
         new (memory) TemporaryLeaf{.isLeaf = true, .count = static_cast<uint32_t>(count), .triangle = {}};
     for (size_t i = 0; i < count; ++i)
@@ -72,8 +87,9 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return leaf;
 }
 
-bool goesOn(void* build, double fraction) {
-    return static_cast<Build*>(build)->progress->at(fraction);
+bool goesOn(void* user, double fraction) {
+    Build& build = *static_cast<Build*>(user);
+    return !build.outOfMemory.load(std::memory_order_relaxed) && build.progress->at(fraction);
 }
 
 bool isCollapsed(const uint32_t* corner) {
@@ -142,7 +158,7 @@ const TemporaryNode* buildTemporary(RTCBVHTy* bvh, const Boxes& boxes, Build& bu
     const auto* root = static_cast<const TemporaryNode*>(rtcBuildBVH(&arguments));
     const RTCError error = rtcGetDeviceError(embreeDevice());
     progress.stopIfCancelled();
-    if (error != RTC_ERROR_NONE || root == nullptr)
+    if (error != RTC_ERROR_NONE || root == nullptr || build.outOfMemory.load(std::memory_order_relaxed))
         throw Error("Embree", "", "the search tree could not be built",
                     "the model may need more memory than is free");
     return root;

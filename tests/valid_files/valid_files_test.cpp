@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cstdlib>
+
 namespace touchstone::test {
 namespace {
 
@@ -27,6 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Features, EachFeature, testing::Range(size_t{0}, kFeatu
 
 /// On a finding rapidcheck drops features until none can go, and prints what is left with its seed.
 TEST(ValidFiles, SetsOfFeaturesAreOpenedAndTouched) {
+    // The same files in every run; the sweep draws others. RC_PARAMS overrides this.
+    setenv("RC_PARAMS", "seed=1", 0);
     const bool held = rc::check("a valid file is opened and touched", [] {
         Recipe recipe;
         recipe.seed = *rc::gen::noShrink(rc::gen::inRange<uint64_t>(0, uint64_t{1} << 62));

@@ -6,6 +6,7 @@
 #include "tests/support/recorded_servo.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -49,6 +50,9 @@ std::string load(const std::string& file) {
 } // namespace
 
 int main(int count, char** arguments) {
+    // Threads' arenas reserve 64 MB each, in which an allocation takes no more address space.
+    mallopt(M_ARENA_MAX, 1);
+    mallopt(M_MMAP_THRESHOLD, 64 << 10);
     if (count != 3) {
         std::fputs("usage: memory_probe SCENE RECORDING\n", stderr);
         return 2;
@@ -64,6 +68,7 @@ int main(int count, char** arguments) {
     }
     int refused = 0, loaded = 0;
     for (size_t megabytes = 64; megabytes > 0; megabytes = megabytes * 3 / 4) {
+        malloc_trim(0); // what earlier loads have freed is no reserve of this one
         allow(megabytes << 20);
         const std::string problem = load(arguments[1]);
         allow(0);

