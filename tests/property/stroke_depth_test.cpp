@@ -38,7 +38,7 @@ TEST(StrokeDepth, OurScenes) {
 TEST(StrokeDepth, SharedModels) {
     const auto folder = test::modelsFolder();
     if (!folder)
-        GTEST_SKIP() << "TOUCHSTONE_MODELS names no folder";
+        GTEST_SKIP() << test::kNoModels;
     expectStrokesOn(*folder);
 }
 

@@ -2,6 +2,7 @@
 // within its limits. The full product is effect_sweep.cpp.
 
 #include "tests/property/effects/effect_checks.h"
+#include "tests/support/shared_files.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ class EffectPairs : public testing::TestWithParam<EffectBody> {};
 TEST_P(EffectPairs, LeaveTheProxyOnTheSurface) {
     const EffectBody body = GetParam();
     if (effectWorld(body) == nullptr)
-        GTEST_SKIP() << "TOUCHSTONE_MODELS names no folder with this model";
+        GTEST_SKIP() << kNoModels;
     std::printf("%s\n", effectHead().c_str());
     EffectFigures all;
     unsigned seed = 1000 * static_cast<unsigned>(body);
@@ -37,7 +38,7 @@ TEST_P(EffectPairs, LeaveTheProxyOnTheSurface) {
 TEST_P(EffectPairs, OfTheComparisonMethodsKeepTheLimits) {
     const EffectBody body = GetParam();
     if (effectWorld(body) == nullptr)
-        GTEST_SKIP() << "TOUCHSTONE_MODELS names no folder with this model";
+        GTEST_SKIP() << kNoModels;
     std::printf("%s\n", effectHead().c_str());
     for (const ContactMethod method : {ContactMethod::Neighbourhood, ContactMethod::Rays})
         for (const EffectStroke stroke : kEffectStrokes) {

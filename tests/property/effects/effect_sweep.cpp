@@ -1,6 +1,7 @@
 // The full product of the effects on every body under every stroke. Long: ctest -L sweep.
 
 #include "tests/property/effects/effect_checks.h"
+#include "tests/support/shared_files.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ class EffectSweep : public testing::TestWithParam<EffectBody> {};
 TEST_P(EffectSweep, LeavesTheProxyOnTheSurface) {
     const EffectBody body = GetParam();
     if (effectWorld(body) == nullptr)
-        GTEST_SKIP() << "TOUCHSTONE_MODELS names no folder with this model";
+        GTEST_SKIP() << kNoModels;
     std::printf("%s\n", effectHead().c_str());
     unsigned seed = 10000 * static_cast<unsigned>(body);
     for (const EffectStroke stroke : kEffectStrokes) {

@@ -1,24 +1,12 @@
 #pragma once
 // A servo that is stepped tick by tick, on one device.
 
-#include "devices/device.h"
 #include "engine/core/float_mode.h"
-#include "haptics/servo/servo_loop.h"
+#include "workbench/hand/device_port.h"
 
 #include <cstdint>
 
 namespace touchstone::test {
-
-[[nodiscard]] inline DevicePort portOf(Device& device) {
-    return {
-        .context = &device,
-        .sample = [](void* context,
-                     double time) noexcept { return static_cast<Device*>(context)->sample(time); },
-        .apply = [](void* context,
-                    const DeviceCommand& command) noexcept { static_cast<Device*>(context)->apply(command); },
-        .feel = [](void* context,
-                   const TouchFeedback& felt) noexcept { static_cast<Device*>(context)->feel(felt); }};
-}
 
 struct SteppedServo {
     explicit SteppedServo(Device& device) : loop(portOf(device)) { enterFloatMode(); }
