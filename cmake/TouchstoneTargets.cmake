@@ -5,6 +5,12 @@ target_compile_options(touchstone_flags INTERFACE
     -Wnon-virtual-dtor -Werror -fno-math-errno)
 # g++ 12 sees overlaps in inlined std::string concatenation that are not there (GCC bug 105651).
 target_compile_options(touchstone_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# Out of a precompiled header more of such warnings lose their place in a system header; the debug preset, which has no
+# such header, keeps them.
+if(TOUCHSTONE_PRECOMPILE)
+    target_compile_options(touchstone_flags INTERFACE
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-array-bounds>)
+endif()
 # Foreign headers are system headers, so warnings stay ours.
 target_compile_definitions(touchstone_flags INTERFACE
     GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL
@@ -20,6 +26,27 @@ if(TOUCHSTONE_SANITIZE)
     target_compile_options(touchstone_flags INTERFACE -fno-sanitize-recover=undefined,float-cast-overflow)
     target_compile_definitions(touchstone_flags INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
+
+# touchstone_headers(NAME HEADER LIBS...) makes touchstone_NAME, which holds a precompiled header for other targets.
+function(touchstone_headers name header)
+    add_library(touchstone_${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled/empty.cpp)
+    target_link_libraries(touchstone_${name} PRIVATE touchstone_flags ${ARGN})
+    if(TOUCHSTONE_PRECOMPILE)
+        target_precompile_headers(touchstone_${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${header})
+    endif()
+endfunction()
+
+# touchstone_precompile(NAME TARGET...): the targets use the precompiled header of touchstone_NAME. Their compile
+# options must be those of touchstone_flags (g++ refuses the header otherwise).
+function(touchstone_precompile name)
+    if(TOUCHSTONE_PRECOMPILE)
+        foreach(target ${ARGN})
+            target_precompile_headers(${target} REUSE_FROM touchstone_${name})
+        endforeach()
+    endif()
+endfunction()
+
+touchstone_headers(common_headers common.h glm::glm)
 
 # touchstone_library(NAME SOURCES... ) makes touchstone_NAME, the one static library of the folder NAME.
 function(touchstone_library name)

@@ -218,7 +218,7 @@ Subject loadSubject(const std::filesystem::path& file, const std::string& name) 
         return path->position(metres / speed); // comes down by itself
     };
     if (!scene->animations.empty())
-        subject.notes.push_back("what moves stays in rest pose: so it has a truth");
+        subject.notes.emplace_back("what moves stays in rest pose: so it has a truth");
     return subject;
 }
 
