@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace touchstone {
 
@@ -50,6 +51,14 @@ StrokePath StrokePath::around(std::span<const glm::dvec3> waypoints, double spee
     // Control points at equal steps along the polygon: their chords are at most a step long, and so the speed
     // of the spline at most a step per interval.
     const double steps = std::max(4.0, std::ceil(length / (speed * kKnotInterval)));
+    if (!(steps * kKnotInterval <= kLongest)) {
+        char problem[160];
+        std::snprintf(problem, sizeof problem,
+                      "the way round is %.3g m long and takes over %.0f hours at %g m/s", length,
+                      kLongest / 3600.0, speed);
+        throw Error("stroke path", "", problem,
+                    "fit the model to the workspace (--fit workspace), or choose a higher speed");
+    }
     const double step = length / steps;
     std::vector<glm::dvec3> control;
     control.reserve(static_cast<size_t>(steps));

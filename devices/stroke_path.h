@@ -35,8 +35,10 @@ class StrokePath {
   public:
     /// s between control points of `around`; at 0.1 m/s they are 1 mm apart.
     static constexpr double kKnotInterval = 0.010;
+    static constexpr double kLongest = 12 * 3600.0; ///< s of a path of `around`: 100 MB of control points
 
-    /// Around the closed polygon of `waypoints` at `speed`, for ever. Throws Error without a finite waypoint.
+    /// Around the closed polygon of `waypoints` at `speed`, for ever. Throws Error without a finite waypoint,
+    /// and where one round takes longer than kLongest.
     [[nodiscard]] static StrokePath around(std::span<const glm::dvec3> waypoints, double speed);
 
     /// Through the neighbourhood of `control`, `interval` s after each other, for ever: each point is passed

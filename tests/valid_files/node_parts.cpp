@@ -115,7 +115,7 @@ void addInstances(FileDraft& draft, size_t node) {
         attributes["ROTATION"] = writeColumn(draft, rotation);
     if (draw.chance(0.7))
         attributes["SCALE"] = writeColumn(draft, scale);
-    draft.use("EXT_mesh_gpu_instancing"); // not required: a reader without it may refuse such a file
+    draft.use("EXT_mesh_gpu_instancing", draw.chance(0.3));
     draft.maker.json["nodes"][node]["extensions"]["EXT_mesh_gpu_instancing"] = {{"attributes", attributes}};
 }
 

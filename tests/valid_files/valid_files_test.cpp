@@ -1,11 +1,15 @@
 // Valid files are opened, inspected and touched: each feature alone, then random sets of them (the short form
 // of valid_files, which runs any number).
+#include "engine/scene/scene_loader.h"
+#include "haptics/haptic_scene.h"
 #include "tests/valid_files/touch_check.h"
 #include "tests/valid_files/valid_file.h"
+#include "workbench/commands/effect_cost.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace touchstone::test {
@@ -59,6 +63,22 @@ TEST(ValidFiles, MostOfThemAreTouched) {
         touched += report.contactTicks > 0 ? 1 : 0;
     }
     EXPECT_GT(touched, kFiles / 2);
+}
+
+/// `inspect` was busy for minutes where thousands of triangles of a model a million kilometres wide lie
+/// within the proxy.
+TEST(ValidFiles, TheCostOfEffectsIsMeasuredNoLongerThanItIsGiven) {
+    const Recipe recipe = recipeOf(1, static_cast<size_t>(Feature::VertexFriction));
+    const auto scene = loadSceneFromMemory(validFile(recipe), "/nonexistent");
+    const auto haptic = compileHapticScene(*scene, workspaceFromScene(*scene, Fit::Workspace));
+    const auto ticksOf = [&](int64_t longestNs) {
+        uint64_t ticks = 0;
+        for (const EffectCost& cost : effectCosts(*haptic, longestNs))
+            ticks = std::max(ticks, cost.ticks);
+        return ticks;
+    };
+    EXPECT_GT(ticksOf(2'000'000'000), 50u);
+    EXPECT_LE(ticksOf(1), 1u);
 }
 
 } // namespace

@@ -96,20 +96,22 @@ struct Touch {
 };
 
 EffectCost costOf(const HapticScene& scene, const HapticScene& without, int material,
-                  const std::vector<StrokeSpot>& spots) {
+                  const std::vector<StrokeSpot>& spots, int64_t longestNs) {
     Touch with{scene}, plain{without};
     Samples withTimes, plainTimes;
     uint64_t tick = 0;
+    int64_t spent = 0;
     for (const StrokeSpot& spot : spots) {
         with.state.forgetTouch();
         plain.state.forgetTouch();
-        for (int i = 0; i < kTicksAtSpot; ++i, ++tick) {
+        for (int i = 0; i < kTicksAtSpot && spent < longestNs; ++i, ++tick) {
             const glm::dvec3 hand = handAt(scene, spot, i);
             // Who goes first finds the caches colder.
             Touch& first = tick % 2 == 0 ? with : plain;
             Touch& second = tick % 2 == 0 ? plain : with;
             first.step(hand, tick);
             second.step(hand, tick);
+            spent += with.nanoseconds + plain.nanoseconds;
             const int object = with.output.object;
             if (with.output.contacts == 0 || plain.output.contacts == 0 || object < 0 ||
                 scene.objects[static_cast<size_t>(object)]->material != material)
@@ -128,7 +130,7 @@ EffectCost costOf(const HapticScene& scene, const HapticScene& without, int mate
 
 } // namespace
 
-std::vector<EffectCost> effectCosts(const HapticScene& scene) {
+std::vector<EffectCost> effectCosts(const HapticScene& scene, int64_t longestNs) {
     enterFloatMode();
     std::vector<EffectCost> costs(scene.plan.effects.size());
     std::shared_ptr<HapticScene> without;
@@ -149,7 +151,8 @@ std::vector<EffectCost> effectCosts(const HapticScene& scene) {
         HapticMaterialData& material = without->materials[static_cast<size_t>(effect.material)];
         const HapticMaterialData kept = material;
         removeEffect(*without, effect.material, effect.effect);
-        costs[i] = costOf(scene, *without, effect.material, spots);
+        costs[i] =
+            costOf(scene, *without, effect.material, spots, longestNs / static_cast<int64_t>(costs.size()));
         material = kept;
         without->objects = scene.objects;
     }

@@ -34,6 +34,20 @@ TEST(StrokePath, PositionAndVelocityAreContinuousAndBelongTogether) {
     }
 }
 
+/// A model of a million kilometres at its own size: the round would take eleven thousand years.
+TEST(StrokePath, RefusesARoundThatNobodyLivesToSee) {
+    for (const double length : {5e3, 1e9, 1e30}) {
+        const std::vector<glm::dvec3> there{{0, 0, 0}, {length, 0, 0}};
+        try {
+            (void)StrokePath::around(there, 0.1);
+            ADD_FAILURE() << length;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("12 hours"), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_NEAR(StrokePath::around(std::vector<glm::dvec3>{{0, 0, 0}, {500, 0, 0}}, 0.1).period(), 1e4, 1.0);
+}
+
 TEST(StrokePath, CutsCornersByLessThanAControlInterval) {
     const StrokePath path = StrokePath::around(kSquare, 0.1);
     for (const glm::dvec3& corner : kSquare) {
