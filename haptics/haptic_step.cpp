@@ -1,5 +1,6 @@
 #include "haptics/haptic_step.h"
 
+#include "haptics/force/contact_loads.h"
 #include "haptics/force/spring_damper.h"
 #include "haptics/friction/friction.h"
 #include "haptics/haptic_scene.h"
@@ -12,6 +13,7 @@
 #include "haptics/sample/hip_sample.h"
 #include "haptics/shading/first_goal.h"
 #include "haptics/shading/force_shading.h"
+#include "haptics/shading/turned_normal.h"
 #include "haptics/texture/plain_feel.h"
 #include "haptics/texture/surface_feel.h"
 
@@ -27,34 +29,28 @@ struct FeltShape {
     double depth = 0.0;     ///< anchor units
 };
 
-/// The force of one facet turned: Morgenbesser keeps the magnitude and turns it; Ho takes the distance of the
-/// HIP from the facet along the interpolated normal [000 §4.1]. Out of line: what a scene does not call for
-/// must not take registers from what it does.
-[[gnu::noinline]] FeltShape facetShape(const HapticScene& scene, ObjectMotions motions,
-                                       const HapticSettings& settings, int anchor, const Contact& facet,
-                                       const glm::dvec3& offset, const FeltShape& untouched) {
-    const ShadingMode mode = shadingMode(settings, materialOf(scene, facet));
-    if (mode != ShadingMode::Direction && mode != ShadingMode::Projected)
-        return untouched;
-    const glm::dvec3 m = interpolatedNormal(scene, motions, anchor, facet, settings.shadingTiltLimit);
-    if (mode == ShadingMode::Direction)
-        return {m, untouched.depth};
-    constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
-    return {m, glm::dot(offset, facet.normal) / std::max(glm::dot(m, facet.normal), kSteepest)};
+/// The force of one facet turned. Out of line: what a scene does not call for must not take registers from
+/// what it does.
+[[gnu::noinline]] FeltShape turnedShape(const HapticScene& scene, ObjectMotions motions,
+                                        const HapticSettings& settings, int anchor, const Contact& facet,
+                                        const glm::dvec3& offset, const FeltShape& shape) {
+    const TurnedNormal turned = turnedNormal(scene, motions, settings, anchor, facet, shape.normal);
+    if (turned.cosine == 1.0)
+        return {turned.normal, shape.depth};
+    return {turned.normal, glm::dot(offset, facet.normal) / turned.cosine};
 }
 
-/// `oneFacet`: some surface of the scene turns the force of its facet. With several planes there is no one
-/// facet to turn the force of or to project onto: the true force holds.
+/// Of all that is touched as one: `oneFacet` where some surface of the scene turns the force of its facet.
 [[gnu::always_inline]] inline FeltShape feltShape(const HapticScene& scene, ObjectMotions motions,
                                                   const HapticSettings& settings, bool oneFacet,
                                                   const glm::dvec3& hip, const DeviceState& state,
-                                                  const ProxyRest& rest) {
+                                                  const SubGoal& hold) {
     const glm::dvec3 offset = state.proxy - hip;
     const double depth = glm::length(offset);
-    const Contact& holder = rest.contacts[rest.hold.count > 0 ? static_cast<size_t>(rest.hold.active[0]) : 0];
+    const Contact& holder = state.rest.contacts[hold.count > 0 ? static_cast<size_t>(hold.active[0]) : 0];
     const FeltShape shape{depth > 100.0 * kContactGap ? offset / depth : holder.normal, depth};
-    if (oneFacet && rest.hold.count == 1)
-        return facetShape(scene, motions, settings, state.anchor, holder, offset, shape);
+    if (oneFacet && hold.count == 1)
+        return turnedShape(scene, motions, settings, state.anchor, holder, offset, shape);
     return shape;
 }
 
@@ -70,10 +66,56 @@ glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& anchor, c
 /// Stage 5 where the touched material calls for it. `velocity` of the HIP against the surface.
 [[gnu::noinline]] void feelTexture(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
-                                   const glm::dvec3& normal, double depth, const glm::dvec3& velocity,
-                                   double dt, SurfaceFeel& feel) {
+                                   const Contact& contact, const glm::dvec3& normal, double depth,
+                                   const glm::dvec3& velocity, double dt, SurfaceFeel& feel) {
     const double speed = glm::length(velocity - glm::dot(velocity, normal) * normal);
-    feel = readSurface(scene, motions, settings, state.anchor, state.rest, normal, depth, speed, dt);
+    feel = readSurface(scene, motions, settings, state.anchor, contact, normal, depth, speed, dt);
+}
+
+/// Stages 5 and 7 but for friction, where each of several contacts has its say.
+struct SeveralContacts {
+    glm::dvec3 force{0.0}; ///< elastic and damping, N, anchor frame
+    FrictionCone cone;
+};
+
+/// `feel` becomes that of the contact which carries most, with the direction of the whole elastic force.
+/// `velocity` of the HIP against the surface; what the force is made of has `zoom` taken out.
+[[gnu::noinline]] void feelSeveral(const HapticScene& scene, ObjectMotions motions,
+                                   const HapticSettings& settings, const DeviceState& state,
+                                   const SubGoal& hold, const glm::dvec3& offset, double workspacePerAnchor,
+                                   const glm::dvec3& velocity, double zoom, double dt, SurfaceFeel& feel,
+                                   SeveralContacts& several) {
+    ContactLoads loads;
+    readLoads(scene, motions, settings, state.anchor, state.rest, hold, state.shaded, offset,
+              workspacePerAnchor, velocity, dt, loads);
+    const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(zoom, 1.0);
+    several.force = elastic + dampingForce(loads, felt);
+    several.cone = FrictionCone(loads, felt, workspacePerAnchor);
+    feel = loads.contacts[static_cast<size_t>(loads.loaded)].feel;
+    const double force = glm::length(elastic);
+    if (force > 0.0)
+        feel.textured = elastic / force;
+    for (size_t i = 0; i < static_cast<size_t>(loads.count); ++i) {
+        feel.tiltCompressed |= loads.contacts[i].feel.tiltCompressed;
+        feel.stiffness = std::max(feel.stiffness, loads.contacts[i].feel.stiffness);
+    }
+}
+
+/// True where every plane that holds the hand is of one plain material without damping: then the force is K
+/// (p - h), whichever of them carries it.
+bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, const ProxyRest& rest,
+               const SubGoal& hold) {
+    const auto contactAt = [&](size_t i) -> const Contact& {
+        return rest.contacts[static_cast<size_t>(hold.active[i])];
+    };
+    const HapticMaterialData& material = materialOf(scene, contactAt(0));
+    if (!feelsPlain(material, settings) || settings.damping > 0.0 ||
+        (settings.damping < 0.0 && material.damping > 0.0))
+        return false;
+    for (size_t i = 1; i < static_cast<size_t>(hold.count); ++i)
+        if (&materialOf(scene, contactAt(i)) != &material)
+            return false;
+    return true;
 }
 
 /// What holds the hand, before friction moves the proxy away from there.
@@ -212,46 +254,62 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     // 4. Force shading: the same solve against the interpolated planes.
     if (shading)
         shadeTwoPass(scene, motions, settings, hip, first, proxy, state, rest);
+    const SubGoal& hold = state.shaded ? rest.shadedHold : rest.hold;
+    const bool oneFacet = !Plain && anyOneFacet(scene.plan, settings);
+    const bool asOne = hold.count <= 1 || (!oneFacet && feltAsOne(scene, settings, rest, hold));
     FeltShape shape;
-    if (rest.contactCount > 0)
-        shape = feltShape(scene, motions, settings, !Plain && anyOneFacet(scene.plan, settings), hip, state,
-                          rest);
+    if (rest.contactCount > 0 && asOne)
+        shape = feltShape(scene, motions, settings, oneFacet, hip, state, hold);
     stopwatch.lap(Stage::Shading);
 
-    // 5. Texture: what the maps say there.
+    // 5. Surface: what material, attributes and maps are under each contact.
     glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
     SurfaceFeel feel;
+    SeveralContacts several;
     bool plain = true;
     if (rest.contactCount > 0) {
-        const Contact& contact = loadedContact(rest);
+        const Contact& contact = loadedContact(rest, hold);
         const double depth = shape.depth * workspaceFromAnchor.scale;
-        plain = Plain || feelsPlain(materialOf(scene, contact), settings);
+        plain = asOne && (Plain || feelsPlain(materialOf(scene, contact), settings));
         if (plain)
             plainFeel(scene, settings, contact, shape.normal, depth, feel);
+        else if (asOne)
+            feelTexture(scene, motions, settings, state, contact, shape.normal, depth, velocity, input.dt,
+                        feel);
         else
-            feelTexture(scene, motions, settings, state, shape.normal, depth, velocity, input.dt, feel);
+            feelSeveral(scene, motions, settings, state, hold, state.proxy - hip, workspaceFromAnchor.scale,
+                        velocity, output.zoom, input.dt, feel, several);
     }
     if (feel.tiltCompressed)
         output.flags = output.flags | TickFlag::TiltCompressed;
     publishContact(workspaceFromAnchor, rest, feel, output);
+    if (output.zoom > 1.0)
+        velocity /= output.zoom;
     stopwatch.lap(Stage::Texture);
 
-    // 6. Friction: the proxy held back inside the cone.
+    // 6. Friction: the proxy held back inside the cones.
     glm::dvec3 stretch(0.0);
     if (Plain)
         state.friction = FrictionState::Free;
-    else if (!plain || state.friction != FrictionState::Free)
+    else if (!plain || state.friction != FrictionState::Free) {
+        if (asOne)
+            several.cone = FrictionCone(feel, velocity, workspaceFromAnchor.scale);
         stretch = workspaceFromAnchor.scale *
-                  applyFriction(settings.friction, feel, held, workspaceFromAnchor.scale, proxy, state, rest);
+                  applyFriction(settings.friction, several.cone, held, proxy, state, rest);
+    }
     stopwatch.lap(Stage::Friction);
 
     settleClearance(proxy, state);
 
     // 7. Force.
-    if (output.zoom > 1.0)
-        velocity /= output.zoom;
-    output.force = workspaceFromAnchor.direction(plain ? plainForce(feel, velocity)
-                                                       : springDamperForce(feel, stretch, velocity));
+    glm::dvec3 force;
+    if (plain)
+        force = plainForce(feel, velocity);
+    else if (asOne)
+        force = springDamperForce(feel, stretch, several.cone.viscousForce(), velocity);
+    else
+        force = several.force + several.cone.stiffness() * stretch + several.cone.viscousForce();
+    output.force = workspaceFromAnchor.direction(force);
     if (output.zoom > 1.0)
         output.force *= bearableShare(feel.stiffness, output.zoom, settings, scene.limits);
     output.flags |= rest.flags;

@@ -5,7 +5,7 @@
 namespace touchstone {
 
 glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
-                             const glm::dvec3& velocity) noexcept {
+                             const glm::dvec3& viscousForce, const glm::dvec3& velocity) noexcept {
     if (!feel.touching)
         return glm::dvec3(0.0);
     const double d = feel.depth, height = feel.height;
@@ -16,8 +16,7 @@ glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& friction
     const double into = glm::dot(velocity, n);
     const double wall = glm::dot(elastic, n);
     const double damping = std::max(-feel.damping * into, -std::max(wall, 0.0)); // a wall does not pull
-    const glm::dvec3 along = velocity - into * n;
-    return elastic + feel.stiffness * frictionStretch + damping * n - feel.viscousFriction * along;
+    return elastic + feel.stiffness * frictionStretch + damping * n + viscousForce;
 }
 
 double bearableShare(double stiffness, double zoom, const HapticSettings& settings,

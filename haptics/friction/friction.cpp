@@ -98,10 +98,9 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
 } // namespace
 
 template <class Model>
-glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::dvec3& held,
-                         double workspacePerAnchor, Model& proxy, DeviceState& state,
-                         ProxyRest& rest) noexcept {
-    if (!feel.touching || !(feel.staticFriction > 0.0)) {
+glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Model& proxy,
+                         DeviceState& state, ProxyRest& rest) noexcept {
+    if (!cone.rough()) {
         state.friction = FrictionState::Free;
         return glm::dvec3(0.0);
     }
@@ -118,13 +117,13 @@ glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::
     // Ho's spring is softer than the surface: its stiction point is farther away than the proxy. The others'
     // is the proxy itself, wherever the world may have pushed it.
     const glm::dvec3 point = mode == FrictionMode::Ho ? state.stictionPoint : held;
-    const double depth = feel.depth / workspacePerAnchor;
+    const FrictionCone::Limit limit = cone.along(point - frictionless);
     const FrictionAnswer answer = askLaw(mode, {.state = state.friction,
                                                 .stretch = point - frictionless,
                                                 .lastLength = glm::length(held - before),
-                                                .depth = depth,
-                                                .staticFriction = feel.staticFriction,
-                                                .dynamicFriction = feel.dynamicFriction});
+                                                .depth = limit.depth,
+                                                .staticFriction = limit.staticFriction,
+                                                .dynamicFriction = limit.dynamicFriction});
     state.friction = answer.state;
     const bool ownPlace = mode != FrictionMode::Ho;
     if (answer.stays && ownPlace && mayStay(held, proxy)) {
@@ -133,7 +132,7 @@ glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::
         return held - frictionless;
     }
     const glm::dvec3 wish = answer.share * answer.stretch;
-    holdBack(held, wish, -depth * feel.normal, proxy, state, rest);
+    holdBack(held, wish, cone.down(), proxy, state, rest);
     state.stictionPoint = ownPlace ? state.proxy : answer.stays ? point : frictionless + answer.stretch;
     // On a curved surface the chord is not quite what was asked for: the force is, never more.
     const glm::dvec3 kept = state.proxy - frictionless;
@@ -141,13 +140,13 @@ glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::
     return got > asked ? std::sqrt(asked / got) * kept : kept;
 }
 
-template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double, MeshProxy&,
+template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, MeshProxy&,
                                   DeviceState&, ProxyRest&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
-                                  NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
-                                  RayProxy<double>&, DeviceState&, ProxyRest&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const SurfaceFeel&, const glm::dvec3&, double,
-                                  RayProxy<float>&, DeviceState&, ProxyRest&) noexcept;
+template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, NeighbourhoodWatch&,
+                                  DeviceState&, ProxyRest&) noexcept;
+template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, RayProxy<double>&,
+                                  DeviceState&, ProxyRest&) noexcept;
+template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, RayProxy<float>&,
+                                  DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

@@ -2,23 +2,22 @@
 // Stage 6: friction as a stiction point on the surface ([001 §4.1], the god-object's god-object). The law is
 // one of friction_law.h; here the proxy is held back as it says.
 
+#include "haptics/friction/friction_cone.h"
 #include "haptics/haptic_settings.h"
 #include "haptics/proxy/mesh_proxy.h"
-#include "haptics/texture/surface_feel.h"
 
 #include <glm/glm.hpp>
 
 namespace touchstone {
 
 /// Holds the proxy back by the law that `mode` names. On entry the proxy is where stage 4 left it; `held` is
-/// where it stood at the end of the last tick (anchor frame), `down` the way from the proxy to the HIP
-/// displaced along with it. The proxy is moved by the solver from places where it stood before, so it stays
-/// on the surface and inside all planes; where it sticks it goes back to `held` to the last bit, so that
-/// nothing drifts. Returns the friction force over K (anchor units): the way from the frictionless place to
-/// the proxy, no longer than the law has it. Model: MeshProxy or NeighbourhoodWatch.
+/// where it stood at the end of the last tick (anchor frame). The proxy is moved by the solver from places
+/// where it stood before, so it stays on the surface and inside all planes; where it sticks it goes back to
+/// `held` to the last bit, so that nothing drifts. Returns the friction force over K (anchor units): the way
+/// from the frictionless place to the proxy, no longer than the law has it. Model: MeshProxy or
+/// NeighbourhoodWatch.
 template <class Model>
-glm::dvec3 applyFriction(FrictionMode mode, const SurfaceFeel& feel, const glm::dvec3& held,
-                         double workspacePerAnchor, Model& proxy, DeviceState& state,
-                         ProxyRest& rest) noexcept;
+glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Model& proxy,
+                         DeviceState& state, ProxyRest& rest) noexcept;
 
 } // namespace touchstone

@@ -62,7 +62,7 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Hap
         result.tilted |= planes[i].normal != contact.normal;
     }
     const glm::dvec3 wish = hip - state.proxy;
-    const SubGoal pass = nearestFeasible(wish, {planes.data(), rest.contactCount});
+    const SubGoal pass = rest.shadedHold = nearestFeasible(wish, {planes.data(), rest.contactCount});
     result.goal = state.proxy + pass.point;
     if (pass.count == 0)
         return result;
@@ -142,6 +142,8 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
     if (cameTo(first, state, rest)) {
         state.shadedTurn = smallTurn(first.normal - state.shadedNormal);
         state.shadedNormal = first.normal;
+        rest.shadedHold = SubGoal{};
+        rest.shadedHold.count = 1;
         return;
     }
     const bool wasShaded = state.shaded;

@@ -9,14 +9,14 @@
 
 namespace touchstone {
 
-/// The contact that carries most of the load.
-[[nodiscard]] inline const Contact& loadedContact(const ProxyRest& rest) noexcept {
+/// The contact that carries most of the load; the first one where no plane holds.
+[[nodiscard]] inline const Contact& loadedContact(const ProxyRest& rest, const SubGoal& hold) noexcept {
     size_t loaded = 0;
     double most = -1.0;
-    for (size_t i = 0; i < static_cast<size_t>(rest.hold.count); ++i)
-        if (rest.hold.multiplier[i] > most) {
-            most = rest.hold.multiplier[i];
-            loaded = static_cast<size_t>(rest.hold.active[i]);
+    for (size_t i = 0; i < static_cast<size_t>(hold.count); ++i)
+        if (hold.multiplier[i] > most) {
+            most = hold.multiplier[i];
+            loaded = static_cast<size_t>(hold.active[i]);
         }
     return rest.contacts[loaded];
 }

@@ -36,12 +36,9 @@ SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& materia
 } // namespace
 
 SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                        int anchor, const ProxyRest& rest, const glm::dvec3& normal, double depth,
+                        int anchor, const Contact& contact, const glm::dvec3& normal, double depth,
                         double speed, double dt) noexcept {
     SurfaceFeel feel;
-    if (rest.contactCount == 0)
-        return feel;
-    const Contact& contact = loadedContact(rest);
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
     const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];

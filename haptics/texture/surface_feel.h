@@ -27,11 +27,11 @@ struct SurfaceFeel {
     double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
 };
 
-/// Picks the contact that carries most of the load and reads material, vertex attributes and maps there.
-/// `normal` and `depth` are those of the shaded rest. With textureFilter=mip `speed` (m/s along the surface)
-/// and `dt` choose the level: what would alias at the servo rate is left out.
+/// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are what is felt there.
+/// With textureFilter=mip `speed` (m/s along the surface) and `dt` choose the level: what would alias at the
+/// servo rate is left out.
 [[nodiscard]] SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions,
-                                      const HapticSettings& settings, int anchor, const ProxyRest& rest,
+                                      const HapticSettings& settings, int anchor, const Contact& contact,
                                       const glm::dvec3& normal, double depth, double speed,
                                       double dt) noexcept;
 

@@ -298,7 +298,7 @@ void addSurface() {
             loop(state, [&] {
                 const Touched& t = places[at = (at + 1) % places.size()];
                 benchmark::DoNotOptimize(readSurface(hand.scene(), hand.motions(), settings,
-                                                     hand.state.anchor, t.rest, t.normal, t.depth,
+                                                     hand.state.anchor, t.rest.contacts[0], t.normal, t.depth,
                                                      kStep / kTick, kTick));
             });
         });
@@ -307,12 +307,13 @@ void addSurface() {
         Hand hand(richTorus(), settings);
         std::vector<SurfaceFeel> feels;
         for (const Touched& t : touches(hand))
-            feels.push_back(readSurface(hand.scene(), hand.motions(), settings, hand.state.anchor, t.rest,
-                                        t.normal, t.depth, kStep / kTick, kTick));
+            feels.push_back(readSurface(hand.scene(), hand.motions(), settings, hand.state.anchor,
+                                        t.rest.contacts[0], t.normal, t.depth, kStep / kTick, kTick));
         size_t at = 0;
         loop(state, [&] {
             benchmark::DoNotOptimize(springDamperForce(feels[at = (at + 1) % feels.size()],
-                                                       glm::dvec3(1e-5, 0, 0), glm::dvec3(0.1, 0.01, 0)));
+                                                       glm::dvec3(1e-5, 0, 0), glm::dvec3(0.0),
+                                                       glm::dvec3(0.1, 0.01, 0)));
         });
     });
 }

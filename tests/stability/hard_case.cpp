@@ -3,6 +3,7 @@
 #include "haptics/proxy/mesh_proxy.h"
 #include "study/truth/oracle.h"
 #include "tests/stability/case_table.h"
+#include "tests/support/corner.h"
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,17 @@ bool sameDirections(const std::vector<glm::dvec3>& a, const std::vector<glm::dve
 void worsen(Figure& figure, const Figure& other) {
     if (other.share() > figure.share())
         figure = other;
+}
+
+/// m: sum lambda_i with sum lambda_i n_i = `offset` over the planes that hold the hand; |offset| with one.
+double loadOf(const HapticOutput& out, const glm::dvec3& offset) {
+    constexpr double kParallel = 1e-6; // planes nearer to each other carry the load together
+    const std::vector<glm::dvec3> planes(out.planes.begin(), out.planes.begin() + out.planeCount);
+    double load = 0.0;
+    if (planes.size() > 1 && leastSingularValue(planes) > kParallel)
+        for (const double part : coefficients(planes, offset))
+            load += part;
+    return std::max(load, glm::length(offset));
 }
 
 } // namespace
@@ -205,12 +217,12 @@ glm::dvec3 HardCase::oracleFrom(const HapticOutput& now) {
 
 /// Sticks: what is left of the wish to go to the HIP, held by all that touches there and, where shaded, by
 /// what it feels like. With friction: how far the oracle, which knows none, goes on from there; the
-/// coefficient times its depth is allowed.
+/// coefficient times the sum of the planes' loads is allowed.
 void HardCase::takeRest(const Touching& touching) {
     const HapticOutput& now = bench.output;
     if (bench.settings.friction != FrictionMode::Off) {
         const glm::dvec3 rest = oracleFrom(now);
-        friction_ = glm::distance(rest, now.hip);
+        friction_ = loadOf(now, rest - now.hip);
         worsen(figures_.sticks, {glm::distance(rest, now.proxy),
                                  bench.settings.staticFriction * friction_ + kRestRounding * unit()});
         return;

@@ -101,7 +101,7 @@ class HardCase {
     Touching lastTouching_;
     int lateInARow_ = 0;
     double behind_ = 0.0;   ///< m, Figures::behind of the last tick
-    double friction_ = 0.0; ///< m, depth of the frictionless rest
+    double friction_ = 0.0; ///< m, sum of the loads of the planes at the frictionless rest
 };
 
 /// A shape with the vertex normals of a modeller's "auto smooth": at each corner the mean, by area, over the

@@ -1,6 +1,7 @@
 // The three friction laws against their formulas, through the whole tick ([000 §4.2], [001 §4.1.1]).
 
 #include "study/truth/brute_force.h"
+#include "tests/support/corner.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -233,7 +234,14 @@ void expectOnSurfaceAndInCone(const TouchBench& bench, double muS, double& clear
         return;
     const glm::dvec3 free = pose.point(state.frictionless);
     const double friction = glm::length(out.force - kStiffness * (free - out.hip));
-    share = std::max(share, friction / (muS * kStiffness * glm::length(free - out.hip)));
+    double load = glm::length(free - out.hip); // the sum of the planes' own, where there are several
+    if (out.planeCount > 1) {
+        load = 0.0;
+        for (const double part :
+             coefficients({out.planes.begin(), out.planes.begin() + out.planeCount}, free - out.hip))
+            load += part;
+    }
+    share = std::max(share, friction / (muS * kStiffness * load));
 }
 
 TEST(Friction, OnACurvedSurfaceAndInACornerTheProxyStaysOnItAndInTheCone) {

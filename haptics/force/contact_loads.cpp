@@ -1,0 +1,84 @@
+#include "haptics/force/contact_loads.h"
+
+#include "haptics/shading/turned_normal.h"
+
+#include <algorithm>
+#include <span>
+
+namespace touchstone {
+
+namespace {
+
+std::span<const ContactLoad> held(const ContactLoads& loads) {
+    return {loads.contacts.data(), static_cast<size_t>(loads.count)};
+}
+
+/// f_i. Along a projected normal feel.depth is longer than lambda_i.
+glm::dvec3 contactForce(const ContactLoad& contact) {
+    const SurfaceFeel& feel = contact.feel;
+    if (!feel.hasHeight)
+        return feel.stiffness * feel.depth * feel.lengthening * feel.textured;
+    const double tilt = contact.depth > feel.height ? feel.height / contact.depth : 1.0;
+    return feel.stiffness * feel.depth * (feel.normal + tilt * (feel.textured - feel.normal));
+}
+
+/// True where F is K (p - h), to the last bit.
+bool alike(const ContactLoads& loads) {
+    return std::ranges::all_of(held(loads), [&](const ContactLoad& contact) {
+        const SurfaceFeel& feel = contact.feel;
+        return feel.stiffness == loads.contacts[0].feel.stiffness && feel.depth == contact.length &&
+               feel.normal == contact.plane && feel.textured == contact.plane && feel.lengthening == 1.0;
+    });
+}
+
+} // namespace
+
+void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int anchor,
+               const ProxyRest& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
+               double workspacePerAnchor, const glm::dvec3& velocity, double dt,
+               ContactLoads& loads) noexcept {
+    loads.count = hold.count;
+    loads.offset = workspacePerAnchor * offset;
+    loads.loaded = 0;
+    double sum = 0.0, weighted = 0.0;
+    for (size_t i = 0; i < static_cast<size_t>(hold.count); ++i) {
+        const auto at = static_cast<size_t>(hold.active[i]);
+        const Contact& contact = rest.contacts[at];
+        ContactLoad& load = loads.contacts[i];
+        load.plane = twoPass ? rest.shadedPlanes[at].normal : contact.normal;
+        load.length = workspacePerAnchor * hold.multiplier[i];
+        load.depth = glm::dot(load.plane, loads.offset);
+        const TurnedNormal turned = turnedNormal(scene, motions, settings, anchor, contact, load.plane);
+        const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);
+        load.feel = readSurface(scene, motions, settings, anchor, contact, turned.normal,
+                                load.length / turned.cosine, speed, dt);
+        sum += load.length;
+        weighted += load.feel.stiffness * load.length;
+        if (load.length > loads.contacts[static_cast<size_t>(loads.loaded)].length)
+            loads.loaded = static_cast<int>(i);
+    }
+    const double resultant = glm::length(loads.offset);
+    loads.stiffness = sum > 0.0 ? weighted / sum : loads.contacts[0].feel.stiffness;
+    loads.bounding = sum > kMostLoad * resultant ? kMostLoad * resultant / sum : 1.0;
+}
+
+glm::dvec3 elasticForce(const ContactLoads& loads) noexcept {
+    if (alike(loads))
+        return loads.contacts[0].feel.stiffness * loads.offset;
+    glm::dvec3 differences(0.0);
+    for (const ContactLoad& contact : held(loads))
+        differences += contactForce(contact) - loads.stiffness * contact.length * contact.plane;
+    return loads.stiffness * loads.offset + loads.bounding * differences;
+}
+
+glm::dvec3 dampingForce(const ContactLoads& loads, const glm::dvec3& velocity) noexcept {
+    glm::dvec3 force(0.0);
+    for (const ContactLoad& contact : held(loads)) {
+        const glm::dvec3& n = contact.feel.normal;
+        const double push = std::max(loads.bounding * glm::dot(contactForce(contact), n), 0.0);
+        force += std::max(-contact.feel.damping * partOf(contact) * glm::dot(velocity, n), -push) * n;
+    }
+    return force;
+}
+
+} // namespace touchstone

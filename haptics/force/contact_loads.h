@@ -1,0 +1,69 @@
+#pragma once
+// Where several planes hold the hand: what each contact carries, and the force that comes of it.
+
+#include "haptics/haptic_scene.h"
+#include "haptics/haptic_settings.h"
+#include "haptics/proxy/proxy_rest.h"
+#include "haptics/texture/surface_feel.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+
+namespace touchstone {
+
+/// One active plane's part in p - h = sum lambda_i n_i (p: proxy without friction, h: HIP). Anchor frame,
+/// workspace m.
+struct ContactLoad {
+    glm::dvec3 plane{0.0}; ///< n_i: unit normal of the plane; interpolated with two-pass shading
+    double length = 0.0;   ///< lambda_i >= 0
+    double depth = 0.0;    ///< n_i . (p - h): of the HIP below the plane
+    SurfaceFeel feel; ///< its `normal` is the one felt (turned by `direction` or `projected`), its `depth` is
+                      ///< lambda_i, along a projected normal longer
+};
+
+/// The elastic force is
+///     F = K (p - h) + beta sum (f_i - K lambda_i n_i),   f_i = k_i lambda_i (n_i + t_i (m_i - n_i)),
+/// with t_i = min(1, H_i / d_i) (1 where d_i <= 0): the displacement law of spring_damper.h at the HIP's
+/// depth d_i below the plane, times the plane's part lambda_i / d_i of it. For one plane it is that law; for
+/// planes at right angles each feels its own relief whole; planes almost parallel share one. Where all k_i
+/// are equal and nothing is textured or turned F = k (p - h), also where a solve ended before its rest. K =
+/// sum k_i lambda_i / sum lambda_i. Continuous in h wherever p, the normals and the samples are, since f_i
+/// vanishes with lambda_i.
+///
+/// Two walls that almost oppose each other carry loads far beyond the resultant (lambda = 1 / (2 sin(a / 2))
+/// times it in a groove of angle a); beta = min(1, kMostLoad |p - h| / sum lambda_i) bounds what a difference
+/// of their stiffness, and friction on them, make of it. At least 1 where the least singular value of the
+/// normals is 0.1: sum lambda_i <= sqrt(3) |p - h| / 0.1.
+struct ContactLoads {
+    int count = 0; ///< at least 2 where these are used
+    std::array<ContactLoad, 3> contacts;
+    glm::dvec3 offset{0.0}; ///< p - h, m
+    double stiffness = 0.0; ///< K, N/m
+    double bounding = 1.0;  ///< beta
+    int loaded = 0;         ///< the contact that carries most
+};
+
+/// sum lambda_i over |p - h|, beyond which the loads count no more.
+inline constexpr double kMostLoad = 20.0;
+
+/// Reads the surface under every active plane of `hold`. `normals`: of the contacts' planes. `offset`: p - h,
+/// anchor units. `velocity` of the HIP against the surface, m/s, anchor frame.
+void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int anchor,
+               const ProxyRest& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
+               double workspacePerAnchor, const glm::dvec3& velocity, double dt,
+               ContactLoads& loads) noexcept;
+
+/// F above, N, anchor frame.
+[[nodiscard]] glm::dvec3 elasticForce(const ContactLoads& loads) noexcept;
+
+/// The part of the plane in what planes that are almost parallel hold together: lambda_i / d_i, at most 1.
+[[nodiscard]] inline double partOf(const ContactLoad& contact) noexcept {
+    return contact.depth > contact.length ? contact.length / contact.depth : 1.0;
+}
+
+/// Damping of every contact along its normal, N: -c_i min(1, lambda_i / d_i) (v . n_i) n_i, and no contact
+/// pulls. Where planes are almost parallel they share one damper.
+[[nodiscard]] glm::dvec3 dampingForce(const ContactLoads& loads, const glm::dvec3& velocity) noexcept;
+
+} // namespace touchstone

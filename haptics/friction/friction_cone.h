@@ -1,0 +1,61 @@
+#pragma once
+// How much friction the contacts bear: the sum of their cones, less what the viscous term takes of it.
+
+#include "haptics/force/contact_loads.h"
+#include "haptics/texture/surface_feel.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+
+namespace touchstone {
+
+/// Friction's share of one tick. With contacts of normal load N_i = beta k_i lambda_i the friction along a
+/// unit vector u is at most
+///     mu N (u) = sum mu_i N_i |u - (u . n_i) n_i|,
+/// the extent of the sum of the contacts' friction disks along u: all of sum mu_i N_i along what the planes
+/// leave free, and continuous where a plane joins, since N_i then is 0.
+///
+/// The viscous term takes its part first ([001] eq. 4.6: the total stays at mu N): V_i = min(c_i v_i, mu_d,i
+/// N_i), against the velocity along contact i; the stiction point bears the rest, mu N - sum V_i, never less
+/// than nothing. A material of no friction coefficient has no cone: its viscous term is c v.
+class FrictionCone {
+  public:
+    FrictionCone() = default; ///< nothing is touched
+    /// `velocity` of the HIP against the surface, m/s; `workspacePerAnchor` m per anchor unit.
+    FrictionCone(const SurfaceFeel& feel, const glm::dvec3& velocity, double workspacePerAnchor) noexcept;
+    FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity, double workspacePerAnchor) noexcept;
+
+    /// What a law is given for the stretch that it meets. Lengths in anchor units.
+    struct Limit {
+        double depth = 0.0; ///< N / K
+        double staticFriction = 0.0, dynamicFriction = 0.0;
+    };
+    [[nodiscard]] Limit along(const glm::dvec3& stretch) const noexcept;
+
+    [[nodiscard]] bool rough() const noexcept { return rough_; }           ///< some mu_s is above 0
+    [[nodiscard]] double stiffness() const noexcept { return stiffness_; } ///< K, N/m, of the stretch
+    [[nodiscard]] const glm::dvec3& viscousForce() const noexcept {
+        return viscousForce_;
+    }                                                                       ///< N, anchor frame
+    [[nodiscard]] const glm::dvec3& down() const noexcept { return down_; } ///< h - p, anchor units
+
+  private:
+    struct Disk {
+        glm::dvec3 normal{0.0};
+        double load = 0.0; ///< N_i, N
+        double staticFriction = 0.0, dynamicFriction = 0.0;
+    };
+    void addViscous(const SurfaceFeel& feel, const glm::dvec3& normal, double load, double part,
+                    const glm::dvec3& velocity) noexcept;
+
+    std::array<Disk, 3> disks_;
+    int count_ = 0;
+    Limit single_; ///< of one contact, whatever the direction
+    bool rough_ = false;
+    double stiffness_ = 0.0, workspacePerAnchor_ = 1.0;
+    double viscous_ = 0.0; ///< sum V_i of the contacts that have a cone, N
+    glm::dvec3 viscousForce_{0.0}, down_{0.0};
+};
+
+} // namespace touchstone
