@@ -18,11 +18,17 @@ inline bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) 
     if (!(volume > 0.0) || !std::isfinite(volume))
         return false;
     const glm::dvec3 x = glm::normalize(linear[0]);
-    const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
+    const glm::dvec3 across = linear[1] - glm::dot(linear[1], x) * x;
+    // Of columns that are parallel rounding leaves a volume, and nothing or anything of the second axis.
+    constexpr double kFlat = 1e-12;
+    if (!(glm::length(across) > kFlat * glm::length(linear[1])))
+        return false;
+    const glm::dvec3 y = glm::normalize(across);
     const Similarity nearest{std::cbrt(volume),
                              glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)))),
                              glm::dvec3(matrix[3])};
-    if (!std::isfinite(glm::dot(nearest.translation, nearest.translation)) || !(nearest.scale > 0.0))
+    if (!std::isfinite(glm::dot(nearest.translation, nearest.translation)) || !(nearest.scale > 0.0) ||
+        !std::isfinite(glm::dot(nearest.rotation, nearest.rotation)))
         return false;
     similarity = nearest;
     return true;
