@@ -43,8 +43,13 @@ std::vector<MaterialPlacement> materialPlacements(const Scene& scene) {
 Similarity workspaceFromScene(const Scene& scene, Fit fit) {
     if (fit == Fit::None || scene.bounds.empty())
         return {};
-    const glm::dvec3 extent = scene.bounds.extent();
-    const double longest = std::max({extent.x, extent.y, extent.z});
+    // Coordinates are rounded to 1e-16 of themselves. Of a model that is smaller than 1e-9 of its way from
+    // the origin no magnification makes more than a heap of roundings, which would lie millions of kilometres
+    // apart.
+    constexpr double kFinest = 1e-9;
+    const glm::dvec3 extent = scene.bounds.extent(), centre = glm::abs(scene.bounds.centre());
+    const double longest =
+        std::max({extent.x, extent.y, extent.z, kFinest * centre.x, kFinest * centre.y, kFinest * centre.z});
     Similarity fitted;
     fitted.scale = longest > 0.0 ? kFittedExtent / longest : 1.0;
     fitted.translation = -fitted.scale * scene.bounds.centre();

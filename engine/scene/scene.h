@@ -134,7 +134,8 @@ inline constexpr double kFittedExtent = 0.15;
 enum class Fit : uint8_t { None, Workspace };
 
 /// The similarity that puts a scene into the device's workspace: `None` is the identity, `Workspace` centres
-/// the bounds at the origin and scales the longest side to kFittedExtent.
+/// the bounds at the origin and scales the longest side to kFittedExtent; less where the model is smaller
+/// than the rounding of its place in the scene.
 [[nodiscard]] Similarity workspaceFromScene(const Scene& scene, Fit fit);
 
 } // namespace touchstone

@@ -57,6 +57,23 @@ TEST(GltfNodes, AMatrixIsUsedVerbatim) {
     EXPECT_EQ(load(maker)->instances[0].sceneFromMesh[3].w, 1.0);
 }
 
+/// A generated file had a model of 1e-28 m at 0.03 m: fitted, the roundings of its coordinates lay 4e9 m
+/// apart and no sample of the hand on its stroke was taken.
+TEST(GltfNodes, AFittedModelIsNoLargerThanTheRoundingOfItsPlaceAllows) {
+    for (const double size : {1.0, 1e-6, 1e-12, 1e-28})
+        for (const double away : {0.0, 0.03, 1e6}) {
+            Scene scene;
+            scene.bounds.include(glm::dvec3(away, 0.0, 0.0));
+            scene.bounds.include(glm::dvec3(away + size, size, 0.0));
+            const Similarity fit = workspaceFromScene(scene, Fit::Workspace);
+            const double rounding = fit.scale * 1e-16 * away;
+            EXPECT_LT(rounding, 2e-8) << size << " m at " << away;
+            if (size > 1e-8 * away)
+                EXPECT_NEAR(fit.scale * size, kFittedExtent, 1e-6);
+            EXPECT_LT(glm::length(fit.point(glm::dvec3(away, 0.0, 0.0))), kFittedExtent);
+        }
+}
+
 TEST(GltfNodes, LoopsAndSecondParentsAreRefused) {
     GltfMaker maker = GltfMaker::square();
     maker.json["nodes"] = {{{"mesh", 0}}, {{"children", {2}}}, {{"children", {1}}}};
