@@ -3,7 +3,6 @@
 #include "engine/core/error.h"
 
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
 namespace touchstone {
@@ -33,11 +32,7 @@ std::optional<std::string> EnvironmentLight::update(SceneRenderer& renderer) {
 void lightWith(const std::filesystem::path& file, SceneRenderer& renderer) {
     if (file.empty())
         return;
-    try {
-        renderer.setEnvironment(loadEnvironment(file));
-    } catch (const Error& error) {
-        std::fprintf(stderr, "touchstone: warning: %s\n", error.what());
-    }
+    renderer.setEnvironment(loadEnvironment(file));
 }
 
 } // namespace touchstone

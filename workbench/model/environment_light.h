@@ -36,7 +36,8 @@ class EnvironmentLight {
     std::future<std::shared_ptr<const Environment>> loading_; ///< last: it reads cancel_ until it ends
 };
 
-/// The same for a picture without a window: waits for it, and prints what is wrong to stderr.
+/// The same for a picture without a window: waits for it, and throws Error where the file is bad: the picture
+/// would be another one than was asked for.
 void lightWith(const std::filesystem::path& file, SceneRenderer& renderer);
 
 } // namespace touchstone

@@ -148,6 +148,43 @@ TEST(Gpu, WithoutAVulkanDeviceItNamesThePackage) {
     EXPECT_FALSE(fs::exists(picture));
 }
 
+/// A panorama of `height` rows in Radiance's format without run lengths: light from above.
+std::string skyPanorama(int height) {
+    std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+                       std::to_string(2 * height) + "\n";
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < 2 * height; ++column)
+            file +=
+                2 * row < height ? std::string("\xff\x80\x20\x83", 4) : std::string("\x08\x08\x08\x80", 4);
+    return file;
+}
+
+TEST(Gpu, AnEnvironmentFileLightsThePicture) {
+    const ScratchFolder scratch;
+    const std::string sky = (scratch / "sky.hdr").string(), picture = (scratch / "out.png").string();
+    const std::string materials = TOUCHSTONE_ASSETS "/materials.glb";
+    const auto rendered = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{kProgram, "render", materials, "--out", picture, "--size", "160x120"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramResult result = runProgram(words);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return readFile(picture);
+    };
+    writeTextFile(sky, skyPanorama(16));
+    const std::string plain = rendered({}), lit = rendered({"--environment", sky});
+    EXPECT_EQ(rendered({}), plain);
+    EXPECT_NE(lit, plain);
+    EXPECT_EQ(rendered({"--environment", sky}), lit);
+
+    // A file that is missing or no panorama: no picture in another light than was asked for.
+    writeTextFile(sky, skyPanorama(16).substr(0, 60));
+    fs::remove(picture);
+    for (const std::string& bad : {sky, (scratch / "none.exr").string(), kBox})
+        expectRefused(runProgram({kProgram, "render", materials, "--out", picture, "--environment", bad}), 1,
+                      {bad});
+    EXPECT_FALSE(fs::exists(picture));
+}
+
 class Touch : public testing::Test {
   protected:
     std::string path(const std::string& csv) {
