@@ -68,8 +68,9 @@ TEST(GltfNodes, AFittedModelIsNoLargerThanTheRoundingOfItsPlaceAllows) {
             const Similarity fit = workspaceFromScene(scene, Fit::Workspace);
             const double rounding = fit.scale * 1e-16 * away;
             EXPECT_LT(rounding, 2e-8) << size << " m at " << away;
-            if (size > 1e-8 * away)
+            if (size > 1e-8 * away) {
                 EXPECT_NEAR(fit.scale * size, kFittedExtent, 1e-6);
+            }
             EXPECT_LT(glm::length(fit.point(glm::dvec3(away, 0.0, 0.0))), kFittedExtent);
         }
 }
