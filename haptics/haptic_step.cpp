@@ -79,7 +79,7 @@ struct SeveralContacts {
 };
 
 /// `feel` becomes that of the contact which carries most, with the direction of the whole elastic force.
-/// `velocity` of the HIP against the surface; what the force is made of has `zoom` taken out.
+/// `velocity` of the HIP against the surface; the force has `zoom` taken out, and is what the device bears.
 [[gnu::noinline]] void feelSeveral(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
                                    const SubGoal& hold, const glm::dvec3& offset, double workspacePerAnchor,
@@ -87,24 +87,27 @@ struct SeveralContacts {
                                    SeveralContacts& several) {
     ContactLoads loads;
     readLoads(scene, motions, settings, state.anchor, state.rest, hold, state.shaded, offset,
-              workspacePerAnchor, velocity, dt, loads);
+              workspacePerAnchor, velocity, zoom, dt, loads);
     const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(zoom, 1.0);
     several.force = elastic + dampingForce(loads, felt);
     several.cone = FrictionCone(loads, felt, workspacePerAnchor);
     feel = loads.contacts[static_cast<size_t>(loads.loaded)].feel;
     const double force = glm::length(elastic);
-    if (force > 0.0)
+    if (force > 0.0 && glm::length(offset) > 100.0 * kContactGap)
         feel.textured = elastic / force;
-    for (size_t i = 0; i < static_cast<size_t>(loads.count); ++i) {
+    for (size_t i = 0; i < static_cast<size_t>(loads.count); ++i)
         feel.tiltCompressed |= loads.contacts[i].feel.tiltCompressed;
-        feel.stiffness = std::max(feel.stiffness, loads.contacts[i].feel.stiffness);
-    }
 }
 
-/// True where every plane that holds the hand is of one plain material without damping: then the force is K
-/// (p - h), whichever of them carries it.
-bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, const ProxyRest& rest,
+/// True where the planes need not be told apart: all of one plain material without damping whose force
+/// nothing turns, which gives K (p - h) whichever of them carries it; or none of them carries anything
+/// (RayProxy between planes that leave it no room).
+bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet, const ProxyRest& rest,
                const SubGoal& hold) {
+    if (kPlainTick || !(hold.multiplier[0] + hold.multiplier[1] + hold.multiplier[2] > 0.0))
+        return true;
+    if (oneFacet)
+        return false;
     const auto contactAt = [&](size_t i) -> const Contact& {
         return rest.contacts[static_cast<size_t>(hold.active[i])];
     };
@@ -256,7 +259,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
         shadeTwoPass(scene, motions, settings, hip, first, proxy, state, rest);
     const SubGoal& hold = state.shaded ? rest.shadedHold : rest.hold;
     const bool oneFacet = !Plain && anyOneFacet(scene.plan, settings);
-    const bool asOne = hold.count <= 1 || (!oneFacet && feltAsOne(scene, settings, rest, hold));
+    const bool asOne = hold.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, hold);
     FeltShape shape;
     if (rest.contactCount > 0 && asOne)
         shape = feltShape(scene, motions, settings, oneFacet, hip, state, hold);
@@ -310,7 +313,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     else
         force = several.force + several.cone.stiffness() * stretch + several.cone.viscousForce();
     output.force = workspaceFromAnchor.direction(force);
-    if (output.zoom > 1.0)
+    if (output.zoom > 1.0 && asOne)
         output.force *= bearableShare(feel.stiffness, output.zoom, settings, scene.limits);
     output.flags |= rest.flags;
     publishProxy(workspaceFromAnchor, state, rest, output);

@@ -1,5 +1,6 @@
 #include "haptics/force/contact_loads.h"
 
+#include "haptics/force/spring_damper.h"
 #include "haptics/shading/turned_normal.h"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ glm::dvec3 contactForce(const ContactLoad& contact) {
     const SurfaceFeel& feel = contact.feel;
     if (!feel.hasHeight)
         return feel.stiffness * feel.depth * feel.lengthening * feel.textured;
-    const double tilt = contact.depth > feel.height ? feel.height / contact.depth : 1.0;
+    const double reach = std::max(contact.depth, feel.depth);
+    const double tilt = reach > feel.height ? feel.height / reach : 1.0;
     return feel.stiffness * feel.depth * (feel.normal + tilt * (feel.textured - feel.normal));
 }
 
@@ -35,27 +37,37 @@ bool alike(const ContactLoads& loads) {
 
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int anchor,
                const ProxyRest& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
-               double workspacePerAnchor, const glm::dvec3& velocity, double dt,
+               double workspacePerAnchor, const glm::dvec3& velocity, double zoom, double dt,
                ContactLoads& loads) noexcept {
     loads.count = hold.count;
     loads.offset = workspacePerAnchor * offset;
     loads.loaded = 0;
-    double sum = 0.0, weighted = 0.0;
+    double sum = 0.0, weighted = 0.0, most = -1.0;
     for (size_t i = 0; i < static_cast<size_t>(hold.count); ++i) {
         const auto at = static_cast<size_t>(hold.active[i]);
         const Contact& contact = rest.contacts[at];
         ContactLoad& load = loads.contacts[i];
+        load.surface = contact.normal;
         load.plane = twoPass ? rest.shadedPlanes[at].normal : contact.normal;
         load.length = workspacePerAnchor * hold.multiplier[i];
-        load.depth = glm::dot(load.plane, loads.offset);
         const TurnedNormal turned = turnedNormal(scene, motions, settings, anchor, contact, load.plane);
+        load.depth = glm::dot(load.plane, loads.offset) / turned.cosine;
         const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);
         load.feel = readSurface(scene, motions, settings, anchor, contact, turned.normal,
                                 load.length / turned.cosine, speed, dt);
+        if (zoom > 1.0) {
+            const double share = bearableShare(load.feel.stiffness, zoom, settings, scene.limits);
+            load.feel.stiffness *= share;
+            load.feel.damping *= share;
+            load.feel.viscousFriction *= share;
+        }
+        const double carried = load.feel.stiffness * load.length;
         sum += load.length;
-        weighted += load.feel.stiffness * load.length;
-        if (load.length > loads.contacts[static_cast<size_t>(loads.loaded)].length)
+        weighted += carried;
+        if (carried > most) {
+            most = carried;
             loads.loaded = static_cast<int>(i);
+        }
     }
     const double resultant = glm::length(loads.offset);
     loads.stiffness = sum > 0.0 ? weighted / sum : loads.contacts[0].feel.stiffness;

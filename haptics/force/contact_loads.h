@@ -15,25 +15,29 @@ namespace touchstone {
 /// One active plane's part in p - h = sum lambda_i n_i (p: proxy without friction, h: HIP). Anchor frame,
 /// workspace m.
 struct ContactLoad {
-    glm::dvec3 plane{0.0}; ///< n_i: unit normal of the plane; interpolated with two-pass shading
+    glm::dvec3 surface{0.0}; ///< unit normal of the true plane
+    glm::dvec3 plane{0.0}; ///< n_i: unit normal of the plane of the solve; interpolated with two-pass shading
     double length = 0.0;   ///< lambda_i >= 0
-    double depth = 0.0;    ///< n_i . (p - h): of the HIP below the plane
-    SurfaceFeel feel; ///< its `normal` is the one felt (turned by `direction` or `projected`), its `depth` is
-                      ///< lambda_i, along a projected normal longer
+    /// Of the HIP below the plane, n_i . (p - h), along feel.normal; with `projected` both this and
+    /// feel.depth are longer.
+    double depth = 0.0;
+    /// Its `normal` is the one felt (turned by `direction` or `projected`), its `depth` is lambda_i along it.
+    /// Stiffness, damping and viscous term are those that the device bears at this zoom.
+    SurfaceFeel feel;
 };
 
 /// The elastic force is
 ///     F = K (p - h) + beta sum (f_i - K lambda_i n_i),   f_i = k_i lambda_i (n_i + t_i (m_i - n_i)),
-/// with t_i = min(1, H_i / d_i) (1 where d_i <= 0): the displacement law of spring_damper.h at the HIP's
-/// depth d_i below the plane, times the plane's part lambda_i / d_i of it. For one plane it is that law; for
-/// planes at right angles each feels its own relief whole; planes almost parallel share one. Where all k_i
-/// are equal and nothing is textured or turned F = k (p - h), also where a solve ended before its rest. K =
-/// sum k_i lambda_i / sum lambda_i. Continuous in h wherever p, the normals and the samples are, since f_i
-/// vanishes with lambda_i.
+/// with t_i = min(1, H_i / max(d_i, lambda_i)): the displacement law of spring_damper.h at the HIP's depth
+/// d_i below the plane, times the plane's part lambda_i / d_i of it; where walls meet at less than a right
+/// angle (d_i < lambda_i), at the depth lambda_i, whole. For one plane it is that law; at right angles each
+/// plane feels its own relief whole; planes almost parallel share one. Where all k_i are equal and nothing is
+/// textured or turned F = k (p - h), also where a solve ended before its rest. K = sum k_i lambda_i / sum
+/// lambda_i. Continuous in h wherever p, the normals and the samples are, since f_i vanishes with lambda_i.
 ///
 /// Two walls that almost oppose each other carry loads far beyond the resultant (lambda = 1 / (2 sin(a / 2))
 /// times it in a groove of angle a); beta = min(1, kMostLoad |p - h| / sum lambda_i) bounds what a difference
-/// of their stiffness, and friction on them, make of it. At least 1 where the least singular value of the
+/// of their stiffness, and friction on them, make of it. It is 1 where the least singular value of the
 /// normals is 0.1: sum lambda_i <= sqrt(3) |p - h| / 0.1.
 struct ContactLoads {
     int count = 0; ///< at least 2 where these are used
@@ -41,17 +45,19 @@ struct ContactLoads {
     glm::dvec3 offset{0.0}; ///< p - h, m
     double stiffness = 0.0; ///< K, N/m
     double bounding = 1.0;  ///< beta
-    int loaded = 0;         ///< the contact that carries most
+    int loaded = 0;         ///< the contact with the largest k_i lambda_i
 };
 
 /// sum lambda_i over |p - h|, beyond which the loads count no more.
 inline constexpr double kMostLoad = 20.0;
 
-/// Reads the surface under every active plane of `hold`. `normals`: of the contacts' planes. `offset`: p - h,
-/// anchor units. `velocity` of the HIP against the surface, m/s, anchor frame.
+/// Reads the surface under every active plane of `hold`, which are those of shadedPlanes with `twoPass`.
+/// `offset`: p - h, anchor units. `velocity` of the HIP against the surface, m/s, anchor frame. `zoom` as in
+/// bearableShare, to which each contact's stiffness is cut by itself: a stiffer plane that joins without load
+/// changes nothing.
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int anchor,
                const ProxyRest& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
-               double workspacePerAnchor, const glm::dvec3& velocity, double dt,
+               double workspacePerAnchor, const glm::dvec3& velocity, double zoom, double dt,
                ContactLoads& loads) noexcept;
 
 /// F above, N, anchor frame.
@@ -59,7 +65,7 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
 
 /// The part of the plane in what planes that are almost parallel hold together: lambda_i / d_i, at most 1.
 [[nodiscard]] inline double partOf(const ContactLoad& contact) noexcept {
-    return contact.depth > contact.length ? contact.length / contact.depth : 1.0;
+    return contact.depth > contact.feel.depth ? contact.feel.depth / contact.depth : 1.0;
 }
 
 /// Damping of every contact along its normal, N: -c_i min(1, lambda_i / d_i) (v . n_i) n_i, and no contact

@@ -4,6 +4,9 @@
 #include "haptics/proxy/neighbourhood_watch.h"
 #include "haptics/proxy/ray_proxy.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace touchstone {
 
 namespace {
@@ -132,11 +135,18 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
         return held - frictionless;
     }
     const glm::dvec3 wish = answer.share * answer.stretch;
-    holdBack(held, wish, cone.down(), proxy, state, rest);
+    if (wish != glm::dvec3(0.0) || !touches(rest)) // else the proxy already stands there
+        holdBack(held, wish, cone.down(), proxy, state, rest);
     state.stictionPoint = ownPlace ? state.proxy : answer.stays ? point : frictionless + answer.stretch;
-    // On a curved surface the chord is not quite what was asked for: the force is, never more.
+    // On a curved surface, and where a wall is in the way, the chord is not quite what was asked for: the
+    // force is, never more, and never more than the contacts bear along it.
     const glm::dvec3 kept = state.proxy - frictionless;
-    const double asked = glm::dot(wish, wish), got = glm::dot(kept, kept);
+    double asked = glm::dot(wish, wish);
+    const double got = glm::dot(kept, kept);
+    if (cone.several()) {
+        const FrictionCone::Limit borne = cone.along(kept);
+        asked = std::min(asked, borne.staticFriction * borne.depth * borne.staticFriction * borne.depth);
+    }
     return got > asked ? std::sqrt(asked / got) * kept : kept;
 }
 

@@ -29,7 +29,7 @@ FrictionCone::FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity
         const ContactLoad& contact = loads.contacts[i];
         const SurfaceFeel& feel = contact.feel;
         const double load = loads.bounding * feel.stiffness * feel.depth;
-        disks_[i] = {.normal = feel.normal,
+        disks_[i] = {.normal = contact.surface,
                      .load = load,
                      .staticFriction = feel.staticFriction,
                      .dynamicFriction = feel.dynamicFriction};
@@ -44,7 +44,7 @@ void FrictionCone::addViscous(const SurfaceFeel& feel, const glm::dvec3& normal,
         return;
     const glm::dvec3 along = velocity - glm::dot(velocity, normal) * normal;
     glm::dvec3 force = -feel.viscousFriction * part * along;
-    if (feel.staticFriction > 0.0) {
+    if (feel.coulomb) {
         const double whole = glm::length(force), most = feel.dynamicFriction * load;
         if (whole > most)
             force *= most / whole;

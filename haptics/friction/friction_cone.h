@@ -12,13 +12,14 @@ namespace touchstone {
 
 /// Friction's share of one tick. With contacts of normal load N_i = beta k_i lambda_i the friction along a
 /// unit vector u is at most
-///     mu N (u) = sum mu_i N_i |u - (u . n_i) n_i|,
+///     mu N (u) = sum mu_i N_i |u - (u . n_i) n_i|   (n_i: of the true planes),
 /// the extent of the sum of the contacts' friction disks along u: all of sum mu_i N_i along what the planes
 /// leave free, and continuous where a plane joins, since N_i then is 0.
 ///
-/// The viscous term takes its part first ([001] eq. 4.6: the total stays at mu N): V_i = min(c_i v_i, mu_d,i
-/// N_i), against the velocity along contact i; the stiction point bears the rest, mu N - sum V_i, never less
-/// than nothing. A material of no friction coefficient has no cone: its viscous term is c v.
+/// The viscous term takes its part first ([001] eq. 4.6: the total stays at mu N): V_i = min(c_i v_i min(1,
+/// lambda_i / d_i), mu_d,i N_i) against the velocity along contact i; planes almost parallel share one term.
+/// The stiction point bears the rest, mu N - sum V_i, never less than nothing. A material that states no
+/// friction coefficient has no cone: its viscous term is c v.
 class FrictionCone {
   public:
     FrictionCone() = default; ///< nothing is touched
@@ -33,12 +34,15 @@ class FrictionCone {
     };
     [[nodiscard]] Limit along(const glm::dvec3& stretch) const noexcept;
 
-    [[nodiscard]] bool rough() const noexcept { return rough_; }           ///< some mu_s is above 0
+    [[nodiscard]] bool several() const noexcept { return count_ > 1; } ///< the limit depends on the direction
+    [[nodiscard]] bool rough() const noexcept { return rough_; }       ///< some mu_s is above 0
     [[nodiscard]] double stiffness() const noexcept { return stiffness_; } ///< K, N/m, of the stretch
     [[nodiscard]] const glm::dvec3& viscousForce() const noexcept {
         return viscousForce_;
-    }                                                                       ///< N, anchor frame
-    [[nodiscard]] const glm::dvec3& down() const noexcept { return down_; } ///< h - p, anchor units
+    } ///< N, anchor frame
+    [[nodiscard]] const glm::dvec3& down() const noexcept {
+        return down_;
+    } ///< h - p, anchor units; of one contact along its felt normal
 
   private:
     struct Disk {

@@ -96,6 +96,9 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
             share * (settings.dynamicFriction >= 0.0 ? settings.dynamicFriction : stated * ratio);
         feel.dynamicFriction = std::min(feel.dynamicFriction, feel.staticFriction);
         feel.viscousFriction = material.viscousFriction;
+        feel.coulomb = settings.staticFriction >= 0.0
+                           ? settings.staticFriction > 0.0
+                           : material.staticFriction > 0.0 || !object.friction.empty();
     }
     if (settings.texture != TextureMode::Off && (material.textured() || !object.heights.empty())) {
         const Relief relief = readRelief(spot, maps, settings);

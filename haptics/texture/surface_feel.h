@@ -25,6 +25,7 @@ struct SurfaceFeel {
     double stiffness = 0.0; ///< N/m
     double damping = 0.0;   ///< N·s/m
     double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
+    bool coulomb = false; ///< coefficients are stated, though a map may make them zero here
 };
 
 /// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are what is felt there.

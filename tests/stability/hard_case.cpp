@@ -58,17 +58,6 @@ void worsen(Figure& figure, const Figure& other) {
         figure = other;
 }
 
-/// m: sum lambda_i with sum lambda_i n_i = `offset` over the planes that hold the hand; |offset| with one.
-double loadOf(const HapticOutput& out, const glm::dvec3& offset) {
-    constexpr double kParallel = 1e-6; // planes nearer to each other carry the load together
-    const std::vector<glm::dvec3> planes(out.planes.begin(), out.planes.begin() + out.planeCount);
-    double load = 0.0;
-    if (planes.size() > 1 && leastSingularValue(planes) > kParallel)
-        for (const double part : coefficients(planes, offset))
-            load += part;
-    return std::max(load, glm::length(offset));
-}
-
 } // namespace
 
 double Figure::share() const {

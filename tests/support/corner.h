@@ -4,6 +4,7 @@
 
 #include "engine/scene/scene.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/haptic_step.h"
 
 #include <glm/glm.hpp>
 
@@ -48,5 +49,9 @@ struct CornerSolve {
 /// lambda with n_k . sum lambda_i n_i = `lengths`[k].
 [[nodiscard]] std::vector<double> multipliers(const std::vector<glm::dvec3>& normals,
                                               const std::vector<double>& lengths);
+
+/// m: sum lambda_i with sum lambda_i n_i = `offset` over the planes that hold the hand; |offset| with one,
+/// and at least that.
+[[nodiscard]] double loadOf(const HapticOutput& out, const glm::dvec3& offset);
 
 } // namespace touchstone::test

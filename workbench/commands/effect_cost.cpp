@@ -136,6 +136,8 @@ std::vector<EffectCost> effectCosts(const HapticScene& scene, int64_t longestNs)
     std::shared_ptr<HapticScene> without;
     std::vector<StrokeSpot> spots;
     int strokedMaterial = -1;
+    const auto toMeasure =
+        std::ranges::count_if(scene.plan.effects, [](const PlannedEffect& effect) { return effect.on; });
     for (size_t i = 0; i < costs.size(); ++i) {
         const PlannedEffect& effect = scene.plan.effects[i];
         if (!effect.on) {
@@ -151,8 +153,7 @@ std::vector<EffectCost> effectCosts(const HapticScene& scene, int64_t longestNs)
         HapticMaterialData& material = without->materials[static_cast<size_t>(effect.material)];
         const HapticMaterialData kept = material;
         removeEffect(*without, effect.material, effect.effect);
-        costs[i] =
-            costOf(scene, *without, effect.material, spots, longestNs / static_cast<int64_t>(costs.size()));
+        costs[i] = costOf(scene, *without, effect.material, spots, longestNs / toMeasure);
         material = kept;
         without->objects = scene.objects;
     }

@@ -82,7 +82,8 @@ void drawTick(const TickRecord& record, const HapticSettings& settings, const Ti
     if (!look.shown.friction || tick.friction == FrictionState::Free)
         return;
     overlay.spheres.push_back({tick.stictionPoint, scale * kStictionRadius, kStictionColor});
-    if (look.frictionCoefficient > 0.0 && glm::length(tick.normal) > 0.5)
+    // Where several planes hold the hand there is a cone on each, and friction has the sum of them.
+    if (look.frictionCoefficient > 0.0 && tick.planeCount <= 1 && glm::length(tick.normal) > 0.5)
         drawCone(tick.stictionPoint, tick.normal, look.frictionCoefficient, scale * kConeLength, overlay);
 }
 

@@ -235,12 +235,7 @@ void expectOnSurfaceAndInCone(const TouchBench& bench, double muS, double& clear
     const glm::dvec3 free = pose.point(state.frictionless);
     const double friction = glm::length(out.force - kStiffness * (free - out.hip));
     double load = glm::length(free - out.hip); // the sum of the planes' own, where there are several
-    if (out.planeCount > 1) {
-        load = 0.0;
-        for (const double part :
-             coefficients({out.planes.begin(), out.planes.begin() + out.planeCount}, free - out.hip))
-            load += part;
-    }
+    load = std::max(load, loadOf(out, free - out.hip));
     share = std::max(share, friction / (muS * kStiffness * load));
 }
 
