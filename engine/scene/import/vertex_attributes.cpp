@@ -66,7 +66,8 @@ class AttributeReader {
             return {};
         std::vector<Vector> result(attribute->values.size() / static_cast<size_t>(Vector::length()));
         static_assert(sizeof(Vector) == sizeof(float) * Vector::length());
-        std::memcpy(result.data(), attribute->values.data(), attribute->values.size() * sizeof(float));
+        if (!result.empty()) // memcpy takes no null pointer, not even for nothing
+            std::memcpy(result.data(), attribute->values.data(), attribute->values.size() * sizeof(float));
         return result;
     }
 
