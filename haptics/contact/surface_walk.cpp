@@ -234,7 +234,9 @@ bool isOnFreeSide(const SurfaceView& surface, const SurfacePlace& place, const g
     const glm::dvec3 away = point - place.point;
     switch (place.feature) {
     case Feature::Face:
-        return glm::dot(away, surface.normal(place.side)) >= 0.0;
+        // A point on the face is not free yet: off it to either side it has to be known which one it stood
+        // on. 1e-13 object units is above the rounding of a height, and not felt.
+        return glm::dot(away, surface.normal(place.side)) > 1e-13;
     case Feature::Edge:
         return inFreeSector(surface, place, away);
     case Feature::Vertex:

@@ -191,6 +191,31 @@ TEST(NeighbourhoodWatch, StraightOffASheetItLetsGo) {
     }
 }
 
+TEST(NeighbourhoodWatch, AHandExactlyOnASheetKeepsTheSideThatItCameFrom) {
+    HapticSettings s;
+    s.forceShading = ShadingMode::Off;
+    s.contact = ContactMethod::Neighbourhood;
+    for (const double side : {1.0, -1.0})
+        for (const double on : {0.0, 1e-18, -1e-18, 1e-15, -1e-15})
+            for (const bool pressed : {false, true}) {
+                TouchBench bench(sceneOf(assets::plane(0.1, 0.1, 3, 3)), s);
+                SCOPED_TRACE(std::to_string(side) + (pressed ? " pressed" : " in the air"));
+                bench.scene->buildNeighbourhoods();
+                const auto at = [side](double y) { return glm::dvec3(0.011, side * y, 0.007); };
+                bench.step(at(0.001));
+                if (pressed)
+                    bench.step(at(-0.001));
+                bench.step(at(on));
+                EXPECT_LT(glm::length(bench.output.force), 1e-9);
+                bench.step(at(0.0005));
+                EXPECT_EQ(bench.output.contacts, 0u);
+                EXPECT_EQ(bench.output.proxy, bench.output.hip);
+                bench.step(at(on));
+                bench.step(at(-0.0005));
+                EXPECT_GT(bench.output.force.y * side, 0.1) << "held on its side";
+            }
+}
+
 TEST(NeighbourhoodWatch, AThinPlateHoldsHoweverFastAndDeepItIsPressed) {
     for (const double speed : {0.05, 1.0, 5.0, 50.0}) {
         TouchBench bench = watchBench(sceneOf(assets::box({0.1, 0.001, 0.1}, 8)));
