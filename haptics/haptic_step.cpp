@@ -431,8 +431,9 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         output.energyBalance = state.limiter.passivity.balance;
         // A hand that was gone for as long as a full force takes to fade may come back anywhere: it is not
         // pulled to where it was, but begins anew.
+        // One that never was out of sight (a mouse that is lifted, a recorded path) may go on where it is.
         if (state.unsampled >= kForceRampOutTime)
-            beginTouch(state, true);
+            beginTouch(state, !sample.inSight);
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
         stopwatch.lap(Stage::Safety);
     }

@@ -114,7 +114,14 @@ class Workbench {
         opening_.start(path, touch_.limits(), screen_.renderer());
     }
 
-    ~Workbench() { remember(); }
+    ~Workbench() {
+        touch_.forceSwitch().takeAway(
+            false); // what follows may wait for a worker: nobody is pushed meanwhile
+        try {
+            remember();
+        } catch (...) { // what the window remembers is worth no last order that is not sent
+        }
+    }
     Workbench(const Workbench&) = delete;
     Workbench& operator=(const Workbench&) = delete;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace touchstone {
 namespace {
@@ -41,6 +42,27 @@ void selectVertices(Mesh& mesh, std::span<const uint32_t> from) {
             selected[i] = array[from[i]];
         array = std::move(selected);
     });
+}
+
+void dropUnusedVertices(Mesh& mesh) {
+    constexpr uint32_t kUnused = std::numeric_limits<uint32_t>::max();
+    std::vector<uint32_t> place(mesh.positions.size(), kUnused);
+    const auto lists = {&mesh.indices, &mesh.lineIndices, &mesh.pointIndices};
+    for (const auto* list : lists)
+        for (const uint32_t v : *list)
+            place[v] = 0;
+    std::vector<uint32_t> used;
+    for (uint32_t v = 0; v < place.size(); ++v)
+        if (place[v] != kUnused) {
+            place[v] = static_cast<uint32_t>(used.size());
+            used.push_back(v);
+        }
+    if (used.empty() || used.size() == place.size())
+        return;
+    selectVertices(mesh, used);
+    for (auto* list : lists)
+        for (uint32_t& v : *list)
+            v = place[v];
 }
 
 uint64_t bytesPerVertex(const Mesh& mesh) {

@@ -77,6 +77,10 @@ uint32_t duplicateVertex(Mesh& mesh, uint32_t v);
 /// Indices are left to the caller. All of `from` are in range.
 void selectVertices(Mesh& mesh, std::span<const uint32_t> from);
 
+/// Drops the vertices that no triangle, segment or point uses. The order of the others stays, indices follow.
+/// Nothing where nothing is drawn.
+void dropUnusedVertices(Mesh& mesh);
+
 /// Bytes of one vertex over the arrays that the mesh has.
 [[nodiscard]] uint64_t bytesPerVertex(const Mesh& mesh);
 

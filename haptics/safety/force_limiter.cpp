@@ -9,6 +9,8 @@ namespace touchstone {
 
 namespace {
 
+constexpr double kLongestTick = 0.02; // s: kServoSilence of devices/link
+
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -114,12 +116,19 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
         flags = flags | TickFlag::InputInvalid;
     const DeviceLimits& limits = inputs.limits;
     bool cut = false;
+    // A servo that was silent for longer than a device holds a force (20 ms, devices/link) begins from
+    // nothing, and no tick counts for more than that: else the whole force would come at once after a stall.
+    const double dt = std::min(inputs.dt, kLongestTick);
+    if (inputs.dt > kLongestTick) {
+        state.ramp = 0.0;
+        state.lastForce = state.lastTorque = glm::dvec3(0.0);
+    }
     if (fresh && !state.latched) {
         state.heldForce = coupled(inputs) * shortened(forceInDevice, limits.maxForce, cut);
         state.heldTorque = coupled(inputs) * shortened(torqueInDevice, limits.maxTorque, cut);
-        state.ramp = std::min(1.0, state.ramp + inputs.dt / kForceRampInTime);
+        state.ramp = std::min(1.0, state.ramp + dt / kForceRampInTime);
     } else {
-        state.ramp = std::max(0.0, state.ramp - inputs.dt / kForceRampOutTime);
+        state.ramp = std::max(0.0, state.ramp - dt / kForceRampOutTime);
     }
     if (!inputs.forceEnabled)
         state.ramp = 0.0; // the force-off key does not wait for a fade
@@ -127,10 +136,9 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
         flags = flags | TickFlag::ForceRamping;
 
     const glm::dvec3 target = madePassive(state.ramp * state.heldForce, inputs, state, flags, cut);
-    state.lastForce =
-        stepTowards(state.lastForce, target, limits.maxForce, limits.maxForceRate * inputs.dt, cut);
+    state.lastForce = stepTowards(state.lastForce, target, limits.maxForce, limits.maxForceRate * dt, cut);
     state.lastTorque = stepTowards(state.lastTorque, state.ramp * state.heldTorque, limits.maxTorque,
-                                   limits.maxTorqueRate * inputs.dt, cut);
+                                   limits.maxTorqueRate * dt, cut);
     if (cut)
         flags = flags | TickFlag::ForceLimited;
     return {state.lastForce, state.lastTorque};

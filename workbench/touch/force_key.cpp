@@ -22,6 +22,10 @@ void ForceKey::compare(std::optional<uint32_t> watched) {
         behind_ = 0;
     if (behind_ > kPatience)
         press(false);
+    late_ = std::max(late_ - 1, 0);
+    if (behind_ > kPatience || (watching_ && !watched))
+        late_ = kForget;
+    watching_ = watched.has_value();
     if (behind_ > kPatience || behind_ < -kForget) {
         inWindow_ = *watched;
         behind_ = 0;
@@ -33,7 +37,7 @@ bool ForceKey::settle(bool on, bool mayGiveBack, std::optional<uint32_t> watched
     for (ForceSwitch::State now = force_.state(); !(now == settled_); now = force_.state()) {
         const uint32_t presses = (now.presses() - settled_.presses()) & 0x7fffffffu;
         const bool onlyPresses = presses == now.asked() - settled_.asked();
-        const bool wanted = mayGiveBack && onlyPresses && on == (presses % 2 == 0);
+        const bool wanted = mayGiveBack && late_ == 0 && onlyPresses && on == (presses % 2 == 0);
         if (wanted && !force_.giveBack(now))
             continue; // another press came meanwhile
         settled_ = wanted ? now.givenBack() : now;

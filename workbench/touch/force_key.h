@@ -36,6 +36,10 @@ class ForceKey {
     ForceSwitch::State settled_;
     uint32_t inWindow_ = 0; // presses
     int behind_ = 0;        // frames in which the watch has seen fewer than the window; below zero: more
+    /// Frames in which nothing is given back: the watch was late or is gone, and what it still has to say of
+    /// a press that the window has told already would be taken for another one.
+    int late_ = 0;
+    bool watching_ = false; // in the frame before
 };
 
 } // namespace touchstone

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 // Not in every libglfw: that for Wayland has the same soname and not this function.
@@ -88,12 +89,20 @@ KeyWatch::KeyWatch(GLFWwindow* window, int glfwKey, std::function<void(bool)> pr
         return;
     auto connection = std::make_unique<Connection>();
     connection->window = static_cast<xcb_window_t>(glfwGetX11Window(window));
-    connection->key = static_cast<xcb_keycode_t>(glfwGetKeyScancode(glfwKey)); // the same thing on X
-    if (connection->window == 0 || connection->key == 0 || !connection->open())
+    const int code = glfwGetKeyScancode(glfwKey); // a keycode, on X
+    if (connection->window == 0 || code <= 0 || code > 255)
+        return;
+    connection->key = static_cast<xcb_keycode_t>(code);
+    if (!connection->open())
         return;
     connection_ = std::move(connection);
     alive_ = true;
-    thread_ = std::thread([this] { watch(); });
+    try {
+        thread_ = std::thread([this] { watch(); });
+    } catch (const std::system_error&) { // no thread to be had: the window's own events do
+        alive_ = false;
+        connection_.reset();
+    }
 }
 
 KeyWatch::~KeyWatch() {

@@ -117,7 +117,8 @@ constexpr Rule kSampler[] = {
 constexpr Rule kTexture[] = {kName, mendable(index("source", "images")),
                              mendable(index("sampler", "samplers"))};
 constexpr Rule kTextureInfo[] = {index("index", "textures", true), count("texCoord", false, 0, 1000),
-                                 number("scale"), number("strength")};
+                                 mendable(number("scale", -3e38, 3e38)),
+                                 mendable(number("strength", -3e38, 3e38))};
 constexpr Rule kPbr[] = {mendable(numbers("baseColorFactor", 4)), texture("baseColorTexture"),
                          mendable(number("metallicFactor")), mendable(number("roughnessFactor")),
                          texture("metallicRoughnessTexture")};

@@ -2,6 +2,7 @@
 
 #include "engine/scene/import/gltf_schema.h"
 
+#include <cmath>
 #include <limits>
 
 namespace touchstone {
@@ -73,7 +74,11 @@ std::optional<glm::vec2> pairField(const ImportContext& context, const json& obj
         return std::nullopt;
     if (!found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number())
         context.fail(place + "." + name, "should be two numbers", "correct the value in the file");
-    return glm::vec2((*found)[0].get<double>(), (*found)[1].get<double>());
+    const glm::vec2 pair((*found)[0].get<double>(), (*found)[1].get<double>());
+    if (!std::isfinite(pair.x) || !std::isfinite(pair.y))
+        context.fail(place + "." + name, "is beyond what a 32-bit number holds",
+                     "correct the value in the file");
+    return pair;
 }
 
 } // namespace touchstone

@@ -222,6 +222,9 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
         if (const auto influences = readInfluences(context, document, primitive, draco ? &*draco : nullptr,
                                                    *pose.skin, mesh.positions.size(), place))
             posed.origin = poseVertices(context, *influences, *pose.skin, place, mesh);
+    // A vertex that nothing uses would decide the frame of the touched object, its tolerances and its
+    // rounding; and placed meshes are counted by what they draw.
+    dropUnusedVertices(mesh);
     if (mode < TINYGLTF_MODE_TRIANGLES) {
         mendNormals(mesh);
         checkMesh(mesh, context.file(), place);

@@ -69,7 +69,8 @@ class Placement {
     /// False if the copy is flattened.
     bool add(size_t node, const glm::dmat4& sceneFromNode, const glm::dmat4& nodeFromMesh, bool isCopy,
              const std::vector<MeshVariant>& meshes) {
-        if (scene_.instances.size() + meshes.size() > kMaxInstances)
+        attempted_ += meshes.size(); // those that are left out as flat take their time, too
+        if (attempted_ > kMaxInstances)
             context_.fail(place_, "places more than " + std::to_string(kMaxInstances) + " meshes",
                           "split the model into several files");
         const glm::dmat4 rigid = isCopy ? sceneFromNode * nodeFromMesh : sceneFromNode;
@@ -128,7 +129,7 @@ class Placement {
     const GltfDocument& document_;
     Scene& scene_;
     std::string place_;
-    uint64_t copies_ = 0, placed_ = 0;
+    uint64_t copies_ = 0, placed_ = 0, attempted_ = 0; // attempted: placements, flat ones included
 };
 
 } // namespace

@@ -190,8 +190,9 @@ TEST(MouseStall, NorWhenTheWholeProcessStoodStill) {
             window.skip(2000);
             window.ticks(20);
             EXPECT_LT(window.mostForce, 1.05) << place.file;
-            // What moves is elsewhere, two seconds on: the hand is there too, but for what sticks.
-            EXPECT_LT(window.mostEnergy, std::string(place.file) == "moving.glb" ? 1e-4 : 1e-9) << place.file;
+            // What moves is elsewhere, two seconds on: the hand is there too, but for what sticks; and the
+            // command fades in from nothing, while what moves goes on.
+            EXPECT_LT(window.mostEnergy, std::string(place.file) == "moving.glb" ? 3e-4 : 1e-9) << place.file;
             EXPECT_EQ(window.faults, "");
         }
 }

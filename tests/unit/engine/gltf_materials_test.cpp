@@ -97,6 +97,12 @@ TEST(GltfMaterials, TextureTransformsAreReadAndMoveUvs) {
         withMaterial(material),
         "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform.offset",
         "two numbers");
+    info["extensions"]["KHR_texture_transform"] = {{"offset", {1e39, 0.0}}};
+    material["pbrMetallicRoughness"]["baseColorTexture"] = info;
+    EXPECT_MENDED(
+        withMaterial(material),
+        "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform.offset",
+        "32-bit");
 }
 
 TEST(GltfMaterials, FactorsOutsideTheirRangeAreClamped) {

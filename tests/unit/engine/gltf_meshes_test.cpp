@@ -58,6 +58,28 @@ TEST(GltfMeshes, FansShareTheirFirstVertex) {
         expectClose(faceNormal(scene->meshes[0], t), {0, 0, 1});
 }
 
+/// A stray vertex would decide the frame in which the object is touched, and its tolerances: at a thousand
+/// kilometres all triangles welded into one place.
+TEST(GltfMeshes, VerticesThatNothingUsesAreDropped) {
+    GltfMaker maker;
+    const size_t positions =
+        maker.addAccessor<float>({1e6f, 0, 0, 0, 0, 0, 5, 5, 5, 1, 0, 0, 0, 1, 0}, "VEC3");
+    const size_t normals = maker.addAccessor<float>({1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const size_t indices = maker.addAccessor<uint16_t>({1, 3, 4}, "SCALAR");
+    maker.append(
+        "meshes",
+        {{"primitives",
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}}}}});
+    maker.show(0);
+    const ScenePtr scene = load(maker);
+    const Mesh& mesh = scene->meshes[0];
+    ASSERT_EQ(mesh.positions.size(), 3u);
+    ASSERT_EQ(mesh.normals.size(), 3u);
+    EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2}));
+    EXPECT_EQ(mesh.positions[1], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.normals[2], glm::vec3(0, 0, 1));
+}
+
 TEST(GltfMeshes, WithoutIndicesTheVerticesAreTakenInOrder) {
     GltfMaker maker;
     const size_t positions =

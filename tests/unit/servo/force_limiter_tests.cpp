@@ -47,6 +47,30 @@ TEST(ForceLimiter, PassesAForceWithinTheLimitsUnchanged) {
     EXPECT_EQ(ticker.flags, 0u);
 }
 
+/// While a servo stands still a device lets go (20 ms): what comes after the stall begins from nothing,
+/// whatever the time that the tick counts for.
+TEST(ForceLimiter, AfterAStallTheForceBeginsFromNothing) {
+    for (const double rate : {850.0, 8500.0})
+        for (const double stall : {0.021, 0.03, 0.12, 2.0, 1e6}) {
+            Ticker ticker;
+            ticker.inputs.limits.maxForceRate = rate;
+            const glm::dvec3 force{0.0, 8.0, 0.0};
+            ticker.settle(force);
+            EXPECT_EQ(ticker.command, force);
+            ticker.inputs.dt = stall;
+            const double first = glm::length(ticker.tick(force));
+            EXPECT_LE(first, std::min(rate * 0.02, 8.0 * 0.02 / kForceRampInTime) * kRounding) << stall;
+            ticker.inputs.dt = 1e-3;
+            double last = first;
+            for (int i = 0; i < 200; ++i) {
+                const double now = glm::length(ticker.tick(force));
+                EXPECT_LE(now - last, rate * 1e-3 * kRounding);
+                last = now;
+            }
+            EXPECT_EQ(ticker.command, force);
+        }
+}
+
 TEST(ForceLimiter, LetsAsMuchPassAsTheClutchDoes) {
     Ticker ticker;
     const glm::dvec3 force{0.0, 4.0, 0.0};

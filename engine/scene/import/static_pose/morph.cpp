@@ -102,7 +102,7 @@ void MorphTargets::displace(const std::string& attribute, RawAttribute& base) co
             continue;
         }
         const auto components = static_cast<size_t>(accessorComponents(document_, found->second));
-        if (components > width)
+        if (components != width && !(width == 4 && components == 3)) // a tangent's w, a colour's alpha
             context_.fail(place, "has " + std::to_string(components) + " components");
         const size_t count = accessorCount(document_, found->second), vertices = base.values.size() / width;
         if (count != vertices)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -33,8 +34,10 @@ class InfluenceReader {
             const std::string joints = "JOINTS_" + suffix, weights = "WEIGHTS_" + suffix;
             const bool hasJoints = primitive_.attributes.contains(joints),
                        hasWeights = primitive_.attributes.contains(weights);
-            if (!hasJoints && !hasWeights)
+            if (!hasJoints && !hasWeights) {
+                refuseGaps(sets.size());
                 return sets;
+            }
             if (hasJoints != hasWeights)
                 context_.fail(place_ + ".attributes", "has " + (hasJoints ? joints : weights) + " but no " +
                                                           (hasJoints ? weights : joints));
@@ -46,6 +49,20 @@ class InfluenceReader {
     }
 
   private:
+    /// A set behind a gap in the numbering would be left out, and the pose be another one.
+    void refuseGaps(size_t read) const {
+        for (const auto& [name, accessor] : primitive_.attributes)
+            for (const std::string prefix : {"JOINTS_", "WEIGHTS_"}) {
+                size_t number = 0;
+                const char* end = name.data() + name.size();
+                if (name.starts_with(prefix) &&
+                    std::from_chars(name.data() + prefix.size(), end, number).ptr == end && number >= read)
+                    context_.fail(place_ + ".attributes",
+                                  "has " + name + " but no " + prefix + std::to_string(read),
+                                  "number the sets of joints and weights without a gap");
+            }
+    }
+
     RawAttribute read(const std::string& name) {
         return readAttribute(context_, document_, primitive_, draco_, place_, name, count_, 4);
     }

@@ -90,6 +90,10 @@ TEST(SkinLimits, HalfAPairOfAttributesIsRefused) {
     Beam noJoints;
     noJoints.primitiveAttributes()["WEIGHTS_1"] = noJoints.primitiveAttributes()["WEIGHTS_0"];
     EXPECT_REFUSED(noJoints.maker, std::string(kPrimitive) + ".attributes", "has WEIGHTS_1 but no JOINTS_1");
+    Beam gap; // a set behind a gap in the numbering was left out
+    gap.primitiveAttributes()["JOINTS_2"] = gap.primitiveAttributes()["JOINTS_0"];
+    gap.primitiveAttributes()["WEIGHTS_2"] = gap.primitiveAttributes()["WEIGHTS_0"];
+    EXPECT_REFUSED(gap.maker, std::string(kPrimitive) + ".attributes", "has JOINTS_2 but no JOINTS_1");
     Beam normalized;
     normalized.maker.json["accessors"][2]["normalized"] = true;
     EXPECT_REFUSED(normalized.maker, std::string(kPrimitive) + ".attributes.JOINTS_0", "normalized");

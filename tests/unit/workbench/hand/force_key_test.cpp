@@ -103,9 +103,40 @@ TEST(ForceKey, WhatOnlyTheWindowSeesTakesTheForceAwayAllTheSame) {
         on = key.settle(on, true, 0u);
     EXPECT_TRUE(force.off());
     EXPECT_FALSE(on);
-    // Without a watch the window is all there is.
+    // Without a watch the window is all there is; but a press that the watch told before it went is none of
+    // the window's.
+    key.pressInWindow(true, std::nullopt);
+    EXPECT_FALSE(key.settle(on, true, std::nullopt));
+    for (int frame = 0; frame < 40; ++frame)
+        on = key.settle(on, true, std::nullopt);
+    EXPECT_FALSE(on);
     key.pressInWindow(true, std::nullopt);
     EXPECT_TRUE(key.settle(on, true, std::nullopt));
+}
+
+/// A watch that sleeps for longer than the window waits for it told the same press a second time: the force
+/// came back.
+TEST(ForceKey, APressThatTheWatchTellsLateIsNotASecondOne) {
+    for (const int late : {6, 10, 25}) {
+        ForceSwitch force;
+        ForceKey key(force);
+        uint32_t watched = 0;
+        bool on = true;
+        key.pressInWindow(true, watched);
+        for (int frame = 0; frame < late; ++frame)
+            on = key.settle(on, true, watched);
+        EXPECT_FALSE(on) << late;
+        key.press(true); // the watch's own
+        ++watched;
+        for (int frame = 0; frame < 60; ++frame)
+            on = key.settle(on, true, watched);
+        EXPECT_FALSE(on) << late;
+        EXPECT_TRUE(force.off());
+        // From then on each press toggles again.
+        key.press(true);
+        key.pressInWindow(true, ++watched);
+        EXPECT_TRUE(key.settle(on, true, watched));
+    }
 }
 
 } // namespace
