@@ -8,10 +8,12 @@ namespace touchstone::test {
 [[nodiscard]] inline DeviceCommand command(const glm::dvec3& force) {
     SafetyInputs inputs;
     inputs.inputValid = true;
-    inputs.dt = 10.0; // s: no slew limit, no ramp
     ForceLimiterState state;
     uint32_t flags = 0;
-    return ForceLimiter::limit(force, glm::dvec3(0.0), inputs, {}, state, flags);
+    DeviceCommand command;
+    for (double t = 0.0; t < 2.0 * kForceRampInTime; t += inputs.dt) // past the fade
+        command = ForceLimiter::limit(force, glm::dvec3(0.0), inputs, {}, state, flags);
+    return command;
 }
 
 } // namespace touchstone::test
