@@ -12,14 +12,6 @@ namespace touchstone::study {
 
 namespace {
 
-std::string processor() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name"))
-            return line.substr(line.find(':') + 2);
-    return "unknown";
-}
-
 /// ISO 8601, UTC.
 std::string now() {
     const std::time_t time = std::time(nullptr);
@@ -32,6 +24,14 @@ std::string now() {
 
 } // namespace
 
+std::string processorName() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name"))
+            return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
 Provenance provenanceOf(const std::string& command) {
     Provenance provenance;
     utsname system{};
@@ -39,7 +39,7 @@ Provenance provenanceOf(const std::string& command) {
         provenance.machine = std::string(system.nodename) + ", " + system.machine;
         provenance.kernel = std::string(system.sysname) + " " + system.release;
     }
-    provenance.processor = processor();
+    provenance.processor = processorName();
     provenance.processors = std::thread::hardware_concurrency();
 #ifdef __clang__
     provenance.compiler = __VERSION__;

@@ -1,5 +1,6 @@
 #include "study/study.h"
 
+#include "haptics/scene/built_for.h"
 #include "study/errors/compare.h"
 #include "study/errors/feel.h"
 #include "study/ladder/ladder.h"
@@ -116,10 +117,7 @@ class Run {
 
     size_t configurationOf(const HapticSettings& settings) {
         const HapticSettings felt = inEffect(settings, *bare_.haptic);
-        if (felt.contact == ContactMethod::Neighbourhood)
-            bare_.haptic->buildNeighbourhoods();
-        if (felt.textureGradient == TextureGradient::Precomputed)
-            bare_.haptic->buildSlopes();
+        buildFor(*bare_.haptic, felt);
         for (size_t i = 0; i < configurations_.size(); ++i)
             if (configurations_[i].settings == felt)
                 return i;

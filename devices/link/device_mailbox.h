@@ -3,7 +3,12 @@
 
 #include "devices/link/steady_clock.h"
 #include "engine/device_io/device_io.h"
+#include "engine/device_io/servo_silence.h"
 #include "engine/exchange/triple_buffer.h"
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
 
 namespace touchstone {
 
@@ -25,24 +30,33 @@ struct ForceOrder {
     int64_t givenNs = 0;    ///< steadyNs; 0: never
 };
 
-/// s without an order after which the I/O thread takes the servo for dead and sends zero force. As long as
-/// DeviceLimits::staleAge and for the same reason.
-inline constexpr double kServoSilence = 0.02;
-
 /// Wait-free both ways: the servo never waits for a bus.
 class DeviceMailbox {
   public:
     // I/O thread.
     void publish(const DeviceReading& reading) noexcept { readings_.write(reading); }
-    /// True if the servo has given an order since the last call.
-    bool updateOrder() noexcept { return orders_.update(); }
-    /// The order that holds at `nowNs`: none other than zero once the servo has been silent.
+    /// True if what is to be sent may have changed since the last call: the servo has given an order, or the
+    /// device was let go or taken up.
+    bool updateOrder() noexcept {
+        const int64_t until = voidNs_.load(std::memory_order_acquire);
+        const bool changed = until != seenVoidNs_;
+        seenVoidNs_ = until;
+        return orders_.update() || changed;
+    }
+    /// The order that holds at `nowNs`: none other than zero once the servo has been silent, and while nobody
+    /// holds the device.
     [[nodiscard]] ForceOrder order(int64_t nowNs) const noexcept {
         const ForceOrder& newest = orders_.value();
         const bool alive =
             newest.givenNs != 0 && static_cast<double>(nowNs - newest.givenNs) < 1e9 * kServoSilence;
-        return alive ? newest : ForceOrder{};
+        return alive && newest.givenNs > voidNs_.load(std::memory_order_acquire) ? newest : ForceOrder{};
     }
+
+    // Owner thread.
+    /// From now on the order is zero, whatever the servo gives or has given.
+    void letGo() noexcept { voidNs_.store(std::numeric_limits<int64_t>::max(), std::memory_order_release); }
+    /// What the servo gives from now on holds again.
+    void takeUp() noexcept { voidNs_.store(steadyNs(), std::memory_order_release); }
 
     // Servo thread.
     void give(const DeviceCommand& command) noexcept {
@@ -57,6 +71,8 @@ class DeviceMailbox {
   private:
     TripleBuffer<DeviceReading> readings_;
     TripleBuffer<ForceOrder> orders_;
+    std::atomic<int64_t> voidNs_{0}; ///< steadyNs: what was given until then holds no more
+    int64_t seenVoidNs_ = 0;         ///< I/O thread
 };
 
 /// The sample that a reading is at `nowNs`. Servo thread.

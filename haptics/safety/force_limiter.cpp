@@ -1,5 +1,6 @@
 #include "haptics/safety/force_limiter.h"
 
+#include "engine/device_io/servo_silence.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
@@ -8,8 +9,6 @@
 namespace touchstone {
 
 namespace {
-
-constexpr double kLongestTick = 0.02; // s: kServoSilence of devices/link
 
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -118,8 +117,8 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
     bool cut = false;
     // A servo that was silent for longer than a device holds a force (20 ms, devices/link) begins from
     // nothing, and no tick counts for more than that: else the whole force would come at once after a stall.
-    const double dt = std::min(inputs.dt, kLongestTick);
-    if (inputs.dt > kLongestTick) {
+    const double dt = std::min(inputs.dt, kServoSilence);
+    if (inputs.dt > kServoSilence) {
         state.ramp = 0.0;
         state.lastForce = state.lastTorque = glm::dvec3(0.0);
     }

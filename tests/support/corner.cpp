@@ -48,6 +48,29 @@ assets::Shape shapeOf(const std::vector<Wall>& walls, size_t i, double reach) {
 
 } // namespace
 
+HapticSettings cornerSettings() {
+    HapticSettings s;
+    s.proxyRadius = kCornerRadius;
+    s.forceShading = ShadingMode::Off;
+    s.texture = TextureMode::Off;
+    s.friction = FrictionMode::Off;
+    return s;
+}
+
+std::vector<Wall> groove(double angle, float left, float right) {
+    const double half = 0.5 * angle;
+    return {{.normal = {std::cos(half), std::sin(half), 0.0}, .stiffness = left},
+            {.normal = {-std::cos(half), std::sin(half), 0.0}, .stiffness = right}};
+}
+
+glm::dvec3 elasticOf(const std::vector<glm::dvec3>& normals, const std::vector<Wall>& walls,
+                     const CornerSolve& solve) {
+    glm::dvec3 force(0.0);
+    for (size_t i = 0; i < walls.size(); ++i)
+        force += static_cast<double>(walls[i].stiffness) * solve.load[i] * normals[i];
+    return force;
+}
+
 Scene cornerScene(const std::vector<Wall>& walls, double reach) {
     Scene scene = sceneOf(shapeOf(walls, 0, reach));
     for (size_t i = 1; i < walls.size(); ++i) {

@@ -13,12 +13,20 @@
 
 namespace touchstone::test {
 
+/// m: of the ball in a corner's closed forms.
+inline constexpr double kCornerRadius = 1e-5;
+/// That ball without shading, texture and friction.
+[[nodiscard]] HapticSettings cornerSettings();
+
 /// One wall: a plane through the origin, its material as the file would state it.
 struct Wall {
     glm::dvec3 normal{0.0}; ///< unit, towards the hollow
     float stiffness = 500.0f, damping = 0.0f, staticFriction = 0.0f, dynamicFriction = 0.0f,
           viscousFriction = 0.0f;
 };
+
+/// A groove along z, open to +y, of the given angle (rad); stiffness of its walls in N/m.
+[[nodiscard]] std::vector<Wall> groove(double angle, float left, float right);
 
 /// Walls of about `reach` m round the origin. Two meet along their cross product; three in the origin. One
 /// mesh and one material each.
@@ -43,6 +51,10 @@ struct CornerSolve {
     int count = 0;                ///< of walls that hold it
 };
 [[nodiscard]] CornerSolve solveCorner(const Corner& corner, double radius, const glm::dvec3& hip);
+
+/// N: the elastic force of a solve, sum k_i lambda_i n_i.
+[[nodiscard]] glm::dvec3 elasticOf(const std::vector<glm::dvec3>& normals, const std::vector<Wall>& walls,
+                                   const CornerSolve& solve);
 
 /// lambda with sum lambda_i n_i nearest to `v`. The normals must be independent.
 [[nodiscard]] std::vector<double> coefficients(const std::vector<glm::dvec3>& normals, const glm::dvec3& v);

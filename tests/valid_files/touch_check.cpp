@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "haptics/haptic_step.h"
+#include "haptics/scene/built_for.h"
 #include "haptics/scene/moving_objects.h"
 #include "tests/support/scene_promises.h"
 #include "tests/valid_files/draw.h"
@@ -65,12 +66,7 @@ class Touch {
   public:
     Touch(const Model& model, const HapticSettings& settings, TouchReport& report)
         : model_(model), settings_(settings), report_(report), moving_(model.scene, *model.haptic) {
-        if (settings.contact == ContactMethod::Neighbourhood)
-            model.haptic->buildNeighbourhoods();
-        if (settings.contact == ContactMethod::Rays)
-            model.haptic->buildRays();
-        if (settings.textureGradient == TextureGradient::Precomputed)
-            model.haptic->buildSlopes();
+        buildFor(*model.haptic, settings);
     }
 
     void step(const glm::dvec3& hip, bool valid = true) {

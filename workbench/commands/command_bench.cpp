@@ -3,6 +3,7 @@
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "study/provenance.h"
 #include "study/timing/clock_cost.h"
 #include "study/timing/rungs.h"
 #include "workbench/commands.h"
@@ -13,7 +14,6 @@
 #include <array>
 #include <cstdio>
 #include <deque>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -353,21 +353,13 @@ Json benchMoving(const BenchOptions& options) {
     return json;
 }
 
-std::string processor() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name"))
-            return line.substr(line.find(':') + 2);
-    return "unknown";
-}
-
 } // namespace
 
 int benchCommand(const BenchOptions& options) {
     Verdicts verdicts;
     Json json{{"command", "bench"},
               {"version", TOUCHSTONE_VERSION},
-              {"processor", processor()},
+              {"processor", study::processorName()},
               {"compiler", __VERSION__},
               {"clock_ns", clockCostNs()}};
     const auto wanted = [&](const char* what) { return options.what.empty() || options.what == what; };
@@ -378,7 +370,7 @@ int benchCommand(const BenchOptions& options) {
     if (wanted("moving"))
         json["moving"] = benchMoving(options);
     std::printf("Ticks in contact; reading the clock, %s ns, is part of every time. %s\n",
-                json["clock_ns"].dump().c_str(), processor().c_str());
+                json["clock_ns"].dump().c_str(), study::processorName().c_str());
     json["missed_bounds"] = verdicts.missed;
     if (!options.json.empty())
         writeFile(options.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -1,5 +1,7 @@
 #include "workbench/model/background_build.h"
 
+#include "haptics/scene/built_for.h"
+
 #include <chrono>
 
 namespace touchstone {
@@ -11,19 +13,8 @@ void BackgroundBuild::update(const std::shared_ptr<const HapticScene>& scene,
             return;
         building_.get();
     }
-    const bool walk = settings.contact == ContactMethod::Neighbourhood && scene->neighbourhoods() == nullptr,
-               rays = settings.contact == ContactMethod::Rays && !scene->hasRays(),
-               slopes =
-                   settings.textureGradient == TextureGradient::Precomputed && scene->slopes() == nullptr;
-    if (walk || rays || slopes)
-        building_ = std::async(std::launch::async, [scene, walk, rays, slopes] {
-            if (walk)
-                scene->buildNeighbourhoods();
-            if (rays)
-                scene->buildRays();
-            if (slopes)
-                scene->buildSlopes();
-        });
+    if (!isBuiltFor(*scene, settings))
+        building_ = std::async(std::launch::async, [scene, settings] { buildFor(*scene, settings); });
 }
 
 } // namespace touchstone

@@ -1,5 +1,6 @@
 #include "workbench/model/model.h"
 
+#include "haptics/scene/built_for.h"
 #include "haptics/scene/moving_objects.h"
 
 #include <cstdio>
@@ -41,12 +42,7 @@ Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor
 void prepareFor(const Model& model, const HapticSettings& settings) {
     for (const std::string& warning : settingWarnings(settings))
         std::fprintf(stderr, "touchstone: warning: %s\n", warning.c_str());
-    if (settings.contact == ContactMethod::Neighbourhood)
-        model.haptic->buildNeighbourhoods();
-    if (settings.contact == ContactMethod::Rays)
-        model.haptic->buildRays();
-    if (settings.textureGradient == TextureGradient::Precomputed)
-        model.haptic->buildSlopes();
+    buildFor(*model.haptic, settings);
 }
 
 Bounds workspaceBounds(const Model& model) {
