@@ -123,7 +123,20 @@ std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* ani
 }
 
 const Animation* playedAnimation(const Scene& scene) {
-    return scene.animations.empty() ? nullptr : scene.animations.data();
+    const auto moving = std::ranges::find_if(
+        scene.animations, [](const Animation& animation) { return !animation.channels.empty(); });
+    return moving == scene.animations.end() ? nullptr : &*moving;
+}
+
+std::vector<bool> movedNodes(const Scene& scene, const Animation& animation) {
+    std::vector<bool> moved(scene.nodes.size(), false);
+    for (const AnimationChannel& channel : animation.channels)
+        moved[static_cast<size_t>(channel.node)] = true;
+    // Parents come first.
+    for (size_t n = 0; n < scene.nodes.size(); ++n)
+        if (const int parent = scene.nodes[n].parent; parent >= 0 && moved[static_cast<size_t>(parent)])
+            moved[n] = true;
+    return moved;
 }
 
 double loopedTime(const Animation& animation, double time) noexcept {

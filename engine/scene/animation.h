@@ -8,9 +8,12 @@
 
 namespace touchstone {
 
-/// The animation that plays, for the hand and for the eye: the first one, for ever again. Null: nothing
-/// moves.
+/// The animation that plays, for the hand and for the eye: the first one that moves a node, for ever again.
+/// Null: nothing moves. One of morph weights alone has no channels here.
 [[nodiscard]] const Animation* playedAnimation(const Scene& scene);
+
+/// By node: whether the animation moves it, by itself or through a parent.
+[[nodiscard]] std::vector<bool> movedNodes(const Scene& scene, const Animation& animation);
 
 /// One channel at `time` s: clamped to its first and last key outside of them (glTF 2.0, section 3.11).
 /// Linear rotations are slerped the short way, cubic ones normalised. Rotations are x, y, z, w. Any thread,

@@ -34,11 +34,11 @@ void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     if (!ours.shader.is_null())
         haptic.unavailable["shader"] = ours.shader;
     if (ours.implicit.value_or(false))
-        haptic.unavailable["representation"] = "implicit";
+        haptic.unavailable["representation"] = KeptJson("implicit");
     if (ours.voxelSize)
-        haptic.unavailable["voxelSize"] = jsonOf(*ours.voxelSize);
+        haptic.unavailable["voxelSize"] = KeptJson(jsonOf(*ours.voxelSize));
     if (ours.forceShading == ShadingChoice::Bezier)
-        haptic.unavailable["forceShading"] = "bezier";
+        haptic.unavailable["forceShading"] = KeptJson("bezier");
 }
 
 void offerMpeg(const HapticLayers& says, HapticMaterial& haptic) {

@@ -1,8 +1,9 @@
 #pragma once
 // What a surface looks like (glTF's metallic-roughness) and what it feels like (DESIGN §6).
 
+#include "engine/scene/kept_json.h"
+
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cstdint>
@@ -72,7 +73,7 @@ struct HapticMaterial {
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
     std::string representation = "mesh"; ///< "implicit" is kept and reported as not yet available
-    nlohmann::json unavailable;          ///< fields of later work, for `inspect`
+    KeptFields unavailable;              ///< fields of later work, for `inspect`
     bool operator==(const HapticMaterial&) const = default;
 };
 
@@ -86,7 +87,7 @@ struct HapticStatement {
     std::optional<SideChoice> sides;
     std::optional<bool> implicit;   ///< representation: "implicit", else "mesh"
     std::optional<float> voxelSize; ///< model metres
-    nlohmann::json shader;          ///< as the file has it; null: none
+    KeptJson shader;                ///< as the file has it; null: none
     bool operator==(const HapticStatement&) const = default;
 };
 
@@ -94,7 +95,7 @@ struct HapticStatement {
 struct HapticLayers {
     HapticStatement ours;
     std::optional<FactorMap> mpegStiffness, mpegFriction;
-    nlohmann::json mpegUnavailable; ///< channels of later work
+    KeptJson mpegUnavailable; ///< channels of later work, an object; null: none
     std::optional<float> physicsStatic, physicsDynamic;
     std::optional<float> meanRoughness; ///< that the PBR material states and that could be read
 };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 namespace touchstone {
@@ -39,7 +38,8 @@ glm::dvec3 anyPerpendicular(const glm::dvec3& n) {
 
 class TangentBuilder {
   public:
-    TangentBuilder(Mesh& mesh, const std::vector<glm::vec2>& uv) : mesh_(mesh), uv_(uv) {}
+    TangentBuilder(Mesh& mesh, const std::vector<glm::vec2>& uv, const Progress& progress)
+        : mesh_(mesh), uv_(uv), progress_(progress) {}
 
     void run() {
         makeFaces(weldedVertices());
@@ -50,12 +50,18 @@ class TangentBuilder {
     }
 
   private:
+    /// Once for every face that a loop comes by and for every two things that a sort compares.
+    void answerCancel() {
+        if (++asked_ % kProgressWork == 0)
+            progress_.stopIfCancelled();
+    }
+
     glm::dvec3 position(size_t face, size_t corner) const {
         return glm::dvec3(mesh_.positions[mesh_.indices[3 * face + corner]]);
     }
 
     /// Vertices that agree in position, normal and UV are one, however the file indexes them.
-    std::vector<int> weldedVertices() const {
+    std::vector<int> weldedVertices() {
         const size_t count = mesh_.positions.size();
         std::vector<uint32_t> order(count);
         std::iota(order.begin(), order.end(), 0u);
@@ -63,7 +69,10 @@ class TangentBuilder {
             const glm::vec3 &p = mesh_.positions[v], &n = mesh_.normals[v];
             return std::array<float, 8>{p.x, p.y, p.z, n.x, n.y, n.z, uv_[v].x, uv_[v].y};
         };
-        std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+        std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+            answerCancel();
+            return key(a) < key(b);
+        });
         std::vector<int> welded(count);
         for (size_t i = 0; i < count; ++i)
             welded[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? welded[order[i - 1]]
@@ -74,6 +83,7 @@ class TangentBuilder {
     void makeFaces(const std::vector<int>& welded) {
         faces_.resize(mesh_.indices.size() / 3);
         for (size_t f = 0; f < faces_.size(); ++f) {
+            answerCancel();
             Face& face = faces_[f];
             for (size_t k = 0; k < 3; ++k)
                 face.vertex[k] = welded[mesh_.indices[3 * f + k]];
@@ -113,7 +123,10 @@ class TangentBuilder {
                 edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(f), k, a < b});
             }
         }
-        std::sort(edges.begin(), edges.end());
+        std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
+            answerCancel();
+            return a < b;
+        });
         // Among the faces on one edge, pair those that run along it in opposite directions, in their order.
         for (size_t first = 0; first < edges.size();) {
             size_t end = first;
@@ -157,6 +170,7 @@ class TangentBuilder {
                 mirroredGroup_.push_back(mirrored);
                 open.assign(1, static_cast<int>(f));
                 while (!open.empty()) {
+                    answerCancel();
                     Face& face = faces_[static_cast<size_t>(open.back())];
                     open.pop_back();
                     const int corner = cornerAt(face, vertex);
@@ -180,6 +194,7 @@ class TangentBuilder {
     void sumGroups() {
         sum_.assign(mirroredGroup_.size(), glm::dvec3(0.0));
         for (size_t f = 0; f < faces_.size(); ++f) {
+            answerCancel();
             const Face& face = faces_[f];
             if (face.joinsAny)
                 continue;
@@ -199,43 +214,68 @@ class TangentBuilder {
         }
     }
 
+    /// A corner whose vertex has another group's frame already.
+    struct Split {
+        uint32_t vertex;
+        int group;
+        size_t corner;
+        auto operator<=>(const Split&) const = default;
+    };
+
     /// Gives every vertex the frame of its group, splitting those that belong to several.
     void writeTangents() {
         mesh_.tangents.assign(mesh_.positions.size(), glm::vec4(0.0f));
         constexpr int kUnset = -2;
         std::vector<int> groupOf(mesh_.positions.size(), kUnset);
-        std::vector<uint32_t> nextSplit(mesh_.positions.size(),
-                                        0); // chain of the copies of a vertex; 0 ends it
+        std::vector<Split> splits;
         // Collapsed faces come last: they take whatever frame their vertex already has.
         for (const bool collapsedPass : {false, true})
             for (size_t f = 0; f < faces_.size(); ++f) {
+                answerCancel();
                 if (faces_[f].collapsed != collapsedPass)
                     continue;
                 for (size_t k = 0; k < 3; ++k) {
                     const int group = faces_[f].group[k];
-                    uint32_t v = mesh_.indices[3 * f + k];
-                    if (groupOf[v] != kUnset && group == kNone)
-                        continue;
-                    while (groupOf[v] != kUnset && groupOf[v] != group && nextSplit[v] != 0)
-                        v = nextSplit[v];
-                    if (groupOf[v] != kUnset && groupOf[v] != group) {
-                        const uint32_t copy = duplicateVertex(mesh_, v);
-                        groupOf.push_back(kUnset);
-                        nextSplit.push_back(0);
-                        nextSplit[v] = copy;
-                        v = copy;
+                    const uint32_t v = mesh_.indices[3 * f + k];
+                    if (groupOf[v] == kUnset) {
+                        groupOf[v] = group;
+                        setTangent(v, group);
+                    } else if (group != kNone && group != groupOf[v]) {
+                        splits.push_back({v, group, 3 * f + k});
                     }
-                    mesh_.indices[3 * f + k] = v;
-                    if (groupOf[v] != kUnset)
-                        continue;
-                    groupOf[v] = group;
-                    setTangent(v, group);
                 }
             }
         // Vertices of no triangle.
         for (size_t v = 0; v < groupOf.size(); ++v)
             if (groupOf[v] == kUnset)
                 setTangent(static_cast<uint32_t>(v), kNone);
+        splitVertices(splits);
+    }
+
+    /// One copy of a vertex for each further group, in the order of their first corners.
+    void splitVertices(std::vector<Split>& splits) {
+        std::sort(splits.begin(), splits.end(), [&](const Split& a, const Split& b) {
+            answerCancel();
+            return a < b;
+        });
+        const auto share = [](const Split& a, const Split& b) {
+            return a.vertex == b.vertex && a.group == b.group;
+        };
+        std::vector<size_t> firsts;
+        for (size_t i = 0; i < splits.size(); ++i)
+            if (i == 0 || !share(splits[i - 1], splits[i]))
+                firsts.push_back(i);
+        std::sort(firsts.begin(), firsts.end(), [&](size_t a, size_t b) {
+            answerCancel();
+            return splits[a].corner < splits[b].corner;
+        });
+        for (const size_t first : firsts) {
+            answerCancel();
+            const uint32_t copy = duplicateVertex(mesh_, splits[first].vertex);
+            setTangent(copy, splits[first].group);
+            for (size_t i = first; i < splits.size() && share(splits[first], splits[i]); ++i)
+                mesh_.indices[splits[i].corner] = copy;
+        }
     }
 
     void setTangent(uint32_t v, int group) {
@@ -252,12 +292,14 @@ class TangentBuilder {
     std::vector<Face> faces_;
     std::vector<bool> mirroredGroup_;
     std::vector<glm::dvec3> sum_;
+    const Progress& progress_;
+    size_t asked_ = 0; // answerCancel
 };
 
 } // namespace
 
-void generateTangents(Mesh& mesh, int texCoord) {
-    TangentBuilder(mesh, texCoord == 1 ? mesh.uv1 : mesh.uv0).run();
+void generateTangents(Mesh& mesh, int texCoord, const Progress& progress) {
+    TangentBuilder(mesh, texCoord == 1 ? mesh.uv1 : mesh.uv0, progress).run();
 }
 
 } // namespace touchstone

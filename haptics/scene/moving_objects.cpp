@@ -9,15 +9,6 @@ namespace touchstone {
 
 namespace {
 
-/// Whether the animation moves the node, by itself or through a parent.
-bool moves(const Scene& scene, const Animation& animation, int node) {
-    for (; node >= 0; node = scene.nodes[static_cast<size_t>(node)].parent)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.node == node)
-                return true;
-    return false;
-}
-
 /// Whether two poses are one but for the rounding of keys in a file: a thousandth of the object.
 bool meet(const Similarity& a, const Similarity& b) {
     constexpr double kSame = 1e-3;
@@ -33,16 +24,19 @@ std::vector<Warning> animationWarnings(const Scene& scene) {
     std::vector<Warning> warnings;
     if (animation == nullptr)
         return warnings;
+    const auto played = static_cast<size_t>(animation - scene.animations.data());
     if (scene.animations.size() > 1)
-        warnings.push_back({"animations", "only the first of " + std::to_string(scene.animations.size()) +
-                                              " plays: '" + animation->name + "'"});
+        warnings.push_back({"animations", "only one of " + std::to_string(scene.animations.size()) +
+                                              " plays, the first that moves a node: '" + animation->name +
+                                              "'"});
     for (const AnimationChannel& channel : animation->channels) {
         if (channel.path != AnimatedPath::Scale)
             continue;
         for (const glm::vec4& scale : channel.values)
             if (std::abs(scale.x - scale.y) + std::abs(scale.y - scale.z) > 1e-4f * std::abs(scale.x)) {
-                warnings.push_back({"animations[0]", "scales node " + std::to_string(channel.node) +
-                                                         " unevenly: it is felt scaled evenly"});
+                warnings.push_back(
+                    {"animations[" + std::to_string(played) + "]",
+                     "scales node " + std::to_string(channel.node) + " unevenly: it is felt scaled evenly"});
                 return warnings;
             }
     }
@@ -54,11 +48,12 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
       workspaceFromScene_(haptic.workspaceFromScene) {
     if (animation_ == nullptr)
         return;
+    const std::vector<bool> moved = movedNodes(*scene_, *animation_);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         const auto instance = static_cast<size_t>(haptic.objects[k]->instance);
         const glm::dmat4& objectFromMesh = haptic.objects[k]->objectFromMesh;
         const Instance& placed = scene_->instances[instance];
-        if (!placed.followsNode || !moves(*scene_, *animation_, placed.node) ||
+        if (!placed.followsNode || placed.node < 0 || !moved[static_cast<size_t>(placed.node)] ||
             glm::determinant(glm::dmat3(objectFromMesh)) == 0.0)
             continue;
         movers_.push_back({k, instance, glm::inverse(objectFromMesh)});
@@ -67,18 +62,19 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
         return;
     ScenePose& pose = pose_.emplace_back(*scene_);
     motions_ = haptic.restMotions;
-    for (Mover& mover : movers_) {
-        Similarity first = motions_[mover.object].workspaceFromObject, last = first;
-        pose.evaluate(*scene_, animation_, 0.0);
-        nearestSimilarity(matrixOf(workspaceFromScene_) * pose.sceneFromMesh()[mover.instance] *
-                              mover.meshFromObject,
-                          first);
-        pose.evaluate(*scene_, animation_, animation_->duration);
-        nearestSimilarity(matrixOf(workspaceFromScene_) * pose.sceneFromMesh()[mover.instance] *
-                              mover.meshFromObject,
-                          last);
-        mover.jumps = !meet(first, last);
-    }
+    const glm::dmat4 workspaceFromScene = matrixOf(workspaceFromScene_);
+    const auto posesAt = [&](double time) {
+        pose.evaluate(*scene_, animation_, time);
+        std::vector<Similarity> poses;
+        for (const Mover& mover : movers_)
+            nearestSimilarity(workspaceFromScene * pose.sceneFromMesh()[mover.instance] *
+                                  mover.meshFromObject,
+                              poses.emplace_back(motions_[mover.object].workspaceFromObject));
+        return poses;
+    };
+    const std::vector<Similarity> first = posesAt(0.0), last = posesAt(animation_->duration);
+    for (size_t m = 0; m < movers_.size(); ++m)
+        movers_[m].jumps = !meet(first[m], last[m]);
 }
 
 ObjectMotions MovingObjects::at(double time) noexcept {

@@ -57,41 +57,49 @@ uint32_t loadIndex(const uint8_t* bytes, int componentType) {
     return loadUnaligned<uint32_t>(bytes);
 }
 
-/// Calls store(element, bytes) for every element in the buffer view, then for every sparse replacement.
+/// Calls store(element, bytes) for every element of the buffer view that no sparse value replaces, then for
+/// every sparse value. The view may have a stride; sparse values and their indices are packed.
 void visitElements(ImportContext& context, const GltfDocument& document, const tinygltf::Accessor& accessor,
                    const std::string& place, auto&& store) {
     const uint64_t bytes =
         componentBytes(accessor.componentType) *
         static_cast<uint64_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
-    if (accessor.bufferView >= 0 && accessor.count > 0) {
-        const size_t view = static_cast<size_t>(accessor.bufferView);
-        const uint64_t stride = document.model.bufferViews[view].byteStride != 0
-                                    ? document.model.bufferViews[view].byteStride
-                                    : bytes;
-        const uint8_t* data = document.buffers.view(view).data() + accessor.byteOffset;
-        for (uint64_t i = 0; i < accessor.count; ++i)
-            store(i, data + i * stride);
-    }
-    if (!accessor.sparse.isSparse || accessor.sparse.count == 0)
-        return;
     const auto& sparse = accessor.sparse;
-    const uint64_t indexBytes = componentBytes(sparse.indices.componentType);
-    const uint8_t* indices = document.buffers.view(static_cast<size_t>(sparse.indices.bufferView)).data() +
-                             sparse.indices.byteOffset;
-    const uint8_t* values = document.buffers.view(static_cast<size_t>(sparse.values.bufferView)).data() +
-                            sparse.values.byteOffset;
+    const uint64_t replacements = sparse.isSparse ? static_cast<uint64_t>(sparse.count) : 0;
+    const auto bytesAt = [&](int view, uint64_t offset) {
+        return document.buffers.view(static_cast<size_t>(view)).data() + offset;
+    };
+    const auto target = [&](uint64_t i) -> uint64_t {
+        const int type = sparse.indices.componentType;
+        return loadIndex(
+            bytesAt(sparse.indices.bufferView, sparse.indices.byteOffset) + i * componentBytes(type), type);
+    };
+    const bool hasView = accessor.bufferView >= 0 && accessor.count > 0;
+    std::vector<bool> replaced(hasView && replacements > 0 ? accessor.count : 0); // the view has them all
     uint64_t before = 0, falls = 0;
-    for (uint64_t i = 0; i < static_cast<uint64_t>(sparse.count); ++i) {
-        const uint64_t target = loadIndex(indices + i * indexBytes, sparse.indices.componentType);
-        falls += i > 0 && target <= before ? 1 : 0;
-        before = target;
-        if (target >= accessor.count)
-            context.fail(place + ".sparse.indices", "replaces element " + std::to_string(target) + " of " +
+    for (uint64_t i = 0; i < replacements; ++i) {
+        const uint64_t which = target(i);
+        falls += i > 0 && which <= before ? 1 : 0;
+        before = which;
+        if (which >= accessor.count)
+            context.fail(place + ".sparse.indices", "replaces element " + std::to_string(which) + " of " +
                                                         std::to_string(accessor.count));
-        store(target, values + i * bytes);
+        if (hasView)
+            replaced[which] = true;
     }
     if (falls > 0)
         context.warn(place + ".sparse.indices", "do not increase; of values for one element the last counts");
+    if (hasView) {
+        const size_t byteStride =
+            document.model.bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride;
+        const uint64_t stride = byteStride != 0 ? byteStride : bytes;
+        const uint8_t* data = bytesAt(accessor.bufferView, accessor.byteOffset);
+        for (uint64_t i = 0; i < accessor.count; ++i)
+            if (replaced.empty() || !replaced[i])
+                store(i, data + i * stride);
+    }
+    for (uint64_t i = 0; i < replacements; ++i)
+        store(target(i), bytesAt(sparse.values.bufferView, sparse.values.byteOffset) + i * bytes);
 }
 
 } // namespace

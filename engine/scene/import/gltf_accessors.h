@@ -27,7 +27,7 @@ namespace touchstone {
 [[nodiscard]] std::vector<glm::mat4> readMatrices(ImportContext& context, const GltfDocument& document,
                                                   int accessor, size_t count, const std::string& place);
 
-/// What the numbers of an accessor are as stored: not normalised, replaced ones too.
+/// What the numbers of an accessor are as stored: not normalised, with the sparse values in place.
 struct StoredRange {
     std::vector<double> low,
         high;          ///< by component, of the finite ones; infinity and -infinity where there is none

@@ -117,40 +117,6 @@ void readChoices(ImportContext& context, const json& object, const std::string& 
     ours.implicit = choiceField(context, object, "representation", place, kRepresentations);
 }
 
-void readOurs(ImportContext& context, const GltfDocument& document, size_t material, HapticStatement& ours) {
-    const std::string owner = element("materials", material);
-    const json* found = extensionOf(context, document.json["materials"][material], kOurs, owner);
-    if (found == nullptr)
-        return;
-    const json& object = *found;
-    const std::string place = owner + ".extensions." + kOurs;
-    const auto number = [&](const char* name, double low, double high) {
-        return numberField(context, object, name, place, low, high);
-    };
-    ours.stiffness = number("stiffness", 1e-30, kUnbounded);
-    ours.damping = number("damping", 0.0, kUnbounded);
-    ours.staticFriction = number("staticFriction", 0.0, kUnbounded);
-    ours.dynamicFriction = number("dynamicFriction", 0.0, kUnbounded);
-    ours.viscousFriction = number("viscousFriction", 0.0, kUnbounded);
-    ours.normalTextureInfluence = number("normalTextureInfluence", 0.0, 1.0);
-    ours.height = heightField(context, document, object, place);
-    ours.friction = factorField(context, document, object, "frictionTexture", place);
-    ours.stiffnessMap = factorField(context, document, object, "stiffnessTexture", place);
-    ours.dampingMap = factorField(context, document, object, "dampingTexture", place);
-    readChoices(context, object, place, ours);
-    if (object.contains("shader")) {
-        checkShader(context, object["shader"], place + ".shader");
-        ours.shader = object["shader"];
-    }
-    ours.voxelSize = number("voxelSize", 1e-30, kUnbounded);
-    tellUnavailable(context, ours, place);
-    warnOfUnknown(context, object,
-                  {"stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction",
-                   "normalTextureInfluence", "heightTexture", "frictionTexture", "stiffnessTexture",
-                   "dampingTexture", "forceShading", "representation", "voxelSize", "shader", "sides"},
-                  place);
-}
-
 const json* physicsMaterials(const ImportContext& context, const GltfDocument& document) {
     const json* root = extensionOf(context, document.json, kPhysics, "");
     if (root == nullptr)
@@ -161,20 +127,6 @@ const json* physicsMaterials(const ImportContext& context, const GltfDocument& d
     if (!found->is_array())
         context.fail(std::string("extensions.") + kPhysics + ".physicsMaterials", "should be an array");
     return &*found;
-}
-
-void readPhysics(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says) {
-    const json& material = (*physicsMaterials(context, document))[index];
-    const std::string place =
-        std::string("extensions.") + kPhysics + ".physicsMaterials[" + std::to_string(index) + "]";
-    if (!material.is_object())
-        context.fail(place, "should be an object", "correct the extension in the file");
-    const auto friction = [&](const char* name) {
-        return std::optional(
-            numberField(context, material, name, place, 0.0, kUnbounded).value_or(kPhysicsFriction));
-    };
-    says.physicsStatic = friction("staticFriction");
-    says.physicsDynamic = friction("dynamicFriction");
 }
 
 /// The node for which the collider of node `index` speaks, and its physics material, -1 without one.
@@ -225,17 +177,56 @@ std::vector<int> nearestMeshNodes(const tinygltf::Model& model) {
 
 } // namespace
 
-HapticLayers readHaptics(ImportContext& context, const GltfDocument& document, const SurfaceKey& key) {
-    HapticLayers says;
-    if (key.material >= 0)
-        readOurs(context, document, static_cast<size_t>(key.material), says.ours);
-    if (key.mpeg >= 0)
-        readMpeg(context, document, static_cast<size_t>(key.mpeg), says);
-    if (key.physics >= 0)
-        (void)context.attempt("felt without it", [&] {
-            readPhysics(context, document, static_cast<size_t>(key.physics), says);
-        });
-    return says;
+HapticStatement readStatement(ImportContext& context, const GltfDocument& document, size_t material) {
+    HapticStatement ours;
+    const std::string owner = element("materials", material);
+    const json* found = extensionOf(context, document.json["materials"][material], kOurs, owner);
+    if (found == nullptr)
+        return ours;
+    const json& object = *found;
+    const std::string place = owner + ".extensions." + kOurs;
+    const auto number = [&](const char* name, double low, double high) {
+        return numberField(context, object, name, place, low, high);
+    };
+    ours.stiffness = number("stiffness", 1e-30, kUnbounded);
+    ours.damping = number("damping", 0.0, kUnbounded);
+    ours.staticFriction = number("staticFriction", 0.0, kUnbounded);
+    ours.dynamicFriction = number("dynamicFriction", 0.0, kUnbounded);
+    ours.viscousFriction = number("viscousFriction", 0.0, kUnbounded);
+    ours.normalTextureInfluence = number("normalTextureInfluence", 0.0, 1.0);
+    ours.height = heightField(context, document, object, place);
+    ours.friction = factorField(context, document, object, "frictionTexture", place);
+    ours.stiffnessMap = factorField(context, document, object, "stiffnessTexture", place);
+    ours.dampingMap = factorField(context, document, object, "dampingTexture", place);
+    readChoices(context, object, place, ours);
+    if (object.contains("shader")) {
+        checkShader(context, object["shader"], place + ".shader");
+        ours.shader = KeptJson(object["shader"]);
+    }
+    ours.voxelSize = number("voxelSize", 1e-30, kUnbounded);
+    tellUnavailable(context, ours, place);
+    warnOfUnknown(context, object,
+                  {"stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction",
+                   "normalTextureInfluence", "heightTexture", "frictionTexture", "stiffnessTexture",
+                   "dampingTexture", "forceShading", "representation", "voxelSize", "shader", "sides"},
+                  place);
+    return ours;
+}
+
+void readPhysics(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says) {
+    (void)context.attempt("felt without it", [&] {
+        const json& material = (*physicsMaterials(context, document))[index];
+        const std::string place =
+            std::string("extensions.") + kPhysics + ".physicsMaterials[" + std::to_string(index) + "]";
+        if (!material.is_object())
+            context.fail(place, "should be an object", "correct the extension in the file");
+        const auto friction = [&](const char* name) {
+            return std::optional(
+                numberField(context, material, name, place, 0.0, kUnbounded).value_or(kPhysicsFriction));
+        };
+        says.physicsStatic = friction("staticFriction");
+        says.physicsDynamic = friction("dynamicFriction");
+    });
 }
 
 std::vector<int> physicsMaterialOfNodes(ImportContext& context, const GltfDocument& document) {

@@ -18,9 +18,12 @@ inline constexpr float kMpegFrictionMin = 0.0f, kMpegFrictionMax = 1.0f;
 /// KHR_physics_rigid_bodies' default for both coefficients.
 inline constexpr float kPhysicsFriction = 0.6f;
 
-/// All that is said of one surface, layer by layer; without the roughness, which needs the images.
-[[nodiscard]] HapticLayers readHaptics(ImportContext& context, const GltfDocument& document,
-                                       const SurfaceKey& key);
+/// What TOUCHSTONE_materials_haptic says of a material of the file. Throws Error where it says nonsense.
+[[nodiscard]] HapticStatement readStatement(ImportContext& context, const GltfDocument& document,
+                                            size_t material);
+
+/// Adds what physics material `index` says; a broken one costs a warning.
+void readPhysics(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says);
 
 /// The physics material of every node's mesh, -1 for none. A collider speaks for the mesh of its own node;
 /// without one, for its geometry.node; without that, for the nearest ancestor that has a mesh.

@@ -2,10 +2,12 @@
 
 #include "engine/scene/import/gltf_haptics.h"
 #include "engine/scene/import/gltf_looks.h"
+#include "engine/scene/import/gltf_mpeg.h"
 #include "engine/scene/import/gltf_schema.h"
 #include "engine/scene/import/json_fields.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -162,17 +164,32 @@ int MaterialTable::indexOf(const SurfaceKey& key) {
     if (!isNew)
         return found->second;
     Material material;
-    if (key.mpeg >= 0 || key.physics >= 0)
+    if (key.mpeg >= 0 || key.physics >= 0) {
         material = materials_[static_cast<size_t>(indexOf({key.material, -1, -1}))];
-    else if (key.material >= 0)
-        (void)context_.attempt("the material is drawn without it", [&] {
-            readLook(context_, document_, static_cast<size_t>(key.material), material);
-        });
+    } else if (key.material >= 0) {
+        const auto index = static_cast<size_t>(key.material);
+        (void)context_.attempt("the material is drawn without it",
+                               [&] { readLook(context_, document_, index, material); });
+        material.says.ours = readStatement(context_, document_, index);
+    }
     material.fileIndex = key.material;
-    material.says = readHaptics(context_, document_, key);
+    if (key.mpeg >= 0) {
+        HapticStatement ours = std::move(material.says.ours);
+        material.says = mpegSays(key.mpeg);
+        material.says.ours = std::move(ours);
+    }
+    if (key.physics >= 0)
+        readPhysics(context_, document_, static_cast<size_t>(key.physics), material.says);
     material.haptic = statedHaptics(material.says);
     found->second = static_cast<int>(materials_.size()); // making the plain one may have come first
     materials_.push_back(std::move(material));
+    return found->second;
+}
+
+const HapticLayers& MaterialTable::mpegSays(int index) {
+    const auto [found, isNew] = mpeg_.try_emplace(index);
+    if (isNew)
+        readMpeg(context_, document_, static_cast<size_t>(index), found->second);
     return found->second;
 }
 

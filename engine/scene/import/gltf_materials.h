@@ -33,10 +33,14 @@ class MaterialTable {
     [[nodiscard]] std::vector<Material> take();
 
   private:
+    /// What a material of MPEG's says, and nothing else.
+    [[nodiscard]] const HapticLayers& mpegSays(int index);
+
     ImportContext& context_;
     const GltfDocument& document_;
     std::vector<Material> materials_;
     std::map<SurfaceKey, int> made_;
+    std::map<int, HapticLayers> mpeg_; ///< by index: read once, and its JSON shared
 };
 
 /// A textureInfo with its sampler, image and KHR_texture_transform. `info` may be unchecked JSON

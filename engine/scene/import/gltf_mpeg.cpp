@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -172,12 +173,14 @@ void readMpeg(ImportContext& context, const GltfDocument& document, size_t index
         channelMap(context, document, material, "stiffness", place, kMpegStiffnessMin, kMpegStiffnessMax);
     says.mpegFriction =
         channelMap(context, document, material, "friction", place, kMpegFrictionMin, kMpegFrictionMax);
+    json unavailable;
     for (const auto& [channel, value] : material.items())
         if (channel != "name" && channel != "stiffness" && channel != "friction" && channel != "extensions" &&
             channel != "extras") {
-            says.mpegUnavailable[channel] = value;
+            unavailable[channel] = value;
             context.warn(place + "." + channel.substr(0, 40), "is not yet available; felt without it");
         }
+    says.mpegUnavailable = KeptJson(std::move(unavailable));
 }
 
 } // namespace touchstone

@@ -170,7 +170,7 @@ void settleTangents(ImportContext& context, Mesh& mesh, const Material& material
     constexpr double kTimePerTriangle = 1.5e-6; // s
     const EstimatedProgress estimate(context.part().part(0.5, 1.0), "making tangents",
                                      kTimePerTriangle * static_cast<double>(mesh.triangleCount()));
-    generateTangents(mesh, map.texCoord);
+    generateTangents(mesh, map.texCoord, context.part().silent()); // the estimate reports
 }
 
 bool hasData(const GltfDocument& document, const tinygltf::Primitive& primitive) {
@@ -189,7 +189,8 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
     const nlohmann::json& stated = document.json["meshes"][meshIndex]["primitives"][primitiveIndex];
     context.stopIfCancelled();
 
-    context.spendGeometry(sizeof(Mesh) + sizeof(Material), place);
+    // A name may be most of the file, and every mesh has one, as may every material.
+    context.spendGeometry(sizeof(Mesh) + sizeof(Material) + gltf.name.size() + material.name.size(), place);
     if (!hasData(document, primitive)) {
         context.warn(place, "its buffer is declared without data: the mesh is left out");
         return std::nullopt;

@@ -11,7 +11,7 @@ namespace {
 
 uint64_t bytesOf(const Mesh& mesh) {
     const size_t indices = mesh.indices.size() + mesh.lineIndices.size() + mesh.pointIndices.size();
-    return sizeof(Mesh) + sizeof(Material) + mesh.positions.size() * bytesPerVertex(mesh) +
+    return sizeof(Mesh) + sizeof(Material) + mesh.name.size() + mesh.positions.size() * bytesPerVertex(mesh) +
            indices * sizeof(mesh.indices[0]);
 }
 
@@ -71,7 +71,9 @@ std::vector<MeshVariant> MeshVariants::copyAll(const ShownMesh& shown, const std
     for (const MeshVariant& source : from) {
         const auto at = static_cast<size_t>(source.mesh);
         const size_t primitive = primitiveOf_[at];
-        context_.spendGeometry(bytesOf(scene_.meshes[at]), element("meshes", shown.gltfMesh));
+        const Material& material = materials_.material(scene_.meshes[at].material);
+        context_.spendGeometry(bytesOf(scene_.meshes[at]) + material.name.size(),
+                               element("meshes", shown.gltfMesh));
         Mesh mesh = scene_.meshes[at];
         mesh.material = materialFor(shown, primitive);
         variants.push_back({static_cast<int>(scene_.meshes.size()), source.origin});

@@ -179,6 +179,19 @@ TEST(Animation, AMalformedOneIsLeftOutWhole) {
     EXPECT_MENDED(maker, "animations", "should be an array");
 }
 
+TEST(Animation, TheFirstThatMovesANodePlays) {
+    GltfMaker maker = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
+    const nlohmann::json moving = maker.json["animations"][0];
+    nlohmann::json weights = moving;
+    weights["channels"][0]["target"]["path"] = "weights";
+    maker.json["animations"] = {weights, moving, moving};
+    const ScenePtr scene = load(maker);
+    ASSERT_EQ(scene->animations.size(), 3u);
+    EXPECT_EQ(playedAnimation(*scene), &scene->animations[1]);
+    maker.json["animations"] = {weights};
+    EXPECT_EQ(playedAnimation(*load(maker)), nullptr);
+}
+
 TEST(Animation, MorphWeightsAreLeftOutWithAWarning) {
     const ScenePtr scene = load(animated({0, 1}, {0, 1}, "SCALAR", "weights"));
     EXPECT_TRUE(scene->animations.at(0).channels.empty());

@@ -172,8 +172,9 @@ TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
                                       {"forceShading", "bezier"}});
     const ScenePtr scene = load(maker);
     const HapticMaterial& haptic = scene->materials[0].haptic;
-    EXPECT_EQ(haptic.unavailable["shader"], shader);
-    EXPECT_EQ(haptic.unavailable["voxelSize"], 0.001);
+    const json &kept = haptic.unavailable.at("shader"), &voxelSize = haptic.unavailable.at("voxelSize");
+    EXPECT_EQ(kept, shader);
+    EXPECT_EQ(voxelSize, 0.001);
     EXPECT_EQ(haptic.representation, "implicit");
     EXPECT_EQ(haptic.forceShading, ShadingChoice::Bezier);
     for (const char* field : {".shader", ".representation", ".forceShading"})
@@ -206,7 +207,8 @@ TEST(GltfHaptics, MpegMaterialsBindByMeshInBothSpellings) {
         EXPECT_EQ(material.haptic.staticFriction.value, 1.0f);
         EXPECT_EQ(material.haptic.dynamicFriction.value, kSlidingShare);
         EXPECT_TRUE(warns(*scene, "vibrotactileTexture", "not yet available"));
-        EXPECT_TRUE(material.haptic.unavailable["MPEG_haptic_material"].contains("vibrotactileTexture"));
+        const json& kept = material.haptic.unavailable.at("MPEG_haptic_material");
+        EXPECT_TRUE(kept.contains("vibrotactileTexture"));
         EXPECT_FALSE(scene->materials[0].haptic.stiffnessMap.value); // the plain material stays plain
     }
 }
@@ -244,8 +246,9 @@ TEST(GltfHaptics, MpegChannelsTakeTheFinestMapAndKeepTheRest) {
     EXPECT_EQ(haptic.stiffnessMap.value->texture.image, 1);
     EXPECT_FALSE(haptic.friction.value);
     EXPECT_TRUE(warns(*scene, "friction[0]", "signals"));
+    const json& kept = haptic.unavailable.at("MPEG_haptic_material");
     for (const char* channel : {"temperature", "later"}) {
-        EXPECT_EQ(haptic.unavailable["MPEG_haptic_material"][channel], material[channel]);
+        EXPECT_EQ(kept[channel], material[channel]);
         EXPECT_TRUE(warns(*scene, channel, "not yet available"));
     }
     EXPECT_FALSE(warns(*scene, "name", ""));
@@ -347,6 +350,34 @@ GltfMaker withPhysics() {
     maker.json["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"] = {{{"staticFriction", 0.9}}};
     maker.json["nodes"][0]["extensions"]["KHR_physics_rigid_bodies"]["collider"]["physicsMaterial"] = 0;
     return maker;
+}
+
+/// One material that 1000 colliders make 1000 of would hold what nobody reads of the file 1000 times.
+TEST(GltfHaptics, MaterialsThatPhysicsMaterialsMakeOfOneShareTheJsonThatIsKept) {
+    GltfMaker maker = withPhysics();
+    maker.json["materials"][0]["extensions"]["TOUCHSTONE_materials_haptic"] = {
+        {"shader", {{"source", std::string(1000, 'x')}}}};
+    maker.json["extensions"]["MPEG_haptic_material"] = mpegRoot();
+    maker.json["meshes"][0]["extensions"]["MPEG_haptic_material"]["hapticMaterialIndex"] = 0;
+    const ScenePtr scene = load(maker);
+    ASSERT_EQ(scene->meshes.size(), 2u);
+    const auto materialOf = [&](size_t mesh) -> const Material& {
+        return scene->materials[static_cast<size_t>(scene->meshes[mesh].material)];
+    };
+    const Material &one = materialOf(0), &other = materialOf(1);
+    ASSERT_NE(one.says.physicsStatic, other.says.physicsStatic);
+    const json &shader = one.says.ours.shader, &otherShader = other.says.ours.shader;
+    const json &mpeg = one.says.mpegUnavailable, &otherMpeg = other.says.mpegUnavailable;
+    EXPECT_EQ(shader.at("source").get<std::string>().size(), 1000u);
+    EXPECT_TRUE(mpeg.contains("vibrotactileTexture"));
+    EXPECT_EQ(&shader, &otherShader);
+    EXPECT_EQ(&mpeg, &otherMpeg);
+    for (const Material* material : {&one, &other}) {
+        const json &told = material->haptic.unavailable.at("shader"),
+                   &toldMpeg = material->haptic.unavailable.at("MPEG_haptic_material");
+        EXPECT_EQ(&told, &shader);
+        EXPECT_EQ(&toldMpeg, &mpeg);
+    }
 }
 
 TEST(GltfHaptics, PhysicsMaterialsBindByCollider) {

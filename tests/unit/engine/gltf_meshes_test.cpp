@@ -137,6 +137,26 @@ TEST(GltfMeshes, SparseAccessorsReplaceElements) {
     EXPECT_EQ(scene->meshes[0].positions[3], glm::vec3(0, 1, 0));
 }
 
+/// Section 3.6.2.3: what is replaced keeps the stride of its view, the indices and values have none.
+TEST(GltfMeshes, SparseAccessorsReplaceElementsOfAStridedView) {
+    GltfMaker maker = GltfMaker::square();
+    const std::vector<float> strided = {7, 0, 0, 0, 7, 7, 1, 0, 0, 7, 7, 1, 1, 0, 7, 7, 0, 1, 0, 7};
+    const std::vector<uint8_t> which = {1, 2};
+    const std::vector<float> instead = {3, 0, 0, 3, 4, 0};
+    maker.json["accessors"][0]["bufferView"] =
+        maker.addView(strided.data(), strided.size() * sizeof(float), 20);
+    maker.json["accessors"][0]["byteOffset"] = 4;
+    maker.json["accessors"][0]["max"] = {3, 4, 0};
+    maker.json["accessors"][0]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", maker.addView(which.data(), 2)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", maker.addView(instead.data(), 24)}}}};
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(scene->meshes.at(0).positions,
+              (std::vector<glm::vec3>{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {0, 1, 0}}));
+    EXPECT_TRUE(scene->warnings.empty()) << test::warningsOf(*scene);
+}
+
 TEST(GltfMeshes, SparseAccessorsWithoutABufferViewStartFromZero) {
     GltfMaker maker = GltfMaker::square();
     const std::vector<uint16_t> which = {1, 3};
@@ -319,6 +339,14 @@ TEST(GltfMeshes, ElsewhereARestartValueEndsThePrimitive) {
     expectRestartsEndPrimitives<uint8_t>();
     expectRestartsEndPrimitives<uint16_t>();
     expectRestartsEndPrimitives<uint32_t>();
+}
+
+/// Each primitive is a mesh with the name of its own.
+TEST(GltfMeshes, NamesArePaidForLikeGeometry) {
+    GltfMaker maker = GltfMaker::square();
+    maker.json["meshes"][0]["name"] = std::string(1'000'000, 'x');
+    maker.json["meshes"][0]["primitives"] = nlohmann::json::array_t(300, maker.primitive());
+    EXPECT_TRUE(test::contains(test::loadError(maker).problem(), "the geometry would expand"));
 }
 
 TEST(GltfMeshes, TrianglesThatUseAVertexTwiceAreDropped) {

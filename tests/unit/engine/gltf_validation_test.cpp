@@ -218,5 +218,26 @@ TEST(GltfValidation, DeclaredBoundsThatDoNotHoldAreTold) {
     EXPECT_EQ(scene->bounds.high.y, 1.0); // the bounds are ours
 }
 
+/// Section 3.6.2.5: min and max are those of the values with the sparse ones in place.
+TEST(GltfValidation, DeclaredBoundsNeedNotHoldForValuesThatAreReplaced) {
+    GltfMaker maker = GltfMaker::square();
+    maker.json["accessors"][0]["bufferView"] = [&] {
+        const float base[] = {0, 0, 0, 9, -9, 0, NAN, INFINITY, 0, 0, 1, 0};
+        return maker.addView(base, sizeof base);
+    }();
+    const auto replace = [&](std::vector<uint8_t> which, std::vector<float> instead) {
+        maker.json["accessors"][0]["sparse"] = {
+            {"count", which.size()},
+            {"indices", {{"bufferView", maker.addView(which.data(), which.size())}, {"componentType", 5121}}},
+            {"values", {{"bufferView", maker.addView(instead.data(), instead.size() * sizeof(float))}}}};
+    };
+    replace({1, 2}, {1, 0, 0, 1, 1, 0});
+    const ScenePtr scene = load(maker);
+    EXPECT_TRUE(scene->warnings.empty()) << test::warningsOf(*scene);
+    EXPECT_EQ(scene->bounds.high, glm::dvec3(1, 1, 0));
+    replace({1, 2}, {1, 0, 0, 1, 2, 0});
+    EXPECT_TRUE(warns(*load(maker), "accessors[0].max", "does not hold"));
+}
+
 } // namespace
 } // namespace touchstone

@@ -2,6 +2,7 @@
 #include "tests/support/shared_files.h"
 #include "tests/unit/engine/load_support.h"
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -131,6 +132,42 @@ TEST(TangentSpace, ItDoesNotMatterHowTheFileIndexesItsVertices) {
     generateTangents(apart, 0);
     for (size_t i = 0; i < shared.indices.size(); ++i)
         EXPECT_EQ(shared.tangents[shared.indices[i]], apart.tangents[apart.indices[i]]);
+}
+
+/// Triangles around one vertex, an even number, over which the image turns over at every edge: the centre
+/// belongs to as many frames as there are.
+Mesh turningFan(uint32_t triangles) {
+    Mesh mesh;
+    mesh.positions.push_back({0, 0, 0});
+    mesh.uv0.push_back({0, 0});
+    for (uint32_t i = 0; i < triangles; ++i) {
+        const double angle = 2.0 * std::acos(-1.0) * i / triangles;
+        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        mesh.uv0.push_back(i % 2 == 0 ? glm::vec2(1, 0) : glm::vec2(0, 1));
+        mesh.indices.insert(mesh.indices.end(), {0, 1 + i, 1 + (i + 1) % triangles});
+    }
+    mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
+    return mesh;
+}
+
+/// From copy to copy of the centre, as it once was, 1.8e11 steps.
+TEST(TangentSpace, AVertexOfManyFramesIsSplitInLittleMoreThanTheirNumber) {
+    constexpr uint32_t kTriangles = 600'000;
+    Mesh mesh = turningFan(kTriangles);
+    const Mesh before = mesh;
+    generateTangents(mesh, 0);
+    ASSERT_EQ(mesh.positions.size(), 3u * kTriangles); // one each for the centre, two for the rim
+    for (size_t i = 0; i < mesh.indices.size(); ++i) {
+        ASSERT_EQ(mesh.positions[mesh.indices[i]], before.positions[before.indices[i]]);
+        ASSERT_EQ(mesh.tangents[mesh.indices[i]].w, i / 3 % 2 == 0 ? -1.0f : 1.0f) << i;
+    }
+}
+
+TEST(TangentSpace, ManyTrianglesAnswerCancel) {
+    Mesh mesh = turningFan(100'000);
+    const std::atomic<bool> cancel = true;
+    EXPECT_THROW(generateTangents(mesh, 0, Progress(nullptr, &cancel)), Cancelled);
+    EXPECT_TRUE(mesh.tangents.empty()) << "long before the end";
 }
 
 /// Real models carry tangents that their makers' tools computed by the same rules.

@@ -139,6 +139,47 @@ TEST(MovingObjects, AnUnevenScaleIsTold) {
     EXPECT_TRUE(animationWarnings(squareOnTwoNodes()).empty());
 }
 
+TEST(MovingObjects, AnAnimationThatMovesNothingHidesNoOther) {
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back({"smile", 1.0, {}}); // of morph weights, say, which are left out
+    scene.animations.push_back({"squash",
+                                1.0,
+                                {channel(1, AnimatedPath::Scale, {0.0f, 1.0f},
+                                         {glm::vec4(1.0f), glm::vec4(1.0f, 0.5f, 1.0f, 0.0f)})}});
+    const std::vector<Warning> warnings = animationWarnings(scene);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[0].message.find("'squash'"), std::string::npos) << warnings[0].message;
+    EXPECT_EQ(warnings[1].place, "animations[1]");
+    EXPECT_TRUE(Moved(std::move(scene)).moving.moving());
+}
+
+/// A million objects at the end of a chain of a thousand nodes, beside three thousand channels: asked one by
+/// one up the chain it is an hour.
+TEST(MovingObjects, WhatMovesIsFoundInLittleMoreThanTheNumberOfNodesChannelsAndObjects) {
+    constexpr size_t kDepth = 1000, kObjects = 1'000'000;
+    Scene described = squareOnTwoNodes();
+    described.nodes.resize(2 * kDepth);
+    for (size_t n = 1; n < kDepth; ++n)
+        described.nodes[n].parent = static_cast<int>(n) - 1;
+    described.instances = {{.node = kDepth - 1, .mesh = 0}, {.node = 2 * kDepth - 1, .mesh = 0}};
+    Animation animation{"many", 1.0, {}};
+    for (size_t n = kDepth; n < 2 * kDepth; ++n)
+        for (const AnimatedPath path :
+             {AnimatedPath::Translation, AnimatedPath::Rotation, AnimatedPath::Scale})
+            animation.channels.push_back(channel(static_cast<int>(n), path, {0.0f}, {glm::vec4(1.0f)}));
+    described.animations.push_back(std::move(animation));
+    const auto scene = std::make_shared<const Scene>(std::move(described));
+    const auto standing = std::make_shared<HapticObject>(), moved = std::make_shared<HapticObject>();
+    standing->instance = 0;
+    moved->instance = 1;
+    HapticScene haptic;
+    haptic.objects.assign(kObjects, standing);
+    haptic.restMotions.resize(kObjects);
+    EXPECT_FALSE(MovingObjects(scene, haptic).moving());
+    haptic.objects.back() = moved;
+    EXPECT_TRUE(MovingObjects(scene, haptic).moving());
+}
+
 /// A floor that rises through a hand at rest carries the proxy up with it and pushes.
 TEST(MovingObjects, ARisingFloorPushesARestingHand) {
     Scene scene = squareOnTwoNodes();

@@ -12,6 +12,27 @@ std::string otherCount(size_t count, size_t vertices) {
     return "has " + std::to_string(count) + " vertices where the attribute has " + std::to_string(vertices);
 }
 
+std::string targetPlace(const std::string& primitive, size_t target) {
+    return primitive + "." + element("targets", target);
+}
+
+void warnOfTargets(ImportContext& context, const GltfDocument& document, const tinygltf::Primitive& primitive,
+                   const std::string& place) {
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end())
+        return;
+    const size_t vertices = accessorCount(document, position->second);
+    for (size_t t = 0; t < primitive.targets.size(); ++t)
+        for (const auto& [name, accessor] : primitive.targets[t])
+            if (!primitive.attributes.contains(name))
+                context.warn(targetPlace(place, t) + "." + name,
+                             "displaces an attribute that the primitive does not have; ignored");
+            else if (accessorCount(document, accessor) != vertices)
+                context.warn(targetPlace(place, t) + "." + name,
+                             otherCount(accessorCount(document, accessor), vertices) +
+                                 "; where its weight is 0, it is ignored");
+}
+
 } // namespace
 
 std::vector<size_t> morphTargetCounts(ImportContext& context, const GltfDocument& document) {
@@ -21,11 +42,15 @@ std::vector<size_t> morphTargetCounts(ImportContext& context, const GltfDocument
         size_t most = 0;
         for (const tinygltf::Primitive& primitive : primitives)
             most = std::max(most, primitive.targets.size());
-        for (size_t p = 0; p < primitives.size(); ++p)
+        for (size_t p = 0; p < primitives.size(); ++p) {
+            context.stopIfCancelled();
+            const std::string place = element("meshes", m) + "." + element("primitives", p);
             if (primitives[p].targets.size() != most)
-                context.warn(element("meshes", m) + "." + element("primitives", p) + ".targets",
-                             "has " + std::to_string(primitives[p].targets.size()) +
-                                 " morph targets where another primitive has " + std::to_string(most));
+                context.warn(place + ".targets", "has " + std::to_string(primitives[p].targets.size()) +
+                                                     " morph targets where another primitive has " +
+                                                     std::to_string(most));
+            warnOfTargets(context, document, primitives[p], place);
+        }
         counts.push_back(most);
     }
     return counts;
@@ -53,31 +78,13 @@ MorphTargets::MorphTargets(ImportContext& context, const GltfDocument& document,
                            const tinygltf::Primitive& primitive, std::span<const double> weights,
                            const std::string& place)
     : context_(context), document_(document), primitive_(primitive), place_(place) {
-    for (size_t i = 0; i < primitive.targets.size(); ++i) {
-        const bool shown = i < weights.size() && weights[i] != 0.0;
-        warnOf(i, shown);
-        if (shown)
+    for (size_t i = 0; i < std::min(primitive.targets.size(), weights.size()); ++i)
+        if (weights[i] != 0.0)
             shown_.push_back({i, weights[i]});
-    }
 }
 
 std::string MorphTargets::at(size_t target) const {
-    return place_ + "." + element("targets", target);
-}
-
-void MorphTargets::warnOf(size_t index, bool shown) const {
-    const auto position = primitive_.attributes.find("POSITION");
-    if (position == primitive_.attributes.end())
-        return;
-    const size_t vertices = accessorCount(document_, position->second);
-    for (const auto& [name, accessor] : primitive_.targets[index]) {
-        const std::string place = at(index) + "." + name;
-        if (!primitive_.attributes.contains(name))
-            context_.warn(place, "displaces an attribute that the primitive does not have; ignored");
-        else if (!shown && accessorCount(document_, accessor) != vertices)
-            context_.warn(place, otherCount(accessorCount(document_, accessor), vertices) +
-                                     "; its weight is 0, so it is ignored");
-    }
+    return targetPlace(place_, target);
 }
 
 bool MorphTargets::displaces(const std::string& attribute) const {

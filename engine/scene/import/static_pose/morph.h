@@ -11,7 +11,8 @@
 namespace touchstone {
 
 /// The number of morph targets of every mesh of the file; the largest, with a warning, where its primitives
-/// differ.
+/// differ. Warns of what is wrong with a target in whatever pose it is shown: displacements without an
+/// attribute to displace, and other numbers of vertices.
 [[nodiscard]] std::vector<size_t> morphTargetCounts(ImportContext& context, const GltfDocument& document);
 
 /// The weights that a mesh of `targets` targets is shown with: those of `gltfNode`, else the mesh's own, else
@@ -24,8 +25,7 @@ namespace touchstone {
 /// The targets of one primitive that have a weight.
 class MorphTargets {
   public:
-    /// Missing `weights` are 0. Warns of displacements without an attribute to displace, and of other numbers
-    /// of vertices in targets without a weight.
+    /// Missing `weights` are 0.
     MorphTargets(ImportContext& context, const GltfDocument& document, const tinygltf::Primitive& primitive,
                  std::span<const double> weights, const std::string& place);
 
@@ -42,7 +42,6 @@ class MorphTargets {
         size_t index;
         double weight;
     };
-    void warnOf(size_t index, bool shown) const;
     [[nodiscard]] std::string at(size_t target) const;
 
     ImportContext& context_;
