@@ -37,7 +37,8 @@ glm::dvec3 normalPart(const glm::dvec3& stretch, std::span<const glm::dvec3> pla
 MouseDevice::MouseDevice(const MouseSmoothing& smoothing) : smoothing_(smoothing) {}
 
 void MouseDevice::moveTo(const MouseGoal& goal) noexcept {
-    if (finite(goal.position) && goal.press >= 0.0 && goal.stiffness > 0.0)
+    if (finite(goal.position) && goal.press >= 0.0 && goal.stiffness > 0.0 && goal.friction >= 0.0 &&
+        std::isfinite(goal.grip))
         told_.write({goal, true, releases_});
 }
 
@@ -46,9 +47,6 @@ void MouseDevice::release() noexcept {
 }
 
 void MouseDevice::feel(const TouchFeedback& felt) noexcept {
-    constexpr double kStill = 1e-7; // m: 0.1 mm/s at 1 kHz
-    // Both are where the objects stood in the last tick.
-    proxySlid_ = felt.touching && felt_.touching && glm::distance(felt.proxy, felt_.proxy) > kStill;
     felt_ = felt;
     const size_t count = std::min(felt.planes.size(), planes_.size());
     std::copy_n(felt.planes.begin(), count, planes_.begin());
@@ -83,6 +81,7 @@ DeviceSample MouseDevice::sample(double time) noexcept {
         lastTime_ = time;
         begunAfter_ = releases;
         press_ = goal.press;
+        presses_ = false;
         moving_ = sample.begins = true;
     }
     const double dt = std::clamp(time - lastTime_, 0.0, kLongestStep);
@@ -95,6 +94,8 @@ DeviceSample MouseDevice::sample(double time) noexcept {
     sample.position = position_;
     sample.buttons = goal.buttons;
     sample.valid = true;
+    presses_ = goal.press > 0.0 || (presses_ && felt_.touching && press_ > kHoverForce);
+    sample.mapping.coupling = presses_ ? 1.0 : 0.0;
     return sample;
 }
 
@@ -150,22 +151,22 @@ void MouseDevice::follow(const glm::dvec3& goal, double dt) noexcept {
 
 /// Keeps the force within the press that was asked for. With the last tick's force F, normal part N along n
 /// and tangential part T, a hand that goes deeper by e feels N + k e along n: so
-/// e <= (sqrt(press^2 - T^2) - N) / k. T grows by k times the way along the surface at most: to kGrip of what
-/// it is where the proxy has slid (the static coefficient over the dynamic one, nothing without friction), to
-/// kStick of the press where it may stick (coefficients up to 1.3). The place of the last proxy, gone along
-/// with its object, is free: the proxy of this tick is no farther from the hand. In the air, where the next
-/// surface may be anywhere, a hand that presses goes press / k in a tick.
+/// e <= (sqrt(press^2 - T^2) - N) / k. T grows by k times the way along the surface at most (and by
+/// MouseGoal::grip, of what friction holds), and friction holds no more than mu N, which beside N comes to
+/// the whole press where T = press mu / sqrt(1 + mu^2). The
+/// place of the last proxy, gone along with its object, is free: the proxy of this tick is no farther from
+/// the hand. In the air, where the next surface may be anywhere and the stiffest of all, a hand that presses
+/// goes press / k of that in a tick.
 void MouseDevice::boundPress(const glm::dvec3& from) noexcept {
     const MouseGoal& goal = told_.value().goal;
     if (!std::isfinite(press_))
         return;
-    constexpr double kGrip = 1.3, kStick = 0.8;
     const double press = std::max(press_, kHoverForce);
     const glm::dvec3 stretch = felt_.proxy - felt_.hip;
     const double length = glm::length(stretch);
     if (!felt_.touching || !(length > 0.0)) {
         const glm::dvec3 way = position_ - from;
-        const double most = press / goal.stiffness, gone = glm::length(way);
+        const double most = press / std::max(goal.stiffness, goal.stiffest), gone = glm::length(way);
         if (goal.press > 0.0 && gone > most) {
             position_ = from + most / gone * way;
             velocity_ *= most / gone;
@@ -179,8 +180,8 @@ void MouseDevice::boundPress(const glm::dvec3& from) noexcept {
     double tangential = glm::length(across);
     const glm::dvec3 way = position_ - felt_.hip;
     across -= stiffness * (way - glm::dot(way, n) * n);
-    tangential =
-        std::max(tangential, std::min(glm::length(across), proxySlid_ ? kGrip * tangential : kStick * press));
+    const double held = press * std::sin(std::atan(goal.friction));
+    tangential = std::max(tangential, std::min(goal.grip * glm::length(across), held));
     const double most = std::sqrt(std::max(0.0, press * press - tangential * tangential));
     const double deepest = glm::dot(stretch, n) + (most - along) / stiffness;
     const double excess = glm::dot(felt_.proxy - position_, n) - deepest;

@@ -35,6 +35,12 @@ struct MouseGoal {
     /// N: the force with which the hand may press at most; 0: it hovers.
     double press = INFINITY;
     double stiffness = 600.0; ///< N/m of what is pressed on
+    /// Of all that the hand may meet on its way: the greatest stiffness, N/m (less than `stiffness`: that),
+    /// and the greatest coefficient of friction.
+    double stiffest = 0.0, friction = 4.0 / 3.0;
+    /// By how much what friction holds may grow in a tick in which the hand stays: 1 but for friction=ho,
+    /// which takes hold with the static coefficient where it slid with the dynamic one.
+    double grip = 1.0;
     uint32_t buttons = 0;
 };
 
@@ -46,11 +52,13 @@ struct MouseGoal {
 /// press / smoothing.stiffness, 4 mm for 0.6 N, whenever the safety stage fades the force, and be pushed out
 /// again. It presses with MouseGoal::press at most: the force of the last tick and the way into the surface
 /// in this one, times the stiffness, never come to more. So however long no goal comes, and however the
-/// objects move meanwhile, the force stays what was asked for. Samples have no age: a picture that stalls
-/// does not make the place of the hand less certain.
+/// objects move meanwhile, the force stays what was asked for. A hand that does not press, and touches
+/// nothing that it pressed on before, is given none (DeviceMapping::coupling): what it strikes on its way is
+/// known a tick later. Samples have no age: a picture that stalls does not make the place of the hand less
+/// certain.
 class MouseDevice final : public Device {
   public:
-    /// N with which a hand that hovers may resist what runs into it.
+    /// N (stage 7) with which a hand that hovers may resist what runs into it, until it is pushed aside.
     static constexpr double kHoverForce = 0.05;
 
     explicit MouseDevice(const MouseSmoothing& smoothing = {});
@@ -97,7 +105,7 @@ class MouseDevice final : public Device {
     double press_ = INFINITY; // N, that holds in this tick
     uint32_t begunAfter_ = 0; // of Told::releases
     bool moving_ = false;
-    bool proxySlid_ = false; // in the last tick, on its object
+    bool presses_ = false; // or leaves what it pressed on
 };
 
 } // namespace touchstone

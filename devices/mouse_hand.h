@@ -19,9 +19,11 @@ struct ViewAxes {
 
 /// What lies under the pointer.
 struct PointedSurface {
-    glm::dvec3 point{0.0};            ///< m, device frame
-    glm::dvec3 normal{0.0};           ///< unit, towards the viewer
-    double stiffness = 600.0;         ///< N/m with which it will push back
+    glm::dvec3 point{0.0};    ///< m, device frame
+    glm::dvec3 normal{0.0};   ///< unit, towards the viewer
+    double stiffness = 600.0; ///< N/m with which it will push back
+    /// Of all that is in the scene, as in MouseGoal.
+    double stiffest = 600.0, friction = 4.0 / 3.0, grip = 1.0;
     double room = INFINITY;           ///< m in front of it in which a hand that does not press may stay
     int object = -1;                  ///< HapticScene::objects; -1: nothing of the scene moves
     Similarity workspaceFromObject{}; ///< when it was looked at

@@ -82,7 +82,7 @@ class Workbench {
           window_("Touchstone", firstSize(options.size, memory_.size)),
           screen_(window_, gpuOptions(options.gpu)), quality_(qualityOn(screen_.gpu())),
           touch_(options, [this](const std::string& text) { notice_ = text; }),
-          forceKey_(touch_.forceSwitch()),
+          interruptedForce_(touch_.forceSwitch()), forceKey_(touch_.forceSwitch()),
           forceWatch_(window_.handle(), GLFW_KEY_SPACE, [this](bool plain) { forceKey_.press(plain); }),
           keys_(window_.handle(), [this](int key, int modifiers) { keyDown(key, modifiers); }),
           timeline_(touch_.again(), recordingFolders(options.recording)), status_(options.statusJson) {
@@ -573,6 +573,7 @@ class Workbench {
     DrawQuality quality_;
     std::string notice_; // of the recorder
     LiveTouch touch_;
+    InterruptedForce interruptedForce_;
     ForceKey forceKey_;
     KeyWatch forceWatch_;
     KeyQueue keys_;

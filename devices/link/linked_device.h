@@ -65,6 +65,12 @@ class LinkedDevice : public Device {
     }
     void apply(const DeviceCommand& command) noexcept override { mailbox_.give(command); }
 
+    /// Owner thread: nobody drives it any more. What it is told next is zero force, without waiting for the
+    /// servo, whose last order would otherwise hold for kServoSilence. New ones are held.
+    void letGo() noexcept { mailbox_.letGo(); }
+    /// Owner thread: it is driven again, by what the servo says from now on.
+    void takeUp() noexcept { mailbox_.takeUp(); }
+
     /// Owner thread: how the user looks at the workspace (view: x right, y up, z towards the viewer). What is
     /// pushed goes where it is pushed on the screen; what is moved stands on the desk and does not care.
     virtual void face(const glm::dquat& deviceFromView) { (void)deviceFromView; }

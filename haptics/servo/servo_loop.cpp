@@ -19,12 +19,20 @@ int32_t saturated(long long nanoseconds) {
     return static_cast<int32_t>(std::clamp(nanoseconds, kLeast, kMost));
 }
 
+/// Where a hand was longer ago than `staleAge` it need not be any more: nothing is known of it. So a device
+/// that freezes is to all stages one that is unplugged: its force fades out, and where it comes back after
+/// that, touch begins anew once it has left the model.
+void refuseStale(DeviceSample& sample, double staleAge) noexcept {
+    sample.valid = sample.valid && sample.age <= staleAge; // an age that is no number is none to rely on
+}
+
 } // namespace
 
 struct ServoLoop::Touch {
     const Offer* offer = nullptr;
     uint32_t geometry = 0;                    // of the offer; 0: none
     const HapticSettings* settings = nullptr; // of this tick
+    DeviceLimits limits;                      // of the newest offer with a scene
     WorldState world;
     DeviceState device;
     TouchFeedback felt; // of the tick before
@@ -42,6 +50,13 @@ struct ServoLoop::Touch {
                 .force = output.force,
                 .planes = {planes.data(), output.planeCount},
                 .object = output.object};
+    }
+
+    /// Where nothing is touched: what the device still holds goes to zero no faster than it may.
+    DeviceCommand restCommand(double dt) noexcept {
+        uint32_t flags = 0;
+        return ForceLimiter::limit(glm::dvec3(0.0), glm::dvec3(0.0), {.limits = limits, .dt = dt}, {},
+                                   device.limiter, flags);
     }
 };
 
@@ -125,8 +140,10 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     const bool goesOn = geometry != 0 && geometry == touch.geometry;
     touch.offer = offer;
     touch.geometry = geometry;
-    if (offer != nullptr)
+    if (offer != nullptr) {
         offer->moving.forget();
+        touch.limits = offer->scene->limits;
+    }
     if (goesOn) {
         // As a replay does that resumes here: the objects come from where they were.
         if (std::isfinite(touch.previousTime))
@@ -187,6 +204,7 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     }
     record.sample = port_.sample(port_.context, record.time);
     if (touch.offer != nullptr) {
+        refuseStale(record.sample, touch.limits.staleAge);
         TickInput input;
         input.tick = number;
         input.time = record.time;
@@ -204,7 +222,7 @@ TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         touch.previousTime = record.time;
         touch.feelFrom(record.output);
     }
-    port_.apply(port_.context, record.output.command);
+    port_.apply(port_.context, touch.offer != nullptr ? record.output.command : touch.restCommand(dt));
     return record;
 }
 

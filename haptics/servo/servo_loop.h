@@ -36,7 +36,7 @@ struct TickRecord {
     bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
     uint32_t settings = 0;   ///< which: ServoLoop::settingsOf
     uint32_t scene = 0;      ///< which: what ServoLoop::offerScene returned; 0: none, and no step
-    DeviceSample sample;     ///< device 0, as it was read
+    DeviceSample sample;     ///< device 0, as it was read; not valid where it is older than the scene allows
     StageTrace trace;
     HapticOutput output; ///< device 0
 };
@@ -87,9 +87,10 @@ class ServoLoop {
 
     /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
     /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
-    /// Returns the number by which TickRecord::scene names it.
-    /// With SameGeometry the hand goes on touching what it touches: the force goes over to what it is with
-    /// the new materials, within the limits of force and slew and without fading, as when a setting changes.
+    /// Returns the number by which TickRecord::scene names it. Null: nothing is touched any more; the force
+    /// of the scene before goes to zero as fast as its limits allow, of which the records say nothing. With
+    /// SameGeometry the hand goes on touching what it touches: the force goes over to what it is with the new
+    /// materials, within the limits of force and slew and without fading, as when a setting changes.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
                         SceneSwap swap = SceneSwap::Anew);
     void setSettings(const HapticSettings& settings);

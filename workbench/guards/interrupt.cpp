@@ -1,7 +1,13 @@
 #include "workbench/guards/interrupt.h"
 
+#include "haptics/servo/force_switch.h"
+
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
 #include <initializer_list>
+#include <thread>
 
 namespace touchstone {
 
@@ -9,11 +15,22 @@ namespace {
 
 constexpr int kMostInterrupts = 3; // the last one kills, should the end hang
 
-volatile std::sig_atomic_t came = 0;
+// Handlers run on any thread, several at a time; they may only use what has no lock.
+std::atomic<int> came{0}, handling{0};
+std::atomic<ForceSwitch*> force{nullptr};
+std::atomic<bool> mayHang{false};
+static_assert(decltype(came)::is_always_lock_free && decltype(force)::is_always_lock_free &&
+              decltype(mayHang)::is_always_lock_free);
 
 extern "C" void onInterrupt(int signal) {
-    came = came + 1;
-    if (came + 1 >= kMostInterrupts)
+    handling.fetch_add(1);
+    if (ForceSwitch* const given = force.load())
+        given->takeAway(false);
+    handling.fetch_sub(1);
+    const int count = came.fetch_add(1) + 1;
+    if (count + 1 == kMostInterrupts && mayHang.load())
+        alarm(InterruptedForce::kLastSeconds); // whose signal ends the process
+    if (count + 1 >= kMostInterrupts)
         std::signal(signal, SIG_DFL);
 }
 
@@ -26,7 +43,20 @@ void catchInterrupts() {
 }
 
 bool interrupted() noexcept {
-    return came != 0;
+    return came.load() != 0;
+}
+
+InterruptedForce::InterruptedForce(ForceSwitch& given) noexcept {
+    mayHang.store(true);
+    force.store(&given);
+    if (interrupted())
+        given.takeAway(false);
+}
+
+InterruptedForce::~InterruptedForce() {
+    force.store(nullptr);
+    while (handling.load() != 0) // on another thread, with the switch in hand
+        std::this_thread::yield();
 }
 
 } // namespace touchstone

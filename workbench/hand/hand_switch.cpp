@@ -18,6 +18,12 @@ DeviceLimits HandSwitch::limits() const {
 }
 
 void HandSwitch::hold(std::shared_ptr<LinkedDevice> device) {
+    if (device_ != device) {
+        if (device_ != nullptr)
+            device_->letGo();
+        if (device != nullptr)
+            device->takeUp();
+    }
     device_ = device;
     held_.offer(std::make_shared<const Held>(Held{std::move(device)}));
 }

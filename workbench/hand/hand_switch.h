@@ -27,7 +27,8 @@ class HandSwitch final : public Device {
     void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }
     [[nodiscard]] bool simulated() const noexcept { return simulated_.load(std::memory_order_relaxed); }
     void offerPath(std::shared_ptr<const StrokePath> path) { path_.offer(std::move(path)); }
-    /// Null: back to the mouse or the simulated hand. A device that is let go gets zero force.
+    /// Null: back to the mouse or the simulated hand. A device that is let go gets zero force
+    /// at once, before the servo knows.
     void hold(std::shared_ptr<LinkedDevice> device);
     /// How the user looks at the workspace: LinkedDevice::face.
     void face(const glm::dquat& deviceFromView);

@@ -36,8 +36,8 @@ bool ForceKey::settle(bool on, bool mayGiveBack, std::optional<uint32_t> watched
     compare(watched);
     for (ForceSwitch::State now = force_.state(); !(now == settled_); now = force_.state()) {
         const uint32_t presses = (now.presses() - settled_.presses()) & 0x7fffffffu;
-        const bool onlyPresses = presses == now.asked() - settled_.asked();
-        const bool wanted = mayGiveBack && late_ == 0 && onlyPresses && on == (presses % 2 == 0);
+        const bool onePress = presses == 1 && now.asked() - settled_.asked() == 1;
+        const bool wanted = mayGiveBack && late_ == 0 && onePress && !on;
         if (wanted && !force_.giveBack(now))
             continue; // another press came meanwhile
         settled_ = wanted ? now.givenBack() : now;

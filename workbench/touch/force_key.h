@@ -8,8 +8,10 @@
 namespace touchstone {
 
 /// What the force key means. A press takes the force away at once, on the thread that sees it first; whether
-/// it gives the force back is decided here, once a frame: each press toggles, but while a text is typed or a
-/// recording is looked at it only takes away.
+/// it gives the force back is decided here, once a frame: one press where the force was off, and nothing else
+/// that came since the frame before. Of several presses in a frame that takes long one meant to take the
+/// force away, by somebody who cannot see what the others came to. While a text is typed or a recording is
+/// looked at a press only takes away.
 class ForceKey {
   public:
     explicit ForceKey(ForceSwitch& force) : force_(force) {}

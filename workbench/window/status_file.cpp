@@ -58,6 +58,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
     const ServoView& servo = *input.servo;
     const HapticOutput& tick = servo.last.output;
     const ForceHistory::Entry recent = input.forces->mean(static_cast<size_t>(servo.rateHz * kInterval));
+    // The mouse has no clutch; it is given nothing while it hovers.
+    const bool mouse = state.device.empty() && !state.simulatedHand;
     nlohmann::ordered_json rects = nlohmann::ordered_json::object();
     for (const auto& [name, rect] : widgets)
         rects[name] = {{"x", rect.x}, {"y", rect.y}, {"width", rect.width}, {"height", rect.height}};
@@ -78,9 +80,9 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"workspace",
          {{"wanted_zoom", state.workspace.zoom},
           {"zoom", servo.last.sample.mapping.workspaceFromDevice.scale},
-          {"clutch", servo.last.sample.mapping.coupling < 1.0},
+          {"clutch", !mouse && servo.last.sample.mapping.coupling < 1.0},
           {"coupling", servo.last.sample.mapping.coupling},
-          {"text", workspaceText(servo.last.sample.mapping)}}},
+          {"text", mouse ? "" : workspaceText(servo.last.sample.mapping)}}},
         {"stroke",
          {{"name", state.stroke.name},
           {"speed", state.stroke.speed},

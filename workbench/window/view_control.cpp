@@ -218,7 +218,10 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
         pressing_ = io.MouseDown[0] && armed_ && !putDown_;
         pressed_ = {.object = surface.object,
                     .press = pressing_ ? options.press : 0.0,
-                    .stiffness = surface.stiffness};
+                    .stiffness = surface.stiffness,
+                    .stiffest = surface.stiffest,
+                    .friction = surface.friction,
+                    .grip = surface.grip};
         pointedAt_ = surface.workspaceFromObject;
         return hand_.pointAt(surface, {.force = pressing_ ? options.press : 0.0});
     }

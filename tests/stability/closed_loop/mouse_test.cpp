@@ -32,7 +32,13 @@ struct Pointer {
         const glm::dvec3 eye(at.x, 0.5, -at.y), along(0.0, -1.0, 0.0);
         if (const auto pick = pickSurface(*bench.scene, {}, eye, along))
             hand.pointAt({pick->point, pick->normal, bench.settings.stiffness}, press);
-        mouse.moveTo({.position = hand.goal(), .press = press.force, .stiffness = bench.settings.stiffness});
+        const HapticSettings& set = bench.settings;
+        MouseGoal goal{.position = hand.goal(), .press = press.force, .stiffness = set.stiffness};
+        if (set.staticFriction >= 0.0)
+            goal.friction = set.staticFriction;
+        if (set.friction == FrictionMode::Ho && set.dynamicFriction > 0.0)
+            goal.grip = set.staticFriction / set.dynamicFriction;
+        mouse.moveTo(goal);
         for (int i = 0; i < 33; ++i) {
             const HapticOutput& felt = bench.output;
             mouse.feel({.touching = felt.contacts > 0,
@@ -116,6 +122,28 @@ TEST(MouseLoop, FrictionIsSeenAsLag) {
     const double smooth = lag(0.0), rough = lag(0.5);
     EXPECT_NEAR(smooth, 2.0 * 0.02 / smoothing.frequency, 4e-4);
     EXPECT_NEAR(rough - smooth, 0.5 * 0.6 / smoothing.stiffness, 3e-4);
+}
+
+/// What friction holds is part of the press that was asked for, however rough the surface, sticking or
+/// sliding. With coefficients above 1.3 it came to more.
+TEST(MouseLoop, FrictionIsPartOfThePress) {
+    for (const FrictionMode law : {FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic})
+        for (const double stiffness : {600.0, 3500.0})
+            for (const double coefficient : {0.3, 1.0, 2.0, 5.0})
+                for (const double dynamic : {1.0, 0.2}) { // of the static one
+                    HapticSettings settings = wall(stiffness, coefficient);
+                    settings.dynamicFriction = dynamic * coefficient;
+                    settings.friction = law;
+                    Pointer pointer(settings);
+                    pointer.rest({0.0, 0.0}, 0.5);
+                    double x = 0.0;
+                    const double start = pointer.bench.output.hip.x;
+                    for (int i = 0; i < 45; ++i) // faster and faster, then evenly
+                        pointer.frame({x += 1e-4 * std::min(i, 30), 0.0});
+                    EXPECT_LT(pointer.most, 1.02 * 0.6) << stiffness << " N/m, " << coefficient << ", "
+                                                        << dynamic << ", law " << static_cast<int>(law);
+                    EXPECT_GT(pointer.bench.output.hip.x, start + 0.3 * x) << "it is dragged along";
+                }
 }
 
 TEST(MouseLoop, AStiffWallNeitherBuzzesNorLetsThrough) {

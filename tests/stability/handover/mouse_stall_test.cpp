@@ -178,6 +178,55 @@ TEST(MouseStall, NeverPressesHarderThanAsked) {
     EXPECT_EQ(touched, 5 * 2 * 2 * 3);
 }
 
+/// A mouse on its way through the air, and a floor of 3500 N/m that it does not point at.
+struct StruckFloor {
+    StruckFloor() : servo(mouse) {
+        const TouchedScene floor = floorScene(0.0f, {.recommendedStiffness = 3500.0});
+        (void)servo.loop.offerScene(floor.haptic, floor.source);
+        go({.position = {0.0, 0.02, 0.0}, .press = 0.0}, 300);
+    }
+    void go(const MouseGoal& goal, int ticks) {
+        mouse.moveTo(goal);
+        for (int i = 0; i < ticks; ++i) {
+            const TickRecord& now = servo.step();
+            felt = std::max(felt, glm::length(now.output.force));
+            given = std::max(given, glm::length(now.output.command.force()));
+            touched += now.output.contacts > 0 ? 1 : 0;
+        }
+    }
+    MouseDevice mouse;
+    SteppedServo servo;
+    double felt = 0.0, given = 0.0; // N
+    int touched = 0;                // ticks
+};
+
+/// Where it came down fast it was given up to 1.75 N for a tick.
+TEST(MouseStall, WhatDoesNotPressIsGivenNothing) {
+    StruckFloor strike;
+    strike.go({.position = {0.0, -0.1, 0.0}, .press = 0.0}, 300);
+    EXPECT_GT(strike.touched, 100);
+    EXPECT_GT(strike.felt, 0.5) << "it strikes";
+    EXPECT_EQ(strike.given, 0.0);
+    EXPECT_LT(glm::length(strike.servo.record.output.force), 2.0 * MouseDevice::kHoverForce);
+    strike.go({.position = {0.0, 0.003, 0.0}, .press = 0.0}, 300);
+    EXPECT_EQ(strike.given, 0.0);
+    // A press that is let go of fades with the hand's leaving; then there is none again.
+    strike.go({.position = {0.0, -0.005, 0.0}, .press = 0.6, .stiffness = 3500.0}, 500);
+    EXPECT_NEAR(strike.given, 0.6, 0.03);
+    strike.go({.position = {0.0, 0.003, 0.0}, .press = 0.0}, 300);
+    strike.given = 0.0;
+    strike.go({.position = {0.0, -0.02, 0.0}, .press = 0.0}, 300);
+    EXPECT_EQ(strike.given, 0.0);
+}
+
+TEST(MouseStall, WhatStrikesAStifferSurfaceThanItPointsAtPressesAsAsked) {
+    StruckFloor strike;
+    strike.go({.position = {0.0, -0.1, 0.0}, .press = 0.6, .stiffness = 600.0, .stiffest = 3500.0}, 500);
+    EXPECT_NEAR(glm::length(strike.servo.record.output.force), 0.6, 0.03);
+    EXPECT_LT(strike.felt, 1.05 * 0.6);
+    EXPECT_LT(strike.given, 1.05 * 0.6);
+}
+
 TEST(MouseStall, NorWhenTheWholeProcessStoodStill) {
     for (const Place& place : kPlaces)
         for (const double stiffness : {600.0, 3500.0}) {

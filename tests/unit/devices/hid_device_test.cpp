@@ -163,6 +163,15 @@ TEST(HidDevice, ARawDeviceSendsPlacesAndGetsForces) {
     EXPECT_EQ(lastCommand(*diy).watchdogMs, 20);
     ASSERT_TRUE(eventually([&] { return lastCommand(*diy).values == (std::array<int32_t, 6>{}); }))
         << "silent servo";
+    const auto pushing = [&] {
+        device.apply(command({1.0, -2.0, 0.5}));
+        return lastCommand(*diy).values[0] == 1'000'000;
+    };
+    ASSERT_TRUE(eventually(pushing));
+    device.letGo();
+    ASSERT_TRUE(eventually([&] { return !pushing(); })) << "whatever the servo still says";
+    device.takeUp();
+    ASSERT_TRUE(eventually(pushing));
 }
 
 TEST(HidDevice, OnlyFreshWordsMakeASampleYounger) {

@@ -2,10 +2,12 @@
 // asserts a time: machines stall.
 
 #include "engine/core/error.h"
+#include "engine/core/float_mode.h"
 #include "haptics/servo/servo_loop.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -17,7 +19,7 @@ namespace touchstone {
 namespace {
 
 /// A square of 0.1 m in the plane y = `height`, seen from above.
-std::shared_ptr<const HapticScene> floorAt(float height) {
+std::shared_ptr<const HapticScene> floorAt(float height, const DeviceLimits& limits = {}) {
     Scene scene;
     Mesh mesh;
     mesh.positions = {
@@ -28,7 +30,7 @@ std::shared_ptr<const HapticScene> floorAt(float height) {
     scene.materials.emplace_back();
     scene.nodes.emplace_back();
     scene.instances.push_back({.node = 0, .mesh = 0});
-    return compileHapticScene(scene, Similarity{});
+    return compileHapticScene(scene, Similarity{}, limits);
 }
 
 /// A hand that goes up and down through the floor, and remembers what it was sent. Servo thread until joined.
@@ -214,6 +216,72 @@ TEST(ServoLoop, CommandsNeverJumpWhateverIsSwappedMeanwhile) {
     }
     EXPECT_GT(most, 0.0);
     EXPECT_LE(most, limits.maxForce);
+}
+
+/// Without a scene the device was sent zero from one tick to the next, and with the scene after that nearly
+/// all of what it had held before.
+TEST(ServoLoop, WithoutASceneTheForceGoesToZeroAndBeginsThere) {
+    struct StillHand {
+        glm::dvec3 place{0.0, 0.01, 0.0}, force{0.0};
+    } hand;
+    const DevicePort port{.context = &hand,
+                          .sample =
+                              [](void* context, double) noexcept {
+                                  DeviceSample sample;
+                                  sample.position = static_cast<StillHand*>(context)->place;
+                                  sample.valid = true;
+                                  return sample;
+                              },
+                          .apply =
+                              [](void* context, const DeviceCommand& command) noexcept {
+                                  static_cast<StillHand*>(context)->force = command.force();
+                              }};
+    enterFloatMode();
+    ServoLoop loop(port, {.rateHz = 1000.0, .wantRealtime = false});
+    DeviceLimits limits;
+    limits.maxForceRate = 1000.0; // 1 N a tick
+    loop.offerScene(floorAt(0.0f, limits));
+    uint64_t tick = 0;
+    const auto run = [&](int ticks) {
+        for (int i = 0; i < ticks; ++i)
+            (void)loop.step(tick++);
+    };
+    run(200);
+    hand.place.y = -0.02;
+    run(400);
+    ASSERT_NEAR(hand.force.y, limits.maxForce, 1e-6);
+    loop.offerScene(nullptr);
+    for (int i = 1; i <= 9; ++i) {
+        run(1);
+        EXPECT_NEAR(hand.force.y, std::max(0.0, limits.maxForce - i), 1e-6) << i;
+    }
+    run(20);
+    EXPECT_EQ(hand.force, glm::dvec3(0.0));
+    loop.updateSnapshot();
+    loop.offerScene(floorAt(0.0f, limits));
+    for (int i = 0; i < 200; ++i) {
+        run(1);
+        ASSERT_EQ(hand.force, glm::dvec3(0.0)) << "beneath the floor, where touch begins: tick " << i;
+    }
+    // A scene that comes while the force is still going goes on from there.
+    hand.place.y = 0.01;
+    loop.updateSnapshot();
+    loop.offerScene(floorAt(0.0f, limits));
+    run(200);
+    hand.place.y = -0.02;
+    run(400);
+    loop.updateSnapshot();
+    loop.offerScene(nullptr);
+    run(3);
+    loop.updateSnapshot();
+    loop.offerScene(floorAt(0.0f, limits));
+    glm::dvec3 before = hand.force;
+    EXPECT_GT(before.y, 1.0);
+    for (int i = 0; i < 20; ++i) {
+        run(1);
+        EXPECT_LE(glm::length(hand.force - before), 1.0 + 1e-9);
+        before = hand.force;
+    }
 }
 
 TEST(ServoLoop, StopsAndStartsAgain) {

@@ -24,9 +24,11 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
         return {"Inside or too near: move out to touch", kAmber};
     if (has(tick.flags, TickFlag::InputInvalid))
         return {"No hand", kGrey};
-    if (const double coupling = input.servo->last.sample.mapping.coupling; coupling < 1.0)
+    const double coupling = input.servo->last.sample.mapping.coupling;
+    const bool mouse = state.device.empty() && !state.simulatedHand; // has no clutch, but hovers
+    if (coupling < 1.0 && !mouse)
         return {coupling > 0.0 ? "Clutch: the force fades" : "Clutched: the hand stays here", kAmber};
-    if (has(tick.flags, TickFlag::ForceRamping) && tick.contacts > 0)
+    if (has(tick.flags, TickFlag::ForceRamping) && tick.contacts > 0 && coupling == 1.0)
         return {"Force fades in", kAmber};
     return tick.contacts > 0 ? TouchLamp{"Touching", kGreen} : TouchLamp{"In the air", kGrey};
 }

@@ -23,8 +23,14 @@ class ToldDevice final : public LinkedDevice {
     DeviceLimits limits() const override { return {}; }
     DeviceSample sample(double) noexcept override { return next; }
     void apply(const DeviceCommand& command) noexcept override {
+        LinkedDevice::apply(command);
         force = command.force();
         ++commands;
+    }
+    /// What its I/O thread would send, N, no time after the last order.
+    [[nodiscard]] glm::dvec3 sent() {
+        (void)mailbox_.updateOrder();
+        return mailbox_.order(0).force;
     }
 
     DeviceSample next;
@@ -151,6 +157,28 @@ TEST_F(HandSwitchTest, IsLetGoAndTakenUpAgainOnTheWay) {
     EXPECT_EQ(most_, 0.0);
     run(500, [&](int) { device_->next.position.y = std::max(device_->next.position.y - 5e-5, -0.006); });
     EXPECT_GT(last_.y, 2.0);
+}
+
+/// The servo's last order holds for 20 ms: a device that somebody else is to hold went on pushing that long.
+TEST_F(HandSwitchTest, ADeviceThatIsLetGoIsToldZeroBeforeTheServoKnows) {
+    hand_.hold(device_);
+    run(kGlide + 5);
+    run(300, upTo(0.004));
+    EXPECT_GT(glm::length(device_->sent()), 2.0);
+    hand_.hold(nullptr);
+    EXPECT_EQ(device_->sent(), glm::dvec3(0.0));
+    run(1);
+    EXPECT_EQ(device_->sent(), glm::dvec3(0.0));
+    hand_.hold(device_);
+    EXPECT_EQ(device_->sent(), glm::dvec3(0.0)) << "what it was told before holds no more";
+    run(kGlide);
+    EXPECT_EQ(device_->sent(), glm::dvec3(0.0));
+    run(200, upTo(0.010));
+    run(500, [&](int) { device_->next.position.y = std::max(device_->next.position.y - 5e-5, -0.006); });
+    EXPECT_GT(device_->sent().y, 2.0) << "it is driven again";
+    const auto other = std::make_shared<ToldDevice>(at({0.0, 0.02, 0.0}));
+    hand_.hold(other);
+    EXPECT_EQ(device_->sent(), glm::dvec3(0.0)) << "handed over";
 }
 
 TEST_F(HandSwitchTest, IsUnpluggedWhileItGlides) {

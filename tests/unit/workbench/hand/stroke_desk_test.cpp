@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -58,6 +60,43 @@ TEST(Sight, KnowsWhereWhatMovesIsAtRest) {
         }
     EXPECT_GT(carried, 3) << "they have moved";
     EXPECT_EQ(sight.restFromNow(-1, 0.3).point({1.0, 2.0, 3.0}), glm::dvec3(1.0, 2.0, 3.0));
+}
+
+/// What a press is bounded by in the air, where it may meet any of them.
+TEST(Sight, KnowsTheStiffestAndTheRoughest) {
+    const TouchedScene scene = touchedScene("swatches.glb");
+    Sight sight;
+    sight.show(scene.haptic, scene.source);
+    double stiffest = 0.0, roughest = 0.0;
+    for (const auto& object : scene.haptic->objects) {
+        const HapticMaterialData& material = scene.haptic->materials[static_cast<size_t>(object->material)];
+        const double stiffness =
+            std::isnan(material.stiffness) ? scene.haptic->limits.recommendedStiffness : material.stiffness;
+        stiffest = std::max(stiffest, std::min(stiffness, scene.haptic->limits.maxStiffness));
+        roughest = std::max(roughest, material.staticFriction);
+    }
+    const Ray ray{{0.01, 0.02, 1.0}, {0.0, 0.0, -1.0}};
+    const auto seen = sight.look(ray, 0.0, {});
+    ASSERT_TRUE(seen);
+    EXPECT_GT(roughest, 0.0);
+    EXPECT_GE(seen->stiffest, stiffest);
+    EXPECT_LE(seen->stiffest, scene.haptic->limits.maxStiffness);
+    EXPECT_GE(seen->stiffest, seen->stiffness);
+    EXPECT_GE(seen->friction, roughest);
+    HapticSettings settings;
+    settings.stiffness = 5000.0;
+    settings.staticFriction = 3.0;
+    EXPECT_GE(sight.look(ray, 0.0, settings)->stiffest, 5000.0) << "what is asked for is not cut";
+    EXPECT_GE(sight.look(ray, 0.0, settings)->friction, 3.0);
+    EXPECT_EQ(sight.look(ray, 0.0, settings)->grip, 1.0);
+    settings.friction = FrictionMode::Ho;
+    settings.dynamicFriction = 1.0;
+    EXPECT_EQ(sight.look(ray, 0.0, settings)->grip, 3.0);
+    settings.dynamicFriction = 0.0;
+    EXPECT_GE(sight.look(ray, 0.0, settings)->grip, 100.0);
+    EXPECT_TRUE(std::isfinite(sight.look(ray, 0.0, settings)->grip));
+    settings.friction = FrictionMode::Off;
+    EXPECT_EQ(sight.look(ray, 0.0, settings)->friction, 0.0);
 }
 
 } // namespace
