@@ -9,8 +9,8 @@
 
 namespace touchstone {
 
-/// Neighbourhood: Ho's walk over the mesh, a point method (proxy/neighbourhood_watch.h). Rays: Zilles'
-/// god-object moved by rays, a point too (proxy/ray_proxy.h).
+/// Neighbourhood: Ho's walk over the mesh, a point method (comparison/neighbourhood_watch.h). Rays: Zilles'
+/// god-object moved by rays, a point too (comparison/ray_proxy.h).
 enum class ContactMethod : uint8_t { Sweep, Neighbourhood, Rays };
 /// Of the contact query and the proxy solve of contact=rays; the others are double.
 enum class Precision : uint8_t { Double, Single };

@@ -1,14 +1,12 @@
 #include "haptics/haptic_step.h"
 
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/force/contact_loads.h"
 #include "haptics/force/spring_damper.h"
 #include "haptics/friction/friction.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/proxy/carry.h"
-#include "haptics/proxy/mesh_proxy.h"
-#include "haptics/proxy/neighbourhood_watch.h"
 #include "haptics/proxy/place_proxy.h"
-#include "haptics/proxy/ray_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/safety/force_limiter.h"
 #include "haptics/sample/hip_sample.h"
 #include "haptics/shading/first_goal.h"
@@ -16,8 +14,6 @@
 #include "haptics/shading/turned_normal.h"
 #include "haptics/texture/plain_feel.h"
 #include "haptics/texture/surface_feel.h"
-
-#include <type_traits>
 
 namespace touchstone {
 
@@ -112,8 +108,7 @@ bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool on
         return rest.contacts[static_cast<size_t>(hold.active[i])];
     };
     const HapticMaterialData& material = materialOf(scene, contactAt(0));
-    if (!feelsPlain(material, settings) || settings.damping > 0.0 ||
-        (settings.damping < 0.0 && material.damping > 0.0))
+    if (!feelsPlain(material, settings) || specifiedDamping(material, settings) > 0.0)
         return false;
     for (size_t i = 1; i < static_cast<size_t>(hold.count); ++i)
         if (&materialOf(scene, contactAt(i)) != &material)
@@ -147,91 +142,27 @@ void publishProxy(const Similarity& workspaceFromAnchor, const DeviceState& stat
         output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
 }
 
-/// The watch has no part in what was pinched, and begins anew where what it touches jumps.
-void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) {
-    if (state.pinched.count > 0) {
-        state.pinched.count = 0;
-        state.candidates.ignore({});
-    }
-    for (size_t k = 0; k < motions.size(); ++k) {
-        if (!motions[k].jumped)
-            continue;
-        flags = flags | TickFlag::ObjectJumped;
-        if (static_cast<int>(k) == state.anchor) {
-            state.watch.touching = state.placed = false;
-            state.friction = FrictionState::Free;
-        }
-    }
+/// True where no material of the scene calls for stages 4 to 6.
+bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
+    return kPlainTick || (scene.plan.plainFeel && !(settings.staticFriction > 0.0) &&
+                          !(scene.plan.dampingMap && settings.damping > 0.0) &&
+                          !anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings));
 }
 
-/// What the objects' own motion does to the proxy before the contact model moves it. The watch meets moving
-/// objects along the HIP's path, which is relative to them.
-template <class Model>
-void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-           DeviceState& state, uint32_t& flags) {
-    if constexpr (std::is_same_v<Model, MeshProxy>) {
-        if (state.watch.touching)
-            leaveWatch(scene, motions, state);
-        carryProxy(scene, motions, settings.proxyRadius, state, flags);
-    } else if constexpr (std::is_same_v<Model, NeighbourhoodWatch>) {
-        leaveCarry(motions, state, flags);
-    } else {
-        leaveCarry(motions, state, flags);
-        if (state.watch.touching)
-            leaveWatch(scene, motions, state);
-        carryByRays(scene, motions, state, flags);
-    }
-}
-
-/// The place without friction is a god-object of its own, which friction does not hold back [001 §4.1.1]: it
-/// goes on from where it was. Not where objects move: what they may have pushed is the proxy.
-template <class Model>
-void leaveFriction(Model& proxy, const DeviceState& state, bool atRest) {
-    if (atRest && state.friction != FrictionState::Free)
-        proxy.placeAt(state.frictionless);
-}
-void leaveFriction(NeighbourhoodWatch&, const DeviceState&, bool) {}
-
-/// For one-sided surfaces in the next tick. A point of the watch is clear of nothing.
-void settleClearance(MeshProxy& proxy, DeviceState&) {
-    proxy.settleClearance();
-}
-template <class Model>
-void settleClearance(Model&, DeviceState& state) {
-    state.clearance = 0.0;
-}
-
-/// Places the proxy in the first tick. False while the HIP is inside a body.
-bool meet(const HapticScene& scene, ObjectMotions motions, MeshProxy& proxy, DeviceState& state) {
-    return placeProxy(scene, motions, state.hip, proxy, state);
-}
-bool meet(const HapticScene&, ObjectMotions, NeighbourhoodWatch& watch, DeviceState&) {
-    if (!watch.place())
-        return false;
-    watch.query();
-    return true;
-}
-
-template <class Real>
-bool meet(const HapticScene&, ObjectMotions, RayProxy<Real>& proxy, DeviceState&) {
-    return proxy.place();
-}
-
-/// Stages 2 to 7 for a hand whose place is known. `Model` is the contact model, all of stages 2 and 3; what
-/// it must offer is what MeshProxy, NeighbourhoodWatch and RayProxy have in common.
-/// Plain: no material of the scene calls for stages 4 to 6, and they are not there.
-template <class Model, bool Plain, class Stopwatch>
+/// Stages 2 to 7 for a hand whose place is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
+template <class Solver, class Stopwatch>
 void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
            DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
+    const bool effects = !callsForNoEffect(scene, settings);
 
     // 2. Contact query: the proxy goes with its object and meets what moved towards it.
     ProxyRest& rest = state.rest;
     if (state.anchor < 0)
         state.anchor = nearestObject(scene, motions, state.hip);
-    carry<Model>(scene, motions, settings, state, output.flags);
-    Model proxy(scene, motions, settings.proxyRadius, settings.iterationBudget, state, rest);
-    if (!meet(scene, motions, proxy, state)) {
+    Solver::carry(scene, motions, settings, state, output.flags);
+    Solver proxy(scene, motions, settings, state, rest);
+    if (!proxy.begin()) {
         state.friction = FrictionState::Free;
         state.shaded = false;
         output.proxy = output.hip;
@@ -241,11 +172,14 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     const Similarity workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
     const glm::dvec3 hip = workspaceFromAnchor.inversePoint(state.hip);
     const glm::dvec3 held = state.proxy;
-    leaveFriction(proxy, state, input.objects.empty());
+    // The place without friction is a god-object of its own, which friction does not hold back [001 §4.1.1]:
+    // it goes on from where it was. Not where objects move: what they may have pushed is the proxy.
+    if (state.friction != FrictionState::Free && input.objects.empty())
+        proxy.resumeFrom(state.frictionless);
     stopwatch.lap(Stage::Contact);
 
     // 3. Proxy solve: as near to the goal as free space allows.
-    const bool shading = !Plain && anyTwoPass(scene.plan, settings);
+    const bool shading = effects && anyTwoPass(scene.plan, settings);
     FirstGoal first{.goal = hip};
     if (shading)
         first = firstGoal(scene, settings, state, hip, glm::length(state.travel) / workspaceFromAnchor.scale);
@@ -258,7 +192,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     if (shading)
         shadeTwoPass(scene, motions, settings, hip, first, proxy, state, rest);
     const SubGoal& hold = state.shaded ? rest.shadedHold : rest.hold;
-    const bool oneFacet = !Plain && anyOneFacet(scene.plan, settings);
+    const bool oneFacet = effects && anyOneFacet(scene.plan, settings);
     const bool asOne = hold.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, hold);
     FeltShape shape;
     if (rest.contactCount > 0 && asOne)
@@ -273,7 +207,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     if (rest.contactCount > 0) {
         const Contact& contact = loadedContact(rest, hold);
         const double depth = shape.depth * workspaceFromAnchor.scale;
-        plain = asOne && (Plain || feelsPlain(materialOf(scene, contact), settings));
+        plain = asOne && (!effects || feelsPlain(materialOf(scene, contact), settings));
         if (plain)
             plainFeel(scene, settings, contact, shape.normal, depth, feel);
         else if (asOne)
@@ -292,7 +226,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
 
     // 6. Friction: the proxy held back inside the cones.
     glm::dvec3 stretch(0.0);
-    if (Plain)
+    if (!effects)
         state.friction = FrictionState::Free;
     else if (!plain || state.friction != FrictionState::Free) {
         if (asOne)
@@ -302,7 +236,7 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     }
     stopwatch.lap(Stage::Friction);
 
-    settleClearance(proxy, state);
+    proxy.settleClearance();
 
     // 7. Force.
     glm::dvec3 force;
@@ -326,20 +260,6 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
     stopwatch.lap(Stage::Force);
 }
 
-/// The stages that the scene and the settings call for.
-template <class Model, class Stopwatch>
-void touchAsPlanned(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-                    DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
-    const bool plain =
-        kPlainTick || (scene.plan.plainFeel && !(settings.staticFriction > 0.0) &&
-                       !(scene.plan.dampingMap && settings.damping > 0.0) &&
-                       !anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings));
-    if (plain)
-        return touch<Model, true>(scene, settings, input, state, output, stopwatch);
-    if constexpr (!kPlainTick)
-        touch<Model, false>(scene, settings, input, state, output, stopwatch);
-}
-
 /// Touch begins again where the hand is next seen.
 [[gnu::noinline]] void beginTouch(DeviceState& state, bool mustLeave) {
     state.forgetTouch();
@@ -348,42 +268,46 @@ void touchAsPlanned(const HapticScene& scene, const HapticSettings& settings, co
 
 /// A tick without a sample in a scene that moves: the proxy goes on with the objects, as if the hand stood. A
 /// watch that touches goes with its anchor; one in the free would have to know where every object was when
-/// the hand was last seen, and begins anew.
+/// the hand was last seen, and begins again.
 void carryUnseen(const HapticScene& scene, const HapticSettings& settings, ObjectMotions motions,
                  DeviceState& state, uint32_t& flags) {
     if (!state.placed || state.anchor < 0)
         return;
-    if (settings.contact == ContactMethod::Rays && scene.hasRays())
-        return carry<RayProxy<double>>(scene, motions, settings, state, flags);
-    if (settings.contact != ContactMethod::Neighbourhood || scene.neighbourhoods() == nullptr)
-        return carry<MeshProxy>(scene, motions, settings, state, flags);
-    carry<NeighbourhoodWatch>(scene, motions, settings, state, flags);
-    if (!state.watch.touching)
-        state.placed = false;
+    if (comparisonIsReady(scene, settings)) {
+        ComparisonSolver::carry(scene, motions, settings, state, flags);
+        if (settings.contact == ContactMethod::Neighbourhood && !state.watch.touching)
+            state.placed = false;
+        return;
+    }
+    leaveComparison(scene, motions, state);
+    ProxySolver::carry(scene, motions, settings, state, flags);
 }
 
-/// The contact models that are there to be compared with the sweep. Out of line: the sweep pays one branch.
+/// The contact models that are there to be compared with the sweep. False where the tick is the sweep's after
+/// all: since they miss what they need, or one of them has just been switched off. Out of line: the sweep
+/// pays one branch.
 template <class Stopwatch>
-[[gnu::noinline]] void touchOtherwise(const HapticScene& scene, const HapticSettings& settings,
+[[gnu::noinline]] bool touchOtherwise(const HapticScene& scene, const HapticSettings& settings,
                                       const TickInput& input, DeviceState& state, HapticOutput& output,
                                       Stopwatch& stopwatch) {
-    if (settings.contact == ContactMethod::Rays && scene.hasRays())
-        return settings.precision == Precision::Single
-                   ? touchAsPlanned<RayProxy<float>>(scene, settings, input, state, output, stopwatch)
-                   : touchAsPlanned<RayProxy<double>>(scene, settings, input, state, output, stopwatch);
-    if (settings.contact == ContactMethod::Neighbourhood && scene.neighbourhoods() != nullptr)
-        return touchAsPlanned<NeighbourhoodWatch>(scene, settings, input, state, output, stopwatch);
-    touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
-    output.flags = output.flags | TickFlag::NeighbourhoodMissing;
+    if (comparisonIsReady(scene, settings)) {
+        touch<ComparisonSolver>(scene, settings, input, state, output, stopwatch);
+        return true;
+    }
+    leaveComparison(scene, input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects, state);
+    if (settings.contact != ContactMethod::Sweep)
+        output.flags = output.flags | TickFlag::NeighbourhoodMissing;
+    return false;
 }
 
 /// The contact model that the settings name.
 template <class Stopwatch>
 void touchWithModel(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                     DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
-    if (settings.contact == ContactMethod::Sweep)
-        return touchAsPlanned<MeshProxy>(scene, settings, input, state, output, stopwatch);
-    touchOtherwise(scene, settings, input, state, output, stopwatch);
+    const bool sweep = settings.contact == ContactMethod::Sweep && !state.watch.touching;
+    if (!sweep && touchOtherwise(scene, settings, input, state, output, stopwatch))
+        return;
+    touch<ProxySolver>(scene, settings, input, state, output, stopwatch);
 }
 
 } // namespace

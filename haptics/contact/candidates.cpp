@@ -107,12 +107,17 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
         if (std::find(ignored_.begin(), end, index) != end)
             continue;
         bool fits = true;
+        const auto gatherFrom = [&](const Similarity* objectFromAnchor) {
+            if (objects[k]->shape != nullptr)
+                return shapes_.add(*objects[k]->shape, index, objectFromAnchor);
+            return gatherObject(*objects[k], index, objectFromAnchor, centre, radius);
+        };
         if (index == anchor) {
-            fits = gatherObject(*objects[k], index, nullptr, centre, radius);
+            fits = gatherFrom(nullptr);
         } else {
             const Similarity objectFromAnchor =
                 poses[k].workspaceFromObject.inverseTimes(workspaceFromAnchor);
-            fits = gatherObject(*objects[k], index, &objectFromAnchor, centre, radius);
+            fits = gatherFrom(&objectFromAnchor);
         }
         if (!fits) {
             invalidate();

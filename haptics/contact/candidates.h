@@ -1,11 +1,11 @@
 #pragma once
-// The triangles near the proxy: gathered once from its object's tree, reused by every move until the proxy
-// leaves the ball.
+// What is near the proxy: gathered once, reused by every move until the proxy leaves the ball.
 
 #include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 #include "haptics/contact/haptic_object.h"
 #include "haptics/contact/triangle.h"
+#include "haptics/shape/near_shapes.h"
 
 #include <glm/glm.hpp>
 
@@ -29,8 +29,8 @@ struct Candidate {
     Triangle triangle;     ///< frame of the anchor object, object units
 };
 
-/// Every triangle that meets the ball (centre, radius) is in `items`; those alone can stop a proxy that stays
-/// in it. Preallocated; gather neither allocates nor throws.
+/// Every triangle that meets the ball (centre, radius) is in `items`, every other shape in `shapes`; those
+/// alone can stop a proxy that stays in it. Preallocated; gather neither allocates nor throws.
 ///
 /// The distance from a triangle is a convex function of the place, so each evaluation (d and gradient g at q)
 /// bounds it from below everywhere: distance(p) >= d + g . (p - q). These half-spaces, kept side by side,
@@ -70,6 +70,7 @@ class CandidateCache {
     void invalidate() noexcept {
         valid_ = false;
         count_ = 0;
+        shapes_.clear();
     }
 
     /// How far the proxy may go from `p` along the unit vector `direction` and still know every triangle
@@ -89,6 +90,7 @@ class CandidateCache {
 
     [[nodiscard]] size_t count() const noexcept { return count_; }
     [[nodiscard]] double radius() const noexcept { return radius_; }
+    [[nodiscard]] const NearShapes& shapes() const noexcept { return shapes_; }
     [[nodiscard]] const Candidate& item(size_t i) const noexcept { return items_[i]; }
     /// Ready for distance queries. Most of a ball's triangles are never come near to, so each is prepared at
     /// its first use.
@@ -187,6 +189,7 @@ class CandidateCache {
     std::vector<Approach> approaches_;
     std::vector<TriangleTree::Near> found_; ///< of one object
     std::array<int, kMostIgnored> ignored_{};
+    NearShapes shapes_;
     size_t ignoredCount_ = 0;
     size_t count_ = 0;
     glm::dvec3 centre_{0.0};

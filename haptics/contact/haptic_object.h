@@ -7,6 +7,7 @@
 #include "haptics/contact/triangle.h"
 #include "haptics/contact/triangle_tree.h"
 #include "haptics/contact/vertex_gradients.h"
+#include "haptics/shape/shape.h"
 
 #include <glm/glm.hpp>
 
@@ -46,6 +47,9 @@ struct AttributeBytes {
 /// corners are turned over where the node mirrors, so that the winding always shows outwards.
 struct HapticObject {
     std::string name;
+    /// Its geometry where it is no mesh: then there is no vertex, no triangle and nothing that belongs to
+    /// them.
+    std::shared_ptr<const Shape> shape;
     int instance = -1;               ///< Scene::instances
     int material = 0;                ///< Scene::materials
     std::vector<glm::vec3> vertices; ///< welded, object frame; one spare entry for Embree's 16-byte reads

@@ -21,16 +21,16 @@ inline constexpr float kEmbreeReach = 1e18f;
 
 /// The first triangle of an object that the ray from + t * direction meets at near <= t <= far (near >= 0);
 /// object frame. Nothing where the ray begins beyond kEmbreeReach, as it does from the HIP to an object 1e-18
-/// of its size beside it: floats could not tell what it meets there. One rtcIntersect1 of Embree's, ROBUST
-/// and in float; inline, since the ray floor is nothing else. The object's rays are built. Safe on the servo
-/// thread.
+/// of its size beside it: floats could not tell what it meets there. A shape that is no mesh has no triangle.
+/// One rtcIntersect1 of Embree's, ROBUST and in float; inline, since the ray floor is nothing else. The
+/// object's rays are built. Safe on the servo thread.
 [[nodiscard]] inline std::optional<RayHit> castRay(const HapticObject& object, const glm::vec3& from,
                                                    const glm::vec3& direction, float near,
                                                    float far) noexcept {
     const auto within = [](const glm::vec3& v) {
         return std::abs(v.x) < kEmbreeReach && std::abs(v.y) < kEmbreeReach && std::abs(v.z) < kEmbreeReach;
     };
-    if (!within(from) || !within(direction) || !(near <= far))
+    if (!within(from) || !within(direction) || !(near <= far) || object.shape != nullptr)
         return std::nullopt;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

@@ -100,6 +100,8 @@ std::optional<uint32_t> crossings(const HapticObject& object, const glm::dvec3& 
 }
 
 bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept {
+    if (object.shape != nullptr)
+        return object.shape->contains(point);
     if (!object.closed || glm::length(point) > object.boundingRadius)
         return false;
     // Directions without a simple relation to the axes, so that no ray runs along a facet of a box.

@@ -2,8 +2,13 @@
 
 #include "haptics/contact/triangle.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/shape/near_shapes.h"
 
 #include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace touchstone {
 
@@ -38,6 +43,13 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
     for (size_t k = 0; k < scene.objects.size(); ++k) {
         const double start = within / motions[k].workspaceFromObject.scale;
         Nearest nearest{scene.objects[k].get(), motions[k].workspaceFromObject.inversePoint(point), start};
+        if (const Shape* shape = scene.objects[k]->shape.get()) {
+            std::array<FeatureDistance, NearShapes::kMostFeatures> found;
+            const size_t count = shape->near(nearest.point, start, found);
+            for (const FeatureDistance& d : std::span(found).first(count))
+                within = std::min(within, std::abs(d.distance) * motions[k].workspaceFromObject.scale);
+            continue;
+        }
         // Embree rounds to float: a ball a little wider loses nothing, the double distance decides.
         RTCPointQuery query{};
         query.x = static_cast<float>(nearest.point.x);

@@ -101,9 +101,9 @@ template <bool OneSided>
 
 double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move, double reach,
                  double limit) noexcept {
-    if (cache.anyOneSided())
-        return firstTouchOneSided(cache, p, move, reach, limit);
-    return firstTouch<false>(cache, p, move, reach, limit);
+    const double free = cache.anyOneSided() ? firstTouchOneSided(cache, p, move, reach, limit)
+                                            : firstTouch<false>(cache, p, move, reach, limit);
+    return cache.shapes().empty() ? free : cache.shapes().sweep(p, move, reach, free);
 }
 
 } // namespace touchstone

@@ -1,8 +1,7 @@
 #include "haptics/friction/friction.h"
 
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/friction/friction_law.h"
-#include "haptics/proxy/neighbourhood_watch.h"
-#include "haptics/proxy/ray_proxy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,48 +23,10 @@ FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
     return zillesLaw(input);
 }
 
-/// The nearest way to a place that the proxy held last: from there, where the model can be put anywhere.
-template <class Model>
-void startAt(const glm::dvec3& held, Model& proxy) {
-    proxy.placeAt(held);
-}
-void startAt(const glm::dvec3&, NeighbourhoodWatch&) {}
-
-/// The short way, from the place without friction over the facet that it lies on.
-bool slide(const glm::dvec3& goal, MeshProxy& proxy) {
-    return proxy.slideOnFacet(goal);
-}
-template <class Model>
-bool slide(const glm::dvec3&, Model&) {
-    return false;
-}
-
-/// True where the proxy may go back to the place that it held. A place that was on the surface is so no more
-/// where another object pushed the proxy there and left, or the radius changed.
-bool mayStay(const glm::dvec3& held, MeshProxy& proxy) {
-    return proxy.touchesAt(held);
-}
-template <class Model>
-bool mayStay(const glm::dvec3&, Model&) {
-    return true;
-}
-
-/// Back to a place where a solve ended; `hip` is what it was solved for. True where it is on the surface.
-bool goBack(const glm::dvec3& place, const glm::dvec3&, MeshProxy& proxy, const ProxyRest& rest) {
-    proxy.placeAt(place);
-    proxy.moveTowards(place);
-    return touches(rest);
-}
-template <class Model>
-bool goBack(const glm::dvec3&, const glm::dvec3& hip, Model& proxy, const ProxyRest&) {
-    proxy.moveTowards(hip);
-    return true;
-}
-
 /// Onto the surface at `goal`, a place on the chord between two places of the surface: below it where the
 /// surface bulges, above it, in the air, where it is hollow.
-template <class Model>
-bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Model& proxy,
+template <class Solver>
+bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Solver& proxy,
             const DeviceState& state, const ProxyRest& rest) {
     proxy.moveTowards(goal);
     if (!touches(rest))
@@ -76,32 +37,32 @@ bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Mo
 /// The proxy to the place of the surface at `stretch` from the one without friction. Wherever it ends is a
 /// place where a solve came down on the surface: what ends in the air, since the moves are used up or the way
 /// down goes past a rim, is not kept. A place in the air would hold the proxy there for as long as it sticks.
-template <class Model>
-void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec3& down, Model& proxy,
+template <class Solver>
+void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec3& down, Solver& proxy,
               DeviceState& state, const ProxyRest& rest) {
     // Where a wall stands between the last place and this one, or the surface bends sharply, it is met from
     // the frictionless side.
     constexpr double kNear = 0.1;
     const glm::dvec3 frictionless = state.frictionless;
-    if (slide(frictionless + stretch, proxy))
+    if (proxy.slideOnFacet(frictionless + stretch))
         return;
     const double tolerance = kNear * glm::length(stretch);
-    startAt(held, proxy);
+    proxy.startAt(held);
     if (settle(frictionless + stretch, down, tolerance, proxy, state, rest))
         return;
-    startAt(frictionless, proxy);
+    proxy.startAt(frictionless);
     if (settle(frictionless + stretch, down, tolerance, proxy, state, rest) || touches(rest))
         return;
     // The place without friction is in the air itself where the budget ended that solve.
     const glm::dvec3 hip = frictionless + down;
-    if (!goBack(frictionless, hip, proxy, rest) && !goBack(held, hip, proxy, rest))
-        goBack(frictionless, hip, proxy, rest);
+    if (!proxy.returnTo(frictionless, hip) && !proxy.returnTo(held, hip))
+        (void)proxy.returnTo(frictionless, hip);
 }
 
 } // namespace
 
-template <class Model>
-glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Model& proxy,
+template <class Solver>
+glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Solver& proxy,
                          DeviceState& state, ProxyRest& rest) noexcept {
     if (!cone.rough()) {
         state.friction = FrictionState::Free;
@@ -129,7 +90,7 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
                                                 .dynamicFriction = limit.dynamicFriction});
     state.friction = answer.state;
     const bool ownPlace = mode != FrictionMode::Ho;
-    if (answer.stays && ownPlace && mayStay(held, proxy)) {
+    if (answer.stays && ownPlace && proxy.touchesAt(held)) {
         proxy.placeAt(held);
         state.stictionPoint = held;
         return held - frictionless;
@@ -150,13 +111,9 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
     return got > asked ? std::sqrt(asked / got) * kept : kept;
 }
 
-template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, MeshProxy&,
+template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, ProxySolver&,
                                   DeviceState&, ProxyRest&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, NeighbourhoodWatch&,
-                                  DeviceState&, ProxyRest&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, RayProxy<double>&,
-                                  DeviceState&, ProxyRest&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, RayProxy<float>&,
+template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, ComparisonSolver&,
                                   DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

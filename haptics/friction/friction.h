@@ -4,7 +4,7 @@
 
 #include "haptics/friction/friction_cone.h"
 #include "haptics/haptic_settings.h"
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 
 #include <glm/glm.hpp>
 
@@ -14,10 +14,10 @@ namespace touchstone {
 /// where it stood at the end of the last tick (anchor frame). The proxy is moved by the solver from places
 /// where it stood before, so it stays on the surface and inside all planes; where it sticks it goes back to
 /// `held` to the last bit, so that nothing drifts. Returns the friction force over K (anchor units): the way
-/// from the frictionless place to the proxy, no longer than the law has it. Model: MeshProxy or
-/// NeighbourhoodWatch.
-template <class Model>
-glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Model& proxy,
+/// from the frictionless place to the proxy, no longer than the law has it. Solver: ProxySolver or
+/// ComparisonSolver.
+template <class Solver>
+glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Solver& proxy,
                          DeviceState& state, ProxyRest& rest) noexcept;
 
 } // namespace touchstone

@@ -21,9 +21,10 @@
 
 #include "haptics/proxy/carry.h"
 
+#include "haptics/contact/near_contacts.h"
 #include "haptics/contact/sweep.h"
 #include "haptics/contact/triangle.h"
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/proxy/sub_goal.h"
 #include "haptics/tick_flags.h"
 
@@ -67,9 +68,19 @@ class Carry {
     void run() noexcept;
 
   private:
+    /// What stopped a copy: a triangle, or a feature of a shape. Object frame.
     struct Struck {
-        size_t copy;
-        Triangle triangle; // object frame
+        size_t copy = 0;
+        Triangle triangle;
+        const Shape* shape = nullptr;
+        FeatureId feature = 0;
+
+        [[nodiscard]] FeatureDistance from(const glm::dvec3& place) const noexcept {
+            if (shape != nullptr)
+                return shape->distanceFrom(feature, place);
+            const TriangleDistance d = distanceTo(triangle, place);
+            return {.distance = d.distance, .gradient = d.gradient, .closest = d.closest};
+        }
     };
     static constexpr size_t kMaxStruck = 32;
 
@@ -153,12 +164,7 @@ bool Carry::blockedAt(size_t k, const glm::dvec3& place) noexcept {
     if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
                       std::span(scene_.boundingRadii).subspan(k, 1), 0, p, reach))
         return true;
-    for (size_t i = 0; i < cache.count(); ++i) {
-        const double distance = distanceTo(cache.triangle(i), p).distance;
-        if (distance < reach && !cache.passes(i, p, distance, reach))
-            return true;
-    }
-    return false;
+    return nearestDistance(cache, p, reach, reach) < reach;
 }
 
 /// False when something was put where the proxy is.
@@ -212,7 +218,7 @@ void Carry::startStep(double from, double to) noexcept {
     struckCount_ = 0;
 }
 
-/// Remembers the triangles that stopped the copy.
+/// Remembers what stopped the copy.
 void Carry::note(size_t copy, const CarriedObject& object) noexcept {
     CandidateCache& cache = state_.carryCandidates;
     const double touching = object.reach - 0.4 * kCarryGap;
@@ -220,7 +226,12 @@ void Carry::note(size_t copy, const CarriedObject& object) noexcept {
         const double distance = distanceTo(cache.triangle(i), object.place).distance;
         if (struckCount_ < kMaxStruck && distance <= touching &&
             !cache.passes(i, object.place, distance, object.reach))
-            struck_[struckCount_++] = {copy, cache.triangle(i)};
+            struck_[struckCount_++] = {copy, cache.triangle(i), nullptr, 0};
+    });
+    const Shape* shape = scene_.objects[index(object.object)]->shape.get();
+    cache.shapes().eachNear(object.place, touching, [&](int, const FeatureDistance& d) {
+        if (struckCount_ < kMaxStruck)
+            struck_[struckCount_++] = {copy, {}, shape, d.feature};
     });
 }
 
@@ -275,7 +286,7 @@ bool Carry::nearestPlace(std::span<const CarriedObject> copies, const glm::dvec3
                          glm::dvec3& place) noexcept {
     for (size_t i = 0; i < struckCount_; ++i) {
         const CarriedObject& copy = copies[struck_[i].copy];
-        const TriangleDistance d = distanceTo(struck_[i].triangle, copy.place);
+        const FeatureDistance d = struck_[i].from(copy.place);
         const glm::dvec3 normal = copy.pose.direction(d.gradient);
         const double lack = copy.pose.scale * (copy.reach - d.distance);
         planes_[i] = {normal, (lack + glm::dot(normal, copy.pose.point(copy.place) - wish)) / unit};

@@ -31,6 +31,10 @@ bool isNear(const HapticObject& object, const Similarity& pose, const glm::dvec3
     const double reach = kModelReach / pose.scale;
     if (glm::length(point) > object.boundingRadius + reach)
         return false;
+    if (object.shape != nullptr) {
+        std::array<FeatureDistance, 1> any;
+        return object.shape->near(point, reach, any) > 0;
+    }
     std::array<TriangleTree::Near, kLookedAt> boxes;
     const size_t count = object.tree.collect(glm::vec3(point), static_cast<float>(reach), boxes);
     if (count == boxes.size())
@@ -39,6 +43,12 @@ bool isNear(const HapticObject& object, const Similarity& pose, const glm::dvec3
                        [&](const TriangleTree::Near& box) {
                            return distanceTo(triangleOf(object, box.triangle), point).distance < reach;
                        });
+}
+
+/// The same question as firstCrossing's of a shape: a ball without radius that goes past all of it.
+bool meets(const HapticObject& object, const glm::dvec3& from, const glm::dvec3& along) noexcept {
+    const double far = glm::length(from) + object.boundingRadius;
+    return object.shape->sweep(from, 0.0, far * along, 1.0) < 1.0;
 }
 
 /// A surface with both sides that the ray from `hip` along the unit vector `direction` meets.
@@ -51,7 +61,8 @@ bool isBarred(const HapticScene& scene, ObjectMotions motions, const glm::dvec3&
         const Similarity& pose = motions[k].workspaceFromObject;
         const glm::dvec3 from = pose.inversePoint(hip);
         const glm::dvec3 along = glm::conjugate(pose.rotation) * direction;
-        if (firstCrossing(object, from, along, false))
+        if (object.shape != nullptr ? meets(object, from, along)
+                                    : firstCrossing(object, from, along, false).has_value())
             return true;
     }
     return false;

@@ -38,16 +38,4 @@ bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& stat
     return true;
 }
 
-bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip, MeshProxy& proxy,
-                DeviceState& state) noexcept {
-    if (state.placed)
-        return true;
-    proxy.placeAt(motions[static_cast<size_t>(state.anchor)].workspaceFromObject.inversePoint(hip));
-    if (!mayBegin(scene, motions, state))
-        return false;
-    state.candidates.invalidate(); // what moved since the last try is not where it was gathered
-    state.placed = proxy.isFree();
-    return state.placed;
-}
-
 } // namespace touchstone

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/math/object_motion.h"
+#include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
-#include "haptics/proxy/mesh_proxy.h"
 
 #include <glm/glm.hpp>
 
@@ -19,10 +19,5 @@ namespace touchstone {
 /// Whether touch may begin at state.hip: not inside a closed object and, where the hand must leave the model
 /// first, clear of it (clear_of_model.h); then it need not leave any more.
 [[nodiscard]] bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
-
-/// Starts touch: the proxy may be placed only in free space. False while touch may not begin or the HIP is
-/// within the proxy's radius of a surface: it feels nothing until it has left. True from then on.
-[[nodiscard]] bool placeProxy(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip,
-                              MeshProxy& proxy, DeviceState& state) noexcept;
 
 } // namespace touchstone

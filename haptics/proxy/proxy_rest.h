@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/proxy/sub_goal.h"
+#include "haptics/shape/contact.h"
 
 #include <glm/glm.hpp>
 
@@ -8,16 +9,6 @@
 #include <cstdint>
 
 namespace touchstone {
-
-/// A place where the proxy touches.
-struct Contact {
-    glm::dvec3 normal{0.0}; ///< unit, from the surface to the proxy's centre, anchor frame
-    glm::dvec3 point{0.0};  ///< on the surface, anchor frame
-    double gap = 0.0;       ///< distance minus radius, object units
-    int object = -1;        ///< HapticScene::objects
-    uint32_t triangle = 0;  ///< of that object
-    uint32_t candidate = 0; ///< of the cache, until it gathers anew; MeshProxy's
-};
 
 /// Where the last move ended and what holds the proxy there.
 struct ProxyRest {

@@ -35,6 +35,8 @@ void add(Hash64& hash, const Similarity& s) {
 }
 
 void add(Hash64& hash, const HapticObject& object) {
+    if (object.shape != nullptr)
+        hash.add(object.shape->identity());
     hash.addBytes(object.vertices);
     hash.addBytes(object.indices);
     hash.addBytes(object.sourceIndices);

@@ -42,7 +42,8 @@ void HapticScene::buildRays(const Progress& progress) const {
         all += object->triangleCount();
     for (const auto& object : objects) {
         const size_t after = done + object->triangleCount();
-        object->rays.build(*object, progress.part(share(done, all), share(after, all)));
+        if (object->shape == nullptr)
+            object->rays.build(*object, progress.part(share(done, all), share(after, all)));
         done = after;
     }
     hasRays_.store(true, std::memory_order_release);

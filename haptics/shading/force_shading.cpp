@@ -1,8 +1,7 @@
 #include "haptics/shading/force_shading.h"
 
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/contact/triangle.h"
-#include "haptics/proxy/neighbourhood_watch.h"
-#include "haptics/proxy/ray_proxy.h"
 #include "haptics/shading/tilt_limit.h"
 #include "haptics/tick_flags.h"
 
@@ -82,6 +81,15 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
     return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
 }
 
+/// The vertex normals of a triangle at a point of it; object frame, not of unit length.
+glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point) {
+    const size_t first = 3 * static_cast<size_t>(triangle);
+    const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
+    return weight.x * glm::dvec3(object.normals[object.sourceIndices[first]]) +
+           weight.y * glm::dvec3(object.normals[object.sourceIndices[first + 1]]) +
+           weight.z * glm::dvec3(object.normals[object.sourceIndices[first + 2]]);
+}
+
 /// True where stage 3 came to rest where the first goal said, held by that facet alone: then a round would
 /// find just that goal again.
 bool cameTo(const FirstGoal& first, const DeviceState& state, const ProxyRest& rest) {
@@ -89,7 +97,7 @@ bool cameTo(const FirstGoal& first, const DeviceState& state, const ProxyRest& r
         return false;
     const Contact& contact = rest.contacts[0];
     const glm::dvec3 off = state.proxy - first.place;
-    return contact.object == state.shadedObject && contact.triangle == state.shadedTriangle &&
+    return contact.object == state.shadedObject && contact.feature == state.shadedTriangle &&
            glm::dot(off, off) <= kGoalTolerance * kGoalTolerance;
 }
 
@@ -99,7 +107,7 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
                               const Contact& contact, double tiltLimit) noexcept {
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
-    if (object.smooth[contact.triangle] == 0)
+    if (object.shape == nullptr && object.smooth[contact.feature] == 0)
         return contact.normal;
     glm::dvec3 point = contact.point, trueNormal = contact.normal;
     Similarity anchorFromObject;
@@ -111,11 +119,8 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
         point = back.point(point);
         trueNormal = back.direction(trueNormal);
     }
-    const size_t first = 3 * static_cast<size_t>(contact.triangle);
-    const glm::dvec3 weight = barycentric(triangleOf(object, contact.triangle), point);
-    glm::dvec3 normal = weight.x * glm::dvec3(object.normals[object.sourceIndices[first]]) +
-                        weight.y * glm::dvec3(object.normals[object.sourceIndices[first + 1]]) +
-                        weight.z * glm::dvec3(object.normals[object.sourceIndices[first + 2]]);
+    glm::dvec3 normal = object.shape != nullptr ? object.shape->shadingNormal(contact.feature, point)
+                                                : interpolated(object, contact.feature, point);
     const double length = glm::length(normal);
     if (!(length > 1e-6))
         return contact.normal; // opposed vertex normals cancel: no shading to be had
@@ -135,9 +140,9 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
     return foreign ? anchorFromObject.direction(normal) : normal;
 }
 
-template <class Model>
+template <class Solver>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                  const glm::dvec3& hip, const FirstGoal& first, Model& proxy, DeviceState& state,
+                  const glm::dvec3& hip, const FirstGoal& first, Solver& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept {
     if (cameTo(first, state, rest)) {
         state.shadedTurn = smallTurn(first.normal - state.shadedNormal);
@@ -158,7 +163,7 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
         if (shaded.facet >= 0) {
             const Contact& facet = rest.contacts[static_cast<size_t>(shaded.facet)];
             state.shadedObject = facet.object;
-            state.shadedTriangle = facet.triangle;
+            state.shadedTriangle = facet.feature;
         }
         state.shadedTurn = wasShaded && shaded.held ? smallTurn(shaded.normal - lastNormal) : glm::dvec3(0.0);
         if (!shaded.tilted && lastGoal == hip)
@@ -192,12 +197,8 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
 }
 
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const FirstGoal&, MeshProxy&, DeviceState&, ProxyRest&) noexcept;
+                           const FirstGoal&, ProxySolver&, DeviceState&, ProxyRest&) noexcept;
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const FirstGoal&, NeighbourhoodWatch&, DeviceState&, ProxyRest&) noexcept;
-template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const FirstGoal&, RayProxy<double>&, DeviceState&, ProxyRest&) noexcept;
-template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const FirstGoal&, RayProxy<float>&, DeviceState&, ProxyRest&) noexcept;
+                           const FirstGoal&, ComparisonSolver&, DeviceState&, ProxyRest&) noexcept;
 
 } // namespace touchstone

@@ -4,7 +4,7 @@
 
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_settings.h"
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/shading/first_goal.h"
 #include "haptics/shading/shading_mode.h"
 
@@ -23,10 +23,10 @@ namespace touchstone {
 /// planes through the proxy; then the proxy moves to the point of the true surface nearest to that goal;
 /// repeated with the normals of the new place until the goal stands still. There the force is along the
 /// interpolated normal of the final proxy. `first`: what stage 3 went for. Sets ShadingNotConverged.
-/// Model: MeshProxy or NeighbourhoodWatch.
-template <class Model>
+/// Solver: ProxySolver or ComparisonSolver.
+template <class Solver>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                  const glm::dvec3& hip, const FirstGoal& first, Model& proxy, DeviceState& state,
+                  const glm::dvec3& hip, const FirstGoal& first, Solver& proxy, DeviceState& state,
                   ProxyRest& rest) noexcept;
 
 } // namespace touchstone

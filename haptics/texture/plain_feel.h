@@ -1,5 +1,5 @@
 #pragma once
-// Stage 5 where nothing is to be read: a material of two numbers.
+// Stage 5, the part that is constant over a material: all of it where nothing is to be read.
 
 #include "haptics/plain_tick.h"
 #include "haptics/texture/surface_feel.h"
@@ -29,26 +29,42 @@ namespace touchstone {
            (material.dampingMap.map.empty() || !(settings.damping > 0.0));
 }
 
-/// What readSurface would then give, into a `feel` as constructed. Arguments as there.
+/// N/m that the settings or the material specify, as maps and attributes scale it.
+[[nodiscard]] inline double specifiedStiffness(const HapticMaterialData& material,
+                                               const HapticSettings& settings,
+                                               const DeviceLimits& limits) noexcept {
+    return settings.stiffness > 0.0         ? settings.stiffness
+           : std::isnan(material.stiffness) ? limits.recommendedStiffness
+                                            : material.stiffness;
+}
+
+/// What a device bears of it. What a person sets explicitly is not cut.
+[[nodiscard]] inline double bornStiffness(double stiffness, const HapticSettings& settings,
+                                          const DeviceLimits& limits) noexcept {
+    return settings.stiffness > 0.0 ? stiffness : std::min(stiffness, limits.maxStiffness);
+}
+
+/// N·s/m that the settings or the material specify.
+[[nodiscard]] inline double specifiedDamping(const HapticMaterialData& material,
+                                             const HapticSettings& settings) noexcept {
+    return settings.damping >= 0.0 ? settings.damping : std::isnan(material.damping) ? 0.0 : material.damping;
+}
+
+/// What every contact begins with, into a `feel` as constructed; readSurface adds what varies. Arguments as
+/// there.
 inline void plainFeel(const HapticScene& scene, const HapticSettings& settings, const Contact& contact,
                       const glm::dvec3& normal, double depth, SurfaceFeel& feel) noexcept {
     const int index = scene.objects[static_cast<size_t>(contact.object)]->material;
     const HapticMaterialData& material = scene.materials[static_cast<size_t>(index)];
     feel.touching = true;
     feel.object = contact.object;
-    feel.triangle = contact.triangle;
+    feel.triangle = contact.feature;
     feel.material = index;
     feel.normal = feel.textured = normal;
     feel.depth = depth;
-    // What a person asks for in so many words is not cut to the device's limit.
-    feel.stiffness = settings.stiffness > 0.0
-                         ? settings.stiffness
-                         : std::min(std::isnan(material.stiffness) ? scene.limits.recommendedStiffness
-                                                                   : material.stiffness,
-                                    scene.limits.maxStiffness);
-    feel.damping = settings.damping >= 0.0        ? settings.damping
-                   : std::isnan(material.damping) ? 0.0
-                                                  : material.damping;
+    feel.stiffness =
+        bornStiffness(specifiedStiffness(material, settings, scene.limits), settings, scene.limits);
+    feel.damping = specifiedDamping(material, settings);
 }
 
 /// Stage 7 for it: a spring and a damper that never pulls. Zero where nothing is touched.

@@ -15,13 +15,16 @@ namespace {
 /// 87 degrees: the steepest slope that Minsky's force climbs.
 constexpr double kLeastCosine = 0.05;
 
-/// The touched triangle at `point`, both in the object's frame.
+/// What is touched at `point`, of a mesh the triangle; both in the object's frame.
 SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& material, uint32_t triangle,
                    const glm::dvec3& point, const glm::dvec3& towardsProxy) {
-    SurfaceSpot spot{.object = object,
-                     .material = material,
-                     .triangle = triangleOf(object, triangle),
-                     .first = 3 * static_cast<size_t>(triangle)};
+    SurfaceSpot spot{object, material, {}};
+    if (object.shape != nullptr) { // no attributes, no coordinates: the material alone says what is felt
+        spot.normal = towardsProxy;
+        return spot;
+    }
+    spot.triangle = triangleOf(object, triangle);
+    spot.first = 3 * static_cast<size_t>(triangle);
     spot.weight = barycentric(spot.triangle, point);
     spot.backside = glm::dot(spot.triangle.normal, towardsProxy) < 0.0;
     spot.normal = spot.backside ? -towardsProxy : towardsProxy;
@@ -42,12 +45,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
     const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
-    feel.touching = true;
-    feel.object = contact.object;
-    feel.triangle = contact.triangle;
-    feel.material = object.material;
-    feel.normal = feel.textured = normal;
-    feel.depth = depth;
+    plainFeel(scene, settings, contact, normal, depth, feel);
 
     const Similarity& workspaceFromObject = motions[k].workspaceFromObject;
     Similarity anchorFromObject;
@@ -60,7 +58,7 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
         point = objectFromAnchor.point(point);
         towardsProxy = objectFromAnchor.direction(towardsProxy);
     }
-    SurfaceSpot spot = spotOf(object, material, contact.triangle, point, towardsProxy);
+    SurfaceSpot spot = spotOf(object, material, contact.feature, point, towardsProxy);
     spot.smooth = shadingMode(settings, material) != ShadingMode::Off;
     spot.workspacePerObject = workspaceFromObject.scale;
     if (settings.textureGradient == TextureGradient::Precomputed && scene.slopes() != nullptr)
@@ -73,17 +71,12 @@ SurfaceFeel readSurface(const HapticScene& scene, ObjectMotions motions, const H
             return 1.0;
         return f.min + (f.max - f.min) * maps.scalar(f.map);
     };
-    const double given = settings.stiffness > 0.0         ? settings.stiffness
-                         : std::isnan(material.stiffness) ? scene.limits.recommendedStiffness
-                                                          : material.stiffness;
-    feel.stiffness = (settings.stiffness > 0.0 ? given : spot.attribute(object.stiffness, given)) *
-                     factor(material.stiffnessMap);
-    if (!(settings.stiffness > 0.0)) // what a person asks for in so many words is not cut
-        feel.stiffness = std::min(feel.stiffness, scene.limits.maxStiffness);
-    const double damping = settings.damping >= 0.0        ? settings.damping
-                           : std::isnan(material.damping) ? 0.0
-                                                          : material.damping;
-    feel.damping = (settings.damping >= 0.0 ? damping : spot.attribute(object.damping, damping)) *
+    const double stiffness = specifiedStiffness(material, settings, scene.limits);
+    feel.stiffness =
+        bornStiffness((settings.stiffness > 0.0 ? stiffness : spot.attribute(object.stiffness, stiffness)) *
+                          factor(material.stiffnessMap),
+                      settings, scene.limits);
+    feel.damping = (settings.damping >= 0.0 ? feel.damping : spot.attribute(object.damping, feel.damping)) *
                    factor(material.dampingMap);
     if (settings.friction != FrictionMode::Off) {
         // A vertex attribute is the static coefficient; the dynamic one keeps its ratio to it.

@@ -3,7 +3,7 @@
 
 #include "haptics/haptic_scene.h"
 #include "haptics/haptic_settings.h"
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 
 #include <glm/glm.hpp>
 

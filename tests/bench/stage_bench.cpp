@@ -8,7 +8,7 @@
 #include "haptics/contact/ray_floor.h"
 #include "haptics/force/spring_damper.h"
 #include "haptics/haptic_step.h"
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/shading/force_shading.h"
 #include "haptics/texture/surface_feel.h"
 #include "study/timing/bench_scene.h"
@@ -210,8 +210,7 @@ void solves(benchmark::State& state, Hand& hand) {
         const glm::dvec3& hip = hand.next();
         hand.state.travel = hip - hand.state.hip;
         hand.state.hip = hip;
-        MeshProxy proxy(hand.scene(), hand.motions(), hand.settings().proxyRadius,
-                        hand.settings().iterationBudget, hand.state, hand.state.rest);
+        ProxySolver proxy(hand.scene(), hand.motions(), hand.settings(), hand.state, hand.state.rest);
         proxy.moveTowards(frame.inversePoint(hip));
         iterations += hand.state.rest.iterations;
     });

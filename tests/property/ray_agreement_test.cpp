@@ -2,7 +2,7 @@
 // whether it ever slips through. The same hands as the sweep's exactness.
 
 #include "engine/scene/scene_loader.h"
-#include "haptics/proxy/ray_path.h"
+#include "haptics/comparison/ray_path.h"
 #include "study/truth/oracle.h"
 #include "tests/property/exact_cases.h"
 #include "tests/property/hard_shapes.h"

@@ -1,6 +1,6 @@
 #include "tests/stability/hard_case.h"
 
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "study/truth/oracle.h"
 #include "tests/stability/case_table.h"
 #include "tests/support/corner.h"

@@ -212,7 +212,7 @@ TEST(ForceShading, OnAnEdgeAndAtAVertexTheNormalIsAsThePaperHasIt) {
                 nb(object.normals[object.sourceIndices[j]]);
             Contact contact;
             contact.object = 0;
-            contact.triangle = t;
+            contact.feature = t;
             contact.normal = glm::normalize(na + nb);
             const auto at = [&](const glm::dvec3& p) {
                 contact.point = p;

@@ -2,7 +2,7 @@
 // hard, and at its limits (the table in docs/architecture.md).
 
 #include "engine/math/few_planes.h"
-#include "haptics/proxy/ray_path.h"
+#include "haptics/comparison/ray_path.h"
 #include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/strokes.h"

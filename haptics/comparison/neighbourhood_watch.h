@@ -23,16 +23,13 @@ namespace touchstone {
 /// WalkBudget::kMostTests triangles a tick, beyond which it stops where it is and sets BudgetReached.
 class NeighbourhoodWatch {
   public:
-    /// `scene` must have its neighbourhoods built. `radius` is not used.
-    NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, double radius, int budget,
-                       DeviceState& state, ProxyRest& rest) noexcept;
+    /// `scene` must have its neighbourhoods built.
+    NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, int budget, DeviceState& state,
+                       ProxyRest& rest) noexcept;
 
-    /// Puts the proxy at the HIP in the first tick; false while the HIP is inside a closed object.
-    [[nodiscard]] bool place() noexcept;
-
-    /// Finds out whether the HIP of this tick is held, by which object, and where: a new contact, the one
-    /// that there is, or none any more. What is touched first becomes the anchor.
-    void query() noexcept;
+    /// Puts the proxy at the HIP in the first tick, and queries; false while the HIP is inside a closed
+    /// object.
+    [[nodiscard]] bool begin() noexcept;
 
     /// Walks to the place of the surface nearest to `goal` (anchor frame) that a walk downhill finds; without
     /// contact the proxy goes to `goal`.
@@ -43,6 +40,9 @@ class NeighbourhoodWatch {
     void placeAt(const glm::dvec3& p) noexcept;
 
   private:
+    /// Finds out whether the HIP of this tick is held, by which object, and where: a new contact, the one
+    /// that there is, or none any more. What is touched first becomes the anchor.
+    void query() noexcept;
     bool acquire(const glm::dvec3& start, bool left) noexcept;
     bool strikes(size_t object, const glm::dvec3& from, const glm::dvec3& to, double skip, double& first,
                  SurfacePlace& place) noexcept;

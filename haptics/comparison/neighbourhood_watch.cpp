@@ -1,8 +1,8 @@
-#include "haptics/proxy/neighbourhood_watch.h"
+#include "haptics/comparison/neighbourhood_watch.h"
 
 #include "haptics/contact/ray.h"
-#include "haptics/proxy/mesh_proxy.h"
 #include "haptics/proxy/place_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ double floatMargin(const glm::dvec3& p) {
 
 } // namespace
 
-NeighbourhoodWatch::NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, double, int budget,
+NeighbourhoodWatch::NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, int budget,
                                        DeviceState& state, ProxyRest& rest) noexcept
     : scene_(scene), motions_(motions), state_(state),
       rest_(rest), budget_{.steps = static_cast<uint32_t>(budget)}, steps_(budget_.steps),
@@ -36,12 +36,15 @@ SurfaceView NeighbourhoodWatch::surface(size_t object) const noexcept {
     return {*scene_.objects[object], (*scene_.neighbourhoods())[object]};
 }
 
-bool NeighbourhoodWatch::place() noexcept {
+bool NeighbourhoodWatch::begin() noexcept {
+    if (!state_.placed) {
+        state_.proxy =
+            motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
+        state_.watch.touching = false;
+        state_.placed = mayBegin(scene_, motions_, state_);
+    }
     if (state_.placed)
-        return true;
-    state_.proxy = motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
-    state_.watch.touching = false;
-    state_.placed = mayBegin(scene_, motions_, state_);
+        query();
     return state_.placed;
 }
 
@@ -176,7 +179,7 @@ void NeighbourhoodWatch::report(const glm::dvec3& goal) noexcept {
                          .point = here.point,
                          .gap = kContactGap,
                          .object = state_.anchor,
-                         .triangle = triangleOf(here.side)};
+                         .feature = triangleOf(here.side)};
     rest_.planes[0] = {normal, 0.0};
     rest_.hold = SubGoal{};
     rest_.hold.count = 1;
@@ -206,8 +209,10 @@ void leaveWatch(const HapticScene& scene, ObjectMotions motions, DeviceState& st
     const SurfaceView view{object, (*neighbourhoods)[anchor]};
     state.proxy += kWeldTolerance * object.diagonal * view.normal(state.watch.side);
     state.candidates.invalidate();
-    MeshProxy proxy(scene, motions, 0.0, 1, state, state.rest);
-    state.placed = proxy.isFree();
+    HapticSettings point;
+    point.proxyRadius = 0.0;
+    point.iterationBudget = 1;
+    state.placed = ProxySolver(scene, motions, point, state, state.rest).isFree();
 }
 
 } // namespace touchstone

@@ -1,4 +1,4 @@
-#include "haptics/proxy/ray_path.h"
+#include "haptics/comparison/ray_path.h"
 
 #include "haptics/contact/ray.h"
 

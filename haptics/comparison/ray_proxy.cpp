@@ -1,8 +1,8 @@
-#include "haptics/proxy/ray_proxy.h"
+#include "haptics/comparison/ray_proxy.h"
 
 #include "engine/math/few_planes.h"
-#include "haptics/proxy/mesh_proxy.h"
 #include "haptics/proxy/place_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
@@ -31,8 +31,8 @@ constexpr uint32_t kRaysPerMove = 4;
 } // namespace
 
 template <class Real>
-RayProxy<Real>::RayProxy(const HapticScene& scene, ObjectMotions motions, double, int budget,
-                         DeviceState& state, ProxyRest& rest) noexcept
+RayProxy<Real>::RayProxy(const HapticScene& scene, ObjectMotions motions, int budget, DeviceState& state,
+                         ProxyRest& rest) noexcept
     : scene_(scene), motions_(motions), state_(state), rest_(rest), moves_(static_cast<uint32_t>(budget)),
       rays_(kRaysPerMove * static_cast<uint32_t>(budget)), path_(scene, motions, state.anchor),
       at_(state.proxy) {
@@ -43,7 +43,7 @@ RayProxy<Real>::RayProxy(const HapticScene& scene, ObjectMotions motions, double
 }
 
 template <class Real>
-bool RayProxy<Real>::place() noexcept {
+bool RayProxy<Real>::begin() noexcept {
     if (state_.placed)
         return true;
     placeAt(motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip));
@@ -163,7 +163,7 @@ void RayProxy<Real>::report() noexcept {
                              .point = glm::dvec3(foot),
                              .gap = kContactGap,
                              .object = plane.object,
-                             .triangle = plane.triangle};
+                             .feature = plane.triangle};
         rest_.planes[k] = {rest_.contacts[k].normal, 0.0};
         rest_.hold.active[k] = static_cast<int>(k);
         rest_.hold.multiplier[k] = static_cast<double>(multiplier_[i]);

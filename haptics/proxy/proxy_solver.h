@@ -1,10 +1,12 @@
 #pragma once
-// The mesh contact model: stages 2 and 3. A sphere moves towards a goal and never through a surface
-// (Ruspini, Kolarov and Khatib [000, 001]).
+// The virtual proxy: stages 2 and 3. A sphere moves towards a goal and never through a surface (Ruspini,
+// Kolarov and Khatib [000, 001]). It knows planes, distances and times of impact; what gives them is in
+// haptics/shape and haptics/contact.
 
 #include "engine/math/object_motion.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/haptic_settings.h"
 #include "haptics/proxy/proxy_rest.h"
 
 #include <glm/glm.hpp>
@@ -17,15 +19,7 @@
 
 namespace touchstone {
 
-/// Lengths of the solve in object units (the object's longest side is 1).
-/// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding
-/// (1e-16), far below anything felt (0.2 pm on a fitted model).
-inline constexpr double kContactGap = 1e-12;
-/// A triangle nearer than the radius and this is touched. Hardly more than the gap itself: a triangle that is
-/// merely near has a tilted distance gradient (a coplanar neighbour seen from beside its edge by as much as
-/// sqrt(2 reach / radius)), and its plane would hold a proxy that nothing holds.
-inline constexpr double kContactReach = 2.0 * kContactGap;
-/// A move shorter than this ends the solve.
+/// A move shorter than this ends the solve, object units.
 inline constexpr double kRestLength = 1e-11;
 
 /// The same after `moves` in this tick: from the eighth on it doubles with every second one, up to 1e-8 (1 nm
@@ -48,12 +42,25 @@ inline constexpr double kRestLength = 1e-11;
 
 /// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object
 /// units.
-class MeshProxy {
+class ProxySolver {
   public:
-    /// `radius`: workspace metres. The proxy is at least half the weld tolerance of the anchor: a god-object
-    /// that closes every crack narrower than that, and knows its side of a sheet by standing on it.
-    MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
-              ProxyRest& rest) noexcept;
+    /// `settings.proxyRadius`: workspace metres. The proxy is at least half the weld tolerance of the anchor:
+    /// a god-object that closes every crack narrower than that, and knows its side of a sheet by standing on
+    /// it.
+    ProxySolver(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                DeviceState& state, ProxyRest& rest) noexcept;
+
+    /// What the objects' own motion does to the proxy before the solve (carry.h).
+    static void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                      DeviceState& state, uint32_t& flags) noexcept;
+
+    /// Places the proxy in the first tick, in free space only. False while touch may not begin
+    /// (place_proxy.h) or the HIP is within the proxy's radius of a surface: it feels nothing until it has
+    /// left. True from then on.
+    [[nodiscard]] bool begin() noexcept;
+
+    /// The solve without friction goes on from `place`, where it ended in the last tick.
+    void resumeFrom(const glm::dvec3& place) noexcept { placeAt(place); }
 
     /// Moves the proxy to a rest: the point nearest to `goal` (anchor frame) that can be reached by sliding
     /// without leaving free space. Anytime: every move ends in free space and none goes away from the goal.
@@ -77,6 +84,12 @@ class MeshProxy {
     /// the proxy stood before, or where isFree says so.
     void placeAt(const glm::dvec3& p) noexcept;
 
+    /// The way to a place that a solve looks for starts at `p`, where the proxy stood before.
+    void startAt(const glm::dvec3& p) noexcept { placeAt(p); }
+
+    /// Back to a place where a solve ended. True where it is on the surface.
+    [[nodiscard]] bool returnTo(const glm::dvec3& p, const glm::dvec3& hip) noexcept;
+
     /// True when the proxy, where it stands, is farther than its radius from every surface.
     [[nodiscard]] bool isFree() noexcept;
 
@@ -94,14 +107,10 @@ class MeshProxy {
     void measureClearance() noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts(double within = kContactReach) noexcept;
-    void findOneSidedContacts(double within) noexcept;
-    template <bool OneSided>
-    void collectContacts(double within) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
     bool gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept;
-    bool isTouching(CandidateCache& cache, const glm::dvec3& p, double least) const noexcept;
     void buildPlanes() noexcept;
 
     const HapticScene& scene_;

@@ -1,10 +1,14 @@
-#include "haptics/proxy/mesh_proxy.h"
+#include "haptics/proxy/proxy_solver.h"
 
+#include "haptics/contact/near_contacts.h"
 #include "haptics/contact/sweep.h"
+#include "haptics/proxy/carry.h"
+#include "haptics/proxy/place_proxy.h"
 #include "haptics/tick_flags.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace touchstone {
@@ -36,10 +40,10 @@ constexpr double kStrikeGap = 0.5 * kContactGap;
 
 } // namespace
 
-MeshProxy::MeshProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget,
-                     DeviceState& state, ProxyRest& rest) noexcept
-    : scene_(scene), motions_(motions), workspaceRadius_(radius), budget_(budget), state_(state),
-      rest_(rest) {
+ProxySolver::ProxySolver(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                         DeviceState& state, ProxyRest& rest) noexcept
+    : scene_(scene), motions_(motions), workspaceRadius_(settings.proxyRadius),
+      budget_(settings.iterationBudget), state_(state), rest_(rest) {
     rest_.contactCount = 0;
     rest_.iterations = 0;
     rest_.flags = 0;
@@ -48,7 +52,23 @@ MeshProxy::MeshProxy(const HapticScene& scene, ObjectMotions motions, double rad
     adoptAnchor(state_.anchor);
 }
 
-void MeshProxy::adoptAnchor(int anchor) noexcept {
+void ProxySolver::carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                        DeviceState& state, uint32_t& flags) noexcept {
+    carryProxy(scene, motions, settings.proxyRadius, state, flags);
+}
+
+bool ProxySolver::begin() noexcept {
+    if (state_.placed)
+        return true;
+    placeAt(motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip));
+    if (!mayBegin(scene_, motions_, state_))
+        return false;
+    state_.candidates.invalidate(); // what moved since the last try is not where it was gathered
+    state_.placed = isFree();
+    return state_.placed;
+}
+
+void ProxySolver::adoptAnchor(int anchor) noexcept {
     state_.anchor = anchor;
     const auto index = static_cast<size_t>(anchor);
     const double skin = 0.5 * kWeldTolerance * scene_.objects[index]->diagonal;
@@ -65,7 +85,7 @@ void MeshProxy::adoptAnchor(int anchor) noexcept {
 
 /// A radius that grew counts from when the proxy is clear by it wherever it may go back to: until then what
 /// is nearer lifts it and is not taken for something that it comes through.
-void MeshProxy::measureClearance() noexcept {
+void ProxySolver::measureClearance() noexcept {
     CandidateCache& cache = state_.candidates;
     double stands = cache.standing();
     if (stands < radius_ && cover(glm::dvec3(0.0), 0.0) >= 0.0) {
@@ -81,7 +101,7 @@ void MeshProxy::measureClearance() noexcept {
         std::min(stands, radius_) * motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.scale;
 }
 
-bool MeshProxy::gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept {
+bool ProxySolver::gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept {
     const auto within = [&](auto bounds) {
         return cache.gather(scene_.objects, motions_, bounds, state_.anchor, centre, radius);
     };
@@ -93,7 +113,7 @@ bool MeshProxy::gather(CandidateCache& cache, const glm::dvec3& centre, double r
 /// Makes sure that all triangles are known that a proxy moving by `length` along `direction` could touch; or
 /// as far as the hand went in this tick, if that is less: a long move that a near surface ends must not
 /// gather what lies behind it. How far they are known; negative if not even the place itself can be covered.
-double MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
+double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
     const double reach = radius_ + kContactReach;
     const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
     // A ball gathered in flight may hold thousands of triangles: of little use to a hand that has landed.
@@ -137,58 +157,18 @@ double MeshProxy::cover(const glm::dvec3& direction, double length) noexcept {
     return -1.0;
 }
 
-template <bool OneSided>
-[[gnu::always_inline]] inline void MeshProxy::collectContacts(double within) noexcept {
-    CandidateCache& cache = state_.candidates;
-    const double reach = radius_ + within;
-    rest_.contactCount = 0;
-    cache.eachNear(state_.proxy, reach, [&](size_t i) {
-        const TriangleDistance d = cache.measure(i, state_.proxy);
-        if (d.distance > reach)
-            return;
-        if constexpr (OneSided)
-            if (cache.passes(i, state_.proxy, d.distance, radius_))
-                return;
-        // Coplanar neighbours say the same: one plane for both. The same to the last bits, no less: a
-        // neighbour seen from beside its edge may lean by 1e-8, and what leans is a plane of its own or it
-        // blocks unseen.
-        bool known = false;
-        for (uint32_t k = 0; k < rest_.contactCount && !known; ++k) {
-            const Contact& other = rest_.contacts[k];
-            const glm::dvec3 lean = other.normal - d.gradient;
-            known = glm::dot(lean, lean) < 1e-30 &&
-                    std::abs(other.gap - (d.distance - radius_)) < 0.25 * kContactGap;
-        }
-        if (known)
-            return;
-        if (rest_.contactCount == ProxyRest::kMaxContacts) {
-            rest_.flags = rest_.flags | TickFlag::CandidatesFull;
-            return;
-        }
-        rest_.contacts[rest_.contactCount++] = {.normal = d.gradient,
-                                                .point = d.closest,
-                                                .gap = d.distance - radius_,
-                                                .object = cache.item(i).object,
-                                                .triangle = cache.item(i).index,
-                                                .candidate = static_cast<uint32_t>(i)};
-    });
-}
-
-/// Out of line: what a scene does not call for must not take registers from what it does.
-[[gnu::noinline]] void MeshProxy::findOneSidedContacts(double within) noexcept {
-    collectContacts<true>(within);
-}
-
-void MeshProxy::findContacts(double within) noexcept {
-    if (state_.candidates.anyOneSided())
-        return findOneSidedContacts(within);
-    collectContacts<false>(within);
+void ProxySolver::findContacts(double within) noexcept {
+    bool full = false;
+    rest_.contactCount =
+        touchstone::findContacts(state_.candidates, state_.proxy, radius_, within, rest_.contacts, full);
+    if (full)
+        rest_.flags = rest_.flags | TickFlag::CandidatesFull;
 }
 
 /// A plane lets the proxy down to the resting gap, or lifts it there after a strike. Around that gap it asks
 /// for nothing: between planes a millionth of a degree apart, a wish of a tenth of the gap would be a tenth
 /// of a micrometre of sideways motion, in every move another one.
-void MeshProxy::buildPlanes() noexcept {
+void ProxySolver::buildPlanes() noexcept {
     constexpr double kContent = 0.3 * kContactGap;
     for (uint32_t i = 0; i < rest_.contactCount; ++i) {
         const double lack = kContactGap - rest_.contacts[i].gap;
@@ -196,29 +176,29 @@ void MeshProxy::buildPlanes() noexcept {
     }
 }
 
-void MeshProxy::placeAt(const glm::dvec3& p) noexcept {
+void ProxySolver::placeAt(const glm::dvec3& p) noexcept {
     state_.candidates.moved();
     state_.proxy = p;
 }
 
-bool MeshProxy::isFree() noexcept {
-    if (cover(glm::dvec3(0.0), 0.0) < 0.0)
-        return false;
-    CandidateCache& cache = state_.candidates;
-    for (size_t i = 0; i < cache.count(); ++i) {
-        const double distance = distanceTo(cache.triangle(i), state_.proxy).distance;
-        if (distance < radius_ + kContactGap && !cache.passes(i, state_.proxy, distance, radius_))
-            return false;
-    }
-    return true;
+bool ProxySolver::isFree() noexcept {
+    const double reach = radius_ + kContactGap;
+    return cover(glm::dvec3(0.0), 0.0) >= 0.0 &&
+           nearestDistance(state_.candidates, state_.proxy, reach, radius_) >= reach;
 }
 
-void MeshProxy::moveTowards(const glm::dvec3& goal) noexcept {
+bool ProxySolver::returnTo(const glm::dvec3& p, const glm::dvec3&) noexcept {
+    placeAt(p);
+    moveTowards(p);
+    return touches(rest_);
+}
+
+void ProxySolver::moveTowards(const glm::dvec3& goal) noexcept {
     while (advance(goal)) {
     }
 }
 
-void MeshProxy::dropTowards(const glm::dvec3& goal) noexcept {
+void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
     const int budget =
         std::exchange(budget_, std::max(budget_, static_cast<int>(rest_.iterations) + kDropMoves));
     bool landed = false;
@@ -233,40 +213,32 @@ void MeshProxy::dropTowards(const glm::dvec3& goal) noexcept {
     rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
 }
 
-bool MeshProxy::touchesAt(const glm::dvec3& p) noexcept {
+bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
     // Against rounding, where other objects carry the proxy along.
     constexpr double kRounding = 1e-9;
     CandidateCache& cache = state_.candidates;
     const double reach = radius_ + kContactReach, least = radius_ - kRounding;
     // Mostly a facet that the proxy touches now holds it there, too.
     for (uint32_t i = 0; i < rest_.contactCount; ++i) {
-        if (rest_.contacts[i].candidate >= cache.count())
+        const double distance = distanceOf(cache, rest_.contacts[i], p);
+        if (std::isinf(distance))
             break;
-        const double distance = distanceTo(cache.triangle(rest_.contacts[i].candidate), p).distance;
         if (distance <= reach)
             return distance >= least;
     }
+    const auto holds = [&](CandidateCache& covering) {
+        const double nearest = nearestDistance(covering, p, reach, radius_);
+        return nearest >= least && nearest <= reach;
+    };
     if (cache.freeAlong(p, glm::dvec3(0.0), reach) >= 0.0)
-        return isTouching(cache, p, least);
+        return holds(cache);
     // Too far from the proxy for its ball: a small one about p.
     CandidateCache& about = state_.carryCandidates;
     about.standsClearBy(cache.standing());
-    return gather(about, p, reach) && isTouching(about, p, least);
+    return gather(about, p, reach) && holds(about);
 }
 
-/// The same for a ball of candidates that covers p; `least`: nearer than this is inside.
-bool MeshProxy::isTouching(CandidateCache& cache, const glm::dvec3& p, double least) const noexcept {
-    const double reach = radius_ + kContactReach;
-    double nearest = INFINITY;
-    cache.eachNear(p, reach, [&](size_t i) {
-        const double distance = distanceTo(cache.triangle(i), p).distance;
-        if (distance <= reach && !cache.passes(i, p, distance, radius_))
-            nearest = std::min(nearest, distance);
-    });
-    return nearest >= least && nearest <= reach;
-}
-
-bool MeshProxy::slideOnFacet(const glm::dvec3& goal) noexcept {
+bool ProxySolver::slideOnFacet(const glm::dvec3& goal) noexcept {
     if (rest_.contactCount != 1)
         return false;
     Contact& contact = rest_.contacts[0];
@@ -283,19 +255,45 @@ bool MeshProxy::slideOnFacet(const glm::dvec3& goal) noexcept {
     if (cache.freeAlong(state_.proxy, move / length, radius_ + kContactReach) < length ||
         freeShare(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
         return false;
-    const TriangleDistance there = distanceTo(cache.triangle(contact.candidate), state_.proxy + move);
-    if (!there.face || there.distance > radius_ + kContactReach)
+    if (!moveOnFacet(cache, state_.proxy + move, radius_, contact))
         return false;
     state_.proxy += move;
     cache.moved();
-    contact.point = there.closest;
-    contact.gap = there.distance - radius_;
     ++rest_.iterations;
     return true;
 }
 
+/// Moves the proxy straight to a place; if that is not wholly free, not at all.
+bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
+    const glm::dvec3 move = to - state_.proxy;
+    const double length = glm::length(move);
+    CandidateCache& cache = state_.candidates;
+    if (!(length > 0.0) || cache.freeAlong(state_.proxy, move / length, radius_ + kContactReach) < length ||
+        freeShare(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
+        return false;
+    placeAt(to);
+    return true;
+}
+
+/// Around the edge or corner that alone holds the proxy: both legs of rollOver are one move, made whole or
+/// not at all.
+bool ProxySolver::rollAround(const glm::dvec3& goal) noexcept {
+    if (rest_.hold.count != 1)
+        return false;
+    const glm::dvec3 start = state_.proxy;
+    const std::optional<RollOver> way =
+        rollOver(state_.candidates, rest_.contacts[static_cast<size_t>(rest_.hold.active[0])], start, goal,
+                 radius_ + kContactGap);
+    if (!way || !goStraight(way->corner))
+        return false;
+    if (goStraight(way->end))
+        return true;
+    placeAt(start);
+    return false;
+}
+
 /// One move: false when the proxy rests, or may not or cannot go on; then contacts and hold are up to date.
-bool MeshProxy::advance(const glm::dvec3& goal) noexcept {
+bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
     findContacts();

@@ -3,10 +3,10 @@
 // rays. Made to be compared with the sweep, which is the better one.
 
 #include "engine/math/object_motion.h"
+#include "haptics/comparison/ray_path.h"
 #include "haptics/device_state.h"
 #include "haptics/haptic_scene.h"
 #include "haptics/proxy/proxy_rest.h"
-#include "haptics/proxy/ray_path.h"
 
 #include <glm/glm.hpp>
 
@@ -28,12 +28,11 @@ template <class Real>
 class RayProxy {
   public:
     using Vec = glm::vec<3, Real>;
-    /// `radius` is not used.
-    RayProxy(const HapticScene& scene, ObjectMotions motions, double radius, int budget, DeviceState& state,
+    RayProxy(const HapticScene& scene, ObjectMotions motions, int budget, DeviceState& state,
              ProxyRest& rest) noexcept;
 
     /// Puts the god-object at the HIP in the first tick; false while the HIP is inside a closed object.
-    [[nodiscard]] bool place() noexcept;
+    [[nodiscard]] bool begin() noexcept;
 
     /// Moves the god-object to a rest (`goal`: anchor frame). Anytime: every move ends in free space.
     void moveTowards(const glm::dvec3& goal) noexcept { solve(goal, true); }

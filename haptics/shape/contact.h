@@ -1,0 +1,33 @@
+#pragma once
+// Where the proxy touches, and the tolerances of touching. Lengths in object units (the object's longest side
+// is 1).
+
+#include "haptics/shape/shape.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace touchstone {
+
+/// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding
+/// (1e-16), far below anything felt (0.2 pm on a fitted model).
+inline constexpr double kContactGap = 1e-12;
+/// A feature nearer than the radius and this is touched. Hardly more than the gap itself: a triangle that is
+/// merely near has a tilted distance gradient (a coplanar neighbour seen from beside its edge by as much as
+/// sqrt(2 reach / radius)), and its plane would hold a proxy that nothing holds.
+inline constexpr double kContactReach = 2.0 * kContactGap;
+
+struct Contact {
+    /// Of a contact that is no triangle of the cache.
+    static constexpr uint32_t kNoCandidate = UINT32_MAX;
+
+    glm::dvec3 normal{0.0};            ///< unit, from the surface to the proxy's centre, anchor frame
+    glm::dvec3 point{0.0};             ///< on the surface, anchor frame
+    double gap = 0.0;                  ///< distance minus radius, object units
+    int object = -1;                   ///< HapticScene::objects
+    FeatureId feature = 0;             ///< of that object's shape; of a mesh the triangle
+    uint32_t candidate = kNoCandidate; ///< of the CandidateCache, until it gathers again
+};
+
+} // namespace touchstone

@@ -1,0 +1,63 @@
+#pragma once
+// The shapes near the proxy that are no meshes, in the frame of the anchor.
+
+#include "engine/math/similarity.h"
+#include "haptics/shape/shape.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace touchstone {
+
+/// Gathered with the triangles of the meshes (CandidateCache). No allocation.
+class NearShapes {
+  public:
+    /// Shapes near one place, and features of each: beyond them the ball is made smaller, or the farther ones
+    /// are not felt.
+    static constexpr size_t kMostShapes = 16, kMostFeatures = 16;
+
+    void clear() noexcept { count_ = 0; }
+    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+    /// False when there are too many. `objectFromAnchor`: null for the anchor itself.
+    [[nodiscard]] bool add(const Shape& shape, int object, const Similarity* objectFromAnchor) noexcept;
+
+    /// Shape::sweep of a ball of `reach` at p over all of them. Anchor frame.
+    [[nodiscard]] double sweep(const glm::dvec3& p, const glm::dvec3& move, double reach,
+                               double limit) const noexcept;
+
+    /// The distance of the nearest within `reach` of p; INFINITY where there is none.
+    [[nodiscard]] double nearest(const glm::dvec3& p, double reach) const noexcept;
+
+    /// Calls visit(object, feature distance in the anchor frame) for every feature within `reach` of p.
+    template <class Visit>
+    void eachNear(const glm::dvec3& p, double reach, const Visit& visit) const noexcept {
+        std::array<FeatureDistance, kMostFeatures> found;
+        for (size_t i = 0; i < count_; ++i) {
+            const Placed& placed = placed_[i];
+            const double scale = placed.objectFromAnchor.scale;
+            const size_t count = placed.shape->near(placed.objectFromAnchor.point(p), scale * reach, found);
+            for (size_t k = 0; k < count; ++k)
+                visit(placed.object, inAnchor(placed, found[k]));
+        }
+    }
+
+  private:
+    struct Placed {
+        const Shape* shape = nullptr;
+        int object = -1; ///< HapticScene::objects
+        Similarity objectFromAnchor, anchorFromObject;
+    };
+    static FeatureDistance inAnchor(const Placed& placed, const FeatureDistance& d) noexcept {
+        const Similarity& anchorFromObject = placed.anchorFromObject;
+        return {anchorFromObject.scale * d.distance, anchorFromObject.direction(d.gradient),
+                anchorFromObject.point(d.closest), d.feature};
+    }
+
+    std::array<Placed, kMostShapes> placed_;
+    size_t count_ = 0;
+};
+
+} // namespace touchstone

@@ -1,0 +1,136 @@
+// A shape that is no mesh, beside a mesh and in contact with the hand at once: a ball that rests in a floor.
+
+#include "haptics/scene/shape_object.h"
+#include "tests/support/corner.h"
+#include "tests/support/touch_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace touchstone::test {
+namespace {
+
+/// About the origin, radius 1/2.
+class Ball final : public Shape {
+  public:
+    double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
+                 double limit) const noexcept override {
+        const double reach = 0.5 + radius, a = glm::dot(motion, motion), b = glm::dot(centre, motion),
+                     c = glm::dot(centre, centre) - reach * reach;
+        if (!(b < -1e-13 * std::sqrt(a) * reach) || b * b < a * c)
+            return limit;
+        return std::clamp(c / (-b + std::sqrt(b * b - a * c)), 0.0, limit);
+    }
+    size_t near(const glm::dvec3& point, double reach,
+                std::span<FeatureDistance> found) const noexcept override {
+        found[0] = distanceFrom(0, point);
+        return found[0].distance <= reach ? 1 : 0;
+    }
+    FeatureDistance distanceFrom(FeatureId, const glm::dvec3& point) const noexcept override {
+        const double length = glm::length(point);
+        const glm::dvec3 out = length > 0.0 ? point / length : glm::dvec3(0, 1, 0);
+        return {.distance = length - 0.5, .gradient = out, .closest = 0.5 * out};
+    }
+    glm::dvec3 shadingNormal(FeatureId, const glm::dvec3&) const noexcept override { return glm::dvec3(0.0); }
+    bool contains(const glm::dvec3& point) const noexcept override { return glm::length(point) < 0.5; }
+    double boundingRadius() const noexcept override { return 0.5; }
+    uint64_t identity() const noexcept override { return 0x62616c6c; }
+};
+
+constexpr double kRadius = kCornerRadius, kBall = 0.05, kFloorStiffness = 300.0, kBallStiffness = 900.0;
+
+/// The floor of a corner scene with the ball's centre at `centre` (workspace m).
+struct FloorAndBall : TouchBench {
+    glm::dvec3 centre;
+    double floor; ///< m, height of the floor
+    explicit FloorAndBall(const glm::dvec3& at)
+        : TouchBench(cornerScene({{.normal = {0, 1, 0}, .stiffness = kFloorStiffness}}), cornerSettings()),
+          centre(at) {
+        floor = cornerOf(*scene).offsets[0];
+        const std::shared_ptr<HapticScene> both = copyOf(*scene);
+        both->materials.push_back(both->materials[0]);
+        both->materials[1].stiffness = kBallStiffness;
+        addShape(*both, "ball", std::make_shared<Ball>(), 1, poseAt(at));
+        scene = both;
+    }
+    static Similarity poseAt(const glm::dvec3& at) { return {2.0 * kBall, {1, 0, 0, 0}, at}; }
+
+    /// Where the proxy is nearest to `hip`, and the elastic force there.
+    void closedForm(const glm::dvec3& hip, glm::dvec3& place, glm::dvec3& force, int& planes) const {
+        const glm::dvec3 up(0, 1, 0), onFloor(hip.x, floor + kRadius, hip.z);
+        const glm::dvec3 onBall = centre + (kBall + kRadius) * glm::normalize(hip - centre);
+        const double floorDepth = floor + kRadius - hip.y,
+                     ballDepth = kBall + kRadius - glm::distance(hip, centre);
+        place = hip;
+        planes = floorDepth > 0.0 || ballDepth > 0.0 ? 1 : 0;
+        if (floorDepth > 0.0 && glm::distance(onFloor, centre) >= kBall + kRadius)
+            place = onFloor;
+        else if (ballDepth > 0.0 && onBall.y >= floor + kRadius)
+            place = onBall;
+        else if (planes > 0) {
+            planes = 2;
+            const double below = centre.y - floor - kRadius;
+            const glm::dvec3 out = glm::normalize(glm::dvec3(hip.x - centre.x, 0, hip.z - centre.z));
+            place =
+                centre - below * up + std::sqrt((kBall + kRadius) * (kBall + kRadius) - below * below) * out;
+        }
+        const glm::dvec3 offset = place - hip, away = glm::normalize(place - centre);
+        const std::vector<double> load =
+            planes == 2 ? coefficients({up, away}, offset) : std::vector<double>{};
+        force = planes == 2       ? kFloorStiffness * load[0] * up + kBallStiffness * load[1] * away
+                : place == onBall ? kBallStiffness * offset
+                                  : kFloorStiffness * offset;
+    }
+};
+
+TEST(Shape, AMeshAndAShapeAreTouchedAtOnceAsTheClosedFormSays) {
+    FloorAndBall bench({0.01, 0.03, -0.02});
+    const double groove = std::sqrt(kBall * kBall - 0.03 * 0.03);
+    std::array<int, 3> held{};
+    double off = 0.0, wrong = 0.0;
+    const auto at = [&](int i) {
+        const double turn = 2e-4 * 3.14159265 * i;
+        return bench.centre +
+               (groove + 0.004 * std::sin(7.0 * turn)) * glm::dvec3(std::cos(turn), 0, std::sin(turn)) +
+               glm::dvec3(0, 0.0005 + 0.003 * std::sin(11.0 * turn) - 0.03, 0);
+    };
+    bench.step({0.2, 0.1, 0.0});
+    bench.moveTo(at(0) + glm::dvec3(0, 0.01, 0), 0.2);
+    bench.moveTo(at(0), 0.1);
+    for (int i = 0; i <= 10000; ++i) {
+        const HapticOutput& out = bench.step(at(i));
+        glm::dvec3 place, force;
+        int planes = 0;
+        bench.closedForm(out.hip, place, force, planes);
+        ++held[static_cast<size_t>(planes)];
+        off = std::max(off, glm::distance(out.proxy, place));
+        wrong = std::max(wrong, glm::distance(out.force, force));
+    }
+    EXPECT_LT(off, 1e-9);
+    EXPECT_LT(wrong, 1e-6);
+    for (const int ticks : held)
+        EXPECT_GT(ticks, 500);
+    printf("floor and ball: %.2g m and %.2g N off the closed form; %d ticks in contact with both\n", off,
+           wrong, held[2]);
+}
+
+TEST(Shape, AShapeThatMovesIntoAStillHandPushesItAsTheClosedFormSays) {
+    FloorAndBall bench({0.0, 0.2, 0.0});
+    bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+    bench.step({0.01, 0.02, 0.0});
+    for (int i = 1; i <= 1500; ++i) {
+        const glm::dvec3 centre(0.0, 0.2 - 1e-4 * i, 0.0);
+        bench.motions[1] = {FloorAndBall::poseAt(centre), bench.motions[1].workspaceFromObject, false};
+        const HapticOutput& out = bench.step({0.01, 0.02, 0.0});
+        bench.centre = centre;
+        glm::dvec3 place, force;
+        int planes = 0;
+        bench.closedForm(out.hip, place, force, planes);
+        EXPECT_LT(glm::distance(out.proxy, place), 1e-8) << i;
+    }
+    EXPECT_GT(bench.output.force.x, 1.0);
+}
+
+} // namespace
+} // namespace touchstone::test
