@@ -15,6 +15,9 @@
 #include "haptics/texture/plain_feel.h"
 #include "haptics/texture/surface_feel.h"
 
+#include <type_traits>
+#include <variant>
+
 namespace touchstone {
 
 namespace {
@@ -146,13 +149,105 @@ void publishProxy(const Similarity& workspaceFromAnchor, const DeviceState& stat
 bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
     return kPlainTick || (scene.plan.plainFeel && !(settings.staticFriction > 0.0) &&
                           !(scene.plan.dampingMap && settings.damping > 0.0) &&
-                          !anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings));
+                          (!scene.plan.anyShading ||
+                           (!anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings))));
+}
+
+/// What stages 5 to 7 give.
+struct Felt {
+    glm::dvec3 force{0.0}; ///< N, anchor frame
+    double share = 1.0;    ///< of it that the device bears
+    int object = -1;       ///< HapticScene::objects; -1: nothing is touched
+};
+
+/// Stages 5 to 7, and of 4 what turns the force alone. `held`: where the proxy was when the tick began;
+/// `hip`: anchor frame. Effects: some material of the scene calls for more than a constant stiffness and
+/// damping, or several contacts are felt apart.
+template <bool Effects, class Solver, class Stopwatch>
+Felt feelSurface(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                 ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& hold,
+                 Solver& proxy, DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
+    ProxyRest& rest = state.rest;
+    const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
+    const bool oneFacet = Effects && anyOneFacet(scene.plan, settings);
+    const bool asOne = !Effects || hold.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, hold);
+    FeltShape shape;
+    if (rest.contactCount > 0 && asOne)
+        shape = feltShape(scene, motions, settings, oneFacet, hip, state, hold);
+    stopwatch.lap(Stage::Shading);
+
+    // 5. Surface: what material, attributes and maps are under each contact.
+    glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
+    SurfaceFeel feel;
+    [[maybe_unused]] std::conditional_t<Effects, SeveralContacts, std::monostate> several;
+    bool plain = true;
+    if (rest.contactCount > 0) {
+        const Contact& contact = loadedContact(rest, hold);
+        const double depth = shape.depth * workspaceFromAnchor.scale;
+        plain = !Effects || (asOne && feelsPlain(materialOf(scene, contact), settings));
+        if (plain)
+            plainFeel(scene, settings, contact, shape.normal, depth, feel);
+        else if (asOne)
+            feelTexture(scene, motions, settings, state, contact, shape.normal, depth, velocity, input.dt,
+                        feel);
+        else if constexpr (Effects)
+            feelSeveral(scene, motions, settings, state, hold, state.proxy - hip, workspaceFromAnchor.scale,
+                        velocity, output.zoom, input.dt, feel, several);
+    }
+    if (feel.tiltCompressed)
+        output.flags = output.flags | TickFlag::TiltCompressed;
+    publishContact(workspaceFromAnchor, rest, feel, output);
+    if (output.zoom > 1.0)
+        velocity /= output.zoom;
+    stopwatch.lap(Stage::Texture);
+
+    // 6. Friction: the proxy held back inside the cones.
+    [[maybe_unused]] glm::dvec3 stretch(0.0);
+    if constexpr (!Effects) {
+        state.friction = FrictionState::Free;
+    } else if (!plain || state.friction != FrictionState::Free) {
+        if (asOne)
+            several.cone = FrictionCone(feel, velocity, workspaceFromAnchor.scale);
+        stretch = workspaceFromAnchor.scale *
+                  applyFriction(settings.friction, several.cone, held, proxy, state, rest);
+    }
+    stopwatch.lap(Stage::Friction);
+
+    proxy.settleClearance();
+
+    // 7. Force.
+    glm::dvec3 force;
+    if (plain)
+        force = plainForce(feel, velocity);
+    else if constexpr (Effects)
+        force = asOne ? springDamperForce(feel, stretch, several.cone.viscousForce(), velocity)
+                      : several.force + several.cone.stiffness() * stretch + several.cone.viscousForce();
+    const double share =
+        output.zoom > 1.0 && asOne ? bearableShare(feel.stiffness, output.zoom, settings, scene.limits) : 1.0;
+    return {force, share, feel.touching ? feel.object : -1};
+}
+
+/// Out of line: what a scene does not call for must not take registers from what it does.
+template <class... Arguments>
+[[gnu::noinline]] Felt feelEffects(Arguments&&... arguments) {
+    return feelSurface<true>(arguments...);
+}
+
+/// Stages 3 and 4 where two-pass shading moves the proxy. Out of line as all that a scene may not call for.
+template <class Solver, class Stopwatch>
+[[gnu::noinline]] void solveShaded(const HapticScene& scene, ObjectMotions motions,
+                                   const HapticSettings& settings, const glm::dvec3& hip, double travel,
+                                   Solver& proxy, DeviceState& state, Stopwatch& stopwatch) {
+    const FirstGoal first = firstGoal(scene, settings, state, hip, travel);
+    proxy.moveTowards(first.goal);
+    stopwatch.lap(Stage::Proxy);
+    shadeTwoPass(scene, motions, settings, hip, first, proxy, state, state.rest);
 }
 
 /// Stages 2 to 7 for a hand whose place is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
 template <class Solver, class Stopwatch>
-void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-           DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
+[[gnu::noinline]] void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                             DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
     const bool effects = !callsForNoEffect(scene, settings);
 
@@ -178,83 +273,33 @@ void touch(const HapticScene& scene, const HapticSettings& settings, const TickI
         proxy.resumeFrom(state.frictionless);
     stopwatch.lap(Stage::Contact);
 
-    // 3. Proxy solve: as near to the goal as free space allows.
-    const bool shading = effects && anyTwoPass(scene.plan, settings);
-    FirstGoal first{.goal = hip};
-    if (shading)
-        first = firstGoal(scene, settings, state, hip, glm::length(state.travel) / workspaceFromAnchor.scale);
-    if (!shading)
+    // 3. Proxy solve: as near to the goal as free space allows; and 4. force shading: the same solve against
+    // the interpolated planes.
+    if (effects && anyTwoPass(scene.plan, settings)) {
+        solveShaded(scene, motions, settings, hip, glm::length(state.travel) / workspaceFromAnchor.scale,
+                    proxy, state, stopwatch);
+    } else {
         state.shaded = false; // what was felt before it was switched off is no place to start from again
-    proxy.moveTowards(first.goal);
-    stopwatch.lap(Stage::Proxy);
-
-    // 4. Force shading: the same solve against the interpolated planes.
-    if (shading)
-        shadeTwoPass(scene, motions, settings, hip, first, proxy, state, rest);
+        proxy.moveTowards(hip);
+        stopwatch.lap(Stage::Proxy);
+    }
     const SubGoal& hold = state.shaded ? rest.shadedHold : rest.hold;
-    const bool oneFacet = effects && anyOneFacet(scene.plan, settings);
-    const bool asOne = hold.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, hold);
-    FeltShape shape;
-    if (rest.contactCount > 0 && asOne)
-        shape = feltShape(scene, motions, settings, oneFacet, hip, state, hold);
-    stopwatch.lap(Stage::Shading);
 
-    // 5. Surface: what material, attributes and maps are under each contact.
-    glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
-    SurfaceFeel feel;
-    SeveralContacts several;
-    bool plain = true;
-    if (rest.contactCount > 0) {
-        const Contact& contact = loadedContact(rest, hold);
-        const double depth = shape.depth * workspaceFromAnchor.scale;
-        plain = asOne && (!effects || feelsPlain(materialOf(scene, contact), settings));
-        if (plain)
-            plainFeel(scene, settings, contact, shape.normal, depth, feel);
-        else if (asOne)
-            feelTexture(scene, motions, settings, state, contact, shape.normal, depth, velocity, input.dt,
-                        feel);
-        else
-            feelSeveral(scene, motions, settings, state, hold, state.proxy - hip, workspaceFromAnchor.scale,
-                        velocity, output.zoom, input.dt, feel, several);
-    }
-    if (feel.tiltCompressed)
-        output.flags = output.flags | TickFlag::TiltCompressed;
-    publishContact(workspaceFromAnchor, rest, feel, output);
+    // 5. to 7. Surface, friction, force.
+    const bool varied = effects || (hold.count > 1 && !feltAsOne(scene, settings, false, rest, hold));
+    const Felt felt = varied ? feelEffects(scene, settings, input, motions, hip, held, hold, proxy, state,
+                                           output, stopwatch)
+                             : feelSurface<false>(scene, settings, input, motions, hip, held, hold, proxy,
+                                                  state, output, stopwatch);
+    output.force = workspaceFromAnchor.direction(felt.force);
     if (output.zoom > 1.0)
-        velocity /= output.zoom;
-    stopwatch.lap(Stage::Texture);
-
-    // 6. Friction: the proxy held back inside the cones.
-    glm::dvec3 stretch(0.0);
-    if (!effects)
-        state.friction = FrictionState::Free;
-    else if (!plain || state.friction != FrictionState::Free) {
-        if (asOne)
-            several.cone = FrictionCone(feel, velocity, workspaceFromAnchor.scale);
-        stretch = workspaceFromAnchor.scale *
-                  applyFriction(settings.friction, several.cone, held, proxy, state, rest);
-    }
-    stopwatch.lap(Stage::Friction);
-
-    proxy.settleClearance();
-
-    // 7. Force.
-    glm::dvec3 force;
-    if (plain)
-        force = plainForce(feel, velocity);
-    else if (asOne)
-        force = springDamperForce(feel, stretch, several.cone.viscousForce(), velocity);
-    else
-        force = several.force + several.cone.stiffness() * stretch + several.cone.viscousForce();
-    output.force = workspaceFromAnchor.direction(force);
-    if (output.zoom > 1.0 && asOne)
-        output.force *= bearableShare(feel.stiffness, output.zoom, settings, scene.limits);
+        output.force *= felt.share;
     output.flags |= rest.flags;
     publishProxy(workspaceFromAnchor, state, rest, output);
     // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
     // tick can hold feels nothing until the hand is in the open again.
-    if (feel.touching && !input.objects.empty())
-        changeAnchor(state, motions, feel.object);
+    if (felt.object >= 0 && !input.objects.empty())
+        changeAnchor(state, motions, felt.object);
     if (rest.contactCount == 0 && has(rest.flags, TickFlag::CandidatesFull))
         state.placed = false;
     stopwatch.lap(Stage::Force);

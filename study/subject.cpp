@@ -3,6 +3,7 @@
 #include "assets/shapes.h"
 #include "devices/stroke_path.h"
 #include "engine/core/error.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/scene_loader.h"
 
 #include <algorithm>
@@ -217,7 +218,7 @@ Subject loadSubject(const std::filesystem::path& file, const std::string& name) 
     subject.bench.stroke = [path, speed = stroke.speed](double metres, double) {
         return path->position(metres / speed); // comes down by itself
     };
-    if (!scene->animations.empty())
+    if (playedAnimation(*scene) != nullptr)
         subject.notes.emplace_back("what moves stays in rest pose: so it has a truth");
     return subject;
 }

@@ -2,6 +2,8 @@
 
 #include "haptics/tick_flags.h"
 
+#include <algorithm>
+
 namespace touchstone {
 
 namespace {
@@ -38,6 +40,10 @@ void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) noex
 } // namespace
 
 bool comparisonIsReady(const HapticScene& scene, const HapticSettings& settings) noexcept {
+    // They would let the hand into a shape, and the sweep would push it out when it takes over.
+    const auto isShape = [](const auto& object) { return object->shape != nullptr; };
+    if (settings.contact != ContactMethod::Sweep && std::ranges::any_of(scene.objects, isShape))
+        return false;
     switch (settings.contact) {
     case ContactMethod::Rays:
         return scene.hasRays();

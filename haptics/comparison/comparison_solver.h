@@ -13,7 +13,8 @@
 
 namespace touchstone {
 
-/// True where `settings` name one of them and `scene` has what it needs: else the tick is ProxySolver's.
+/// True where `settings` name one of them and `scene` has what it needs, and meshes only: else the tick is
+/// ProxySolver's.
 [[nodiscard]] bool comparisonIsReady(const HapticScene& scene, const HapticSettings& settings) noexcept;
 
 /// One device in one tick, solved by the model that the settings name. They know the triangles of meshes and

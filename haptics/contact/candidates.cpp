@@ -109,7 +109,7 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
         bool fits = true;
         const auto gatherFrom = [&](const Similarity* objectFromAnchor) {
             if (objects[k]->shape != nullptr)
-                return shapes_.add(*objects[k]->shape, index, objectFromAnchor);
+                return shapes_.add(*objects[k]->shape, index, objectFromAnchor, centre, radius);
             return gatherObject(*objects[k], index, objectFromAnchor, centre, radius);
         };
         if (index == anchor) {

@@ -56,9 +56,10 @@ template <bool OneSided>
 
 [[gnu::noinline]] void addShapes(const NearShapes& shapes, const glm::dvec3& p, double radius, double within,
                                  Found& found) noexcept {
-    shapes.eachNear(p, radius + within, [&](int object, const FeatureDistance& d) {
+    const bool all = shapes.eachNear(p, radius + within, [&](int object, const FeatureDistance& d) {
         found.add(d.gradient, d.closest, d.distance - radius, object, d.feature, Contact::kNoCandidate);
     });
+    found.full |= !all;
 }
 
 /// A goal nearer to the triangle than this has no direction from it, object units.
@@ -82,7 +83,7 @@ uint32_t findContacts(CandidateCache& cache, const glm::dvec3& p, double radius,
 }
 
 double nearestDistance(CandidateCache& cache, const glm::dvec3& p, double reach, double radius) noexcept {
-    double nearest = cache.shapes().nearest(p, reach);
+    double nearest = cache.shapes().empty() ? INFINITY : cache.shapes().nearest(p, reach);
     cache.eachNear(p, reach, [&](size_t i) {
         const double distance = distanceTo(cache.triangle(i), p).distance;
         if (distance <= reach && !cache.passes(i, p, distance, radius))

@@ -3,7 +3,9 @@
 #include "haptics/contact/ray_walk.h"
 #include "haptics/contact/triangle.h"
 #include "haptics/haptic_scene.h"
+#include "haptics/shape/contact.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +20,15 @@ struct ObjectHit {
 
 std::optional<ObjectHit> hitObject(const HapticObject& object, const glm::dvec3& from,
                                    const glm::dvec3& direction) noexcept {
+    if (const Shape* shape = object.shape.get()) { // a ball without radius
+        const double far = glm::length(from) + object.boundingRadius;
+        const double impact = shape->sweep(from, 0.0, far * direction, 1.0);
+        if (!(impact < 1.0))
+            return std::nullopt;
+        std::array<FeatureDistance, 1> met;
+        const bool found = shape->near(from + impact * far * direction, kContactReach, met) > 0;
+        return ObjectHit{impact * far, found ? met[0].gradient : -direction};
+    }
     const std::optional<RayCrossing> hit = firstCrossing(object, from, direction, object.oneSided);
     if (!hit)
         return std::nullopt;

@@ -229,8 +229,13 @@ void Carry::note(size_t copy, const CarriedObject& object) noexcept {
             struck_[struckCount_++] = {copy, cache.triangle(i), nullptr, 0};
     });
     const Shape* shape = scene_.objects[index(object.object)]->shape.get();
-    cache.shapes().eachNear(object.place, touching, [&](int, const FeatureDistance& d) {
-        if (struckCount_ < kMaxStruck)
+    // Of a shape each feature once: it is linearised again in every round.
+    (void)cache.shapes().eachNear(object.place, touching, [&](int, const FeatureDistance& d) {
+        const auto known = std::span(struck_).first(struckCount_);
+        const bool noted = std::any_of(known.begin(), known.end(), [&](const Struck& s) {
+            return s.copy == copy && s.shape == shape && s.feature == d.feature;
+        });
+        if (struckCount_ < kMaxStruck && !noted)
             struck_[struckCount_++] = {copy, {}, shape, d.feature};
     });
 }

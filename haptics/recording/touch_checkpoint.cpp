@@ -112,8 +112,12 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
         return object >= 0 && object < objects &&
                triangle < scene->objects[static_cast<size_t>(object)]->triangleCount();
     };
+    const auto isFeature = [&](int object, uint32_t feature) {
+        return inObject(object, feature) || (object >= 0 && object < objects &&
+                                             scene->objects[static_cast<size_t>(object)]->shape != nullptr);
+    };
     // After a scene swap it names a facet of the scene before, which nobody asks for.
-    if (fields.shaded && fields.shadedObject != -1 && !inObject(fields.shadedObject, fields.shadedTriangle))
+    if (fields.shaded && fields.shadedObject != -1 && !isFeature(fields.shadedObject, fields.shadedTriangle))
         return false;
     return !fields.watch.touching || inObject(fields.anchor, triangleOf(fields.watch.side));
 }

@@ -115,7 +115,7 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
         flags = flags | TickFlag::InputInvalid;
     const DeviceLimits& limits = inputs.limits;
     bool cut = false;
-    // A servo that was silent for longer than a device holds a force (20 ms, devices/link) begins from
+    // A servo that was silent for longer than a device holds a force (kServoSilence) begins from
     // nothing, and no tick counts for more than that: else the whole force would come at once after a stall.
     const double dt = std::min(inputs.dt, kServoSilence);
     if (inputs.dt > kServoSilence) {

@@ -135,6 +135,8 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
     }
     for (std::shared_ptr<const HapticObject>& object : haptic->objects) {
         const auto m = static_cast<size_t>(object->material);
+        if (object->shape != nullptr || m >= uses.size())
+            continue; // geometry and material are not the file's
         const ObjectUse use = objectUse(after[m], haptic->materials[m]);
         if (use != objectUse(before[m], compiled.materials[m]))
             object = buildHapticObject(scene, object->instance, compiled.workspaceFromScene, use);

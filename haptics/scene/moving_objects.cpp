@@ -50,6 +50,8 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
         return;
     const std::vector<bool> moved = movedNodes(*scene_, *animation_);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
+        if (haptic.objects[k]->instance < 0)
+            continue; // a shape that no file names
         const auto instance = static_cast<size_t>(haptic.objects[k]->instance);
         const glm::dmat4& objectFromMesh = haptic.objects[k]->objectFromMesh;
         const Instance& placed = scene_->instances[instance];

@@ -9,7 +9,9 @@ namespace touchstone {
 
 /// Adds an object whose geometry is `shape` (in an object frame whose unit is about its size) of one of the
 /// scene's materials, which force shading, stiffness, damping and friction read; maps need a mesh's
-/// coordinates. Returns its index in HapticScene::objects. Before the scene is handed to a servo.
+/// coordinates. `sides` is not read: a shape has both. Returns
+/// its index in HapticScene::objects. Before neighbourhoods are built and the scene is handed to a servo.
+/// Throws Error.
 int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> shape, int material,
              const Similarity& workspaceFromObject);
 

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,14 +16,16 @@ namespace touchstone {
 /// Gathered with the triangles of the meshes (CandidateCache). No allocation.
 class NearShapes {
   public:
-    /// Shapes near one place, and features of each: beyond them the ball is made smaller, or the farther ones
-    /// are not felt.
+    /// Shapes near one place: with more the ball is made smaller. Features of each: farther ones are not felt
+    /// (TickFlag::CandidatesFull).
     static constexpr size_t kMostShapes = 16, kMostFeatures = 16;
 
     void clear() noexcept { count_ = 0; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    /// False when there are too many. `objectFromAnchor`: null for the anchor itself.
-    [[nodiscard]] bool add(const Shape& shape, int object, const Similarity* objectFromAnchor) noexcept;
+    /// Adds the shape if it comes within `radius` of `centre` (anchor frame). False when there are too many.
+    /// `objectFromAnchor`: null for the anchor itself.
+    [[nodiscard]] bool add(const Shape& shape, int object, const Similarity* objectFromAnchor,
+                           const glm::dvec3& centre, double radius) noexcept;
 
     /// Shape::sweep of a ball of `reach` at p over all of them. Anchor frame.
     [[nodiscard]] double sweep(const glm::dvec3& p, const glm::dvec3& move, double reach,
@@ -31,17 +34,21 @@ class NearShapes {
     /// The distance of the nearest within `reach` of p; INFINITY where there is none.
     [[nodiscard]] double nearest(const glm::dvec3& p, double reach) const noexcept;
 
-    /// Calls visit(object, feature distance in the anchor frame) for every feature within `reach` of p.
+    /// Calls visit(object, feature distance in the anchor frame) for every feature within `reach` of p. False
+    /// where a shape has more of them than there is room for.
     template <class Visit>
-    void eachNear(const glm::dvec3& p, double reach, const Visit& visit) const noexcept {
-        std::array<FeatureDistance, kMostFeatures> found;
+    bool eachNear(const glm::dvec3& p, double reach, const Visit& visit) const noexcept {
+        bool all = true;
         for (size_t i = 0; i < count_; ++i) {
             const Placed& placed = placed_[i];
-            const double scale = placed.objectFromAnchor.scale;
-            const size_t count = placed.shape->near(placed.objectFromAnchor.point(p), scale * reach, found);
-            for (size_t k = 0; k < count; ++k)
+            std::array<FeatureDistance, kMostFeatures> found;
+            const size_t count = placed.shape->near(placed.objectFromAnchor.point(p),
+                                                    placed.objectFromAnchor.scale * reach, found);
+            for (size_t k = 0; k < std::min(count, found.size()); ++k)
                 visit(placed.object, inAnchor(placed, found[k]));
+            all &= count <= found.size();
         }
+        return all;
     }
 
   private:

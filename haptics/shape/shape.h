@@ -21,19 +21,21 @@ struct FeatureDistance {
 };
 
 /// Geometry in an object frame whose unit is about the size of the object. Immutable while a servo reads it.
-/// Every function is called on the servo: bounded, no allocation, no lock, no throw.
+/// Every function is called on the servo: bounded, no allocation, no lock, no throw. Distances are signed and
+/// good to 1e-13: the solver rests at a gap of 1e-12 and takes what is within 2e-12 for touched (contact.h).
 class Shape {
   public:
     virtual ~Shape() = default;
 
     /// Time of impact in [0, limit] (fraction of `motion`) of a ball of `radius` that starts at `centre`;
-    /// `limit` where it stays free. A ball that is nearer than `radius` may move away, and stops at 0 where
-    /// it would come nearer still.
+    /// `limit` where it stays free. The place where it stops is within 1e-13 of touching. A ball that is
+    /// nearer than `radius` (at least 0) may move away, and along the surface to a slope of 1e-13; it stops
+    /// at 0 where it would come nearer still.
     [[nodiscard]] virtual double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
                                        double limit) const noexcept = 0;
 
-    /// Writes the features within `reach` of `point` into `found`, each once; their number, found.size() at
-    /// most.
+    /// Writes the features within `reach` of `point`, all behind the surface among them, into `found`, the
+    /// nearest first, each once; their number, also where `found` has no room for all.
     [[nodiscard]] virtual size_t near(const glm::dvec3& point, double reach,
                                       std::span<FeatureDistance> found) const noexcept = 0;
 
@@ -45,6 +47,9 @@ class Shape {
     /// besides the true one.
     [[nodiscard]] virtual glm::dvec3 shadingNormal(FeatureId feature,
                                                    const glm::dvec3& point) const noexcept = 0;
+
+    /// False where shadingNormal is zero everywhere.
+    [[nodiscard]] virtual bool hasShadingNormals() const noexcept = 0;
 
     /// True where touch may not begin.
     [[nodiscard]] virtual bool contains(const glm::dvec3& point) const noexcept = 0;

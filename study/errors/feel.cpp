@@ -17,7 +17,8 @@ constexpr double kTick = 1e-3; // s
 class FacetAngles {
   public:
     void meet(const HapticScene& scene, const HapticOutput& output) {
-        if (output.contacts == 0 || output.object < 0) {
+        if (output.contacts == 0 || output.object < 0 ||
+            scene.objects[static_cast<size_t>(output.object)]->shape != nullptr) {
             object_ = -1;
             return;
         }

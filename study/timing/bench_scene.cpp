@@ -190,7 +190,7 @@ size_t BenchScene::triangles() const {
 size_t BenchScene::vertices() const {
     size_t count = 0;
     for (const auto& object : haptic->objects)
-        count += object->vertices.size() - 1;
+        count += object->shape != nullptr ? 0 : object->vertices.size() - 1;
     return count;
 }
 

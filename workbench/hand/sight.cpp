@@ -40,7 +40,13 @@ Sight::Hardest Sight::hardestOf(const HapticScene& scene) {
         hardest.friction =
             std::max(hardest.friction, rougher * mostOf(object->friction, material.staticFriction));
         hardest.frictionFactor = std::max(hardest.frictionFactor, rougher);
-        hardest.sliding = std::min(hardest.sliding, material.dynamicFriction);
+        // An attribute is the static coefficient, and the dynamic one keeps its ratio to it.
+        const double least = object->friction.empty()
+                                 ? material.staticFriction
+                                 : static_cast<double>(std::ranges::min(object->friction));
+        const double ratio =
+            material.staticFriction > 0.0 ? material.dynamicFriction / material.staticFriction : 1.0;
+        hardest.sliding = std::min(hardest.sliding, least * ratio);
         if (material.staticFriction > 0.0)
             hardest.grip = std::max(hardest.grip, gripOf(material.staticFriction, material.dynamicFriction));
     }

@@ -33,6 +33,7 @@ class Ball final : public Shape {
         return {.distance = length - 0.5, .gradient = out, .closest = 0.5 * out};
     }
     glm::dvec3 shadingNormal(FeatureId, const glm::dvec3&) const noexcept override { return glm::dvec3(0.0); }
+    bool hasShadingNormals() const noexcept override { return false; }
     bool contains(const glm::dvec3& point) const noexcept override { return glm::length(point) < 0.5; }
     double boundingRadius() const noexcept override { return 0.5; }
     uint64_t identity() const noexcept override { return 0x62616c6c; }
@@ -54,7 +55,7 @@ struct FloorAndBall : TouchBench {
         addShape(*both, "ball", std::make_shared<Ball>(), 1, poseAt(at));
         scene = both;
     }
-    static Similarity poseAt(const glm::dvec3& at) { return {2.0 * kBall, {1, 0, 0, 0}, at}; }
+    static Similarity poseAt(const glm::dvec3& at) { return {2.0 * kBall, {0.5, 0.5, -0.5, 0.5}, at}; }
 
     /// Where the proxy is nearest to `hip`, and the elastic force there.
     void closedForm(const glm::dvec3& hip, glm::dvec3& place, glm::dvec3& force, int& planes) const {
