@@ -21,12 +21,17 @@ class GalleryWindow : public WindowTest {
         display_.key("ctrl+g");
         until("the gallery", [](const Json& s) { return s["gallery"]["open"] == true; });
     }
+    static size_t waiting(const Json& s) {
+        return static_cast<size_t>(std::ranges::count_if(
+            s["gallery"]["entries"], [](const Json& e) { return e["state"] == "waiting"; }));
+    }
+    /// Pictures are drawn at the loader's niceness: beside other tests each may take seconds. A wait is for the
+    /// next picture, not for all.
     Json allDone() {
-        return until("every picture", [](const Json& s) {
-            const Json& entries = s["gallery"]["entries"];
-            return !entries.empty() &&
-                   std::ranges::none_of(entries, [](const Json& e) { return e["state"] == "waiting"; });
-        });
+        Json s = until("entries", [](const Json& now) { return !now["gallery"]["entries"].empty(); });
+        while (waiting(s) > 0)
+            s = until("the next picture", [&](const Json& now) { return waiting(now) < waiting(s); });
+        return s;
     }
     static Json entry(const Json& s, const std::string& name) {
         for (const Json& e : s["gallery"]["entries"])
