@@ -1,7 +1,7 @@
 #pragma once
 // Whether what one study found is found again by another.
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 namespace touchstone::study {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 #include <span>
 

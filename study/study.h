@@ -2,8 +2,8 @@
 // Shows what accuracy costs in time: climbs the ladders on a scene, measures each rung's errors against the
 // truth on one path and its time on stretches of the same path, all rungs in turn.
 
-#include "study/result.h"
-#include "study/subject.h"
+#include "study/result/result.h"
+#include "study/subject/subject.h"
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workbench/commands.h"
+#include "workbench/options/commands.h"
 
 #include <optional>
 #include <variant>

@@ -1,7 +1,7 @@
 #pragma once
 // Devices at the other end of something that may block, break or lie: a bus or a socket.
 
-#include "devices/device.h"
+#include "devices/device/device.h"
 #include "devices/link/device_mailbox.h"
 
 #include <atomic>

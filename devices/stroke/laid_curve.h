@@ -1,7 +1,7 @@
 #pragma once
 // A curve drawn in the plane of a view, laid onto the surface below it and pressed in.
 
-#include "devices/surface_probe.h"
+#include "devices/surface/surface_probe.h"
 
 #include <glm/glm.hpp>
 

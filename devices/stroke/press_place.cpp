@@ -1,6 +1,6 @@
 #include "devices/stroke/press_place.h"
 
-#include "devices/surface_probe.h"
+#include "devices/surface/surface_probe.h"
 
 #include <algorithm>
 #include <array>

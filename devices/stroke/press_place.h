@@ -1,7 +1,7 @@
 #pragma once
 // Single places where a hand can press a model that offers no way to stroke it.
 
-#include "devices/triangle_source.h"
+#include "devices/surface/triangle_source.h"
 #include "engine/core/error.h"
 
 #include <glm/glm.hpp>

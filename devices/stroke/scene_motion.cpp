@@ -1,7 +1,7 @@
 #include "devices/stroke/scene_motion.h"
 
 #include "devices/stroke/stroke_place.h"
-#include "devices/surface_probe.h"
+#include "devices/surface/surface_probe.h"
 #include "engine/math/nearest_similarity.h"
 #include "engine/scene/animation.h"
 

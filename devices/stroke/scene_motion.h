@@ -2,7 +2,7 @@
 // A stroke on a scene that moves: the hand is carried by the part that it strokes.
 
 #include "devices/stroke/stroke_library.h"
-#include "devices/triangle_source.h"
+#include "devices/surface/triangle_source.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 // Whether a stroke keeps to its depth: walks a proxy along the whole path, before anybody plays it.
 
-#include "devices/stroke/near_triangles.h"
-#include "devices/stroke/surface_proxy.h"
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
+#include "devices/surface/near_triangles.h"
+#include "devices/surface/surface_proxy.h"
 
 #include <glm/glm.hpp>
 

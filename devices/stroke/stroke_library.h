@@ -1,7 +1,7 @@
 #pragma once
 // The strokes that the simulated hand knows, by name.
 
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 
 #include <optional>
 #include <span>

@@ -2,7 +2,7 @@
 // How a hand moves along a laid curve in time.
 
 #include "devices/stroke/laid_curve.h"
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 
 #include <vector>
 

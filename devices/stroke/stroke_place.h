@@ -3,7 +3,7 @@
 
 #include "devices/stroke/laid_curve.h"
 #include "devices/stroke/stroke_library.h"
-#include "devices/surface_probe.h"
+#include "devices/surface/surface_probe.h"
 
 namespace touchstone {
 

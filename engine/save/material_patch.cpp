@@ -1,10 +1,10 @@
 #include "engine/save/material_patch.h"
 
 #include "engine/core/error.h"
+#include "engine/import/file/gltf_file.h"
+#include "engine/import/file/gltf_uri.h"
 #include "engine/save/json_parts.h"
 #include "engine/save/replace_file.h"
-#include "engine/scene/import/gltf_file.h"
-#include "engine/scene/import/gltf_uri.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #pragma once
 // Of all that a file says about how a surface feels: what holds. Precedence is per field: our extension,
-// MPEG's, KHR physics materials, then what the PBR material gives (DESIGN §6).
+// MPEG's, KHR physics materials, then what the PBR material gives (docs/materials.md).
 
 #include "engine/scene/image.h"
 #include "engine/scene/material.h"

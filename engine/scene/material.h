@@ -1,5 +1,5 @@
 #pragma once
-// What a surface looks like (glTF's metallic-roughness) and what it feels like (DESIGN §6).
+// What a surface looks like (glTF's metallic-roughness) and what it feels like (docs/materials.md).
 
 #include "engine/scene/kept_json.h"
 

@@ -1,6 +1,6 @@
 #include "haptics/comparison/comparison_solver.h"
 
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
 

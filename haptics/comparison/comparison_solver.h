@@ -4,7 +4,7 @@
 
 #include "haptics/comparison/neighbourhood_watch.h"
 #include "haptics/comparison/ray_proxy.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <glm/glm.hpp>
 

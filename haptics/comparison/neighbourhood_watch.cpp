@@ -1,9 +1,9 @@
 #include "haptics/comparison/neighbourhood_watch.h"
 
-#include "haptics/contact/ray.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/proxy/proxy_solver.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
+#include "haptics/shape/mesh/ray.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 // 1999, §3; [000] has its results). Made to be compared with the sweep, which is the better one.
 
 #include "engine/math/object_motion.h"
-#include "haptics/contact/surface_walk.h"
-#include "haptics/device_state.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/proxy/proxy_rest.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/shape/mesh/surface_walk.h"
+#include "haptics/solve/proxy_rest.h"
+#include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
 

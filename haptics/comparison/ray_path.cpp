@@ -1,6 +1,6 @@
 #include "haptics/comparison/ray_path.h"
 
-#include "haptics/contact/ray.h"
+#include "haptics/shape/mesh/ray.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // What a straight move meets, found by Embree's rays and judged in the precision that is asked for.
 
 #include "engine/math/object_motion.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 #include <glm/glm.hpp>
 

@@ -3,7 +3,7 @@
 #include "engine/math/few_planes.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/proxy/proxy_solver.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 
 #include "engine/math/object_motion.h"
 #include "haptics/comparison/ray_path.h"
-#include "haptics/device_state.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/proxy/proxy_rest.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/solve/proxy_rest.h"
+#include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
-#include "haptics/contact/haptic_object.h"
-#include "haptics/contact/triangle.h"
+#include "haptics/shape/mesh/haptic_object.h"
+#include "haptics/shape/mesh/triangle.h"
 #include "haptics/shape/near_shapes.h"
 
 #include <glm/glm.hpp>

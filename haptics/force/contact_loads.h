@@ -1,10 +1,10 @@
 #pragma once
 // Where several planes hold the hand: what each contact carries, and the force that comes of it.
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
-#include "haptics/proxy/proxy_rest.h"
-#include "haptics/texture/surface_feel.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/solve/proxy_rest.h"
+#include "haptics/surface/surface_feel.h"
 
 #include <glm/glm.hpp>
 

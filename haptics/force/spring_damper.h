@@ -1,7 +1,7 @@
 #pragma once
 // Stage 7: what the hand should feel, before safety.
 
-#include "haptics/texture/surface_feel.h"
+#include "haptics/surface/surface_feel.h"
 
 #include <glm/glm.hpp>
 

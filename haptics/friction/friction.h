@@ -3,8 +3,8 @@
 // one of friction_law.h; here the proxy is held back as it says.
 
 #include "haptics/friction/friction_cone.h"
-#include "haptics/haptic_settings.h"
 #include "haptics/proxy/proxy_solver.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <glm/glm.hpp>
 

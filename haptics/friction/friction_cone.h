@@ -2,7 +2,7 @@
 // How much friction the contacts bear: the sum of their cones, less what the viscous term takes of it.
 
 #include "haptics/force/contact_loads.h"
-#include "haptics/texture/surface_feel.h"
+#include "haptics/surface/surface_feel.h"
 
 #include <glm/glm.hpp>
 

@@ -2,7 +2,7 @@
 // What every friction model is: a function of lengths that knows no mesh. One file each: zilles_law, ho_law,
 // elastoplastic_law; friction.cpp asks the one that the settings name and moves the proxy.
 
-#include "haptics/device_state.h"
+#include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
 

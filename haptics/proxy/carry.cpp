@@ -23,10 +23,10 @@
 
 #include "haptics/contact/near_contacts.h"
 #include "haptics/contact/sweep.h"
-#include "haptics/contact/triangle.h"
 #include "haptics/proxy/proxy_solver.h"
-#include "haptics/proxy/sub_goal.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
+#include "haptics/shape/mesh/triangle.h"
+#include "haptics/solve/sub_goal.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // Stage 2 in a scene that moves: what the objects do to the proxy between two ticks.
 
 #include "engine/math/object_motion.h"
-#include "haptics/device_state.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/state/device_state.h"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #include "haptics/proxy/place_proxy.h"
 
-#include "haptics/proxy/clear_of_model.h"
+#include "haptics/query/clear_of_model.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/math/object_motion.h"
-#include "haptics/device_state.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
 

@@ -4,7 +4,7 @@
 #include "haptics/contact/sweep.h"
 #include "haptics/proxy/carry.h"
 #include "haptics/proxy/place_proxy.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 // haptics/shape and haptics/contact.
 
 #include "engine/math/object_motion.h"
-#include "haptics/device_state.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
-#include "haptics/proxy/proxy_rest.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/solve/proxy_rest.h"
+#include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
 

@@ -1,6 +1,6 @@
 #include "haptics/recording/fault_watch.h"
 
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,8 +3,8 @@
 // more of them.
 
 #include "engine/device_io/device_io.h"
-#include "haptics/haptic_settings.h"
 #include "haptics/recording/byte_stream.h"
+#include "haptics/settings/haptic_settings.h"
 
 namespace touchstone {
 

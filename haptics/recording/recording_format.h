@@ -3,10 +3,10 @@
 // kRecordingVersion together.
 
 #include "engine/device_io/device_io.h"
-#include "haptics/haptic_settings.h"
 #include "haptics/recording/scene_identity.h"
 #include "haptics/recording/stage_hashes.h"
-#include "haptics/recording/touch_checkpoint.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/state/touch_checkpoint.h"
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,10 @@
 #pragma once
 // Touches again what a recording says was touched, and looks whether the same comes out.
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
 #include "haptics/recording/recording_reader.h"
+#include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <cstdint>
 #include <functional>

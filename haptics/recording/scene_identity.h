@@ -3,7 +3,7 @@
 
 #include "engine/device_io/device_io.h"
 #include "engine/scene/scene.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 #include <cstdint>
 #include <filesystem>

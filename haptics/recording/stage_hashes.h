@@ -1,8 +1,8 @@
 #pragma once
 // One number for what each stage of a tick came to.
 
-#include "haptics/haptic_step.h"
-#include "haptics/stage_trace.h"
+#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stage_trace.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "haptics/safety/force_limiter.h"
 
 #include "engine/device_io/servo_silence.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,11 @@
 #pragma once
-// Stage 8: the only thing that may reach a device (DESIGN §9). Pure: all memory is in ForceLimiterState.
+// Stage 8: the only thing that may reach a device (docs/architecture.md, One tick). Pure: all memory is in
+// ForceLimiterState.
 
 #include "engine/device_io/device_io.h"
 #include "engine/math/similarity.h"
-#include "haptics/haptic_settings.h"
 #include "haptics/safety/passivity.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <glm/glm.hpp>
 

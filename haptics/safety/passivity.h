@@ -1,7 +1,7 @@
 #pragma once
-// What the device gives the hand, in joules, and what is done where it gave too much (DESIGN §9): Hannaford
-// and Ryu, Time-domain passivity control of haptic interfaces, IEEE T-RA 18(1), 2002, and a force that
-// yields. Pure functions; part of stage 8.
+// What the device gives the hand, in joules, and what is done where it gave too much (docs/closed_loop.md,
+// Passivity): Hannaford and Ryu, Time-domain passivity control of haptic interfaces, IEEE T-RA 18(1), 2002,
+// and a force that yields. Pure functions; part of stage 8.
 
 #include "engine/device_io/device_io.h"
 

@@ -1,6 +1,6 @@
 #include "haptics/sample/hip_sample.h"
 
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Stage 1: where the hand is.
 
 #include "engine/device_io/device_io.h"
-#include "haptics/device_state.h"
+#include "haptics/state/device_state.h"
 
 namespace touchstone {
 

@@ -1,7 +1,7 @@
 #include "haptics/scene/built_for.h"
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
 
 namespace touchstone {
 

@@ -1,4 +1,4 @@
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/plan_effects.h"
 
 namespace touchstone {

@@ -4,7 +4,7 @@
 #include "engine/math/object_motion.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Why each effect of a material is on or off, and what it holds. For the compiler of haptic scenes only.
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 namespace touchstone {
 

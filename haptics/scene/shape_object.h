@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 #include <memory>
 #include <string>

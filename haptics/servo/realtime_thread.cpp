@@ -17,8 +17,9 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kFifoPriority = 80;            // above most IRQ threads (50), below the watchdogs (99)
-constexpr uint64_t kSliceNs = 100'000;       // the kernel's least; cut missed deadlines tenfold (DESIGN §8)
+constexpr int kFifoPriority = 80; // above most IRQ threads (50), below the watchdogs (99)
+constexpr uint64_t kSliceNs =
+    100'000; // the kernel's least; cut missed deadlines tenfold (docs/architecture.md, Threads)
 constexpr size_t kStackToTouch = 256 * 1024; // far more than a tick uses
 
 // Not in Debian 12's headers.

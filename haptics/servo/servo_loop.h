@@ -1,15 +1,16 @@
 #pragma once
-// The haptic thread: absolute deadlines, read - step - write - publish, nothing else (DESIGN §8).
+// The haptic thread: absolute deadlines, read - step - write - publish, nothing else (docs/architecture.md,
+// Threads).
 
 #include "engine/exchange/handover.h"
 #include "engine/exchange/record_ring.h"
 #include "engine/exchange/triple_buffer.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
-#include "haptics/recording/touch_checkpoint.h"
+#include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/force_switch.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/state/touch_checkpoint.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <array>
 #include <atomic>

@@ -1,9 +1,9 @@
 #pragma once
 // Where stage 3 starts, so that the rounds of stage 4 have nothing left to do in most ticks.
 
-#include "haptics/device_state.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
 

@@ -1,9 +1,9 @@
 #include "haptics/shading/force_shading.h"
 
 #include "haptics/comparison/comparison_solver.h"
-#include "haptics/contact/triangle.h"
+#include "haptics/settings/tick_flags.h"
 #include "haptics/shading/tilt_limit.h"
-#include "haptics/tick_flags.h"
+#include "haptics/shape/mesh/triangle.h"
 
 #include <algorithm>
 #include <cmath>

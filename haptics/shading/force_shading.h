@@ -2,9 +2,9 @@
 // Stage 4: facets that feel round. Interpolated normals [000 §4.1] move the proxy (Ruspini's two passes), or
 // turn the force (Ho, Morgenbesser).
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
 #include "haptics/proxy/proxy_solver.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
 #include "haptics/shading/first_goal.h"
 #include "haptics/shading/shading_mode.h"
 

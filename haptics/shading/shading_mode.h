@@ -1,9 +1,9 @@
 #pragma once
 // Which kind of force shading holds where: what the material says and the session allows.
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
-#include "haptics/proxy/proxy_rest.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/solve/proxy_rest.h"
 
 namespace touchstone {
 

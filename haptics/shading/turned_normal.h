@@ -1,9 +1,9 @@
 #pragma once
 // Stage 4 without a second pass: the force of one contact turned to its interpolated normal.
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
-#include "haptics/proxy/proxy_rest.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/solve/proxy_rest.h"
 
 #include <glm/glm.hpp>
 

@@ -3,7 +3,7 @@
 #include "engine/core/checksum.h"
 #include "engine/scene/image.h"
 #include "engine/scene/material.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 #include "haptics/texture/haptic_map.h"
 
 #include <array>

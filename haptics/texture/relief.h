@@ -1,7 +1,7 @@
 #pragma once
 // The displaced surface at the contact: its height and its normal, out of maps or vertex heights.
 
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 #include "haptics/texture/spot_maps.h"
 
 #include <glm/glm.hpp>

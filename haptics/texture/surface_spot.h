@@ -1,8 +1,8 @@
 #pragma once
 // The touched triangle with its contact point: what attributes and maps are read at. For stage 5 only.
 
-#include "haptics/contact/haptic_object.h"
-#include "haptics/contact/triangle.h"
+#include "haptics/shape/mesh/haptic_object.h"
+#include "haptics/shape/mesh/triangle.h"
 #include "haptics/texture/haptic_material.h"
 
 #include <glm/glm.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 // How far what was felt on a path is from what should have been felt.
 
-#include "study/result.h"
+#include "study/result/result.h"
 #include "study/truth/truth_path.h"
 
 namespace touchstone::study {

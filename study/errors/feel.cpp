@@ -1,8 +1,8 @@
 #include "study/errors/feel.h"
 
 #include "engine/core/float_mode.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <algorithm>
 #include <cmath>

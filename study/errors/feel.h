@@ -1,7 +1,7 @@
 #pragma once
 // Lives the ticks of a path and keeps what was felt.
 
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 #include "study/truth/truth_path.h"
 
 #include <memory>

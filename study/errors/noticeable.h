@@ -1,7 +1,7 @@
 #pragma once
 // Differences that people just notice, beside which an error is small or large.
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 namespace touchstone::study {
 

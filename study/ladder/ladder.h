@@ -1,7 +1,7 @@
 #pragma once
 // The ladders: which ways to compute each stage there are, as data. A rung more is a line more (ladder.cpp).
 
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <span>
 #include <string>

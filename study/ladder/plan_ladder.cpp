@@ -1,7 +1,7 @@
 // Which rungs of a ladder a scene can tell apart (declared in ladder.h).
 
 #include "engine/core/error.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "study/ladder/ladder.h"
 
 #include <algorithm>

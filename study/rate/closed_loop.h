@@ -2,8 +2,8 @@
 // A simulated device in a hand against the whole haptic step: position to force to motion, offline.
 
 #include "devices/plant/yielding_hand.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <functional>
 #include <memory>

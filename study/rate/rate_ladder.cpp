@@ -3,7 +3,7 @@
 #include "assets/shapes.h"
 #include "engine/core/float_mode.h"
 #include "study/rate/closed_loop.h"
-#include "study/subject.h"
+#include "study/subject/subject.h"
 #include "study/timing/clock_cost.h"
 #include "study/timing/interval.h"
 

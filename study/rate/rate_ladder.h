@@ -2,8 +2,8 @@
 // What a faster servo buys and costs: the stiffest stable wall, energy that a stroke is given, processor.
 
 #include "devices/plant/plant_parameters.h"
-#include "haptics/haptic_settings.h"
-#include "study/result.h"
+#include "haptics/settings/haptic_settings.h"
+#include "study/result/result.h"
 
 #include <functional>
 #include <span>

@@ -2,7 +2,7 @@
 // The fields of a study's result, said once for all that write and read them. A visitor is called with name,
 // unit ("" where there is none, or where the value says it itself) and the value.
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 #include <string_view>
 

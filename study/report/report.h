@@ -1,7 +1,7 @@
 #pragma once
 // Writes down what a study measured, and reads it again.
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 #include <filesystem>
 #include <span>

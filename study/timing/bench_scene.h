@@ -2,7 +2,7 @@
 // What the benchmarks touch: shapes in closed form, made in the program, and a hand that strokes each.
 
 #include "engine/scene/scene.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // How sure a figure is that was measured in rounds.
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 #include <span>
 

@@ -2,10 +2,10 @@
 
 #include "engine/core/float_mode.h"
 #include "engine/core/realtime_guard.h"
-#include "haptics/contact/ray_floor.h"
-#include "haptics/haptic_step.h"
+#include "haptics/query/ray_floor.h"
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <algorithm>
 #include <optional>

@@ -2,8 +2,8 @@
 // Times ticks so that a drifting machine cannot fake a difference: every rung takes its turn in every round.
 
 #include "engine/time/samples.h"
-#include "haptics/haptic_settings.h"
-#include "haptics/stopwatch.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/tick/stopwatch.h"
 #include "study/timing/bench_scene.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // From the ticks that were timed to the figures of a step and its stages.
 
-#include "study/result.h"
+#include "study/result/result.h"
 #include "study/timing/rungs.h"
 
 namespace touchstone::study {

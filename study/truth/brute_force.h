@@ -1,7 +1,7 @@
 #pragma once
 // The oracle's eye: the distance of a point from a triangle in long double; shares no code with haptics/.
 
-#include "haptics/contact/haptic_object.h"
+#include "haptics/shape/mesh/haptic_object.h"
 
 #include <glm/glm.hpp>
 

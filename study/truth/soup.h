@@ -2,7 +2,7 @@
 // All triangles of a scene at rest in the frame of one of its objects, in long double. Boxes keep the search
 // short; they are conservative, and a test compares them with the plain loop. Shares no code with haptics/.
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "study/truth/brute_force.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "study/truth/truth_path.h"
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "study/truth/oracle.h"
 
 #include <algorithm>

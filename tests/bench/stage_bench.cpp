@@ -5,12 +5,12 @@
 //   stage_bench --benchmark_filter=proxy --benchmark_repetitions=5
 
 #include "engine/core/float_mode.h"
-#include "haptics/contact/ray_floor.h"
 #include "haptics/force/spring_damper.h"
-#include "haptics/haptic_step.h"
 #include "haptics/proxy/proxy_solver.h"
+#include "haptics/query/ray_floor.h"
 #include "haptics/shading/force_shading.h"
-#include "haptics/texture/surface_feel.h"
+#include "haptics/surface/surface_feel.h"
+#include "haptics/tick/haptic_step.h"
 #include "study/timing/bench_scene.h"
 
 #include <benchmark/benchmark.h>

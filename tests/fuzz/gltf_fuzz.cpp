@@ -1,7 +1,7 @@
 // Feeds the importer bytes that are nearly glTF. It may refuse them with an Error; it may not crash, hang,
 // throw anything else, or make a scene that breaks what scene.h promises.
 #include "engine/core/error.h"
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/scene_promises.h"
 
 #include <cstdio>

@@ -1,9 +1,9 @@
 #include "tests/property/device_storm.h"
 
-#include "engine/scene/scene_loader.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
+#include "engine/load/scene_loader.h"
+#include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <gtest/gtest.h>
 

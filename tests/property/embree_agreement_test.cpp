@@ -1,9 +1,9 @@
 // What Embree hands us against brute force: no triangle near the proxy is ever left out.
 
 #include "haptics/contact/candidates.h"
-#include "haptics/contact/ray.h"
-#include "haptics/contact/ray_floor.h"
-#include "haptics/contact/ray_walk.h"
+#include "haptics/query/ray_floor.h"
+#include "haptics/shape/mesh/ray.h"
+#include "haptics/shape/mesh/ray_walk.h"
 #include "study/truth/brute_force.h"
 #include "tests/property/hard_shapes.h"
 #include "tests/support/touch_bench.h"

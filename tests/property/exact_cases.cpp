@@ -1,6 +1,6 @@
 #include "tests/property/exact_cases.h"
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/surface_hand.h"
 
 #include <gtest/gtest.h>

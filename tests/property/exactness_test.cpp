@@ -1,7 +1,7 @@
 // How exact the proxy is: every tick against the oracle and against invariants. The long form is in
 // exactness_sweep.cpp.
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/property/exact_cases.h"
 #include "tests/property/hard_shapes.h"
 #include "tests/support/gltf_maker.h"

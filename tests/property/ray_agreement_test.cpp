@@ -1,7 +1,7 @@
 // contact=rays against the oracle, in both precisions: how near it comes, how often it rests elsewhere, and
 // whether it ever slips through. The same hands as the sweep's exactness.
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "haptics/comparison/ray_path.h"
 #include "study/truth/oracle.h"
 #include "tests/property/exact_cases.h"

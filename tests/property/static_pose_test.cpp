@@ -1,7 +1,7 @@
 // Random files with nodes, skins, morph targets and instances against the specification, evaluated
 // independently.
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/gltf_maker.h"
 #include "tests/support/pose_truth.h"
 

@@ -1,6 +1,6 @@
 #include "assets/shapes.h"
 #include "devices/stroke/stroke_library.h"
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/property/stroke_depth.h"
 #include "tests/support/felt_stroke.h"
 #include "tests/support/shared_files.h"

@@ -2,7 +2,7 @@
 
 #include "haptics/contact/candidates.h"
 #include "haptics/contact/sweep.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "study/truth/brute_force.h"
 #include "study/truth/soup.h"
 #include "tests/support/touch_bench.h"

@@ -1,19 +1,19 @@
 // Bar, panels and cards of the window against golden pictures, drawn out of figures that stand still.
 
 #define GLFW_INCLUDE_NONE
-#include "devices/mouse_device.h"
+#include "devices/mouse/mouse_device.h"
 #include "renderer/window_target.h"
 #include "tests/screenshot/golden.h"
 #include "tests/support/lavapipe.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"
 #include "tests/support/virtual_display.h"
-#include "workbench/editor/material_window.h"
 #include "workbench/model/model.h"
+#include "workbench/panels/material_window.h"
+#include "workbench/screen/picture_desk.h"
+#include "workbench/screen/style.h"
 #include "workbench/timeline/timeline_desk.h"
 #include "workbench/window/layout.h"
-#include "workbench/window/picture_desk.h"
-#include "workbench/window/style.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 //   render_probe bench FRAMES WIDTH HEIGHT [MODEL [PIXELS]]   of the torus or another model, with the probe's
 //   shadow, by
 //       simplified meshes that differ by so many PIXELS
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
 #include "tests/screenshot/scenes.h"

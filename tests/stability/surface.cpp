@@ -1,6 +1,6 @@
 #include "tests/stability/surface.h"
 
-#include "haptics/contact/triangle.h"
+#include "haptics/shape/mesh/triangle.h"
 
 #include <algorithm>
 #include <array>

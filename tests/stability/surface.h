@@ -2,7 +2,7 @@
 // The surface as the judge of the hard cases sees it: every welded triangle, without any search tree, in long
 // double. What the geometry demands of a force is computed here and nowhere else.
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "study/truth/brute_force.h"
 
 #include <glm/glm.hpp>

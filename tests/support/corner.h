@@ -3,8 +3,8 @@
 // in them.
 
 #include "engine/scene/scene.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 #include "tests/support/felt_stroke.h"
 
-#include "haptics/haptic_step.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 // Feels a stroke with the whole haptic step, offline: how deep, how long, how fast.
 
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 #include "engine/scene/scene.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 
 #include <string>
 

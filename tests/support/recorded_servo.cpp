@@ -1,6 +1,6 @@
 #include "tests/support/recorded_servo.h"
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 
 #include <gtest/gtest.h>
 

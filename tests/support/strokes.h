@@ -2,7 +2,7 @@
 // Strokes with taps over our shapes: the same hand for the invariants and the oracle.
 
 #include "assets/shapes.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <cmath>
 #include <random>

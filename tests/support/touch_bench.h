@@ -3,8 +3,8 @@
 
 #include "assets/shapes.h"
 #include "engine/scene/scene.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_step.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <functional>
 #include <memory>

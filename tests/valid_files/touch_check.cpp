@@ -1,11 +1,11 @@
 #include "tests/valid_files/touch_check.h"
 
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
-#include "haptics/haptic_step.h"
 #include "haptics/scene/built_for.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/tick/haptic_step.h"
 #include "tests/support/scene_promises.h"
 #include "tests/valid_files/draw.h"
 #include "workbench/figures/inspection.h"

@@ -1,10 +1,10 @@
 // Valid files are opened, inspected and touched: each feature alone, then random sets of them (the short form
 // of valid_files, which runs any number).
-#include "engine/scene/scene_loader.h"
-#include "haptics/haptic_scene.h"
+#include "engine/load/scene_loader.h"
+#include "haptics/scene/haptic_scene.h"
 #include "tests/valid_files/touch_check.h"
 #include "tests/valid_files/valid_file.h"
-#include "workbench/commands/effect_cost.h"
+#include "workbench/figures/effect_cost.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

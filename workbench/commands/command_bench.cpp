@@ -3,11 +3,11 @@
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
-#include "study/provenance.h"
+#include "study/result/provenance.h"
 #include "study/timing/clock_cost.h"
 #include "study/timing/rungs.h"
-#include "workbench/commands.h"
 #include "workbench/figures/settings_json.h"
+#include "workbench/options/commands.h"
 
 #include <unistd.h>
 

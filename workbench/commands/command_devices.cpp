@@ -1,11 +1,11 @@
 // What is plugged in, and a trial of one device.
 
-#include "devices/device_choice.h"
+#include "devices/choice/device_choice.h"
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
-#include "workbench/commands.h"
 #include "workbench/commands/device_test.h"
 #include "workbench/guards/interrupt.h"
+#include "workbench/options/commands.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,12 +1,12 @@
 // Changes what materials feel like, and saves it into the model's file.
 
 #include "engine/core/error.h"
+#include "engine/load/scene_loader.h"
 #include "engine/save/material_patch.h"
-#include "engine/scene/scene_loader.h"
-#include "workbench/commands.h"
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/material_edits.h"
 #include "workbench/editor/presets.h"
+#include "workbench/options/commands.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,9 +2,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
-#include "workbench/commands.h"
 #include "workbench/figures/inspection.h"
 #include "workbench/model/model.h"
+#include "workbench/options/commands.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,11 +1,11 @@
 #include "engine/core/error.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
-#include "workbench/commands.h"
-#include "workbench/gpu_options.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
-#include "workbench/window/effect_colors.h"
+#include "workbench/options/commands.h"
+#include "workbench/options/gpu_options.h"
+#include "workbench/screen/effect_colors.h"
 
 #include <algorithm>
 #include <cstdio>

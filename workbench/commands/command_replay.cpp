@@ -3,9 +3,9 @@
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "haptics/recording/replayer.h"
-#include "workbench/commands.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
+#include "workbench/options/commands.h"
 #include "workbench/timeline/recorded_scenes.h"
 
 #include <algorithm>

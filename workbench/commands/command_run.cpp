@@ -1,8 +1,8 @@
 // The same loops as in the window, without one: the simulated hand strokes the model in real time.
 
-#include "devices/mapped_device.h"
+#include "devices/device/mapped_device.h"
 #include "devices/plant/yielding_hand.h"
-#include "devices/simulated_hand.h"
+#include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
@@ -10,22 +10,22 @@
 #include "renderer/draw_quality.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
-#include "workbench/commands.h"
 #include "workbench/commands/device_test.h"
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/stolen_time.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
-#include "workbench/gpu_options.h"
+#include "workbench/files/recording_desk.h"
 #include "workbench/guards/interrupt.h"
 #include "workbench/hand/device_menu.h"
 #include "workbench/hand/device_port.h"
 #include "workbench/model/animate.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
-#include "workbench/window/overlays.h"
-#include "workbench/window/recording_desk.h"
+#include "workbench/options/commands.h"
+#include "workbench/options/gpu_options.h"
+#include "workbench/screen/overlays.h"
 
 #include <chrono>
 #include <cstdio>
@@ -186,7 +186,7 @@ int runCommand(const RunOptions& options) {
         report.emplace(options.json);
     TickReader reader(model, options);
 
-    // The device comes before the servo thread (DESIGN §8); the first frame compiles the pipelines.
+    // The device comes before the servo thread; the first frame compiles the pipelines.
     const std::unique_ptr<Gpu> gpu = Gpu::headless(gpuOptions(options.gpu));
     SceneRenderer renderer(*gpu);
     lightWith(options.environment, renderer);

@@ -4,11 +4,11 @@
 #include "study/compare_studies.h"
 #include "study/errors/noticeable.h"
 #include "study/ladder/ladder.h"
-#include "study/provenance.h"
 #include "study/rate/rate_ladder.h"
 #include "study/report/report.h"
+#include "study/result/provenance.h"
 #include "study/study.h"
-#include "workbench/commands.h"
+#include "workbench/options/commands.h"
 
 #include <unistd.h>
 

@@ -1,23 +1,23 @@
 // Offline and deterministic: a path of the hand in, every tick out, as fast as it goes.
 
 #include "devices/plant/yielding_hand.h"
-#include "devices/replay_device.h"
+#include "devices/simulated/replay_device.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
-#include "haptics/contact/ray_floor.h"
-#include "haptics/haptic_step.h"
+#include "haptics/query/ray_floor.h"
 #include "haptics/recording/recording_writer.h"
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/tick/haptic_step.h"
 #include "study/timing/clock_cost.h"
-#include "workbench/commands.h"
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/model/model.h"
+#include "workbench/options/commands.h"
 #include "workbench/sound/sounding_hand.h"
 #include "workbench/sound/written_sound.h"
 
@@ -201,7 +201,7 @@ class OfflineTouch {
     uint64_t number_ = 0;
 };
 
-/// The ray from proxy to HIP in every tick in contact, each timed as the step is (DESIGN §11).
+/// The ray from proxy to HIP in every tick in contact, each timed as the step is.
 void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks, Samples& rays) {
     float sum = 0.0f;
     for (const OfflineTick& tick : ticks) {

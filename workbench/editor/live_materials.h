@@ -1,7 +1,7 @@
 #pragma once
 // Edited materials made touchable on a worker, while the hand goes on touching what it touches.
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "workbench/editor/material_edits.h"
 #include "workbench/model/model.h"
 

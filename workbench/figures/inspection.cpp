@@ -1,12 +1,12 @@
 #include "workbench/figures/inspection.h"
 
-#include "devices/simulated_hand.h"
+#include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "engine/time/samples.h"
-#include "haptics/haptic_step.h"
 #include "haptics/servo/realtime_thread.h"
-#include "workbench/commands/effect_cost.h"
+#include "haptics/tick/haptic_step.h"
+#include "workbench/figures/effect_cost.h"
 
 #include <array>
 #include <cstdio>

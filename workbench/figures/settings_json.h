@@ -1,7 +1,7 @@
 #pragma once
 
 #include "devices/plant/plant.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "haptics/haptic_step.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <string>
 #include <string_view>
 
 namespace touchstone {
 
-/// TICKS.csv's header line (DESIGN §11).
+/// TICKS.csv's header line (docs/commands.md, touch).
 inline constexpr std::string_view kTickCsvHeader =
     "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,force_x,force_y,force_z,contacts,"
     "friction_state,penetration,step_ns,command_x,command_y,command_z\n";

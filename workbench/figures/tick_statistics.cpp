@@ -1,6 +1,6 @@
 #include "workbench/figures/tick_statistics.h"
 
-#include "haptics/contact/surface_distance.h"
+#include "haptics/query/surface_distance.h"
 
 #include <algorithm>
 #include <cmath>

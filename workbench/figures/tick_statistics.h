@@ -2,8 +2,8 @@
 
 #include "engine/time/samples.h"
 #include "haptics/force/work_meter.h"
-#include "haptics/haptic_step.h"
 #include "haptics/servo/servo_loop.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #include "workbench/gallery/thumbnail_maker.h"
 
-#include "engine/scene/import/image_decode.h"
+#include "engine/import/file/image_decode.h"
 #include "workbench/gallery/file_note.h"
 
 #include <signal.h>

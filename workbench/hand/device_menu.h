@@ -1,6 +1,6 @@
 #pragma once
 
-#include "devices/device_choice.h"
+#include "devices/choice/device_choice.h"
 
 #include <memory>
 #include <string>

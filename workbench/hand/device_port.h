@@ -1,6 +1,6 @@
 #pragma once
 
-#include "devices/device.h"
+#include "devices/device/device.h"
 #include "haptics/servo/servo_loop.h"
 
 namespace touchstone {

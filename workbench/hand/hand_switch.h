@@ -1,9 +1,9 @@
 #pragma once
 
+#include "devices/device/workspace_map.h"
 #include "devices/link/linked_device.h"
-#include "devices/mouse_device.h"
-#include "devices/stroke_path.h"
-#include "devices/workspace_map.h"
+#include "devices/mouse/mouse_device.h"
+#include "devices/stroke/stroke_path.h"
 #include "engine/exchange/handover.h"
 #include "workbench/hand/glide.h"
 

@@ -1,6 +1,6 @@
 #include "workbench/hand/sight.h"
 
-#include "haptics/contact/surface_pick.h"
+#include "haptics/query/surface_pick.h"
 
 #include <algorithm>
 #include <cmath>

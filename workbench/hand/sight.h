@@ -1,9 +1,9 @@
 #pragma once
 
-#include "devices/mouse_hand.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
+#include "devices/mouse/mouse_hand.h"
+#include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/settings/haptic_settings.h"
 #include "renderer/camera.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <future>
 #include <memory>

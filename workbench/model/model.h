@@ -1,10 +1,10 @@
 #pragma once
 // A model as both eye and hand have it.
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "engine/time/stage_clock.h"
-#include "haptics/haptic_scene.h"
-#include "haptics/haptic_settings.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 #include "haptics/recording/scene_identity.h"
 #include "renderer/prepared_scene.h"
 #include "workbench/model/model.h"

@@ -2,7 +2,7 @@
 // What each command can be told: one function a command, which adds its options to its part of the command
 // line and lets them fill `options`, which outlives the parsing.
 
-#include "workbench/commands.h"
+#include "workbench/options/commands.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,6 @@
 #include "workbench/options/shared_options.h"
 
-#include "devices/workspace_map.h"
+#include "devices/device/workspace_map.h"
 #include "haptics/servo/servo_loop.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Options that several commands have. All throw CLI::ValidationError while a command line is parsed that says
 // something impossible; what they fill outlives the parsing.
 
-#include "workbench/commands.h"
+#include "workbench/options/commands.h"
 
 #include <CLI/CLI.hpp>
 

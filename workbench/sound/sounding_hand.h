@@ -1,6 +1,6 @@
 #pragma once
 
-#include "devices/device.h"
+#include "devices/device/device.h"
 #include "sound/live_sound.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "workbench/timeline/again_hand.h"
 
-#include "devices/workspace_map.h"
+#include "devices/device/workspace_map.h"
 
 #include <algorithm>
 #include <cmath>

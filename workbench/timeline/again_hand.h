@@ -1,7 +1,7 @@
 #pragma once
 // The hand of a recording, once more, through the servo that touches now.
 
-#include "devices/device.h"
+#include "devices/device/device.h"
 #include "engine/exchange/handover.h"
 #include "workbench/hand/glide.h"
 

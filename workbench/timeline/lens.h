@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/haptic_step.h"
 #include "haptics/servo/servo_loop.h"
+#include "haptics/tick/haptic_step.h"
 #include "workbench/timeline/background_job.h"
 #include "workbench/timeline/recorded_scenes.h"
 #include "workbench/timeline/timeline.h"

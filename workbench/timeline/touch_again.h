@@ -1,10 +1,10 @@
 #pragma once
 
 #include "engine/math/similarity.h"
+#include "workbench/readings/force_history.h"
 #include "workbench/timeline/again_hand.h"
 #include "workbench/timeline/background_job.h"
 #include "workbench/timeline/timeline.h"
-#include "workbench/window/force_history.h"
 
 #include <memory>
 #include <optional>

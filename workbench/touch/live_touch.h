@@ -3,19 +3,19 @@
 #include "engine/scene/scene.h"
 #include "haptics/servo/servo_loop.h"
 #include "study/live/live_error.h"
-#include "workbench/commands.h"
 #include "workbench/editor/live_materials.h"
+#include "workbench/files/recording_desk.h"
 #include "workbench/hand/hand_switch.h"
 #include "workbench/hand/held_device.h"
 #include "workbench/hand/sight.h"
 #include "workbench/hand/stroke_desk.h"
 #include "workbench/model/background_build.h"
 #include "workbench/model/model_loader.h"
+#include "workbench/options/commands.h"
+#include "workbench/readings/force_history.h"
+#include "workbench/readings/servo_view.h"
 #include "workbench/sound/sound_desk.h"
 #include "workbench/timeline/again_hand.h"
-#include "workbench/window/force_history.h"
-#include "workbench/window/recording_desk.h"
-#include "workbench/window/servo_view.h"
 
 #include <functional>
 #include <optional>

@@ -1,12 +1,12 @@
 #include "workbench/window/layout.h"
 
+#include "workbench/panels/budget_panel.h"
+#include "workbench/panels/colors.h"
+#include "workbench/panels/effect_switch.h"
+#include "workbench/panels/error_panel.h"
+#include "workbench/panels/panels.h"
+#include "workbench/screen/keys.h"
 #include "workbench/timeline/timeline_desk.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/panels/budget_panel.h"
-#include "workbench/window/panels/colors.h"
-#include "workbench/window/panels/effect_switch.h"
-#include "workbench/window/panels/error_panel.h"
-#include "workbench/window/panels/panels.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workbench/window/panels/panel_state.h"
+#include "workbench/panels/panel_state.h"
 
 #include <glm/glm.hpp>
 

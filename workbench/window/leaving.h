@@ -1,7 +1,7 @@
 #pragma once
 
 #include "workbench/editor/material_desk.h"
-#include "workbench/window/panels/panel_state.h"
+#include "workbench/panels/panel_state.h"
 
 #include <cstdint>
 #include <filesystem>

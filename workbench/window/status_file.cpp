@@ -3,9 +3,9 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "workbench/figures/settings_json.h"
+#include "workbench/panels/error_panel.h"
+#include "workbench/panels/panels.h"
 #include "workbench/timeline/timeline_desk.h"
-#include "workbench/window/panels/error_panel.h"
-#include "workbench/window/panels/panels.h"
 
 namespace touchstone {
 

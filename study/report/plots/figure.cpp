@@ -1,6 +1,6 @@
 #include "study/report/plots/figure.h"
 
-#include "study/subject.h"
+#include "study/subject/subject.h"
 
 #include <algorithm>
 #include <cmath>

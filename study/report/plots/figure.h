@@ -1,7 +1,7 @@
 #pragma once
 // What the plots of a study share: paper, colours, logarithmic axes, text that gnuplot takes as it is.
 
-#include "study/result.h"
+#include "study/result/result.h"
 
 #include <array>
 #include <string>

@@ -2,7 +2,7 @@
 // Which effects meet in a trial: one level of each factor, all pairs of levels in few cases or the full
 // product.
 
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 #include "tests/property/effects/effect_world.h"
 
 #include "assets/shapes.h"
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/shared_files.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"

@@ -2,7 +2,7 @@
 // The bodies that are stroked, compiled with one- and two-sided materials, and the distance from each of
 // their objects in long double.
 
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
 #include "study/truth/soup.h"
 #include "tests/property/effects/effect_case.h"
 

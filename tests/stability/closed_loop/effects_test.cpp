@@ -1,9 +1,9 @@
 // Every effect in closed loop: a Phantom in a light grip, through the whole haptic step with its safety
 // limits. What is judged is energy, by the true motion of the device and not by what its sensor sees.
 
-#include "devices/simulated_hand.h"
-#include "engine/scene/scene_loader.h"
-#include "haptics/tick_flags.h"
+#include "devices/simulated/simulated_hand.h"
+#include "engine/load/scene_loader.h"
+#include "haptics/settings/tick_flags.h"
 #include "tests/stability/closed_loop/loop_bench.h"
 
 #include <gtest/gtest.h>

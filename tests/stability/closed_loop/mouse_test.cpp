@@ -1,9 +1,9 @@
 // The mouse as a hand that yields: it presses as hard as it was asked to, friction and bumps are seen as lag,
 // and no wall that the program lets through makes it buzz.
 
-#include "devices/mouse_device.h"
-#include "devices/mouse_hand.h"
-#include "haptics/contact/surface_pick.h"
+#include "devices/mouse/mouse_device.h"
+#include "devices/mouse/mouse_hand.h"
+#include "haptics/query/surface_pick.h"
 #include "haptics/safety/passivity.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"

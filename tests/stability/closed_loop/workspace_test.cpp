@@ -1,9 +1,9 @@
 // Clutch and zoom in closed loop, in contact: what the device is sent stays within its limits, and the energy
 // that it gives is what docs/devices.md#workspace derives.
 
-#include "devices/workspace_map.h"
+#include "devices/device/workspace_map.h"
 #include "haptics/safety/force_limiter.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 #include "tests/stability/closed_loop/loop_bench.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // touchable under an ever tighter limit. Says on stdout what came of it; status 0 where the servo never
 // noticed.
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/recorded_servo.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // A device that says nothing for a while and comes back elsewhere: unplugged, or frozen.
 
-#include "haptics/contact/surface_pick.h"
+#include "haptics/query/surface_pick.h"
 #include "tests/stability/handover/stepped_servo.h"
 #include "tests/support/recorded_servo.h"
 

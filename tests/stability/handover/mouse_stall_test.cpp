@@ -1,9 +1,9 @@
 // A picture that stalls while the mouse presses: the press stays what was asked for, no energy is added, and
 // no device is to blame. Frames are 33 ticks apart; a stalled one tells the hand nothing.
 
-#include "devices/mouse_device.h"
-#include "devices/mouse_hand.h"
-#include "haptics/contact/surface_pick.h"
+#include "devices/mouse/mouse_device.h"
+#include "devices/mouse/mouse_hand.h"
+#include "haptics/query/surface_pick.h"
 #include "haptics/recording/fault_watch.h"
 #include "haptics/recording/recording_writer.h"
 #include "tests/stability/handover/stepped_servo.h"

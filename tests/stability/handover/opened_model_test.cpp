@@ -1,9 +1,9 @@
 // A model that is opened where the hand is: no force before the hand has left it. Every model after a touch
 // at ten places of another, tick by tick through the servo's own code.
 
-#include "engine/scene/scene_loader.h"
-#include "haptics/contact/surface_distance.h"
-#include "haptics/contact/surface_pick.h"
+#include "engine/load/scene_loader.h"
+#include "haptics/query/surface_distance.h"
+#include "haptics/query/surface_pick.h"
 #include "tests/stability/handover/stepped_servo.h"
 #include "tests/support/recorded_servo.h"
 #include "tests/support/shared_files.h"

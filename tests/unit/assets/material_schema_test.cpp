@@ -1,6 +1,6 @@
 #include "assets/scenes.h"
 #include "engine/core/error.h"
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/gltf_maker.h"
 #include "tests/unit/assets/glb_reader.h"
 

@@ -1,4 +1,4 @@
-#include "devices/device_choice.h"
+#include "devices/choice/device_choice.h"
 #include "devices/hid/hid_list.h"
 
 #include <gtest/gtest.h>

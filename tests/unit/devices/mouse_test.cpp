@@ -1,5 +1,5 @@
-#include "devices/mouse_device.h"
-#include "devices/mouse_hand.h"
+#include "devices/mouse/mouse_device.h"
+#include "devices/mouse/mouse_hand.h"
 #include "tests/support/allocation_counter.h"
 
 #include <gtest/gtest.h>

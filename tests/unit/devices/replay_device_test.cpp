@@ -1,4 +1,4 @@
-#include "devices/replay_device.h"
+#include "devices/simulated/replay_device.h"
 #include "engine/core/error.h"
 #include "tests/support/allocation_counter.h"
 

@@ -1,5 +1,5 @@
 #include "assets/shapes.h"
-#include "devices/simulated_hand.h"
+#include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "tests/support/allocation_counter.h"
 

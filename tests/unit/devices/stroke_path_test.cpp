@@ -1,4 +1,4 @@
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 #include "engine/core/error.h"
 
 #include <gtest/gtest.h>

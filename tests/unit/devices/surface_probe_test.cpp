@@ -1,5 +1,5 @@
 #include "assets/shapes.h"
-#include "devices/surface_probe.h"
+#include "devices/surface/surface_probe.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "devices/mapped_device.h"
-#include "devices/workspace_map.h"
+#include "devices/device/mapped_device.h"
+#include "devices/device/workspace_map.h"
 #include "tests/support/allocation_counter.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "engine/scene/async_load.h"
+#include "engine/load/async_load.h"
 #include "tests/unit/engine/load_support.h"
 
 #include <chrono>

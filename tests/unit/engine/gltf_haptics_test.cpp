@@ -1,4 +1,4 @@
-#include "engine/scene/import/gltf_haptics.h"
+#include "engine/import/materials/gltf_haptics.h"
 #include "tests/unit/engine/load_support.h"
 
 namespace touchstone {

@@ -1,4 +1,4 @@
-#include "engine/scene/import/gltf_uri.h"
+#include "engine/import/file/gltf_uri.h"
 #include "tests/unit/engine/load_support.h"
 
 namespace touchstone {

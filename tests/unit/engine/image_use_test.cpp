@@ -1,6 +1,6 @@
 // Images that no effect needs are never decoded: every decode is counted where it is made.
 
-#include "engine/scene/import/image_decode.h"
+#include "engine/import/file/image_decode.h"
 #include "tests/support/encoded_image.h"
 #include "tests/unit/engine/load_support.h"
 

@@ -1,7 +1,7 @@
 // The list of vertex arrays, what is built on it, and the code that once had a list of its own.
 #include "engine/core/error.h"
+#include "engine/load/scene_loader.h"
 #include "engine/scene/mesh_vertices.h"
-#include "engine/scene/scene_loader.h"
 #include "engine/scene/tangent_space.h"
 #include "tests/support/gltf_maker.h"
 

@@ -1,8 +1,8 @@
 // Compiling a large scene: what it reports, how it is cancelled, how much memory it takes, what it leaves
 // out.
 
-#include "haptics/contact/ray_tree.h"
-#include "haptics/haptic_scene.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/shape/mesh/ray_tree.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/touch_bench.h"
 

@@ -1,9 +1,9 @@
 // A device that is unplugged in contact and comes back.
 
 #include "assets/shapes.h"
-#include "haptics/haptic_step.h"
 #include "haptics/safety/force_limiter.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
+#include "haptics/tick/haptic_step.h"
 #include "tests/support/touch_bench.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,7 +1,7 @@
 // What lies beyond an edge, from either side of the surface.
 
 #include "assets/shapes.h"
-#include "haptics/contact/mesh_adjacency.h"
+#include "haptics/shape/mesh/mesh_adjacency.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>

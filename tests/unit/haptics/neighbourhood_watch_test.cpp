@@ -1,6 +1,6 @@
 // The second contact method against the first, against brute force, and at its limits.
 
-#include "haptics/contact/surface_walk.h"
+#include "haptics/shape/mesh/surface_walk.h"
 #include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/strokes.h"

@@ -1,5 +1,5 @@
 // Rays that no float can hold.
-#include "haptics/contact/ray.h"
+#include "haptics/shape/mesh/ray.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>

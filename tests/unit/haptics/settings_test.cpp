@@ -1,4 +1,4 @@
-#include "haptics/haptic_settings.h"
+#include "haptics/settings/haptic_settings.h"
 
 #include <gtest/gtest.h>
 

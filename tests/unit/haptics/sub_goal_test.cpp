@@ -1,6 +1,6 @@
 // The exact sub-goal against an exhaustive search over all active sets.
 
-#include "haptics/proxy/sub_goal.h"
+#include "haptics/solve/sub_goal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptics/contact/surface_pick.h"
+#include "haptics/query/surface_pick.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
 

@@ -1,6 +1,6 @@
 // The ways in which heights become force, and where heights come from: vertex attributes, the virtual bump.
 
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
 

@@ -1,4 +1,4 @@
-#include "haptics/contact/triangle.h"
+#include "haptics/shape/mesh/triangle.h"
 
 #include <gtest/gtest.h>
 

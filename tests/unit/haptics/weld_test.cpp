@@ -1,4 +1,4 @@
-#include "haptics/contact/weld.h"
+#include "haptics/shape/mesh/weld.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Links run one way only (docs/architecture.md): engine knows nobody; haptics, renderer, devices and
 // sound know engine and not each other; study knows haptics and devices; workbench knows them all; nobody
-// knows workbench. assets stand alone.
+// knows workbench. assets stand alone. Nor do the folders inside one of them form a circle.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -35,6 +35,8 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 struct Survey {
     std::map<std::string, int> files;   ///< read, by folder
     std::vector<std::string> forbidden; ///< "engine/a.h:3: haptics/b.h"
+    /// Inside a library: from folder to folder, with the first include that says so.
+    std::map<std::string, std::map<std::string, std::string>> inside;
 };
 
 bool isCode(const fs::path& path) {
@@ -43,12 +45,16 @@ bool isCode(const fs::path& path) {
     return kEndings.contains(path.extension().string());
 }
 
-/// The folder of the house that an include of `file` reaches, or "" if it is none of ours.
-std::string reached(const fs::path& root, const fs::path& file, const std::string& included) {
+/// The file that an include of `file` reaches, relative to the root.
+fs::path reached(const fs::path& root, const fs::path& file, const std::string& included) {
     fs::path target = included;
     if (fs::exists(file.parent_path() / included))
         target = fs::relative(file.parent_path() / included, root);
-    target = target.lexically_normal();
+    return target.lexically_normal();
+}
+
+/// The library that a file belongs to, or "" if it is none of ours.
+std::string libraryOf(const fs::path& target) {
     const std::string first = target.empty() ? "" : target.begin()->string();
     return kAllowed.contains(first) || first == "tests" || first == "tools" || first == ".." ? first : "";
 }
@@ -69,16 +75,42 @@ Survey survey(const fs::path& root) {
                 std::smatch match;
                 if (!std::regex_search(line, match, kInclude))
                     continue;
-                const std::string to = reached(root, entry.path(), match[1]);
+                const fs::path target = reached(root, entry.path(), match[1]);
+                const fs::path from = fs::relative(entry.path(), root);
+                const std::string to = libraryOf(target);
+                const std::string arrow =
+                    from.string() + ":" + std::to_string(number) + ": " + match[1].str();
+                if (to == folder && target.parent_path() != from.parent_path())
+                    result.inside[from.parent_path().string()].emplace(target.parent_path().string(), arrow);
                 if (to.empty() || to == folder || allowed.contains(to))
                     continue;
-                result.forbidden.push_back(fs::relative(entry.path(), root).string() + ":" +
-                                           std::to_string(number) + ": " + match[1].str());
+                result.forbidden.push_back(arrow);
             }
         }
     }
     std::sort(result.forbidden.begin(), result.forbidden.end());
     return result;
+}
+
+/// The arrows that lie on a circle of folders, each with the include that makes it.
+std::vector<std::string> circles(const Survey& house) {
+    // What can be reached from each folder, by Warshall's closure.
+    std::map<std::string, std::set<std::string>> reach;
+    for (const auto& [from, arrows] : house.inside)
+        for (const auto& [to, arrow] : arrows)
+            reach[from].insert(to);
+    for (const auto& [middle, unused] : house.inside)
+        for (auto& [from, known] : reach)
+            if (known.contains(middle)) {
+                const std::set<std::string> further = reach[middle];
+                known.insert(further.begin(), further.end());
+            }
+    std::vector<std::string> found;
+    for (const auto& [from, arrows] : house.inside)
+        for (const auto& [to, arrow] : arrows)
+            if (reach.contains(to) && reach[to].contains(from))
+                found.push_back(arrow);
+    return found;
 }
 
 class Tree {
@@ -107,6 +139,27 @@ TEST(IncludeDirection, LinksRunOneWayOnly) {
     for (const char* folder : {"engine", "haptics", "devices", "assets"})
         EXPECT_GT(house.files.contains(folder) ? house.files.at(folder) : 0, 3)
             << folder << " was not looked at";
+}
+
+TEST(IncludeDirection, FoldersInsideALibraryFormNoCircle) {
+    const Survey house = survey(TOUCHSTONE_SOURCE);
+    for (const std::string& arrow : circles(house))
+        ADD_FAILURE() << arrow << " lies on a circle of folders";
+    for (const char* folder : {"haptics/tick", "haptics/proxy", "engine/load", "workbench/panels"})
+        EXPECT_TRUE(house.inside.contains(folder)) << folder << " was not looked at";
+}
+
+TEST(IncludeDirection, FindsTheArrowsOfACircle) {
+    const Tree tree;
+    tree.add("haptics/a/one.h", "#include \"haptics/b/two.h\"\n");
+    tree.add("haptics/b/two.h", "\n#include \"haptics/c/three.h\"\n#include \"haptics/d/four.h\"\n");
+    tree.add("haptics/c/three.h", "#include \"../a/other.h\"\n");
+    tree.add("haptics/a/other.h", "#include \"one.h\"\n");
+    tree.add("haptics/d/four.h", "");
+    const std::vector<std::string> expected{"haptics/a/one.h:1: haptics/b/two.h",
+                                            "haptics/b/two.h:2: haptics/c/three.h",
+                                            "haptics/c/three.h:1: ../a/other.h"};
+    EXPECT_EQ(circles(survey(tree.root())), expected);
 }
 
 TEST(IncludeDirection, LetsTheAllowedArrowsPass) {

@@ -1,8 +1,8 @@
 // A checkpoint is all that touch carries from tick to tick: who goes on from one meets the same bits.
 
 #include "haptics/recording/stage_hashes.h"
-#include "haptics/recording/touch_checkpoint.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/state/touch_checkpoint.h"
 #include "tests/support/recorded_servo.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "haptics/recording/fault_watch.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <gtest/gtest.h>
 

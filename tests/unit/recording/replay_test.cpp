@@ -1,7 +1,7 @@
 // A replay of a real servo's recording meets every bit; of a recording that was changed it names tick and
 // stage.
 
-#include "devices/workspace_map.h"
+#include "devices/device/workspace_map.h"
 #include "engine/core/error.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"

@@ -1,5 +1,5 @@
 #include "haptics/safety/force_limiter.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <gtest/gtest.h>
 

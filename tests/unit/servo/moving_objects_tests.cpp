@@ -1,5 +1,5 @@
-#include "haptics/haptic_step.h"
 #include "haptics/scene/moving_objects.h"
+#include "haptics/tick/haptic_step.h"
 
 #include <gtest/gtest.h>
 

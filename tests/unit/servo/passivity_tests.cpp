@@ -1,6 +1,6 @@
 #include "haptics/safety/force_limiter.h"
 #include "haptics/safety/passivity.h"
-#include "haptics/tick_flags.h"
+#include "haptics/settings/tick_flags.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The smooth shapes' closed forms: against a search by numbers, and against the oracle on ever finer meshes.
 
-#include "study/subject.h"
+#include "study/subject/subject.h"
 #include "study/truth/truth_path.h"
 
 #include <gtest/gtest.h>

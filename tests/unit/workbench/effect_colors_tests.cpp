@@ -1,4 +1,4 @@
-#include "workbench/window/effect_colors.h"
+#include "workbench/screen/effect_colors.h"
 
 #include <gtest/gtest.h>
 

@@ -25,8 +25,8 @@ class GalleryWindow : public WindowTest {
         return static_cast<size_t>(std::ranges::count_if(
             s["gallery"]["entries"], [](const Json& e) { return e["state"] == "waiting"; }));
     }
-    /// Pictures are drawn at the loader's niceness: beside other tests each may take seconds. A wait is for the
-    /// next picture, not for all.
+    /// Pictures are drawn at the loader's niceness: beside other tests each may take seconds. A wait is for
+    /// the next picture, not for all.
     Json allDone() {
         Json s = until("entries", [](const Json& now) { return !now["gallery"]["entries"].empty(); });
         while (waiting(s) > 0)

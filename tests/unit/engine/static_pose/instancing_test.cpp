@@ -1,6 +1,6 @@
 // EXT_mesh_gpu_instancing, against the specification evaluated independently.
+#include "engine/import/file/import_context.h"
 #include "engine/scene/animation.h"
-#include "engine/scene/import/import_context.h"
 #include "tests/unit/engine/static_pose/pose_support.h"
 
 namespace touchstone {

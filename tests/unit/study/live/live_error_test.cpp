@@ -1,7 +1,7 @@
 // What the panel says about accuracy: none where the rungs are the reference's, the known one where one is
 // put in, some where a rung is cheaper.
 
-#include "devices/stroke_path.h"
+#include "devices/stroke/stroke_path.h"
 #include "study/live/live_error.h"
 #include "tests/support/recorded_servo.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Studies that nobody measured: every field with a figure of its own, and one that looks like a measured one.
 
-#include "study/result.h"
+#include "study/result/result.h"
 #include "tests/support/program.h"
 
 namespace touchstone::study::test {

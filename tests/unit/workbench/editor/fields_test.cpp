@@ -1,5 +1,5 @@
 // The table of fields knows what the importer knows: what is set by name is read back from the file.
-#include "engine/scene/scene_loader.h"
+#include "engine/load/scene_loader.h"
 #include "tests/support/gltf_maker.h"
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/material_edits.h"

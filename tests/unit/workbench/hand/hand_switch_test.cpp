@@ -1,6 +1,6 @@
 // The window's hand with a device that a test moves: what the device is sent while hands change.
 
-#include "haptics/haptic_step.h"
+#include "haptics/tick/haptic_step.h"
 #include "tests/support/recorded_servo.h"
 #include "workbench/hand/hand_switch.h"
 

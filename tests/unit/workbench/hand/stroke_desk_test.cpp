@@ -1,6 +1,6 @@
 // Where the simulated hand's strokes are laid: around what was touched last, also on what moves.
 
-#include "haptics/contact/surface_pick.h"
+#include "haptics/query/surface_pick.h"
 #include "tests/support/recorded_servo.h"
 #include "workbench/hand/sight.h"
 #include "workbench/hand/stroke_desk.h"

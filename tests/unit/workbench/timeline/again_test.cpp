@@ -1,7 +1,7 @@
 // What is made of a recording: ticks touched again around the cursor, the verdict, and the recorded hand in
 // the servo of now.
 
-#include "devices/mapped_device.h"
+#include "devices/device/mapped_device.h"
 #include "engine/core/error.h"
 #include "tests/unit/workbench/timeline/recordings.h"
 #include "workbench/hand/device_port.h"

@@ -1,7 +1,7 @@
 // What somebody who looks at a recording is shown, whatever has become of its model.
 
-#include "devices/mouse_device.h"
-#include "engine/scene/scene_loader.h"
+#include "devices/mouse/mouse_device.h"
+#include "engine/load/scene_loader.h"
 #include "tests/unit/workbench/timeline/recordings.h"
 #include "workbench/timeline/timeline_desk.h"
 

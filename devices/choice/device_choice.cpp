@@ -1,0 +1,157 @@
+#include "devices/choice/device_choice.h"
+
+#include "devices/external/external_device.h"
+#include "devices/hid/hid_device.h"
+#include "engine/core/error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+
+namespace touchstone {
+
+namespace {
+
+std::string lowered(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool contains(const std::string& name, const std::string& part) {
+    return lowered(name).find(lowered(part)) != std::string::npos;
+}
+
+void readFolder(const std::filesystem::path& folder, std::vector<DeviceFile>& files) {
+    std::error_code error;
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (entry.path().extension() == ".json")
+            paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    for (const auto& path : paths)
+        files.push_back(readDeviceFile(path));
+}
+
+bool describes(const DeviceFile& file, const HidNode& node) {
+    return file.usb.vendor == node.vendor && file.usb.product == node.product &&
+           (!file.usb.interfaceNumber || *file.usb.interfaceNumber == node.interfaceNumber) &&
+           (file.usb.serial.empty() || file.usb.serial == node.serial);
+}
+
+const DeviceFile* fileOf(const HidNode& node, std::span<const DeviceFile> files) {
+    const auto found = std::find_if(files.begin(), files.end(),
+                                    [&](const DeviceFile& file) { return describes(file, node); });
+    return found != files.end() ? &*found : nullptr;
+}
+
+bool isSpaceMouse(const HidNode& node) {
+    return node.known != nullptr && node.known->kind == HidKind::SpaceMouse;
+}
+
+/// Every Teensy with raw HID has the ids of a WoodenHaptics; its name has to say what it is.
+bool isDoubtful(const HidNode& node) {
+    return node.known != nullptr && node.known->kind == HidKind::WoodenHaptics &&
+           !contains(node.productName, "polhem") && !contains(node.productName, "wooden");
+}
+
+std::unique_ptr<LinkedDevice> openExternal(const std::string& choice) {
+    uint16_t port = kExternalPort;
+    if (choice != "udp") {
+        const std::string given = choice.substr(4);
+        const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), port);
+        if (error != std::errc{} || end != given.data() + given.size() || port == 0)
+            throw Error(
+                "--device", choice, "'" + given + "' is no port",
+                "udp:PORT, 1..65535; it listens on this machine only, so there is no address to give");
+    }
+    return std::make_unique<ExternalDevice>(port);
+}
+
+std::unique_ptr<LinkedDevice> openNode(const HidNode& node, std::span<const DeviceFile> files) {
+    if (isSpaceMouse(node)) {
+        HidRecipe recipe = spaceMouseRecipe(node);
+        if (hasAxes(node)) // else it is another node of the same device that will be read
+            recipe.identity = identityOf(node);
+        return std::make_unique<HidDevice>(std::move(recipe));
+    }
+    if (const DeviceFile* file = fileOf(node, files)) {
+        HidRecipe recipe = recipeOf(*file, node.path);
+        recipe.identity = identityOf(node);
+        return std::make_unique<HidDevice>(std::move(recipe));
+    }
+    throw Error("--device", node.path, node.name() + " is no device that is known here",
+                "describe it in a device file (docs/devices.md) and give that: --device FILE.json");
+}
+
+std::unique_ptr<LinkedDevice> openByName(const std::string& choice, std::span<const HidNode> nodes,
+                                         std::span<const DeviceFile> files) {
+    std::vector<DeviceOffer> found;
+    for (DeviceOffer& offer : deviceOffers(nodes, files))
+        if (contains(offer.name, choice))
+            found.push_back(std::move(offer));
+    if (found.size() > 1) {
+        std::string all;
+        for (const DeviceOffer& offer : found)
+            all += (all.empty() ? "" : ", ") + offer.choice + " (" + offer.name + ")";
+        throw Error("--device", choice, "is the name of several", "choose one: " + all);
+    }
+    if (found.size() == 1)
+        return openNode(*std::find_if(nodes.begin(), nodes.end(),
+                                      [&](const HidNode& node) { return node.path == found[0].choice; }),
+                        files);
+    for (const DeviceFile& file : files)
+        if (contains(file.name, choice))
+            return std::make_unique<HidDevice>(recipeOf(file));
+    throw Error("--device", choice, "nothing of that name is plugged in or described",
+                "touchstone devices lists what is there");
+}
+
+} // namespace
+
+std::vector<DeviceFile> deviceFiles() {
+    std::vector<DeviceFile> files;
+    if (const char* folder = std::getenv("TOUCHSTONE_DEVICES"))
+        readFolder(folder, files);
+    readFolder(TOUCHSTONE_DEVICE_FILES, files);
+    return files;
+}
+
+std::vector<DeviceOffer> deviceOffers(std::span<const HidNode> nodes, std::span<const DeviceFile> files) {
+    std::vector<DeviceOffer> offers;
+    for (const HidNode& node : nodes) {
+        const DeviceFile* file = fileOf(node, files);
+        if (isSpaceMouse(node) && hasAxes(node))
+            offers.push_back({node.path, node.name(), hidRemedy(node), false, false});
+        else if (file != nullptr)
+            offers.push_back({node.path, file->name, hidRemedy(node), true, isDoubtful(node)});
+    }
+    return offers;
+}
+
+std::unique_ptr<LinkedDevice> openDevice(const std::string& choice) {
+    if (choice == "udp" || choice.starts_with("udp:"))
+        return openExternal(choice);
+    if (choice.ends_with(".json"))
+        return std::make_unique<HidDevice>(recipeOf(readDeviceFile(choice)));
+    const std::vector<HidNode> nodes = listHidNodes();
+    const std::vector<DeviceFile> files = deviceFiles();
+    if (choice.starts_with("/")) {
+        for (const HidNode& node : nodes)
+            if (node.path == choice)
+                return openNode(node, files);
+        throw Error("--device", choice, "there is no such HID node",
+                    "touchstone devices lists what is there");
+    }
+    if (choice != "auto")
+        return openByName(choice, nodes, files);
+    for (const bool driven : {true, false})
+        for (const DeviceOffer& offer : deviceOffers(nodes, files))
+            if (offer.driven == driven && offer.remedy.empty() && !offer.doubtful)
+                return openDevice(offer.choice);
+    return nullptr;
+}
+
+} // namespace touchstone

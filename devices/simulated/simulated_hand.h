@@ -1,0 +1,28 @@
+#pragma once
+
+#include "devices/device/device.h"
+#include "devices/stroke/stroke_path.h"
+
+#include <memory>
+
+namespace touchstone {
+
+/// A hand without a person: follows a path in time, whatever the force. (Its answer to force comes with the
+/// closed loop.) Deterministic: the place depends on the time alone.
+class SimulatedHand final : public Device {
+  public:
+    explicit SimulatedHand(std::shared_ptr<const StrokePath> path) : path_(std::move(path)) {}
+
+    [[nodiscard]] std::string name() const override { return "simulated hand"; }
+    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    [[nodiscard]] DeviceSample sample(double time) noexcept override;
+    void apply(const DeviceCommand&) noexcept override {}
+
+    [[nodiscard]] const StrokePath& path() const { return *path_; }
+
+  private:
+    std::shared_ptr<const StrokePath> path_;
+    bool begun_ = false;
+};
+
+} // namespace touchstone

@@ -1,0 +1,188 @@
+#include "engine/import/geometry/gltf_animations.h"
+
+#include "engine/import/geometry/gltf_accessors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace touchstone {
+namespace {
+
+/// A quaternion this far from unit length is told; less is rounding and quantisation.
+constexpr double kUnitTolerance = 1e-2;
+
+std::optional<AnimatedPath> pathOf(const std::string& name) {
+    if (name == "translation")
+        return AnimatedPath::Translation;
+    if (name == "rotation")
+        return AnimatedPath::Rotation;
+    if (name == "scale")
+        return AnimatedPath::Scale;
+    return std::nullopt;
+}
+
+Interpolation interpolationOf(const ImportContext& context, const std::string& name,
+                              const std::string& place) {
+    if (name.empty() || name == "LINEAR")
+        return Interpolation::Linear;
+    if (name == "STEP")
+        return Interpolation::Step;
+    if (name == "CUBICSPLINE")
+        return Interpolation::CubicSpline;
+    context.fail(place + ".interpolation",
+                 "\"" + name.substr(0, 40) + "\" is not LINEAR, STEP or CUBICSPLINE");
+}
+
+/// The times of keys, and which of those in the file they are: a key that is not after the one before it is
+/// skipped.
+struct KeyTimes {
+    std::vector<float> times;
+    std::vector<size_t> keys;
+    size_t stated = 0;
+};
+
+KeyTimes readTimes(ImportContext& context, const GltfDocument& document, int accessor,
+                   const std::string& place) {
+    if (accessorComponents(document, accessor) != 1 ||
+        document.model.accessors[static_cast<size_t>(accessor)].componentType !=
+            TINYGLTF_COMPONENT_TYPE_FLOAT)
+        context.fail(place, "should be a SCALAR accessor of floats");
+    const std::vector<float> stated = readFloats(context, document, accessor, place);
+    if (stated.empty())
+        context.fail(place, "has no keys");
+    KeyTimes result;
+    result.stated = stated.size();
+    size_t negative = 0;
+    for (size_t i = 0; i < stated.size(); ++i) {
+        if (!std::isfinite(stated[i]))
+            context.fail(place, "time " + std::to_string(i) + " is not a finite number");
+        negative += stated[i] < 0.0f ? 1 : 0;
+        if (!result.times.empty() && stated[i] <= result.times.back())
+            continue;
+        result.times.push_back(stated[i]);
+        result.keys.push_back(i);
+    }
+    if (negative > 0)
+        context.warn(place, std::to_string(negative) + " times are negative; what is before 0 is not played");
+    if (const size_t skipped = stated.size() - result.times.size(); skipped > 0)
+        context.warn(place,
+                     std::to_string(skipped) + " times are not after the one before; their keys are skipped");
+    return result;
+}
+
+/// Brings a rotation to unit length. Returns whether it was off it; throws Error if it has no direction.
+bool normaliseRotation(const ImportContext& context, glm::vec4& key, size_t index, const std::string& place) {
+    constexpr double kNone = 1e-6;
+    const double length = glm::length(glm::dvec4(key));
+    if (!(length > kNone))
+        context.fail(place, "rotation " + std::to_string(index) + " has length 0");
+    if (std::abs(length - 1.0) <= kUnitTolerance)
+        return false;
+    key = glm::vec4(glm::dvec4(key) / length);
+    return true;
+}
+
+std::vector<glm::vec4> readKeys(ImportContext& context, const GltfDocument& document, int accessor,
+                                const AnimationChannel& channel, const KeyTimes& at,
+                                const std::string& place) {
+    const int components = channel.path == AnimatedPath::Rotation ? 4 : 3;
+    const size_t perKey = channel.interpolation == Interpolation::CubicSpline ? 3 : 1;
+    if (accessorComponents(document, accessor) != components)
+        context.fail(place, "should have " + std::to_string(components) + " components");
+    const size_t needed = at.stated * perKey;
+    if (accessorCount(document, accessor) != needed)
+        context.fail(place, "has " + std::to_string(accessorCount(document, accessor)) + " values where " +
+                                std::to_string(needed) + " are needed");
+    const std::vector<float> values = readFloats(context, document, accessor, place);
+    std::vector<glm::vec4> keys;
+    keys.reserve(at.keys.size() * perKey);
+    size_t odd = 0;
+    for (const size_t key : at.keys)
+        for (size_t i = key * perKey; i < (key + 1) * perKey; ++i) {
+            glm::vec4 value(0.0f);
+            for (int c = 0; c < components; ++c)
+                value[c] = values[i * static_cast<size_t>(components) + static_cast<size_t>(c)];
+            if (glm::any(glm::isnan(value)) || glm::any(glm::isinf(value)))
+                context.fail(place, "value " + std::to_string(i) + " is not finite");
+            const bool isTangent = perKey == 3 && i % 3 != 1;
+            if (channel.path == AnimatedPath::Rotation && !isTangent)
+                odd += normaliseRotation(context, value, i, place) ? 1 : 0;
+            keys.push_back(value);
+        }
+    if (odd > 0)
+        context.warn(place, std::to_string(odd) + " rotations are not of unit length and were normalised");
+    return keys;
+}
+
+std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDocument& document,
+                                            const NodeForest& forest, const std::vector<Node>& nodes,
+                                            const tinygltf::Animation& animation, size_t index,
+                                            const std::string& place) {
+    const tinygltf::AnimationChannel& gltf = animation.channels[index];
+    const std::string channelPlace = place + "." + element("channels", index);
+    if (static_cast<size_t>(gltf.sampler) >= animation.samplers.size())
+        context.fail(channelPlace + ".sampler", "refers to a sampler that does not exist");
+    const auto path = pathOf(gltf.target_path);
+    if (!path)
+        context.warn(channelPlace + ".target.path",
+                     gltf.target_path == "weights"
+                         ? "morph weights are not animated: the mesh keeps its static pose"
+                         : "\"" + gltf.target_path.substr(0, 40) + "\" cannot be animated");
+    const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<size_t>(gltf.sampler)];
+    const std::string samplerPlace = place + "." + element("samplers", static_cast<size_t>(gltf.sampler));
+    if (!accessorHasData(document, sampler.input) || !accessorHasData(document, sampler.output)) {
+        context.warn(samplerPlace, "its buffer is declared without data: not animated");
+        return std::nullopt;
+    }
+    AnimationChannel channel;
+    KeyTimes at = readTimes(context, document, sampler.input, samplerPlace + ".input");
+    // Without a node an extension or nobody is meant: the specification says to ignore it.
+    if (!path || gltf.target_node < 0)
+        return std::nullopt;
+    channel.node = forest.nodeOfGltf[static_cast<size_t>(gltf.target_node)];
+    channel.path = *path;
+    if (nodes[static_cast<size_t>(channel.node)].hasMatrix)
+        context.fail(channelPlace + ".target.node", "animates a node that has a matrix",
+                     "export the node with translation, rotation and scale");
+    channel.interpolation = interpolationOf(context, sampler.interpolation, samplerPlace);
+    channel.values = readKeys(context, document, sampler.output, channel, at, samplerPlace + ".output");
+    channel.times = std::move(at.times);
+    return channel;
+}
+
+} // namespace
+
+std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument& document,
+                                      const NodeForest& forest, const std::vector<Node>& nodes) {
+    std::vector<Animation> animations;
+    for (size_t a = 0; a < document.model.animations.size(); ++a) {
+        const tinygltf::Animation& gltf = document.model.animations[a];
+        Animation animation;
+        animation.name = gltf.name;
+        std::set<std::pair<int, AnimatedPath>> targets;
+        for (size_t c = 0; c < gltf.channels.size(); ++c) {
+            context.stopIfCancelled();
+            std::optional<AnimationChannel> channel;
+            // At rest the model is right without it.
+            (void)context.attempt("it is not animated", [&] {
+                channel = readChannel(context, document, forest, nodes, gltf, c, element("animations", a));
+            });
+            if (!channel)
+                continue;
+            if (!targets.emplace(channel->node, channel->path).second) {
+                context.warn(element("animations", a) + "." + element("channels", c) + ".target",
+                             "is animated by an earlier channel already; this one is left out");
+                continue;
+            }
+            animation.duration = std::max(animation.duration, static_cast<double>(channel->times.back()));
+            animation.channels.push_back(std::move(*channel));
+        }
+        animations.push_back(std::move(animation));
+    }
+    return animations;
+}
+
+} // namespace touchstone

@@ -1,0 +1,243 @@
+#include "engine/import/geometry/mesh_build.h"
+
+#include "engine/import/file/json_fields.h"
+#include "engine/import/geometry/gltf_accessors.h"
+#include "engine/import/geometry/morph.h"
+#include "engine/import/geometry/primitive_restart.h"
+#include "engine/import/geometry/vertex_attributes.h"
+#include "engine/scene/mesh_vertices.h"
+#include "engine/scene/tangent_space.h"
+
+#include <algorithm>
+#include <array>
+
+namespace touchstone {
+namespace {
+
+/// What generateTangents works with per triangle, over the corners' welds, edges, groups and splits.
+constexpr uint64_t kTangentBytesPerTriangle = 400;
+
+/// A vertex of a line or point in the renderer's memory.
+constexpr uint64_t kDrawnVertexBytes = 64;
+
+/// Corners of triangle `i` of a strip or fan (glTF 2.0, section 3.7.2.1); a strip's odd triangles turn round.
+std::array<size_t, 3> triangleOf(int mode, size_t i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+        return {i, i + 1 + i % 2, i + 2 - i % 2};
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+        return {i + 1, i + 2, 0};
+    return {3 * i, 3 * i + 1, 3 * i + 2};
+}
+
+/// The vertices as drawn: the indices, or 0, 1, 2, ... without them. All in range.
+std::vector<uint32_t> drawnVertices(ImportContext& context, const GltfDocument& document,
+                                    const tinygltf::Primitive& primitive, DracoPrimitive* draco,
+                                    size_t vertexCount, const std::string& place) {
+    std::vector<uint32_t> drawn;
+    if (draco != nullptr) {
+        drawn = std::move(draco->indices);
+    } else if (primitive.indices >= 0) {
+        drawn = readIndices(context, document, primitive.indices, place + ".indices");
+        drawn = withoutRestarts(context, std::move(drawn), restartIndex(document, primitive.indices),
+                                vertexCount, primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode,
+                                place + ".indices");
+    } else {
+        context.spendGeometry(vertexCount * sizeof(uint32_t), place);
+        drawn.resize(vertexCount);
+        for (size_t i = 0; i < vertexCount; ++i)
+            drawn[i] = static_cast<uint32_t>(i);
+    }
+    for (const uint32_t index : drawn)
+        if (index >= vertexCount)
+            context.fail(place + ".indices", "index " + std::to_string(index) + " exceeds " +
+                                                 std::to_string(vertexCount - 1) + ", the last vertex");
+    return drawn;
+}
+
+std::vector<uint32_t> triangleList(ImportContext& context, std::vector<uint32_t> drawn, int mode,
+                                   const std::string& place) {
+    const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+    const size_t triangles = list ? drawn.size() / 3 : drawn.size() < 3 ? 0 : drawn.size() - 2;
+    if (list && drawn.size() % 3 != 0)
+        context.warn(place, "its number of indices is no multiple of three; the rest is ignored");
+    std::vector<uint32_t> indices;
+    if (!list)
+        context.spendGeometry(triangles * 3 * sizeof(uint32_t), place);
+    indices.reserve(triangles * 3);
+    size_t degenerate = 0;
+    for (size_t i = 0; i < triangles; ++i) {
+        const auto [a, b, c] = triangleOf(mode, i);
+        const uint32_t va = drawn[a], vb = drawn[b], vc = drawn[c];
+        if (va == vb || vb == vc || vc == va)
+            ++degenerate; // a strip's are stitches, not flaws
+        else
+            indices.insert(indices.end(), {va, vb, vc});
+    }
+    if (degenerate > 0 && mode != TINYGLTF_MODE_TRIANGLE_STRIP)
+        context.warn(place, std::to_string(degenerate) + " triangles use a vertex twice and were dropped");
+    return indices;
+}
+
+/// Lines, strips and loops as segments; a segment from a vertex to itself is dropped.
+std::vector<uint32_t> segmentList(ImportContext& context, const std::vector<uint32_t>& drawn, int mode,
+                                  const std::string& place) {
+    const bool list = mode == TINYGLTF_MODE_LINE, loop = mode == TINYGLTF_MODE_LINE_LOOP;
+    if (list && drawn.size() % 2 != 0)
+        context.warn(place, "its number of indices is no multiple of two; the last one is ignored");
+    const size_t count = list ? drawn.size() / 2 : drawn.size() < 2 ? 0 : drawn.size() - (loop ? 0 : 1);
+    context.spendGeometry(count * 2 * sizeof(uint32_t), place);
+    std::vector<uint32_t> segments;
+    segments.reserve(2 * count);
+    for (size_t i = 0; i < count; ++i) {
+        const size_t first = list ? 2 * i : i;
+        const uint32_t a = drawn[first], b = drawn[(first + 1) % drawn.size()];
+        if (a != b)
+            segments.insert(segments.end(), {a, b});
+    }
+    return segments;
+}
+
+glm::dvec3 faceNormal(const Mesh& mesh, size_t triangle) {
+    const auto corner = [&](size_t k) { return glm::dvec3(mesh.positions[mesh.indices[3 * triangle + k]]); };
+    return glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+}
+
+glm::vec3 unitOrUp(const glm::dvec3& v) {
+    // Scaled first: areas of models of any size must neither overflow nor vanish when squared.
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0.0 ? glm::vec3(glm::normalize(v / largest)) : glm::vec3(0.0f, 0.0f, 1.0f);
+}
+
+/// Gives every triangle vertices of its own and its own normal (glTF 2.0, section 3.7.2.1: "flat normals").
+void makeFlat(ImportContext& context, Mesh& mesh, const std::string& place) {
+    const size_t corners = mesh.indices.size();
+    mesh.tangents = {}; // the specification: without normals the file's tangents do not count
+    mesh.tangentsFromFile = false;
+    context.spendGeometry(corners * bytesPerVertex(mesh), place);
+    selectVertices(mesh, mesh.indices);
+    for (size_t i = 0; i < corners; ++i)
+        mesh.indices[i] = static_cast<uint32_t>(i);
+    context.spendGeometry(corners * sizeof(glm::vec3), place);
+    mesh.normals.resize(corners);
+    for (size_t i = 0; i < corners; ++i)
+        mesh.normals[i] = unitOrUp(faceNormal(mesh, i / 3));
+}
+
+/// Normals of length zero in the file: the area-weighted mean of the triangles around instead.
+void mendNormals(Mesh& mesh) {
+    const auto lost = [](const glm::vec3& n) { return n == glm::vec3(0.0f); };
+    if (std::none_of(mesh.normals.begin(), mesh.normals.end(), lost))
+        return;
+    std::vector<glm::dvec3> sum(mesh.positions.size(), glm::dvec3(0.0));
+    for (size_t i = 0; i < mesh.indices.size(); ++i)
+        sum[mesh.indices[i]] += faceNormal(mesh, i / 3);
+    for (size_t v = 0; v < sum.size(); ++v)
+        if (lost(mesh.normals[v]))
+            mesh.normals[v] = unitOrUp(sum[v]);
+}
+
+/// What is drawn but not felt: no flat normals, for without normals it is drawn unlit (glTF 2.0, section
+/// 3.7.2.1), and no tangents.
+void makeDrawnOnly(ImportContext& context, std::vector<uint32_t> drawn, int mode, const std::string& place,
+                   Mesh& mesh) {
+    context.warn(place, "holds points or lines: they are drawn, but cannot be touched");
+    if (mode == TINYGLTF_MODE_POINTS)
+        mesh.pointIndices = std::move(drawn);
+    else
+        mesh.lineIndices = segmentList(context, drawn, mode, place);
+    // The renderer has a vertex for each: a few vertices under many small indices must not become gigabytes.
+    context.spendGeometry((mesh.lineIndices.size() + mesh.pointIndices.size()) * kDrawnVertexBytes, place);
+    mesh.tangents = {};
+    mesh.tangentsFromFile = false;
+}
+
+void settleTangents(ImportContext& context, Mesh& mesh, const Material& material, const std::string& place) {
+    const TextureRef& map = material.normalTexture         ? material.normalTexture
+                            : material.haptic.height.value ? material.haptic.height.value->texture
+                                                           : TextureRef{};
+    const bool hasUv = !(map.texCoord == 1 ? mesh.uv1 : mesh.uv0).empty();
+    if (!map || !hasUv) {
+        mesh.tangents = {};
+        mesh.tangentsFromFile = false;
+        if (map)
+            context.warn(place, "has no TEXCOORD_" + std::to_string(map.texCoord) +
+                                    " for its normal or height map; drawn and felt without it");
+        return;
+    }
+    if (!mesh.tangents.empty())
+        return;
+    context.spendGeometry(mesh.triangleCount() * kTangentBytesPerTriangle, place);
+    constexpr double kTimePerTriangle = 1.5e-6; // s
+    const EstimatedProgress estimate(context.part().part(0.5, 1.0), "making tangents",
+                                     kTimePerTriangle * static_cast<double>(mesh.triangleCount()));
+    generateTangents(mesh, map.texCoord, context.part().silent()); // the estimate reports
+}
+
+bool hasData(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+    return (primitive.indices < 0 || accessorHasData(document, primitive.indices)) &&
+           std::all_of(primitive.attributes.begin(), primitive.attributes.end(),
+                       [&](const auto& attribute) { return accessorHasData(document, attribute.second); });
+}
+
+} // namespace
+
+std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& document, size_t meshIndex,
+                                   size_t primitiveIndex, const Material& material, const MeshPose& pose) {
+    const tinygltf::Mesh& gltf = document.model.meshes[meshIndex];
+    const tinygltf::Primitive& primitive = gltf.primitives[primitiveIndex];
+    const std::string place = element("meshes", meshIndex) + "." + element("primitives", primitiveIndex);
+    const nlohmann::json& stated = document.json["meshes"][meshIndex]["primitives"][primitiveIndex];
+    context.stopIfCancelled();
+
+    // A name may be most of the file, and every mesh has one, as may every material.
+    context.spendGeometry(sizeof(Mesh) + sizeof(Material) + gltf.name.size() + material.name.size(), place);
+    if (!hasData(document, primitive)) {
+        context.warn(place, "its buffer is declared without data: the mesh is left out");
+        return std::nullopt;
+    }
+    std::optional<DracoPrimitive> draco;
+    if (const auto* extension = extensionOf(context, stated, "KHR_draco_mesh_compression", place))
+        draco = decodeDraco(context, document, *extension, primitive,
+                            place + ".extensions.KHR_draco_mesh_compression");
+
+    PosedMesh posed;
+    Mesh& mesh = posed.mesh;
+    mesh.name = gltf.name;
+    const MorphTargets morph(context, document, primitive, pose.weights, place);
+    readVertexAttributes(context, document, primitive, draco ? &*draco : nullptr, morph, place, mesh);
+    if (mesh.positions.empty()) {
+        context.warn(place, "has no POSITION: there is nothing to show or touch in it");
+        return std::nullopt;
+    }
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    context.part().step(0.3, "reading indices");
+    auto drawn =
+        drawnVertices(context, document, primitive, draco ? &*draco : nullptr, mesh.positions.size(), place);
+    context.part().step(0.4, "making triangles");
+    if (mode < TINYGLTF_MODE_TRIANGLES)
+        makeDrawnOnly(context, std::move(drawn), mode, place, mesh);
+    else
+        mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
+    // Flat normals, mended ones and made tangents are those of the posed surface.
+    if (pose.skin != nullptr)
+        if (const auto influences = readInfluences(context, document, primitive, draco ? &*draco : nullptr,
+                                                   *pose.skin, mesh.positions.size(), place))
+            posed.origin = poseVertices(context, *influences, *pose.skin, place, mesh);
+    // A vertex that nothing uses would decide the frame of the touched object, its tolerances and its
+    // rounding; and placed meshes are counted by what they draw.
+    dropUnusedVertices(mesh);
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        mendNormals(mesh);
+        checkMesh(mesh, context.file(), place);
+        return posed;
+    }
+    if (!mesh.normalsFromFile)
+        makeFlat(context, mesh, place);
+    else
+        mendNormals(mesh);
+    settleTangents(context, mesh, material, place);
+    checkMesh(mesh, context.file(), place);
+    return posed;
+}
+
+} // namespace touchstone

@@ -1,0 +1,95 @@
+#include "engine/load/scene_loader.h"
+
+#include "engine/import/file/gltf_schema.h"
+#include "engine/import/file/gltf_validation.h"
+#include "engine/import/geometry/accessor_values.h"
+#include "engine/import/geometry/gltf_animations.h"
+#include "engine/import/geometry/scene_build.h"
+#include "engine/import/geometry/skin.h"
+#include "engine/import/materials/gltf_images.h"
+#include "engine/save/material_patch.h"
+#include "engine/scene/haptic_layers.h"
+
+#include <new>
+
+namespace touchstone {
+namespace {
+
+ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
+    // 1. Check and mend: the shape of the JSON, then how its parts relate. What passes may be read without
+    // more asking.
+    context.step(0.2, "checking");
+    checkSchema(context, file.json);
+    validateGltf(context, file.json);
+
+    // 2. Bytes: buffers from wherever they lie, decompressed.
+    context.step(0.22, "reading buffers");
+    const GltfDocument document = makeDocument(context, file);
+    context.enter(context.progress().part(0.25, 0.35));
+    warnOfAccessorValues(context, document);
+
+    // 3. Structure: nodes parents first, materials as they look and feel, meshes placed on the nodes.
+    auto scene = std::make_shared<Scene>();
+    scene->path = context.file();
+    scene->file = stamp;
+    if (file.json.contains("extensionsUsed"))
+        scene->extensionsUsed = file.json["extensionsUsed"];
+    NodeForest forest = readNodes(context, document);
+    scene->nodes = std::move(forest.nodes);
+    MaterialTable materials(context, document);
+    buildMeshesAndInstances(context, document, forest, materials, *scene);
+    scene->materials = materials.take();
+    scene->textures = readTextures(context, document);
+    scene->animations = readAnimations(context, document, forest, scene->nodes);
+    warnOfStillSkins(context, document, forest, *scene);
+    context.enter(context.progress().part(0.8, 0.85));
+    scene->bounds = sceneBounds(context, *scene);
+
+    // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.
+    scene->images = readImages(context, file, document, *scene, context.options().images);
+    dropBrokenImages(scene->images, scene->materials);
+    for (Material& material : scene->materials) {
+        material.says.meanRoughness = statedRoughness(material, scene->images);
+        material.haptic = settledHaptics(material.says, scene->images);
+    }
+
+    if (!scene->touchable())
+        context.warn("", "nothing to touch: the scene shows no triangles");
+    scene->warnings = context.takeWarnings();
+    context.step(1.0, "done");
+    return scene;
+}
+
+ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
+                     const std::filesystem::path& folder) {
+    context.step(0.15, "knowing the file again");
+    const FileStamp stamp = stampOf(bytes);
+    if (const std::string& edits = context.options().edits; !edits.empty())
+        bytes = withMaterials(bytes, patchesFrom(edits), context.file());
+    return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp);
+}
+
+} // namespace
+
+ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options) {
+    ImportContext context(path.string(), options);
+    try {
+        context.step(0.0, "reading the file");
+        return importBytes(context, readWholeFile(path, context.file(), context.progress().part(0.0, 0.15)),
+                           path.parent_path());
+    } catch (const std::bad_alloc&) {
+        context.fail("", "there is not enough memory for it", "close other programs, or simplify the model");
+    }
+}
+
+ScenePtr loadSceneFromMemory(std::vector<uint8_t> bytes, const std::filesystem::path& folder,
+                             const LoadOptions& options) {
+    ImportContext context("memory", options);
+    try {
+        return importBytes(context, std::move(bytes), folder);
+    } catch (const std::bad_alloc&) {
+        context.fail("", "there is not enough memory for it", "simplify the model");
+    }
+}
+
+} // namespace touchstone

@@ -1,0 +1,21 @@
+#pragma once
+// glTF and GLB in: read, validate, build. Any thread; throws touchstone::Error.
+
+#include "engine/import/file/load_options.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace touchstone {
+
+/// Reads the file, follows its URIs inside its own folder, validates everything before use and builds the
+/// immutable scene. Broken images become warnings and grey; broken geometry, structure or references throw.
+[[nodiscard]] ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// The same for a .gltf or .glb that is already in memory; its URIs are relative to `folder`.
+[[nodiscard]] ScenePtr loadSceneFromMemory(std::vector<uint8_t> bytes, const std::filesystem::path& folder,
+                                           const LoadOptions& options = {});
+
+} // namespace touchstone

@@ -1,6 +1,0 @@
-// The one place that compiles tinygltf (engine/scene/import/tinygltf.h). Its writers, which we never call,
-// want fstream even where it is told to leave files alone.
-#include <fstream>
-
-#define TINYGLTF_IMPLEMENTATION
-#include "engine/scene/import/tinygltf.h"

@@ -1,0 +1,68 @@
+#include "haptics/query/surface_distance.h"
+
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/shape/mesh/triangle.h"
+#include "haptics/shape/near_shapes.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+struct Nearest {
+    const HapticObject* object;
+    glm::dvec3 point;
+    double distance;
+};
+
+bool visit(RTCPointQueryFunctionArguments* arguments) {
+    auto& nearest = *static_cast<Nearest*>(arguments->userPtr);
+    const HapticObject& object = *nearest.object;
+    const auto corner = [&](size_t k) {
+        return glm::dvec3(object.vertices[object.indices[3 * arguments->primID + k]]);
+    };
+    const double distance = distanceTo(Triangle(corner(0), corner(1), corner(2)), nearest.point).distance;
+    if (distance >= nearest.distance)
+        return false;
+    nearest.distance = distance;
+    return false; // the ball is left as wide as it is: what rounding would cut off may be the nearest
+}
+
+} // namespace
+
+double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
+                       double within) {
+    scene.buildRays();
+    if (motions.empty())
+        motions = scene.restMotions;
+    for (size_t k = 0; k < scene.objects.size(); ++k) {
+        const double start = within / motions[k].workspaceFromObject.scale;
+        Nearest nearest{scene.objects[k].get(), motions[k].workspaceFromObject.inversePoint(point), start};
+        if (const Shape* shape = scene.objects[k]->shape.get()) {
+            std::array<FeatureDistance, NearShapes::kMostFeatures> found;
+            const size_t count = shape->near(nearest.point, start, found);
+            for (const FeatureDistance& d : std::span(found).first(count))
+                within = std::min(within, std::abs(d.distance) * motions[k].workspaceFromObject.scale);
+            continue;
+        }
+        // Embree rounds to float: a ball a little wider loses nothing, the double distance decides.
+        RTCPointQuery query{};
+        query.x = static_cast<float>(nearest.point.x);
+        query.y = static_cast<float>(nearest.point.y);
+        query.z = static_cast<float>(nearest.point.z);
+        query.radius = static_cast<float>(start + 4e-7 * (1.0 + glm::length(nearest.point)));
+        RTCPointQueryContext context;
+        rtcInitPointQueryContext(&context);
+        rtcPointQuery(scene.objects[k]->rays.get(), &query, &context, visit, &nearest);
+        if (nearest.distance < start)
+            within = nearest.distance * motions[k].workspaceFromObject.scale;
+    }
+    return within;
+}
+
+} // namespace touchstone

@@ -1,0 +1,98 @@
+#pragma once
+// The scene as the hand knows it: welded objects with their BVH, haptic maps and the effect plan.
+// Immutable after compileHapticScene; read by the servo, the oracle and the studies alike.
+
+#include "engine/core/built_once.h"
+#include "engine/device_io/device_io.h"
+#include "engine/math/object_motion.h"
+#include "engine/math/similarity.h"
+#include "engine/scene/scene.h"
+#include "haptics/settings/effect_plan.h"
+#include "haptics/shape/mesh/haptic_object.h"
+#include "haptics/shape/mesh/mesh_adjacency.h"
+#include "haptics/texture/haptic_material.h"
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+class HapticScene {
+  public:
+    HapticScene() = default;
+    HapticScene(const HapticScene&) = delete;
+    HapticScene& operator=(const HapticScene&) = delete;
+
+    std::vector<std::shared_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
+    std::vector<ObjectMotion> restMotions;                    ///< one per object: at rest
+    std::vector<glm::dvec4> restSpheres;                      ///< one per object: boundingSphere at rest
+    std::vector<double> boundingRadii;         ///< one per object: HapticObject::boundingRadius, side by side
+    std::vector<HapticMaterialData> materials; ///< index = Scene material
+    EffectPlan plan;
+    Similarity workspaceFromScene;
+    DeviceLimits limits;
+    std::vector<Warning> warnings;
+
+    /// Every object's `rays` is built: contact=rays can touch it. Wait-free.
+    [[nodiscard]] bool hasRays() const noexcept { return hasRays_.load(std::memory_order_acquire); }
+    /// Any thread but the servo. Throws Error when Embree fails, and Cancelled.
+    void buildRays(const Progress& progress = {}) const;
+
+    /// What contact=neighbourhood walks on, one per object; null until somebody asked for it. Wait-free.
+    [[nodiscard]] const std::vector<MeshAdjacency>* neighbourhoods() const noexcept {
+        return neighbourhoods_.get();
+    }
+    /// Any thread but the servo. Builds the rays, too.
+    void buildNeighbourhoods() const;
+    /// Takes those of a scene of the same geometry, if it has them. Before the scene is handed to a servo.
+    void shareNeighbourhoods(const HapticScene& other) { neighbourhoods_.share(other.neighbourhoods_); }
+
+    /// What textureGradient=precomputed reads, one per material (empty without a height map); null until
+    /// somebody asked for it, and until then a tick works out the same from the texels. Wait-free.
+    [[nodiscard]] const std::vector<HapticMap::Slopes>* slopes() const noexcept { return slopes_.get(); }
+    /// Any thread but the servo.
+    void buildSlopes() const;
+
+  private:
+    mutable std::atomic<bool> hasRays_{false};
+    BuiltOnce<std::vector<MeshAdjacency>> neighbourhoods_;
+    BuiltOnce<std::vector<HapticMap::Slopes>> slopes_;
+};
+
+/// Says anew which stages the scene's materials call for. Before the scene is handed to a servo.
+void settlePlan(HapticScene& scene);
+
+/// A scene of its own on the same geometry, without neighbourhoods, slopes and warnings: to be changed and
+/// tried out.
+[[nodiscard]] std::shared_ptr<HapticScene> copyOf(const HapticScene& scene);
+
+/// The scene `compiled` with other materials. `before` is what it was compiled from, `after` what it is to
+/// feel like, each one for a material of `scene`, whose meshes and images it has. Geometry, maps and search
+/// trees are shared; where other attributes are read, or `sides` differs, the object is built again, with
+/// equal geometry: the touch of one goes on in the other (ServoLoop::offerScene). Any thread but the servo;
+/// throws Error.
+[[nodiscard]] std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Scene& scene,
+                                                         std::span<const Material> before,
+                                                         std::span<const Material> after);
+
+/// Takes one effect off a material and its objects, and settles the plan. Only on a copy.
+void removeEffect(HapticScene& scene, int material, Effect effect);
+
+struct CompileOptions {
+    /// False: HapticScene::buildRays is left to whoever needs it. contact=sweep never does; for others it
+    /// takes a third of the time to build a scene, and half of its memory.
+    bool rays = true;
+    Progress progress;
+};
+
+/// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error,
+/// and Cancelled.
+[[nodiscard]] std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
+                                                                    const Similarity& workspaceFromScene,
+                                                                    const DeviceLimits& limits = {},
+                                                                    const CompileOptions& options = {});
+
+} // namespace touchstone

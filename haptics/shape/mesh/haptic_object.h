@@ -1,0 +1,111 @@
+#pragma once
+// One touchable object: a welded triangle soup in its own frame, and the search trees over it.
+
+#include "engine/math/similarity.h"
+#include "engine/scene/scene.h"
+#include "haptics/shape/mesh/ray_tree.h"
+#include "haptics/shape/mesh/triangle.h"
+#include "haptics/shape/mesh/triangle_tree.h"
+#include "haptics/shape/mesh/vertex_gradients.h"
+#include "haptics/shape/shape.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// Vertices of an object nearer than this fraction of its diagonal are one vertex; counted in HapticObject.
+/// A crack narrower than this is closed at any proxy radius, also at zero.
+inline constexpr double kWeldTolerance = 1e-6;
+
+/// What an object needs to know of its material: which attributes of the vertices its effects read (what none
+/// reads is not kept), and its sides.
+struct ObjectUse {
+    bool uv[2] = {};          ///< the coordinates of a map that is felt
+    bool uvGradients[2] = {}; ///< and how they change over the surface: of a height map
+    bool tangents = false;    ///< of a normal map
+    bool normals = false;     ///< of force shading, where the surface is smooth
+    bool oneSided = false;    ///< `sides` is front
+    bool operator==(const ObjectUse&) const = default;
+};
+
+/// What an object keeps for effects, bytes.
+struct AttributeBytes {
+    uint64_t normals = 0, tangents = 0, uv[2] = {}, relief = 0, stiffness = 0, damping = 0, friction = 0;
+    [[nodiscard]] uint64_t all() const {
+        return normals + tangents + uv[0] + uv[1] + relief + stiffness + damping + friction;
+    }
+};
+
+/// Immutable. Object frame: centred on the object, longest side 1, so that float vertices are good to 6e-8 of
+/// the object wherever it stands and however large it is. Triangle t is triangle t of the source mesh; its
+/// corners are turned over where the node mirrors, so that the winding always shows outwards.
+struct HapticObject {
+    std::string name;
+    /// Its geometry where it is no mesh: then there is no vertex, no triangle and nothing that belongs to
+    /// them.
+    std::shared_ptr<const Shape> shape;
+    int instance = -1;               ///< Scene::instances
+    int material = 0;                ///< Scene::materials
+    std::vector<glm::vec3> vertices; ///< welded, object frame; one spare entry for Embree's 16-byte reads
+    std::vector<uint32_t> indices;   ///< 3 per triangle into `vertices`
+    std::vector<uint32_t>
+        sourceIndices;               ///< 3 per triangle into the mesh's vertex attributes, same corner order
+    std::vector<glm::vec3> normals;  ///< per source vertex, object frame, unit; empty unless anySmooth
+    std::vector<glm::vec4> tangents; ///< per source vertex, object frame; may be empty
+    std::vector<glm::vec2> uv[2];    ///< per source vertex; may be empty
+    std::vector<float> stiffness, damping, friction; ///< per source vertex; may be empty
+    std::vector<float> heights;                      ///< per source vertex, model metres; may be empty
+    float leastHeight = 0.0f, greatestHeight = 0.0f;
+    std::vector<GradientPair>
+        uvGradients[2]; ///< per source vertex, per object unit; only of a height map's set
+    std::vector<GradientPair> heightGradients; ///< of `heights`, model metres per object unit, and nothing
+    std::vector<uint8_t> smooth;    ///< per triangle: 1 where the vertex normals differ from the face's and
+                                    ///< shading may follow them
+    Similarity workspaceFromObject; ///< rest pose
+    glm::dmat4 objectFromMesh{1.0}; ///< what was baked into the vertices
+    double diagonal = 0.0;          ///< of the bounds, object units
+    double boundingRadius = 0.0;    ///< about the object's origin, object units
+    uint32_t weldedVertices = 0;    ///< vertices that became another one
+    uint32_t droppedTriangles = 0;  ///< triangles with two equal corners after welding
+    bool closed = false;            ///< every edge has an even number of triangles
+    bool anySmooth = false;
+    bool oneSided = false; ///< the material's `sides` is front: there only for who comes from outside
+    RayTree rays;          ///< Embree's, for rays; built when somebody needs it
+    TriangleTree tree;     ///< for what is near
+
+    [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
+    [[nodiscard]] uint64_t memoryBytes() const;          ///< without Embree's part
+    [[nodiscard]] AttributeBytes attributeBytes() const; ///< part of memoryBytes
+};
+
+/// Triangle `index` of the object, object frame.
+[[nodiscard]] inline Triangle triangleOf(const HapticObject& object, uint32_t index) noexcept {
+    const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
+    return {glm::dvec3(object.vertices[corner[0]]), glm::dvec3(object.vertices[corner[1]]),
+            glm::dvec3(object.vertices[corner[2]])};
+}
+
+/// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails, and
+/// Cancelled.
+[[nodiscard]] std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instance,
+                                                                    const Similarity& workspaceFromScene,
+                                                                    const ObjectUse& use,
+                                                                    const Progress& progress = {});
+
+/// Centre and radius of a sphere around the object at a pose, workspace.
+[[nodiscard]] inline glm::dvec4 boundingSphere(const HapticObject& object,
+                                               const Similarity& workspaceFromObject) {
+    return {workspaceFromObject.translation, workspaceFromObject.scale * object.boundingRadius};
+}
+
+/// True where `point` (object frame) lies inside the closed object: parity of crossings, majority of three
+/// directions. Bounded; safe on the servo thread. Always false for open objects.
+[[nodiscard]] bool insideObject(const HapticObject& object, const glm::dvec3& point) noexcept;
+
+} // namespace touchstone

@@ -1,0 +1,172 @@
+#include "haptics/state/touch_checkpoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+namespace touchstone {
+
+namespace {
+
+/// Everything that one tick leaves to the next, in the order of the bytes: scalars, vectors and arrays of
+/// them. Not: what a tick writes before it reads (rest, carried, carryCandidates, limiter.passivity.way) and
+/// what can be found again (candidates). A field that is added to DeviceState and outlives the tick must be
+/// added here and to docs/recording.md; tests/unit/recording watches the sizes.
+template <class State, class Visit>
+void eachField(State& s, const Visit& visit) {
+    visit(s.sampled);
+    visit(s.hip);
+    visit(s.travel);
+    visit(s.velocity);
+    visit(s.unsampled);
+    visit(s.placed);
+    visit(s.mustLeave);
+    visit(s.anchor);
+    visit(s.proxy);
+    visit(s.clearance);
+    visit(s.pinched.objects);
+    visit(s.pinched.places);
+    visit(s.pinched.count);
+    visit(s.gatherMargin);
+    visit(s.watch.side);
+    visit(s.watch.touching);
+    visit(s.shaded);
+    visit(s.shadedNormal);
+    visit(s.shadedTurn);
+    visit(s.shadedObject);
+    visit(s.shadedTriangle);
+    visit(s.friction);
+    visit(s.stictionPoint);
+    visit(s.frictionless);
+    visit(s.limiter.lastForce);
+    visit(s.limiter.lastTorque);
+    visit(s.limiter.heldForce);
+    visit(s.limiter.heldTorque);
+    visit(s.limiter.ramp);
+    visit(s.limiter.lateInARow);
+    visit(s.limiter.faults);
+    visit(s.limiter.latched);
+    visit(s.limiter.passivity.placed);
+    visit(s.limiter.passivity.reading);
+    visit(s.limiter.passivity.position);
+    visit(s.limiter.passivity.delayed);
+    visit(s.limiter.passivity.balance);
+}
+
+/// Only the fields that eachField visits; a DeviceState's own copy would be a megabyte.
+struct CarriedFields {
+    bool sampled = false;
+    glm::dvec3 hip{0.0}, travel{0.0}, velocity{0.0};
+    double unsampled = 0.0;
+    bool placed = false, mustLeave = false;
+    int anchor = -1;
+    glm::dvec3 proxy{0.0};
+    double clearance = 0.0;
+    PinchedObjects pinched;
+    double gatherMargin = 0.0;
+    WatchState watch;
+    bool shaded = false;
+    glm::dvec3 shadedNormal{0.0}, shadedTurn{0.0};
+    int shadedObject = -1;
+    uint32_t shadedTriangle = 0;
+    FrictionState friction = FrictionState::Free;
+    glm::dvec3 stictionPoint{0.0}, frictionless{0.0};
+    ForceLimiterState limiter;
+};
+
+/// No number that a touch comes to, in any unit, is larger; Embree takes none above 1.8e18.
+constexpr double kLargest = 1e15;
+
+bool reasonable(const CarriedFields& fields) {
+    bool all = fields.gatherMargin > 0.0;
+    const auto look = [&](double number) { all &= std::abs(number) < kLargest; };
+    const auto lookAt = [&](const glm::dvec3& v) {
+        look(v.x);
+        look(v.y);
+        look(v.z);
+    };
+    eachField(fields, [&](const auto& field) {
+        using Field = std::remove_cvref_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, double>)
+            look(field);
+        else if constexpr (std::is_same_v<Field, glm::dvec3>)
+            lookAt(field);
+        else if constexpr (std::is_same_v<Field, decltype(PinchedObjects::places)>)
+            std::for_each(field.begin(), field.end(), lookAt);
+    });
+    return all;
+}
+
+bool possible(const CarriedFields& fields, const HapticScene* scene) {
+    if (!reasonable(fields))
+        return false;
+    const int objects = scene != nullptr ? static_cast<int>(scene->objects.size()) : 0;
+    if (fields.anchor >= objects || fields.pinched.count > PinchedObjects::kMost ||
+        fields.friction > FrictionState::Sliding)
+        return false;
+    for (size_t i = 0; i < fields.pinched.count; ++i)
+        if (fields.pinched.objects[i] < 0 || fields.pinched.objects[i] >= objects)
+            return false;
+    const auto inObject = [&](int object, uint32_t triangle) {
+        return object >= 0 && object < objects &&
+               triangle < scene->objects[static_cast<size_t>(object)]->triangleCount();
+    };
+    const auto isFeature = [&](int object, uint32_t feature) {
+        return inObject(object, feature) || (object >= 0 && object < objects &&
+                                             scene->objects[static_cast<size_t>(object)]->shape != nullptr);
+    };
+    // After a scene swap it names a facet of the scene before, which nobody asks for.
+    if (fields.shaded && fields.shadedObject != -1 && !isFeature(fields.shadedObject, fields.shadedTriangle))
+        return false;
+    return !fields.watch.touching || inObject(fields.anchor, triangleOf(fields.watch.side));
+}
+
+/// The bytes back into fields. A bool is read as a number: another byte than 0 and 1 would be no bool.
+template <class State>
+void readFields(std::span<const std::byte> bytes, State& state) {
+    size_t at = 0;
+    eachField(state, [&](auto& field) {
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(field)>, bool>)
+            field = bytes[at] != std::byte{0};
+        else
+            std::memcpy(&field, bytes.data() + at, sizeof field);
+        at += sizeof field;
+    });
+}
+
+} // namespace
+
+void takeCheckpoint(DeviceState& state, TouchCheckpoint& checkpoint) noexcept {
+    state.candidates.invalidate();
+    size_t at = 0;
+    eachField(state, [&](const auto& field) {
+        static_assert(std::is_trivially_copyable_v<std::remove_reference_t<decltype(field)>>);
+        std::memcpy(checkpoint.bytes.data() + at, &field, sizeof field);
+        at += sizeof field;
+    });
+    checkpoint.size = static_cast<uint32_t>(at);
+}
+
+bool restoreCheckpoint(std::span<const std::byte> bytes, const HapticScene* scene,
+                       DeviceState& state) noexcept {
+    if (bytes.size() != checkpointSize())
+        return false;
+    CarriedFields fields;
+    readFields(bytes, fields);
+    if (!possible(fields, scene))
+        return false;
+    readFields(bytes, state);
+    state.candidates.invalidate();
+    state.candidates.ignore(state.pinched.ignored());
+    return true;
+}
+
+size_t checkpointSize() noexcept {
+    size_t size = 0;
+    CarriedFields fields;
+    eachField(fields, [&](const auto& field) { size += sizeof field; });
+    return size;
+}
+
+} // namespace touchstone

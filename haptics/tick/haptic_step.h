@@ -1,0 +1,84 @@
+#pragma once
+// One tick of touch. Read haptic_step.cpp: it tells the whole story in order.
+
+#include "engine/device_io/device_io.h"
+#include "engine/math/object_motion.h"
+#include "engine/math/similarity.h"
+#include "haptics/settings/haptic_settings.h"
+#include "haptics/settings/tick_flags.h"
+#include "haptics/state/device_state.h"
+#include "haptics/tick/stage_trace.h"
+#include "haptics/tick/stopwatch.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace touchstone {
+
+class HapticScene;
+
+/// Everything that comes from outside in one tick. The step reads no clock.
+struct TickInput {
+    uint64_t tick = 0;
+    double time = 0.0;                     ///< s since start
+    double dt = 1e-3;                      ///< s, > 0
+    bool late = false;                     ///< the previous tick ended after its next deadline
+    std::span<const DeviceSample> devices; ///< one per device
+    /// Poses at this tick; empty: every object rests where HapticScene placed it.
+    ObjectMotions objects;
+};
+
+/// What touch itself changes (persistent textures, field edits). Written by the servo only.
+struct WorldState {};
+
+/// What one device gets from one tick. Workspace frame, SI, unless said otherwise.
+struct HapticOutput {
+    double zoom = 1.0;           ///< m in the workspace for one m of the device
+    glm::dvec3 hip{0.0};         ///< haptic interface point
+    glm::dvec3 hipVelocity{0.0}; ///< m/s, filtered
+    glm::dvec3 proxy{0.0};       ///< centre of the proxy sphere (IHIP, god-object)
+    glm::dvec3 normal{0.0};      ///< unit normal of the felt surface (shaded, textured); zero without contact
+    glm::dvec3 force{0.0};       ///< N, stage 7, before safety
+    DeviceCommand command;       ///< device frame, after safety
+    glm::dvec3 commandInWorkspace{0.0};
+    double penetration = 0.0; ///< |proxy - HIP|, m
+    uint32_t contacts = 0;    ///< touching features in the last solve
+    uint32_t iterations = 0;  ///< proxy moves
+    FrictionState friction = FrictionState::Free;
+    uint32_t flags = 0;                 ///< TickFlag bits
+    int object = -1;                    ///< touched object, -1 without contact
+    int triangle = -1;                  ///< touched triangle of that object's mesh
+    std::array<glm::dvec3, 3> planes{}; ///< active constraint planes' normals, `planeCount` of them
+    uint32_t planeCount = 0;
+    glm::dvec3 stictionPoint{0.0}; ///< valid while friction is not Free
+    double height = 0.0;           ///< felt height H, m
+    /// J, passivity observer: above zero the device gave the hand more than it took. Zero with passivity=off.
+    double energyBalance = 0.0;
+};
+
+/// One tick: sample, contact, proxy, shading, texture, friction, force, safety (docs/architecture.md, One
+/// tick). Deterministic; no clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per
+/// device of `input`. Stopwatch: StageTracer on the servo and wherever its bits are to be met again,
+/// StageStopwatch, SplitStopwatch and NoStopwatch where cost is studied.
+template <class Stopwatch>
+void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,
+                Stopwatch& stopwatch) noexcept;
+
+extern template void hapticStep<NoStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                             WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                             NoStopwatch&) noexcept;
+extern template void hapticStep<StageStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                                WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                                StageStopwatch&) noexcept;
+extern template void hapticStep<SplitStopwatch>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                                WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                                SplitStopwatch&) noexcept;
+extern template void hapticStep<StageTracer>(const HapticScene&, const HapticSettings&, const TickInput&,
+                                             WorldState&, std::span<DeviceState>, std::span<HapticOutput>,
+                                             StageTracer&) noexcept;
+
+} // namespace touchstone

@@ -1,0 +1,170 @@
+#pragma once
+// What the command line can ask for, one struct and one function a command. The functions return the exit
+// status and throw Error for bad input (status 1).
+
+#include "devices/plant/plant_parameters.h"
+#include "devices/stroke/stroke_library.h"
+#include "engine/scene/scene.h"
+#include "haptics/settings/haptic_settings.h"
+
+#include <glm/glm.hpp>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace touchstone {
+
+/// What `run` and the window record.
+struct RecordingOptions {
+    std::filesystem::path record;       ///< from the start; empty: not asked for
+    bool flight = true;                 ///< with a flight recorder
+    std::filesystem::path flightFolder; ///< empty: in the state folder
+    double flightSeconds = 10.0;
+};
+
+/// touchstone [SCENE]
+struct WindowOptions {
+    std::filesystem::path scene; ///< empty: the default scene
+    /// NAME and VALUE of settings (setSetting), in order, over what the last run left; valid ones.
+    std::vector<std::pair<std::string, std::string>> settings;
+    double rateHz = 1000.0;
+    bool sound = false;         ///< start with sound, whatever the last run did
+    bool simulatedHand = false; ///< start with the simulated hand instead of the mouse
+    StrokeRequest stroke;       ///< of the simulated hand
+    double zoom = 1.0;          ///< m in the workspace for one m of a device or the simulated hand
+    std::string device;         ///< start with this device (devices/choice/device_choice.h); empty: none
+    glm::ivec2 size{1280, 800}; ///< screen coordinates
+    std::filesystem::path statusJson; ///< written twice a second when given
+    RecordingOptions recording;
+    std::filesystem::path
+        environment; ///< a panorama that lights the picture; empty: the surroundings in closed form
+    std::string gpu; ///< part of a Vulkan device's name
+};
+int windowCommand(const WindowOptions& options);
+
+/// touchstone run SCENE --headless
+struct RunOptions {
+    std::filesystem::path scene;
+    HapticSettings settings;
+    double rateHz = 1000.0;
+    double seconds = 10.0;
+    glm::ivec2 size{800, 450};
+    std::string device =
+        "hand"; ///< what is held: the simulated hand, or what devices/choice/device_choice.h names
+    std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
+    RecordingOptions recording;
+    StrokeRequest stroke;              ///< of the simulated hand
+    double zoom = 1.0;                 ///< m in the workspace for one m of what is held
+    bool openLoop = false;             ///< the hand follows its path whatever the force
+    PlantParameters plant;             ///< in the closed loop
+    std::filesystem::path environment; ///< as in the window
+    std::string gpu;
+};
+int runCommand(const RunOptions& options);
+
+/// touchstone touch SCENE --path HIP.csv|--stroke NAME --out TICKS.csv
+struct TouchOptions {
+    std::filesystem::path scene, out;
+    std::filesystem::path path;   ///< empty: the stroke
+    StrokeRequest stroke;         ///< in place of a path
+    double seconds = 0.0;         ///< of the stroke; 0: one round
+    std::filesystem::path json;   ///< empty: not asked for
+    std::filesystem::path record; ///< empty: not asked for
+    std::filesystem::path sound;  ///< WAV; empty: not asked for
+    Fit fit = Fit::None;
+    HapticSettings settings;
+    double rateHz = 0.0;     ///< 0: one tick a row of the path
+    bool closedLoop = false; ///< the path is what the hand intends; it holds a device that yields
+    PlantParameters plant;   ///< in the closed loop
+};
+int touchCommand(const TouchOptions& options);
+
+/// touchstone replay FILE
+struct ReplayOptions {
+    std::filesystem::path recording;
+    std::filesystem::path out, json;           ///< empty: not asked for
+    std::vector<std::filesystem::path> scenes; ///< in place of the recorded ones, in their order
+};
+/// Status 1 where a tick differs or the file is damaged.
+int replayCommand(const ReplayOptions& options);
+
+/// touchstone edit SCENE
+struct EditOptions {
+    std::filesystem::path scene;
+    std::filesystem::path out;          ///< empty: the scene's own file
+    std::vector<std::string> materials; ///< names or indices, or "all"; empty: the only one
+    std::string preset;                 ///< workbench/editor/presets.h; empty: none
+    bool reset = false;                 ///< first of all, whatever the file says is taken out
+    std::vector<std::string> resetFields;
+    std::vector<std::pair<std::string, std::string>> fields; ///< name and value, in order
+};
+int editCommand(const EditOptions& options);
+
+/// touchstone render SCENE --out F.png --size WxH
+struct RenderOptions {
+    std::filesystem::path scene, out;
+    glm::ivec2 size{1280, 720};
+    std::string view = "shaded";
+    std::filesystem::path environment; ///< as in the window
+    std::string gpu;
+};
+int renderCommand(const RenderOptions& options);
+
+/// touchstone inspect SCENE
+struct InspectOptions {
+    std::filesystem::path scene;
+    std::filesystem::path json; ///< empty: not asked for
+};
+int inspectCommand(const InspectOptions& options);
+
+/// touchstone bench [fast|growth]
+struct BenchOptions {
+    std::string what;           ///< empty: all of it
+    std::filesystem::path json; ///< empty: not asked for
+    size_t largestTriangles = 1'000'000;
+    int rounds = 20;    ///< of 1000 ticks for each rung
+    bool check = false; ///< status 1 where a bound is missed
+};
+int benchCommand(const BenchOptions& options);
+
+/// touchstone study [NAME|FILE...] --out DIR
+struct StudyCommandOptions {
+    std::vector<std::string> what;    ///< shapes by name, files and folders; empty: every shape
+    std::filesystem::path out;        ///< a folder
+    std::vector<std::string> ladders; ///< empty: all
+    int rounds = 0;                   ///< turns of each rung; 0: as many as make intervals of a few per cent
+    bool quick = false;
+    bool list = false;         ///< the ladders and shapes, and nothing else
+    int shard = 1, shards = 1; ///< every `shards`-th of what is asked for, from the `shard`-th
+    std::string commandLine;   ///< as it was typed, for who reads the results
+};
+int studyCommand(const StudyCommandOptions& options);
+
+/// touchstone study compare A.json B.json
+struct StudyCompareOptions {
+    std::filesystem::path first, second;
+};
+/// Status 1 where two rungs whose intervals do not overlap in the first study have changed places in the
+/// second.
+int studyCompare(const StudyCompareOptions& options);
+
+/// touchstone study merge DIR... --out DIR
+struct StudyMergeOptions {
+    std::vector<std::filesystem::path> parts; ///< folders with a study.json, or such files
+    std::filesystem::path out;                ///< a folder
+};
+/// Makes one study of its shards, and draws it.
+int studyMerge(const StudyMergeOptions& options);
+
+/// touchstone devices
+struct DevicesOptions {
+    std::string test; ///< the device to try, as --device names it; empty: list what there is
+    double seconds = 3.0;
+    double force = 0.0;         ///< N to push with while trying; 0: none is sent
+    std::filesystem::path json; ///< empty: not asked for
+};
+int devicesCommand(const DevicesOptions& options);
+
+} // namespace touchstone

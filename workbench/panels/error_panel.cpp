@@ -1,0 +1,112 @@
+#include "workbench/panels/error_panel.h"
+
+#include "study/errors/noticeable.h"
+
+#include <imgui.h>
+
+#include <cstdio>
+#include <string_view>
+
+namespace touchstone {
+
+namespace {
+
+using study::LiveErrorFigures;
+
+constexpr double kDegree = 0.017453292519943295;
+const ImVec4 kBelow{0.45f, 0.82f, 0.55f, 1.0f}, kAbove{0.96f, 0.72f, 0.30f, 1.0f};
+
+struct Noticeable {
+    double direction = 0.0, share = 0.0, force = 0.0; ///< rad, 1, N
+};
+
+const Noticeable& noticeable() {
+    static const Noticeable kFound = [] {
+        Noticeable found;
+        for (const study::JustNoticeable& just : study::noticeableDifferences()) {
+            if (just.quantity == "force direction")
+                found.direction = just.value;
+            if (just.quantity == "force magnitude")
+                found.share = just.value;
+            if (just.quantity == "force")
+                found.force = just.value;
+        }
+        return found;
+    }();
+    return kFound;
+}
+
+/// `just`: 0 where nothing is known of what people notice.
+void row(const char* name, const LiveErrorFigures::Pair& error, double unit, double just,
+         const char* format) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::Text(format, error.p50 / unit);
+    ImGui::TableNextColumn();
+    if (just > 0.0)
+        ImGui::TextColored(error.p99 <= just ? kBelow : kAbove, format, error.p99 / unit);
+    else
+        ImGui::Text(format, error.p99 / unit);
+    ImGui::TableNextColumn();
+    if (just > 0.0)
+        ImGui::TextDisabled("%.3g", just / unit);
+    else
+        ImGui::TextDisabled("-");
+}
+
+void table(const LiveErrorFigures& error) {
+    if (!ImGui::BeginTable("error", 4, ImGuiTableFlags_SizingStretchProp))
+        return;
+    ImGui::TableSetupColumn("", 0, 2.1f);
+    for (const char* name : {"p50", "p99", "noticed"})
+        ImGui::TableSetupColumn(name, 0, 1.1f);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TableNextRow();
+    for (const char* title : {"", "p50", "p99", "noticed"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(title);
+        if (std::string_view(title) == "noticed" && ImGui::IsItemHovered())
+            ImGui::SetTooltip("From what on people notice it (docs/accuracy.md):\n%s",
+                              "forces one after the other, on a moving arm");
+    }
+    ImGui::PopStyleColor();
+    const Noticeable& just = noticeable();
+    row("place, µm", error.position, 1e-6, 0.0, "%.2f");
+    row("force, mN", error.force, 1e-3, just.force, "%.2f");
+    row("force, %", error.forceShare, 1e-2, just.share, "%.2f");
+    row("direction, °", error.direction, kDegree, just.direction, "%.2f");
+    ImGui::EndTable();
+}
+
+} // namespace
+
+bool belowPerception(const LiveErrorFigures& error) {
+    const Noticeable& just = noticeable();
+    return error.lost + error.invented == 0 && error.direction.p99 <= just.direction &&
+           (error.force.p99 <= just.force || error.forceShare.p99 <= just.share);
+}
+
+void drawError(const LiveErrorFigures& error, Widgets& widgets) {
+    table(error);
+    widgets.mark("error");
+    if (error.inContact + error.lost + error.invented == 0) {
+        ImGui::TextDisabled("in contact: touch something");
+        return;
+    }
+    const bool below = belowPerception(error);
+    ImGui::TextColored(below ? kBelow : kAbove, "%s", below ? "below perception" : "may be felt");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(
+            "The last 2 s against the most exact rungs, run beside the servo on the same hand.\n"
+            "Below: 99 of 100 ticks differ by less than people notice, and none in contact.");
+    if (error.lost + error.invented > 0)
+        ImGui::Text("contact lost in %llu ticks, invented in %llu",
+                    static_cast<unsigned long long>(error.lost),
+                    static_cast<unsigned long long>(error.invented));
+    if (error.comparedShare < 0.995)
+        ImGui::TextDisabled("%.0f %% of the ticks compared", 100.0 * error.comparedShare);
+}
+
+} // namespace touchstone

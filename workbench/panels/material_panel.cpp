@@ -1,0 +1,405 @@
+#include "workbench/panels/material_panel.h"
+
+#include "engine/scene/haptic_layers.h"
+#include "workbench/editor/haptic_fields.h"
+#include "workbench/editor/presets.h"
+
+#include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+namespace touchstone {
+
+namespace {
+
+constexpr ImU32 kEdited = IM_COL32(240, 180, 60, 255), kStated = IM_COL32(215, 220, 226, 255),
+                kUnset = IM_COL32(120, 126, 133, 255);
+
+/// Why a number holds that the extension does not state.
+const char* originOf(HapticSource source) {
+    switch (source) {
+    case HapticSource::Mpeg:
+        return "MPEG";
+    case HapticSource::Physics:
+        return "physics";
+    case HapticSource::DerivedFromPbr:
+        return "derived";
+    case HapticSource::Touchstone:
+    case HapticSource::Default:
+        break;
+    }
+    return "default";
+}
+
+const HapticMaterial::Field<float>* settledField(const HapticMaterial& haptic, std::string_view name) {
+    const std::array<std::pair<std::string_view, const HapticMaterial::Field<float>*>, 6> fields{
+        {{"stiffness", &haptic.stiffness},
+         {"damping", &haptic.damping},
+         {"staticFriction", &haptic.staticFriction},
+         {"dynamicFriction", &haptic.dynamicFriction},
+         {"viscousFriction", &haptic.viscousFriction},
+         {"normalTextureInfluence", &haptic.normalTextureInfluence}}};
+    for (const auto& [known, field] : fields)
+        if (known == name)
+            return field;
+    return nullptr;
+}
+
+class MaterialPanel {
+  public:
+    MaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, MaterialPanelState& state,
+                  Widgets& widgets)
+        : in_(input), desk_(desk), edits_(desk.edits()), state_(state), widgets_(widgets), m_(state.material),
+          now_(edits_.now(m_)), was_(edits_.inFile(m_)) {
+        // What would hold with the statement as it is shown; the scene's copy may be a few frames behind.
+        HapticLayers says = materialOf(m_).says;
+        says.ours = now_;
+        haptic_ = settledHaptics(says, in_.scene->images);
+    }
+
+    void draw() {
+        chooser();
+        preset();
+        // The fields scroll; what is done with them stays in sight, whatever the window's height.
+        ImGui::BeginChild("fields", ImVec2(0.0f, -std::max(1.0f, state_.footer)));
+        fields();
+        ImGui::EndChild();
+        const float begin = ImGui::GetCursorPosY();
+        history();
+        saving();
+        state_.footer = ImGui::GetCursorPosY() - begin;
+    }
+
+  private:
+    void fields() {
+        for (const NumberField& field : numberFields())
+            if (field.name.find('.') == std::string_view::npos && field.name != "voxelSize")
+                number(field);
+        for (const MapField& field : mapFields())
+            map(field);
+        for (const ChoiceField& field : choiceFields())
+            choice(field);
+        if (now_.implicit.value_or(false) || now_.voxelSize)
+            number(*std::find_if(numberFields().begin(), numberFields().end(),
+                                 [](const NumberField& field) { return field.name == "voxelSize"; }));
+        shader();
+    }
+
+    /// The first material of the scene that is the file's material `index`.
+    [[nodiscard]] const Material& materialOf(size_t index) const { return in_.scene->materials[index]; }
+
+    [[nodiscard]] std::string nameOf(size_t index) const {
+        const std::string& name = materialOf(index).name;
+        return std::to_string(index) + "  " + (name.empty() ? "unnamed" : name);
+    }
+
+    /// Of the file, under the probe; -1: none.
+    [[nodiscard]] int probed() const {
+        return in_.probed >= 0 ? in_.scene->materials[static_cast<size_t>(in_.probed)].fileIndex : -1;
+    }
+
+    void chooser() {
+        ImGui::PushItemWidth(-1.0f);
+        const std::string shown = nameOf(m_) + (edits_.edited(m_) ? " *" : "");
+        if (ImGui::BeginCombo("##material", shown.c_str())) {
+            for (size_t m = 0; m < edits_.size(); ++m) {
+                const std::string text = nameOf(m) + (edits_.edited(m) ? " *" : "") +
+                                         (probed() == static_cast<int>(m) ? "   (under the probe)" : "") +
+                                         "##" + std::to_string(m);
+                if (ImGui::Selectable(text.c_str(), m == m_)) {
+                    state_.material = m;
+                    state_.followProbe = false;
+                }
+            }
+            ImGui::EndCombo();
+        }
+        widgets_.mark("edit.material");
+        ImGui::PopItemWidth();
+        ImGui::Checkbox("follow the probe", &state_.followProbe);
+        widgets_.mark("followProbe");
+        if (probed() == static_cast<int>(m_)) {
+            ImGui::SameLine();
+            ImGui::TextDisabled("touched now");
+        } else if (in_.probed >= 0 && probed() < 0) {
+            ImGui::TextDisabled("What is touched has no material in the file.");
+        }
+    }
+
+    void preset() {
+        const MaterialPreset* current = presetOf(now_);
+        ImGui::PushItemWidth(-1.0f);
+        const std::string shown = current != nullptr ? "preset: " + std::string(current->name) : "preset ...";
+        if (ImGui::BeginCombo("##preset", shown.c_str())) {
+            for (const MaterialPreset& each : materialPresets()) {
+                if (ImGui::Selectable(std::string(each.name).c_str(), &each == current)) {
+                    change(withPreset(now_, each), "preset " + std::string(each.name));
+                    edits_.endGesture();
+                }
+                widgets_.mark(("preset." + std::string(each.name)).c_str());
+                tip(each.reason);
+            }
+            ImGui::EndCombo();
+        }
+        widgets_.mark("edit.preset");
+        ImGui::PopItemWidth();
+        ImGui::Spacing();
+    }
+
+    /// The name of a field in the colour of its state.
+    void label(std::string_view text, bool stated, bool edited, std::string_view meaning) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::PushStyleColor(ImGuiCol_Text, edited ? kEdited : stated ? kStated : kUnset);
+        ImGui::TextUnformatted(text.data(), text.data() + text.size());
+        ImGui::PopStyleColor();
+        tip(std::string(meaning) + (edited   ? "\nedited, not in the file yet"
+                                    : stated ? "\nas the file says"
+                                             : "\nthe file says nothing"));
+        ImGui::SameLine(widgets_.units(112.0f));
+        ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x - widgets_.units(26.0f));
+    }
+
+    /// Takes a field out of the extension; drawn at the end of its row, where there is something to take.
+    void reset(std::string_view name, bool stated) {
+        ImGui::PopItemWidth();
+        if (!stated)
+            return;
+        ImGui::SameLine(0.0f, widgets_.units(4.0f));
+        const std::string id(name);
+        if (ImGui::SmallButton(("x##" + id).c_str())) {
+            HapticStatement next = now_;
+            resetHapticField(next, name);
+            change(std::move(next), "reset " + id);
+            edits_.endGesture();
+        }
+        widgets_.mark(("reset." + id).c_str());
+        tip("back to what holds when the file says nothing");
+    }
+
+    void number(const NumberField& field) {
+        const std::string id(field.name);
+        const std::optional<float> stated = field.get(now_);
+        const HapticMaterial::Field<float>* settled = settledField(haptic_, field.name);
+        float value = stated.value_or(0.0f);
+        std::string format = "%.3g " + std::string(field.unit);
+        if (!stated && settled != nullptr) {
+            value =
+                settled->value.value_or(field.name == "stiffness" ? static_cast<float>(in_.deviceStiffness)
+                                        : field.name == "normalTextureInfluence" ? 1.0f
+                                                                                 : 0.0f);
+            format +=
+                std::string("  ") +
+                (field.name == "stiffness" && !settled->value ? "the device's" : originOf(settled->source));
+        }
+        const size_t dot = field.name.find('.');
+        const std::string shown = (dot == std::string_view::npos ? "" : "   ") + std::string(field.label);
+        label(shown, stated.has_value(), stated != field.get(was_), field.meaning);
+        if (ImGui::SliderFloat(("##" + id).c_str(), &value, field.low, field.high, format.c_str(),
+                               field.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None)) {
+            HapticStatement next = now_;
+            if (field.set(next, std::clamp(value, field.least, field.most)))
+                change(std::move(next), std::string(field.label));
+        }
+        widgets_.mark(("edit." + id).c_str());
+        reset(field.name, stated.has_value() && dot == std::string_view::npos);
+    }
+
+    [[nodiscard]] std::string textureName(size_t index) const {
+        const SceneTexture& texture = in_.scene->textures[index];
+        std::string name = texture.name;
+        if (name.empty() && texture.reference)
+            name = in_.scene->images[static_cast<size_t>(texture.reference.image)].name;
+        return std::to_string(index) + "  " + name.substr(0, 60);
+    }
+
+    void map(const MapField& field) {
+        const TextureRef* const current = field.get(now_);
+        const TextureRef* const before = field.get(was_);
+        if (in_.scene->textures.empty() && current == nullptr)
+            return;
+        const bool edited = (current == nullptr) != (before == nullptr) ||
+                            (current != nullptr && current->texture != before->texture);
+        label(field.label, current != nullptr, edited, field.meaning);
+        const std::string id(field.name);
+        const std::string shown = current != nullptr && current->texture >= 0
+                                      ? textureName(static_cast<size_t>(current->texture))
+                                      : "none";
+        if (ImGui::BeginCombo(("##" + id).c_str(), shown.c_str())) {
+            if (ImGui::Selectable("none", current == nullptr))
+                chooseMap(field, {});
+            for (size_t t = 0; t < in_.scene->textures.size(); ++t)
+                if (const TextureRef& texture = in_.scene->textures[t].reference;
+                    texture && ImGui::Selectable(textureName(t).c_str(),
+                                                 current != nullptr && current->texture == texture.texture))
+                    chooseMap(field, texture);
+            ImGui::EndCombo();
+        }
+        widgets_.mark(("edit." + id).c_str());
+        reset(field.name, current != nullptr);
+        if (field.get(now_) != nullptr)
+            for (const NumberField& part : numberFields())
+                if (part.name.starts_with(id + "."))
+                    number(part);
+    }
+
+    void chooseMap(const MapField& field, const TextureRef& texture) {
+        HapticStatement next = now_;
+        field.set(next, texture);
+        change(std::move(next), std::string(field.label));
+        edits_.endGesture();
+    }
+
+    void choice(const ChoiceField& field) {
+        const std::optional<size_t> stated = field.get(now_);
+        label(field.label, stated.has_value(), stated != field.get(was_), field.meaning);
+        const std::string id(field.name);
+        const std::string shown =
+            std::string(field.choices[stated.value_or(field.unset)]) + (stated ? "" : "  default");
+        if (ImGui::BeginCombo(("##" + id).c_str(), shown.c_str())) {
+            for (size_t c = 0; c < field.choices.size(); ++c)
+                if (ImGui::Selectable(std::string(field.choices[c]).c_str(), stated == c)) {
+                    HapticStatement next = now_;
+                    field.set(next, c);
+                    change(std::move(next), std::string(field.label));
+                    edits_.endGesture();
+                }
+            ImGui::EndCombo();
+        }
+        widgets_.mark(("edit." + id).c_str());
+        reset(field.name, stated.has_value());
+    }
+
+    /// Kept for later work: shown, and can be taken out.
+    void shader() {
+        if (now_.shader.is_null())
+            return;
+        label("shader", true, now_.shader != was_.shader, "kept in the file; not yet available");
+        ImGui::TextUnformatted(now_.shader.value("source", "").substr(0, 40).c_str());
+        reset("shader", true);
+    }
+
+    bool button(const char* text, const char* name, bool enabled, const std::string& hint) {
+        if (!enabled)
+            ImGui::BeginDisabled();
+        const bool pressed = ImGui::Button(text);
+        widgets_.mark(name);
+        if (!enabled)
+            ImGui::EndDisabled();
+        tip(hint);
+        return pressed && enabled;
+    }
+
+    void history() {
+        ImGui::Spacing();
+        if (button("Undo", "undo", !edits_.undoName().empty(), "Ctrl+Z: " + edits_.undoName()))
+            edits_.undo();
+        ImGui::SameLine();
+        if (button("Redo", "redo", !edits_.redoName().empty(), "Ctrl+Shift+Z: " + edits_.redoName()))
+            edits_.redo();
+        ImGui::SameLine();
+        if (button("As in the file", "resetMaterial", edits_.edited(m_),
+                   "takes back all changes of this material")) {
+            change(was_, "as in the file");
+            edits_.endGesture();
+        }
+    }
+
+    void saving() {
+        const bool inPlace = desk_.canSaveInPlace();
+        if (button("Save", "save", edits_.edited() && !desk_.saving() && inPlace,
+                   inPlace ? "Ctrl+S: into " + desk_.path().string()
+                           : "this is the program's own scene: save it under another name"))
+            desk_.save();
+        ImGui::SameLine();
+        if (button("Save as ...", "saveAs", !desk_.saving(), "under another name")) {
+            state_.askTarget = !state_.askTarget;
+            state_.target = desk_.path().string();
+        }
+        if (edits_.edited()) {
+            ImGui::SameLine();
+            ImGui::TextDisabled("not saved");
+        }
+        if (state_.askTarget)
+            askTarget();
+        if (!desk_.notice().empty()) {
+            ImGui::PushStyleColor(ImGuiCol_Text, desk_.failed() ? ImVec4(0.95f, 0.5f, 0.42f, 1.0f)
+                                                                : ImVec4(0.6f, 0.8f, 0.65f, 1.0f));
+            ImGui::TextWrapped("%s", desk_.notice().c_str());
+            ImGui::PopStyleColor();
+        }
+    }
+
+    void askTarget() {
+        std::array<char, 1024> text{};
+        std::snprintf(text.data(), text.size(), "%s", state_.target.c_str());
+        ImGui::PushItemWidth(-widgets_.units(76.0f));
+        const bool entered =
+            ImGui::InputText("##target", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+        widgets_.mark("target");
+        ImGui::PopItemWidth();
+        state_.target = text.data();
+        ImGui::SameLine();
+        std::error_code ignored;
+        const bool replaces = std::filesystem::exists(state_.target, ignored) &&
+                              !std::filesystem::equivalent(state_.target, desk_.path(), ignored);
+        const bool pressed = ImGui::Button(replaces ? "Replace##as" : "Save##as");
+        widgets_.mark("saveTarget");
+        if (replaces)
+            ImGui::TextDisabled("this file is there already");
+        if ((pressed || (entered && !replaces)) && !state_.target.empty()) {
+            desk_.saveAs(state_.target);
+            state_.askTarget = false;
+        }
+    }
+
+    void change(HapticStatement next, std::string what) {
+        edits_.change(m_, std::move(next), std::move(what));
+    }
+
+    static void tip(std::string_view text) {
+        if (text.empty() || !ImGui::IsItemHovered())
+            return;
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
+        ImGui::TextUnformatted(text.data(), text.data() + text.size());
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+
+    const MaterialPanelInput& in_;
+    MaterialDesk& desk_;
+    MaterialEdits& edits_;
+    MaterialPanelState& state_;
+    Widgets& widgets_;
+    const size_t m_;
+    const HapticStatement now_, was_; // of this frame: copies, since a widget changes the desk's
+    HapticMaterial haptic_;
+};
+
+} // namespace
+
+void drawMaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, MaterialPanelState& state,
+                       Widgets& widgets) {
+    if (input.scene == nullptr)
+        return;
+    if (desk.edits().size() == 0) {
+        ImGui::TextWrapped("The file has no materials: what it feels like cannot be kept in it.");
+        return;
+    }
+    if (state.followProbe && input.probed >= 0) {
+        const int touched = input.scene->materials[static_cast<size_t>(input.probed)].fileIndex;
+        if (touched >= 0 && !ImGui::IsAnyItemActive())
+            state.material = static_cast<size_t>(touched);
+    }
+    state.material = std::min(state.material, desk.edits().size() - 1);
+    MaterialPanel(input, desk, state, widgets).draw();
+    if (!ImGui::IsAnyItemActive())
+        desk.edits().endGesture();
+}
+
+} // namespace touchstone

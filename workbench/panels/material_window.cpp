@@ -1,0 +1,52 @@
+#include "workbench/panels/material_window.h"
+
+#include "workbench/screen/keys.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace touchstone {
+
+namespace {
+
+void materialKeys(MaterialDesk& desk, MaterialPanelState& state) {
+    if (ctrlPressed(keyOf('z'), true)) {
+        if (ImGui::GetIO().KeyShift)
+            desk.edits().redo();
+        else
+            desk.edits().undo();
+    }
+    if (ctrlPressed(keyOf('y'), true))
+        desk.edits().redo();
+    if (ctrlPressed(keyOf('s')) && desk.edits().edited()) {
+        if (desk.canSaveInPlace()) {
+            desk.save();
+        } else {
+            state.askTarget = true;
+            state.target = desk.path().string();
+        }
+    }
+}
+
+} // namespace
+
+void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& picture, bool& open,
+                        MaterialDesk& desk, MaterialPanelState& state, Widgets& widgets) {
+    materialKeys(desk, state);
+    if (!open)
+        return;
+    constexpr float kWidth = 320.0f, kHeight = 610.0f, kMargin = 8.0f; // units
+    const float margin = widgets.units(kMargin);
+    const ImVec2 room(std::max(1.0f, picture.width - 2.0f * margin),
+                      std::max(1.0f, picture.height - 2.0f * margin));
+    ImGui::SetNextWindowPos(ImVec2(picture.x + margin, picture.y + margin), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(
+        ImVec2(std::min(room.x, widgets.units(kWidth)), std::min(room.y, widgets.units(kHeight))),
+        ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Material", &open, ImGuiWindowFlags_NoSavedSettings))
+        drawMaterialPanel(input, desk, state, widgets);
+    ImGui::End();
+}
+
+} // namespace touchstone

@@ -1,0 +1,75 @@
+#include "workbench/panels/colors.h"
+#include "workbench/panels/panels.h"
+#include "workbench/timeline/timeline_desk.h"
+
+#include <imgui.h>
+
+namespace touchstone {
+
+TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
+    constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255);
+    if (input.timeline->looking() && !input.timeline->again().running())
+        return input.tick->output.contacts > 0 ? TouchLamp{"Recorded: touching", kAmber}
+                                               : TouchLamp{"Recorded: in the air", kGrey};
+    const HapticOutput& tick = input.servo->last.output;
+    if (input.scene == nullptr)
+        return {input.loading ? "Loading" : "Nothing to touch yet", kGrey};
+    if (has(tick.flags, TickFlag::SafetyLatched))
+        return {"Force off after a fault: press space twice", kRed};
+    if (!state.settings.forceEnabled)
+        return {"Force off (space)", kAmber};
+    if (input.timeline->looking())
+        return {"Touched again, force off", kAmber};
+    if (has(tick.flags, TickFlag::StartedInside))
+        return {"Inside or too near: move out to touch", kAmber};
+    if (has(tick.flags, TickFlag::InputInvalid))
+        return {"No hand", kGrey};
+    const double coupling = input.servo->last.sample.mapping.coupling;
+    const bool mouse = state.device.empty() && !state.simulatedHand; // has no clutch, but hovers
+    if (coupling < 1.0 && !mouse)
+        return {coupling > 0.0 ? "Clutch: the force fades" : "Clutched: the hand stays here", kAmber};
+    if (has(tick.flags, TickFlag::ForceRamping) && tick.contacts > 0 && coupling == 1.0)
+        return {"Force fades in", kAmber};
+    return tick.contacts > 0 ? TouchLamp{"Touching", kGreen} : TouchLamp{"In the air", kGrey};
+}
+
+void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const TouchLamp lamp = touchLamp(input, state);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight(), radius = 0.32f * line;
+    ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + radius, at.y + 0.5f * line), radius,
+                                                lamp.color);
+    ImGui::Dummy(ImVec2(2.0f * radius, line));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(lamp.text);
+    widgets.mark("lamp");
+
+    const HapticOutput& tick = input.tick->output;
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
+    ImGui::Text("%.2f N", glm::length(tick.force));
+    ImGui::PopFont();
+    widgets.mark("force");
+    ImGui::SameLine(widgets.units(110.0f));
+    const glm::dvec3 along = tick.force - glm::dot(tick.force, tick.normal) * tick.normal;
+    ImGui::BeginGroup();
+    ImGui::TextDisabled("%.2f mm deep", 1e3 * tick.penetration);
+    // A recorded tick that cannot be touched again has no normal.
+    if (tick.contacts > 0 && tick.normal == glm::dvec3(0.0))
+        ImGui::TextDisabled("its direction is not recorded");
+    else
+        ImGui::TextDisabled("%.2f N along the surface", tick.contacts > 0 ? glm::length(along) : 0.0);
+    ImGui::EndGroup();
+
+    PassivityMode& passivity = state.settings.passivity;
+    bool controlled = passivity == PassivityMode::Control;
+    if (ImGui::Checkbox("Passivity control", &controlled))
+        passivity = controlled ? PassivityMode::Control : PassivityMode::Observe;
+    widgets.mark("passivity");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Damps what the device gives the hand beyond what it took");
+    ImGui::SameLine();
+    if (passivity != PassivityMode::Off)
+        ImGui::TextDisabled("%+.2f mJ", 1e3 * tick.energyBalance);
+}
+
+} // namespace touchstone

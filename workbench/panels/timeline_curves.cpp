@@ -1,0 +1,329 @@
+#include "workbench/panels/timeline_curves.h"
+
+#include "workbench/panels/scale.h"
+#include "workbench/panels/timeline_panel.h"
+#include "workbench/timeline/timeline_desk.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52, 58, 255),
+                kLabel = IM_COL32(140, 147, 155, 255), kText = IM_COL32(228, 231, 234, 255),
+                kCursor = IM_COL32(235, 238, 240, 255), kForce = IM_COL32(245, 190, 70, 255),
+                kAgain = IM_COL32(97, 173, 255, 255), kContact = IM_COL32(245, 190, 70, 26),
+                kLoop = IM_COL32(97, 173, 255, 34), kLoopEdge = IM_COL32(97, 173, 255, 200),
+                kGap = IM_COL32(235, 75, 65, 220), kScene = IM_COL32(120, 205, 130, 220),
+                kSettings = IM_COL32(190, 150, 240, 230), kNote = IM_COL32(228, 231, 234, 220);
+
+constexpr double kLeastTop = 0.5;     // N, so that noise in the air does not fill the picture
+constexpr float kLabelWidth = 108.0f; // units, as that of the charts
+
+ImU32 colorOf(TimelineMark::Kind kind) {
+    switch (kind) {
+    case TimelineMark::Kind::Gap:
+        return kGap;
+    case TimelineMark::Kind::Scene:
+        return kScene;
+    case TimelineMark::Kind::Settings:
+        return kSettings;
+    case TimelineMark::Kind::Note:
+        break;
+    }
+    return kNote;
+}
+
+/// A stretch of the recording on a strip of the window.
+class Strip {
+  public:
+    /// `near`: forces that are never near zero fill the strip.
+    Strip(TimelineDesk& desk, double begin, double end, bool near, float height, Widgets& widgets)
+        : desk_(desk), line_(desk.timeline()), widgets_(widgets), draw_(*ImGui::GetWindowDrawList()),
+          corner_(ImGui::GetCursorScreenPos()), left_(corner_.x + widgets.units(kLabelWidth)),
+          right_(corner_.x + ImGui::GetContentRegionAvail().x), height_(height), begin_(begin),
+          end_(std::max(end, begin + 1e-6)), near_(near) {}
+
+    /// Curve, contact, marks and cursor; scrubs. True while it is being dragged.
+    bool draw(const char* name) {
+        draw_.AddRectFilled(ImVec2(left_, top()), ImVec2(right_, bottom()), kBackground, 3.0f);
+        draw_.PushClipRect(ImVec2(left_, top()), ImVec2(right_, bottom()), true);
+        findScale();
+        loop();
+        curve();
+        again();
+        marks();
+        cursor();
+        draw_.PopClipRect();
+        char text[24];
+        std::snprintf(text, sizeof text, "%g N", most_);
+        draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), top()), kLabel, text);
+        std::snprintf(text, sizeof text, "%g", least_);
+        if (least_ > 0.0)
+            draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), bottom() - ImGui::GetTextLineHeight()), kLabel,
+                          text);
+        return scrub(name);
+    }
+    /// A line of the column on the left, from above.
+    void label(int row, ImU32 color, const char* text) const {
+        draw_.AddText(ImVec2(corner_.x, top() + static_cast<float>(row) * ImGui::GetTextLineHeight()), color,
+                      text);
+    }
+    void labelRight(int row, ImU32 color, const char* text) const {
+        const float x = left_ - widgets_.units(8.0f) - ImGui::CalcTextSize(text).x;
+        draw_.AddText(ImVec2(x, top() + static_cast<float>(row) * ImGui::GetTextLineHeight()), color, text);
+    }
+
+  private:
+    [[nodiscard]] float top() const { return corner_.y; }
+    [[nodiscard]] float bottom() const { return corner_.y + height_; }
+    [[nodiscard]] float width() const { return std::max(2.0f, right_ - left_); }
+    [[nodiscard]] double secondsAt(float x) const {
+        return begin_ + (end_ - begin_) * static_cast<double>((x - left_) / width());
+    }
+    [[nodiscard]] float xOf(double seconds) const {
+        return left_ + width() * static_cast<float>((seconds - begin_) / (end_ - begin_));
+    }
+    [[nodiscard]] float yOf(double newton) const {
+        return bottom() - 1.0f -
+               (height_ - 3.0f) *
+                   static_cast<float>(std::clamp((newton - least_) / (most_ - least_), 0.0, 1.0));
+    }
+    [[nodiscard]] int columns() const { return static_cast<int>(width()); }
+
+    /// The ticks of a column of pixels; an empty range where it has none.
+    [[nodiscard]] std::pair<size_t, size_t> ticksOf(int column) const {
+        const auto from = [&](int c) {
+            const double seconds = secondsAt(left_ + static_cast<float>(c));
+            const size_t at = line_.indexAt(seconds);
+            return line_.seconds(at) < seconds ? at + 1 : at;
+        };
+        return {from(column), from(column + 1)};
+    }
+
+    void findScale() {
+        MinMax all = line_.force().over(line_.indexAt(begin_), line_.indexAt(end_) + 1);
+        feltAgain();
+        for (const std::optional<MinMax>& column : again_)
+            if (column)
+                all = {std::min(all.least, column->least), std::max(all.most, column->most)};
+        most_ = niceCeiling(std::max(kLeastTop, static_cast<double>(all.most)));
+        least_ = 0.0;
+        // Nothing but contact: the differences are what is looked at.
+        constexpr double kSteps = 4.0;
+        if (!near_ || static_cast<double>(all.least) < 0.3 * most_)
+            return;
+        const double step = niceCeiling(
+            std::max(0.02, static_cast<double>(all.most) - static_cast<double>(all.least)) / kSteps);
+        least_ = step * std::floor(static_cast<double>(all.least) / step);
+        most_ = step * std::ceil(static_cast<double>(all.most) / step + 1e-6);
+    }
+
+    /// What was felt again, by column. Of more ticks than this in a strip it is not drawn: the near view has
+    /// it.
+    void feltAgain() {
+        constexpr size_t kMostTicks = 200'000;
+        const TouchAgain& again = desk_.again();
+        again_.assign(static_cast<size_t>(columns()), std::nullopt);
+        if (line_.indexAt(end_) - line_.indexAt(begin_) > kMostTicks || again.force().empty())
+            return;
+        for (int c = 0; c < columns(); ++c) {
+            const auto [from, to] = ticksOf(c);
+            std::optional<MinMax>& column = again_[static_cast<size_t>(c)];
+            const size_t end = std::min(to, again.first() + again.force().size());
+            for (size_t i = std::max(from, again.first()); i < end; ++i) {
+                const float newton = again.force()[i - again.first()];
+                if (std::isnan(newton))
+                    continue;
+                if (!column)
+                    column = MinMax{newton, newton};
+                column->least = std::min(column->least, newton);
+                column->most = std::max(column->most, newton);
+            }
+        }
+    }
+
+    void loop() {
+        const Playback& at = desk_.playback();
+        if (!at.beginMark() && !at.endMark())
+            return;
+        const float from = xOf(line_.seconds(at.first())), to = xOf(line_.seconds(at.last()));
+        draw_.AddRectFilled(ImVec2(from, top()), ImVec2(to, bottom()), kLoop);
+        for (const auto& [mark, x] : {std::pair(at.beginMark(), from), std::pair(at.endMark(), to)})
+            if (mark)
+                draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), kLoopEdge, 1.5f);
+    }
+
+    /// From the least to the most of each column: no peak is lost, however long it is.
+    void curve() {
+        float before = yOf(least_);
+        for (int c = 0; c < columns(); ++c) {
+            const auto [first, last] = ticksOf(c);
+            const float x = left_ + static_cast<float>(c);
+            if (line_.touches(first, std::max(last, first + 1)) && first < line_.size())
+                draw_.AddRectFilled(ImVec2(x, top()), ImVec2(x + 1.0f, bottom()), kContact);
+            if (first >= last)
+                continue;
+            const MinMax force = line_.force().over(first, last);
+            const float low = yOf(static_cast<double>(force.least)),
+                        high = yOf(static_cast<double>(force.most));
+            // Joined to the column before, and at least a pixel high.
+            draw_.AddRectFilled(ImVec2(x, std::min(high, before)),
+                                ImVec2(x + 1.0f, std::max(low, before) + 1.0f), kForce);
+            before = 0.5f * (low + high);
+        }
+    }
+
+    /// A line through the middles, which joins columns without a tick.
+    void again() {
+        std::optional<ImVec2> before;
+        constexpr float kFarthest = 40.0f; // pixels between two ticks of a near view
+        for (int c = 0; c < columns(); ++c) {
+            const std::optional<MinMax>& column = again_[static_cast<size_t>(c)];
+            if (!column)
+                continue;
+            const float x = left_ + static_cast<float>(c), low = yOf(static_cast<double>(column->least)),
+                        high = yOf(static_cast<double>(column->most));
+            const ImVec2 middle(x, 0.5f * (low + high));
+            if (low - high > 1.5f)
+                draw_.AddLine(ImVec2(x, low), ImVec2(x, high), kAgain);
+            if (before && x - before->x < kFarthest)
+                draw_.AddLine(*before, middle, kAgain, 1.5f);
+            before = middle;
+        }
+    }
+
+    /// Where what the mark says begins to hold; a gap from the last tick that is known.
+    void marks() {
+        const float flag = widgets_.units(4.0f);
+        std::array<float, 4> last{-1e9f, -1e9f, -1e9f, -1e9f}; // of each kind
+        for (const TimelineMark& mark : line_.marks()) {
+            const double at = line_.seconds(std::min(mark.index, line_.size() - 1));
+            const float x = xOf(at);
+            float& before = last[static_cast<size_t>(mark.kind)];
+            if (x < left_ - flag || x > right_ + flag || x - before < 1.0f)
+                continue;
+            before = x;
+            const ImU32 color = colorOf(mark.kind);
+            if (mark.kind == TimelineMark::Kind::Gap && mark.index > 0 && mark.index < line_.size()) {
+                const float from = xOf(line_.seconds(mark.index - 1));
+                draw_.AddRectFilled(ImVec2(from, top()), ImVec2(std::max(x, from + 1.0f), bottom()),
+                                    IM_COL32(235, 75, 65, 70));
+            }
+            draw_.AddTriangleFilled(ImVec2(x - flag, top()), ImVec2(x + flag, top()),
+                                    ImVec2(x, top() + 1.6f * flag), color);
+            draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), (color & 0x00ffffff) | 0x60000000);
+        }
+    }
+
+    void cursor() {
+        const float x = xOf(desk_.playback().seconds());
+        draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), kCursor, 1.5f);
+        const float grip = widgets_.units(4.0f);
+        draw_.AddTriangleFilled(ImVec2(x - grip, bottom()), ImVec2(x, bottom() - 1.6f * grip),
+                                ImVec2(x + grip, bottom()), kCursor);
+    }
+
+    bool scrub(const char* name) {
+        ImGui::SetCursorScreenPos(ImVec2(left_, top()));
+        ImGui::InvisibleButton(name, ImVec2(width(), height_));
+        widgets_.mark(name);
+        const float x = ImGui::GetIO().MousePos.x;
+        if (ImGui::IsItemActive()) {
+            desk_.stopTouchingAgain();
+            desk_.playback().play(false);
+            desk_.playback().seek(secondsAt(std::clamp(x, left_, right_)));
+        } else if (ImGui::IsItemHovered()) {
+            tell(x);
+        }
+        return ImGui::IsItemActive();
+    }
+
+    void tell(float x) const {
+        const size_t at = line_.indexAt(secondsAt(x));
+        ImGui::BeginTooltip();
+        ImGui::Text("%.3f s   %.3f N", line_.seconds(at), static_cast<double>(line_.force()[at]));
+        int told = 0;
+        constexpr int kMostTold = 6;
+        for (const TimelineMark& mark : line_.marks()) {
+            const float there = xOf(line_.seconds(std::min(mark.index, line_.size() - 1)));
+            if (std::abs(there - x) > widgets_.units(5.0f) || ++told > kMostTold)
+                continue;
+            ImGui::TextColored(ImColor(colorOf(mark.kind)), "%s", mark.text.c_str());
+        }
+        ImGui::EndTooltip();
+    }
+
+    TimelineDesk& desk_;
+    const Timeline& line_;
+    Widgets& widgets_;
+    ImDrawList& draw_;
+    ImVec2 corner_;
+    float left_, right_, height_;
+    double begin_, end_;
+    std::vector<std::optional<MinMax>> again_;
+    bool near_;                       // the scale fits what is shown
+    double least_ = 0.0, most_ = 1.0; // N, at its lower and its upper edge
+};
+
+} // namespace
+
+void drawOverview(TimelineDesk& desk, float height, Widgets& widgets) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    Strip strip(desk, 0.0, desk.timeline().length(), false, height, widgets);
+    (void)strip.draw("timeline");
+    char text[48];
+    std::snprintf(text, sizeof text, "%.3f s", desk.playback().seconds());
+    strip.label(0, kText, text);
+    std::snprintf(text, sizeof text, "of %.1f s", desk.timeline().length());
+    strip.label(1, kLabel, text);
+    ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + height));
+}
+
+void drawNear(TimelineDesk& desk, TimelinePanelState& state, float height, Widgets& widgets) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const Playback& at = desk.playback();
+    const double length = desk.timeline().length();
+    constexpr double kLeastSpan = 0.02, kMostSpan = 20.0; // s
+    state.span = std::clamp(state.span, kLeastSpan, kMostSpan);
+    // It stands still until the cursor leaves it: nothing runs under the eye.
+    const double offset = (at.seconds() - state.nearBegin) / state.span;
+    const bool dragged = ImGui::IsMouseDown(0) && offset >= 0.0 && offset <= 1.0;
+    if (!dragged && (offset < 0.02 || offset > 0.98))
+        state.nearBegin = at.seconds() - (at.playing() || desk.again().running() ? 0.1 : 0.5) * state.span;
+    state.nearBegin = std::clamp(state.nearBegin, 0.0, std::max(0.0, length - state.span));
+    Strip strip(desk, state.nearBegin, std::min(length, state.nearBegin + state.span), true, height, widgets);
+    (void)strip.draw("near");
+    const float wheel = ImGui::GetIO().MouseWheel;
+    if (ImGui::IsItemHovered() && wheel != 0.0f) {
+        const double share = std::clamp(offset, 0.0, 1.0);
+        state.span =
+            std::clamp(state.span * std::pow(0.8, static_cast<double>(wheel)), kLeastSpan, kMostSpan);
+        state.nearBegin = at.seconds() - share * state.span;
+    }
+    char text[48];
+    std::snprintf(text, sizeof text, "%.3f N", static_cast<double>(desk.timeline().force()[at.cursor()]));
+    strip.label(0, kForce, "then");
+    strip.labelRight(0, kForce, text);
+    const TouchAgain& again = desk.again();
+    const size_t cursor = at.cursor();
+    if (cursor >= again.first() && cursor - again.first() < again.force().size() &&
+        !std::isnan(again.force()[cursor - again.first()])) {
+        std::snprintf(text, sizeof text, "%.3f N",
+                      static_cast<double>(again.force()[cursor - again.first()]));
+        strip.label(1, kAgain, "again");
+        strip.labelRight(1, kAgain, text);
+    }
+    ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + height));
+}
+
+} // namespace touchstone

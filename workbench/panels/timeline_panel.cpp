@@ -1,0 +1,298 @@
+#include "workbench/panels/timeline_panel.h"
+
+#include "workbench/panels/card.h"
+#include "workbench/panels/colors.h"
+#include "workbench/panels/timeline_curves.h"
+#include "workbench/screen/keys.h"
+#include "workbench/timeline/timeline_desk.h"
+
+#include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kShiftStep = 0.1; // s
+
+/// On the same line where it fits.
+void beside(float width) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SameLine();
+    // On the first line the arrow that folds the panel stands last.
+    if (ImGui::GetContentRegionAvail().x < width + spacing + ImGui::GetFrameHeight())
+        ImGui::NewLine();
+}
+
+bool button(const char* label, const char* name, const char* tip, Widgets& widgets) {
+    beside(ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x);
+    const bool pressed = ImGui::Button(label);
+    widgets.mark(name);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", tip);
+    return pressed;
+}
+
+void transport(TimelineDesk& desk, Widgets& widgets) {
+    Playback& at = desk.playback();
+    if (button("|<", "toBegin", "Home", widgets))
+        at.toBegin();
+    if (button("<", "stepBack", "a tick back: Left; with Shift 100 ms", widgets))
+        at.step(-1);
+    if (button(at.playing() ? "Pause##play" : "Play##play", "play", "K", widgets)) {
+        desk.stopTouchingAgain();
+        at.play(!at.playing());
+    }
+    if (button(">", "stepOn", "a tick on: Right; with Shift 100 ms", widgets))
+        at.step(1);
+    if (button(">|", "toEnd", "End", widgets))
+        at.toEnd();
+    beside(widgets.units(66.0f));
+    ImGui::SetNextItemWidth(widgets.units(66.0f));
+    char speed[16];
+    std::snprintf(speed, sizeof speed, "%gx", at.speed());
+    if (ImGui::BeginCombo("##speed", speed)) {
+        for (const double choice : Playback::kSpeeds) {
+            std::snprintf(speed, sizeof speed, "%gx", choice);
+            if (ImGui::Selectable(speed, choice == at.speed()))
+                at.setSpeed(choice);
+            widgets.mark((std::string("speed:") + speed).c_str());
+        }
+        ImGui::EndCombo();
+    }
+    widgets.mark("speed");
+    if (button("A", "markBegin", "the loop begins here: A", widgets))
+        at.markBegin();
+    if (button("B", "markEnd", "the loop ends here: B", widgets))
+        at.markEnd();
+    if ((at.beginMark() || at.endMark()) && button("x", "clearMarks", "no loop: Shift+A", widgets))
+        at.clearMarks();
+}
+
+void examination(TimelineDesk& desk, Widgets& widgets) {
+    char label[48] = "Verify";
+    if (desk.verifying())
+        std::snprintf(label, sizeof label, "Cancel (%.0f %%)", 100.0 * desk.verifyingFraction());
+    if (button((std::string(label) + "##verify").c_str(), "verify",
+               "touches all of it again, as fast as it goes, and compares every bit", widgets)) {
+        if (desk.verifying())
+            desk.cancelVerifying();
+        else
+            desk.verify();
+    }
+    const bool again = desk.again().running();
+    const char* const text = again ? "Stop" : "Touch again";
+    beside(ImGui::CalcTextSize(text).x + widgets.units(32.0f));
+    if (widgets.lampButton("touchAgain", text, again, kBlue)) {
+        if (again)
+            desk.stopTouchingAgain();
+        else if (desk.modelIsOpen())
+            desk.touchAgain();
+    }
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(desk.modelIsOpen() ? "the recorded hand, with the settings and materials of now"
+                                             : "the model that was touched is not open");
+    if (!desk.modelIsOpen() && desk.modelFile() && button("Open its model", "openModel", "", widgets))
+        desk.wantModel();
+}
+
+struct News {
+    std::string text;
+    ImU32 color;
+};
+
+/// What came of it, or what is to be known.
+News newsOf(const TimelineDesk& desk) {
+    const TouchAgain::Means means = desk.again().means();
+    char text[160];
+    if (means.ticks > 0) {
+        std::snprintf(text, sizeof text, "then %.3f N, again %.3f N, on average in contact", means.recorded,
+                      means.now);
+        return {text, kBlue};
+    }
+    if (desk.again().running())
+        return {"the hand is on its way to where the recording begins", kBlue};
+    if (!desk.verdict().empty())
+        return {desk.verdict(), desk.verdictEqual() ? kGreen : kRed};
+    if (!desk.notes().empty())
+        return {desk.notes().front() + (desk.notes().size() > 1 ? " …" : ""), kAmber};
+    const Timeline& timeline = desk.timeline();
+    return {timeline.file().filename().string() + ", made by " + timeline.origin().command + ", " +
+                std::to_string(timeline.size()) + " ticks",
+            ImGui::GetColorU32(ImGuiCol_TextDisabled)};
+}
+
+/// As many lines as it needs, two at most: what is more is cut off, and in the tooltip.
+float heightOf(const News& news) {
+    const float wrap = ImGui::GetContentRegionAvail().x;
+    return std::min(ImGui::CalcTextSize(news.text.c_str(), nullptr, false, wrap).y,
+                    2.0f * ImGui::GetTextLineHeight());
+}
+
+void tell(const News& news, const TimelineDesk& desk, Widgets& widgets) {
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, heightOf(news));
+    const ImVec4 clip(at.x, at.y, at.x + size.x, at.y + size.y);
+    ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, news.color,
+                                        news.text.c_str(), nullptr, size.x, &clip);
+    ImGui::Dummy(size);
+    widgets.mark("recordingNews");
+    if (!ImGui::IsItemHovered())
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(widgets.units(600.0f));
+    ImGui::TextUnformatted(desk.timeline().file().c_str());
+    if (!desk.verdict().empty())
+        ImGui::TextUnformatted(desk.verdict().c_str());
+    for (const std::string& note : desk.notes())
+        ImGui::TextUnformatted(note.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+std::string lengthText(const RecordingFacts& facts) {
+    char text[32];
+    const int minutes = static_cast<int>(facts.seconds / 60.0);
+    if (minutes > 0)
+        std::snprintf(text, sizeof text, "%d min %.0f s", minutes, facts.seconds - 60.0 * minutes);
+    else
+        std::snprintf(text, sizeof text, "%.1f s", facts.seconds);
+    return facts.wholeLength ? text : "about " + std::string(text);
+}
+
+void list(TimelineDesk& desk, TimelinePanelState& state, Widgets& widgets) {
+    if (!ImGui::BeginChild("recordings", ImVec2(0.0f, 0.0f))) {
+        ImGui::EndChild();
+        return;
+    }
+    if (desk.list().recordings().empty())
+        ImGui::TextDisabled(desk.list().read() ? "Nothing is recorded yet: F9 begins and ends a recording."
+                                               : "Looking for recordings");
+    for (const RecordingFacts& facts : desk.list().recordings()) {
+        const std::string name = facts.file.filename().string();
+        const bool open = desk.looking() && desk.timeline().file() == facts.file;
+        ImGui::PushID(facts.file.c_str());
+        if (ImGui::Selectable(facts.date.c_str(), open))
+            state.open = facts.file;
+        widgets.mark(("recording:" + name).c_str());
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", facts.problem.empty() ? facts.file.c_str() : facts.problem.c_str());
+        ImGui::PopID();
+        ImGui::SameLine(widgets.units(130.0f));
+        if (!facts.problem.empty()) {
+            ImGui::TextColored(ImColor(kRed), "%s cannot be opened", name.c_str());
+            continue;
+        }
+        ImGui::TextUnformatted(lengthText(facts).c_str());
+        ImGui::SameLine(widgets.units(230.0f));
+        ImGui::TextUnformatted(facts.model.empty() ? "nothing touched" : facts.model.c_str());
+        ImGui::SameLine(widgets.units(390.0f));
+        ImGui::TextDisabled("%s", facts.madeBy == "window" ? "" : facts.madeBy.c_str());
+    }
+    ImGui::EndChild();
+}
+
+} // namespace
+
+bool followDesk(const TimelineDesk& desk, TimelinePanelState& state) {
+    const bool begun = desk.looking() && !state.looking;
+    if (desk.looking() != state.looking)
+        state.shown = desk.looking();
+    if (begun)
+        state.list = false;
+    state.looking = desk.looking();
+    return begun;
+}
+
+void drawTimeline(TimelineDesk& desk, TimelinePanelState& state, Widgets& widgets) {
+    if (!desk.looking())
+        return list(desk, state, widgets);
+    if (state.list) {
+        beside(widgets.units(60.0f));
+        if (widgets.lampButton("recordings", "List", true, kBlue))
+            state.list = false;
+        return list(desk, state, widgets);
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                        ImVec2(widgets.units(4.0f), ImGui::GetStyle().ItemSpacing.y));
+    transport(desk, widgets);
+    examination(desk, widgets);
+    beside(widgets.units(55.0f));
+    if (widgets.lampButton("recordings", "List", false, kBlue))
+        state.list = true;
+    ImGui::PopStyleVar();
+    const float gap = ImGui::GetStyle().ItemSpacing.y;
+    const News news = newsOf(desk);
+    const float room = ImGui::GetContentRegionAvail().y - heightOf(news) - 2.0f * gap;
+    const float overview = std::clamp(0.5f * room, widgets.units(24.0f), widgets.units(44.0f));
+    drawOverview(desk, overview, widgets);
+    ImGui::Dummy(ImVec2(0.0f, 0.0f));
+    drawNear(desk, state, std::max(room - overview, widgets.units(24.0f)), widgets);
+    ImGui::Dummy(ImVec2(0.0f, 0.0f));
+    tell(news, desk, widgets);
+}
+
+void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& widgets) {
+    if (!desk.looking())
+        return;
+    const float margin = widgets.units(12.0f);
+    ImGui::SetNextWindowPos(ImVec2(picture.x + 0.5f * picture.width, picture.y + picture.height - margin),
+                            ImGuiCond_Always, ImVec2(0.5f, 1.0f));
+    ImGui::SetNextWindowBgAlpha(0.88f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(8.0f)));
+    if (beginCardWindow("looking", widgets)) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextColored(ImColor(kAmber), desk.again().running()
+                                                ? "The recorded hand touches again; the force is off"
+                                                : "A recording; the force is off");
+        ImGui::SameLine();
+        if (ImGui::Button("Back to the live hand"))
+            desk.leave();
+        widgets.mark("backToLive");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Escape");
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void timelineKeys(TimelineDesk& desk) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!desk.looking() || io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper)
+        return;
+    Playback& at = desk.playback();
+    const bool shift = io.KeyShift;
+    const auto stepOnce = [&](int direction) {
+        desk.stopTouchingAgain();
+        at.play(false);
+        if (shift)
+            at.stepSeconds(direction * kShiftStep);
+        else
+            at.step(direction);
+    };
+    if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) // again and again while it is held
+        stepOnce(-1);
+    if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT))
+        stepOnce(1);
+    if (keyPressed(GLFW_KEY_HOME))
+        at.toBegin();
+    if (keyPressed(GLFW_KEY_END))
+        at.toEnd();
+    if (keyPressed(keyOf('k'))) {
+        desk.stopTouchingAgain();
+        at.play(!at.playing());
+    }
+    if (keyPressed(keyOf('a'))) {
+        if (shift)
+            at.clearMarks();
+        else
+            at.markBegin();
+    }
+    if (keyPressed(keyOf('b')))
+        at.markEnd();
+}
+
+} // namespace touchstone

@@ -1,0 +1,197 @@
+#include "workbench/panels/colors.h"
+#include "workbench/panels/effect_switch.h"
+#include "workbench/panels/panels.h"
+#include "workbench/screen/view_menu.h"
+
+#include <imgui.h>
+
+#include <cstdio>
+
+namespace touchstone {
+
+namespace {
+
+/// The next popup opens beneath the last widget.
+void beneath() {
+    ImGui::SetNextWindowPos(ImVec2(ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + 4.0f));
+}
+
+/// A file as a line of a menu.
+void fileItem(const std::filesystem::path& file, const std::string& beside, PanelState& state) {
+    ImGui::PushID(file.c_str());
+    const std::string name = file.filename().string();
+    if (ImGui::MenuItem(name.c_str(), beside.c_str()))
+        state.open = file;
+    ImGui::PopID();
+}
+
+void openByPath(PanelState& state, Widgets& widgets) {
+    ImGui::TextDisabled("a .glb, a .gltf or a recording; it may be dropped on the window, too");
+    ImGui::SetNextItemWidth(widgets.units(360.0f));
+    if (ImGui::IsWindowAppearing())
+        ImGui::SetKeyboardFocusHere();
+    const bool typed = ImGui::InputText("##path", state.openPath.data(), state.openPath.size(),
+                                        ImGuiInputTextFlags_EnterReturnsTrue);
+    widgets.mark("openPath");
+    ImGui::SameLine();
+    const bool pressed = ImGui::Button("Open");
+    widgets.mark("open");
+    const std::string path(state.openPath.c_str());
+    if ((typed || pressed) && !path.empty()) {
+        state.open = path;
+        state.openPath.front() = '\0';
+        ImGui::CloseCurrentPopup();
+    }
+}
+
+void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    if (ImGui::Button("File"))
+        ImGui::OpenPopup("file");
+    widgets.mark("file");
+    beneath();
+    if (!ImGui::BeginPopup("file"))
+        return;
+    openByPath(state, widgets);
+    if (ImGui::MenuItem("Recordings")) {
+        state.timeline.shown = state.timeline.list = true;
+        state.folds.bottom = false;
+    }
+    widgets.mark("menu:recordings");
+    ImGui::Separator();
+    if (ImGui::MenuItem("Gallery", "Ctrl+G"))
+        state.gallery = true;
+    widgets.mark("gallery");
+    ImGui::Separator();
+    ImGui::TextDisabled("samples");
+    for (size_t i = 0; i < input.samples.size(); ++i) {
+        const std::filesystem::path& file = input.samples[i];
+        fileItem(file, input.sampleNotes[i], state);
+        widgets.mark(("sample:" + file.filename().string()).c_str());
+    }
+    if (!input.recent.empty()) {
+        ImGui::Separator();
+        ImGui::TextDisabled("opened before");
+        for (const std::filesystem::path& file : input.recent)
+            fileItem(file, file.parent_path().string(), state);
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Save the picture", "F12"))
+        state.view.savePicture = true;
+    if (ImGui::MenuItem("Quit", "Ctrl+Q"))
+        state.quitPressed = true;
+    ImGui::EndPopup();
+}
+
+void viewMenu(PanelState& state, Widgets& widgets) {
+    if (ImGui::Button("View"))
+        ImGui::OpenPopup("view");
+    widgets.mark("viewMenu");
+    beneath();
+    ImGui::SetNextWindowSize(ImVec2(widgets.units(390.0f), 0.0f));
+    if (!ImGui::BeginPopup("view"))
+        return;
+    drawViewMenu(state.view, [&](const char* name) { widgets.mark(name); });
+    ImGui::Separator();
+    const auto fold = [](const char* label, const char* key, bool& folded) {
+        bool shown = !folded;
+        if (ImGui::MenuItem(label, key, &shown))
+            folded = !shown;
+    };
+    fold("Scene", "F2", state.folds.left);
+    fold("What is felt", "F3", state.folds.right);
+    fold("Charts", "F4", state.folds.bottom);
+    ImGui::EndPopup();
+}
+
+template <class Mode>
+void effect(Widgets& widgets, const char* name, const char* label, const EffectSwitch<Mode>& effect,
+            PanelState& state) {
+    effect.remember(state);
+    if (widgets.lampButton(name, label, effect.on(state), kBlue))
+        effect.toggle(state);
+}
+
+void effects(PanelState& state, Widgets& widgets) {
+    effect(widgets, "forceShading", "Shading", kShadingSwitch, state);
+    ImGui::SameLine();
+    effect(widgets, "texture", "Texture", kTextureSwitch, state);
+    ImGui::SameLine();
+    effect(widgets, "friction", "Friction", kFrictionSwitch, state);
+}
+
+void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const bool latched = has(input.servo->last.output.flags, TickFlag::SafetyLatched);
+    bool& on = state.settings.forceEnabled;
+    const bool looking = state.timeline.looking;
+    const char* label = latched ? "Force: fault" : on && !looking ? "Force on" : "Force off";
+    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen))
+        on = !on && !looking;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(!looking ? "Space"
+                          : on     ? "off while a recording is looked at; on again with the live hand"
+                                   : "stays off with the live hand");
+}
+
+void record(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    char label[32] = "Record";
+    if (input.recording)
+        std::snprintf(label, sizeof label, "Stop %.0f s", input.recordedSeconds);
+    if (widgets.lampButton("record", label, input.recording, kRed))
+        state.recordPressed = true;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", input.recordingFile.empty() ? "keeps every tick, for `touchstone replay`"
+                                                            : input.recordingFile.c_str());
+}
+
+/// Right in the bar: the servo's rate and its 99th percentile, and the help.
+void servoLamp(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const ServoView& servo = *input.servo;
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f kHz  p99 %.0f µs", 1e-3 * servo.ticksPerSecond, servo.stepP99Us);
+    const float line = ImGui::GetTextLineHeight(), radius = 0.28f * line;
+    const float width = ImGui::CalcTextSize(text).x + 2.0f * radius + widgets.units(8.0f);
+    const float help = ImGui::CalcTextSize("?").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    const float from = ImGui::GetWindowContentRegionMax().x - help - widgets.units(10.0f) - width;
+    ImGui::SameLine();
+    if (from >= ImGui::GetCursorPosX()) {
+        const bool well = servo.ticksPerSecond > 0.98 * servo.rateHz;
+        ImGui::SetCursorPosX(from);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddCircleFilled(
+            ImVec2(at.x + radius, at.y + 0.5f * ImGui::GetFrameHeight()), radius, well ? kGreen : kAmber);
+        ImGui::SetCursorPosX(from + 2.0f * radius + widgets.units(8.0f));
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(text);
+        widgets.mark("servo");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Servo at %.0f Hz, %s; 99 of 100 steps within %.1f µs", servo.rateHz,
+                              servo.scheduling.c_str(), servo.stepP99Us);
+        ImGui::SameLine();
+    }
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - help);
+    if (ImGui::Button("?"))
+        state.help = !state.help;
+    widgets.mark("help");
+}
+
+} // namespace
+
+void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    const float gap = widgets.units(18.0f);
+    fileMenu(input, state, widgets);
+    ImGui::SameLine();
+    viewMenu(state, widgets);
+    ImGui::SameLine(0.0f, gap);
+    effects(state, widgets);
+    ImGui::SameLine(0.0f, gap);
+    force(input, state, widgets);
+    ImGui::SameLine();
+    record(input, state, widgets);
+    if (state.walking) {
+        ImGui::SameLine(0.0f, gap);
+        ImGui::TextColored(ImColor(kAmber), "Arrows work the panels (Escape)");
+    }
+    servoLamp(input, state, widgets);
+}
+
+} // namespace touchstone

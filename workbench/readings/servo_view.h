@@ -1,0 +1,50 @@
+#pragma once
+
+#include "haptics/recording/servo_recorder.h"
+#include "haptics/servo/servo_loop.h"
+#include "study/live/live_error.h"
+#include "workbench/figures/stolen_time.h"
+#include "workbench/figures/tick_statistics.h"
+#include "workbench/readings/force_history.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// The servo's figures as a person can read them: percentiles over the last seconds, renewed twice a second.
+/// Main thread.
+class ServoView {
+  public:
+    /// Takes the ticks made since the last call. `now`: s, any steady clock.
+    void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, study::LiveError& liveError,
+               double now);
+
+    ServoLoop::Counters counters;
+    TickRecord last;
+    std::string scheduling;
+    double rateHz = 0.0;
+    double ticksPerSecond = 0.0;
+    double wakeP50Us = 0.0, wakeP99Us = 0.0;
+    double stepP50Us = 0.0, stepP99Us = 0.0;
+    std::array<double, kStageCount> stageP50Us{}, stageP99Us{}; ///< over the ticks in contact
+    double contactP50Us = 0.0, contactP99Us = 0.0;              ///< of their whole step
+    study::LiveErrorFigures error;
+    std::vector<uint64_t> wakeHistogram, stepHistogram; ///< by kHistogramEndsUs
+    /// Share of one processor that the host took away since the last renewal; nothing where it does not tell.
+    std::optional<double> stolenShare;
+
+  private:
+    static constexpr size_t kWindow = 4000; // ticks
+    static constexpr double kRenewal = 0.5; // s
+
+    TickStatistics statistics_{kWindow};
+    double lastRenewal_ = -1.0;
+    StolenTime stolen_;
+    double stolenThen_ = 0.0;
+    uint64_t ticksThen_ = 0;
+};
+
+} // namespace touchstone

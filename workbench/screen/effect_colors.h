@@ -1,0 +1,25 @@
+#pragma once
+
+#include "haptics/settings/effect_plan.h"
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace touchstone {
+
+/// Which materials feel alike: one colour for each set of effects that some material's plan switches on.
+struct EffectColors {
+    struct Kind {
+        std::string effects; ///< "force shading, friction"
+        glm::vec3 color;     ///< sRGB, 0..1
+    };
+    std::vector<Kind> kinds;          ///< plain materials first, then by number of effects
+    std::vector<glm::vec3> materials; ///< the colour of each material, sRGB
+};
+
+/// Pure. More kinds than there are colours (8) share the last one's.
+[[nodiscard]] EffectColors effectColors(const EffectPlan& plan, size_t materials);
+
+} // namespace touchstone

@@ -1,0 +1,89 @@
+#include "workbench/screen/key_queue.h"
+
+#include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+KeyQueue* installed = nullptr; // GLFW's callbacks carry the window only
+
+bool isModifier(int key) {
+    return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+}
+
+/// Its character goes into a text field; the key itself means nothing there.
+bool writes(int key, int modifiers) {
+    return key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 &&
+           (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
+}
+
+} // namespace
+
+KeyQueue::KeyQueue(GLFWwindow* window, std::function<void(int, int)> pressed)
+    : window_(window), pressed_(std::move(pressed)) {
+    installed = this;
+    nextKey_ = glfwSetKeyCallback(window, [](GLFWwindow*, int key, int scancode, int action, int modifiers) {
+        if (action == GLFW_REPEAT)
+            return; // ImGui counts the time that a key is held itself
+        if (action == GLFW_PRESS && installed->pressed_)
+            installed->pressed_(key, modifiers);
+        installed->waiting_.push_back(
+            {.key = key, .scancode = scancode, .action = action, .modifiers = modifiers});
+    });
+    nextCharacter_ = glfwSetCharCallback(window, [](GLFWwindow*, unsigned int codepoint) {
+        installed->waiting_.push_back({.character = true, .codepoint = codepoint});
+    });
+}
+
+KeyQueue::~KeyQueue() {
+    glfwSetKeyCallback(window_, nextKey_);
+    glfwSetCharCallback(window_, nextCharacter_);
+    installed = nullptr;
+}
+
+bool KeyQueue::fits(const Event& event, Frame& frame) const {
+    const bool text = ImGui::GetIO().WantTextInput;
+    if (event.character) {
+        frame.wrote = frame.wrote || text;
+        return !(text && frame.pressed);
+    }
+    if (text && writes(event.key, event.modifiers))
+        return !frame.pressed;
+    if (event.action == GLFW_RELEASE) {
+        if (frame.pressed && (event.key == frame.down || isModifier(event.key)))
+            return false;
+        frame.released.push_back(event.key);
+        return true;
+    }
+    // ImGui looks once a frame at what is down: a key that came up and went down again in between was held.
+    const bool cameUp = std::ranges::find(frame.released, event.key) != frame.released.end();
+    if (frame.pressed || frame.wrote || cameUp)
+        return false;
+    if (!isModifier(event.key)) {
+        frame.pressed = true;
+        frame.down = event.key;
+    }
+    return true;
+}
+
+void KeyQueue::pass(const Event& event) {
+    if (event.character) {
+        if (nextCharacter_ != nullptr)
+            nextCharacter_(window_, event.codepoint);
+    } else if (nextKey_ != nullptr) {
+        nextKey_(window_, event.key, event.scancode, event.action, event.modifiers);
+    }
+}
+
+void KeyQueue::feed() {
+    for (Frame frame; !waiting_.empty() && fits(waiting_.front(), frame); waiting_.pop_front())
+        pass(waiting_.front());
+}
+
+} // namespace touchstone

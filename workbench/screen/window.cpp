@@ -1,0 +1,101 @@
+#include "workbench/screen/window.h"
+
+#include "engine/core/error.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+[[noreturn]] void failWith(const char* what) {
+    const char* reason = nullptr;
+    glfwGetError(&reason);
+    std::string problem = what;
+    if (reason != nullptr)
+        problem += std::string(": ") + reason;
+    throw Error("window", "", problem,
+                "start it from a desktop session (DISPLAY is set there), or run without a window: "
+                "touchstone run SCENE --headless --seconds 10 --screenshot shot.png");
+}
+
+} // namespace
+
+Window::Window(const char* title, const glm::ivec2& size) {
+    if (glfwInit() != GLFW_TRUE)
+        failWith("no display can be reached");
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_ = glfwCreateWindow(size.x, size.y, title, nullptr, nullptr);
+    if (window_ == nullptr) {
+        // glfwTerminate would clear the reason.
+        try {
+            failWith("the window could not be opened");
+        } catch (...) {
+            glfwTerminate();
+            throw;
+        }
+    }
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** paths) {
+        if (count > 0)
+            static_cast<Window*>(glfwGetWindowUserPointer(handle))->dropped_ = paths[0];
+    });
+    glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+bool Window::shouldClose() const {
+    return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void Window::waitEvents(double seconds) {
+    if (seconds > 0.0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+}
+
+float Window::layoutScale() const {
+    float x = 1.0f, y = 1.0f;
+    glfwGetWindowContentScale(window_, &x, &y);
+    int width = 0, pixels = 0, ignored = 0;
+    glfwGetWindowSize(window_, &width, &ignored);
+    glfwGetFramebufferSize(window_, &pixels, &ignored);
+    const float alreadyScaled =
+        width > 0 && pixels > 0 ? static_cast<float>(pixels) / static_cast<float>(width) : 1.0f;
+    return std::max(1.0f, std::max(x, y) / alreadyScaled);
+}
+
+std::optional<std::filesystem::path> Window::takeDropped() {
+    return std::exchange(dropped_, std::nullopt);
+}
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return size;
+}
+
+void Window::stayOpen() {
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+} // namespace touchstone
