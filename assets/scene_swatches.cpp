@@ -44,7 +44,7 @@ struct Swatch {
     const char* name;
     glm::ivec3 colour; ///< sRGB
     Json haptic;
-    HeightFunction relief = {};      ///< empty: flat
+    HeightFunction bump = {};        ///< empty: flat
     double reliefHeight = 0.0;       ///< m
     bool reliefAsHeight = false;     ///< felt through a height map; else through the normal map alone
     const char* factorMap = nullptr; ///< the haptic field that the stripes drive
@@ -62,18 +62,18 @@ std::array<Swatch, kColumns * kRows> palette() {
         {.name = "SAND",
          .colour = {222, 196, 140},
          .haptic = {{"staticFriction", 0.4}, {"dynamicFriction", 0.35}},
-         .relief = grains,
+         .bump = grains,
          .reliefHeight = kGrainHeight},
         {.name = "BUMPS",
          .colour = {140, 180, 110},
          .haptic = {{"staticFriction", 0.2}, {"dynamicFriction", 0.15}},
-         .relief = bumps,
+         .bump = bumps,
          .reliefHeight = kBumpHeight,
          .reliefAsHeight = true},
         {.name = "RIBS",
          .colour = {115, 150, 190},
          .haptic = {{"staticFriction", 0.2}, {"dynamicFriction", 0.15}, {"normalTextureInfluence", 0.0}},
-         .relief = ribs,
+         .bump = ribs,
          .reliefHeight = kRibHeight,
          .reliefAsHeight = true},
         {.name = "SOFT", .colour = {235, 175, 190}, .haptic = {{"stiffness", 120.0}, {"damping", 0.5}}},
@@ -110,14 +110,14 @@ int addSwatchMaterial(GlbWriter& glb, const Swatch& swatch) {
           {"metallicFactor", 0.0},
           {"roughnessFactor", 0.6}}}};
     Json haptic = swatch.haptic;
-    if (swatch.relief) {
-        const int normals = glb.addTexture(
-            name + ", normals", png(normalMap(swatch.relief, kMapSize, kTile, swatch.reliefHeight)));
+    if (swatch.bump) {
+        const int normals = glb.addTexture(name + ", normals",
+                                           png(normalMap(swatch.bump, kMapSize, kTile, swatch.reliefHeight)));
         material["normalTexture"] = {{"index", normals}};
     }
     if (swatch.reliefAsHeight)
         haptic["heightTexture"] = {
-            {"index", glb.addTexture(name + ", heights", png(heightMap(swatch.relief, kMapSize)))},
+            {"index", glb.addTexture(name + ", heights", png(heightMap(swatch.bump, kMapSize)))},
             {"scale", swatch.reliefHeight},
             {"midLevel", 0.0}};
     if (swatch.factorMap != nullptr)

@@ -10,7 +10,7 @@ constexpr int kFirstRiseWait = 30;    ///< frames at one quality before a rise: 
 constexpr int kLongestRiseWait = 960; ///< frames; half a minute
 constexpr int kSettling = 4;          ///< frames after a change whose time still belongs to what was before
 constexpr double kRise = 0.15;        ///< of the quality, at once
-constexpr double kLeastFall = 0.05;
+constexpr double kMinFall = 0.05;
 } // namespace
 
 void DrawQuality::frameDone(double busy) {
@@ -38,7 +38,7 @@ void DrawQuality::fall(double excess) {
         // more than a third of the size at once, for a hiccup is not a load.
         const double wanted = scale() * std::max(std::sqrt(1.0 / excess), 0.67);
         const double range = 1.0 - limits_.smallestScale;
-        const double least = quality_ - kLeastFall;
+        const double least = quality_ - kMinFall;
         quality_ =
             std::max(0.0, range > 0.0 ? std::min((wanted - limits_.smallestScale) / range, least) : least);
     }

@@ -127,7 +127,7 @@ FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
         scale.unit = "N·s/m";
         break;
     case ViewMode::Tilt:
-        return {0.0, kMostTilt, "°", true};
+        return {0.0, kMaxTilt, "°", true};
     case ViewMode::Dihedral: {
         float most = 0.0f;
         for (const Mesh& mesh : scene.meshes)

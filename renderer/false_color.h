@@ -21,7 +21,7 @@ struct FalseColorScale {
 [[nodiscard]] FalseColorScale falseColorScale(const Scene& scene, ViewMode mode);
 
 /// Degrees at the upper end of ViewMode::Tilt's scale: where shading and texture cap what is felt.
-inline constexpr double kMostTilt = 30.0;
+inline constexpr double kMaxTilt = 30.0;
 
 /// For each vertex the largest angle, in degrees, between the two facets at an edge that ends at its place; 0
 /// where all edges are on a border. Vertices at one place share it.

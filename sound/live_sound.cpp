@@ -39,7 +39,7 @@ double SoundPlayer::speedFor(size_t frames) noexcept {
     constexpr double kShare = 0.05; // of the newest block: the servo's jitter is not to be heard
     bend_ += kShare * (std::clamp((ahead - wanted) / wanted, -1.0, 1.0) - bend_);
     latency_.store(ahead / rate + Synthesizer::delay(dt_), std::memory_order_relaxed);
-    return 1.0 + kMostBend * bend_;
+    return 1.0 + kMaxBend * bend_;
 }
 
 /// One frame at full volume; where the ticks have run out, the last one, which fades.

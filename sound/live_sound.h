@@ -31,13 +31,13 @@ class SoundFeed {
 };
 
 /// The player's end. Servo and sound card have clocks of their own, and the servo may pause: the player keeps
-/// as many ticks waiting as a block needs and some more, plays up to kMostBend faster or slower to hold that,
+/// as many ticks waiting as a block needs and some more, plays up to kMaxBend faster or slower to hold that,
 /// and fades where it runs dry or far too many wait.
 class SoundPlayer {
   public:
     static constexpr double kCushion = 0.004;   ///< s of ticks more than a block needs: the servo's jitter
     static constexpr double kTooMuch = 0.06;    ///< s more than that: then what is old is left out
-    static constexpr double kMostBend = 0.005;  ///< share of the speed: 9 cents of pitch
+    static constexpr double kMaxBend = 0.005;   ///< share of the speed: 9 cents of pitch
     static constexpr double kFade = 0.004;      ///< s, from silence to full and back
     static constexpr double kVolumeTime = 0.01; ///< s, until a new volume holds
 

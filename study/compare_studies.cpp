@@ -8,28 +8,28 @@ namespace touchstone::study {
 
 namespace {
 
-bool same(const RungResult& a, const RungResult& b) {
-    return a.scene == b.scene && a.path == b.path && a.ladder == b.ladder && a.rung == b.rung &&
-           a.rateHz == b.rateHz;
+bool same(const ConfigurationResult& a, const ConfigurationResult& b) {
+    return a.scene == b.scene && a.path == b.path && a.ablation == b.ablation &&
+           a.configuration == b.configuration && a.rateHz == b.rateHz;
 }
 
-bool sideBySide(const RungResult& a, const RungResult& b) {
-    return a.scene == b.scene && a.path == b.path && a.ladder == b.ladder && a.rateHz == b.rateHz;
+bool sideBySide(const ConfigurationResult& a, const ConfigurationResult& b) {
+    return a.scene == b.scene && a.path == b.path && a.ablation == b.ablation && a.rateHz == b.rateHz;
 }
 
-std::string nameOf(const RungResult& rung) {
-    return rung.scene + ", " + rung.ladder + ": " + rung.rung;
+std::string nameOf(const ConfigurationResult& configuration) {
+    return configuration.scene + ", " + configuration.ablation + ": " + configuration.configuration;
 }
 
 } // namespace
 
 OrderKept compareOrder(const StudyResult& first, const StudyResult& second) {
     OrderKept kept;
-    std::vector<std::pair<const RungResult*, const RungResult*>> both;
-    for (const RungResult& a : first.rungs) {
-        const auto b = std::find_if(second.rungs.begin(), second.rungs.end(),
-                                    [&](const RungResult& other) { return same(a, other); });
-        if (b == second.rungs.end()) {
+    std::vector<std::pair<const ConfigurationResult*, const ConfigurationResult*>> both;
+    for (const ConfigurationResult& a : first.configurations) {
+        const auto b = std::find_if(second.configurations.begin(), second.configurations.end(),
+                                    [&](const ConfigurationResult& other) { return same(a, other); });
+        if (b == second.configurations.end()) {
             ++kept.onlyInOne;
             continue;
         }
@@ -39,7 +39,7 @@ OrderKept compareOrder(const StudyResult& first, const StudyResult& second) {
         kept.errorsChanged += a.errors == b->errors ? 0 : 1;
     }
     kept.matched = both.size();
-    kept.onlyInOne += second.rungs.size() - both.size();
+    kept.onlyInOne += second.configurations.size() - both.size();
     for (size_t i = 0; i < both.size(); ++i)
         for (size_t k = i + 1; k < both.size(); ++k) {
             const auto& [a1, a2] = both[i];
@@ -56,7 +56,7 @@ OrderKept compareOrder(const StudyResult& first, const StudyResult& second) {
                 kept.swappedApart += turned ? 1 : 0;
             }
             if (turned)
-                kept.swapped.push_back(nameOf(*a1) + " and " + b1->rung);
+                kept.swapped.push_back(nameOf(*a1) + " and " + b1->configuration);
         }
     return kept;
 }

@@ -8,13 +8,13 @@ namespace touchstone::study {
 
 namespace {
 
-bool comparable(const RungResult& a, const RungResult& b) {
-    return a.scene == b.scene && a.path == b.path && a.ladder == b.ladder && a.rateHz == b.rateHz &&
+bool comparable(const ConfigurationResult& a, const ConfigurationResult& b) {
+    return a.scene == b.scene && a.path == b.path && a.ablation == b.ablation && a.rateHz == b.rateHz &&
            a.truth == b.truth;
 }
 
-bool measured(const RungResult& rung) {
-    return rung.errors.compared > 0 && rung.step.value > 0.0;
+bool measured(const ConfigurationResult& configuration) {
+    return configuration.errors.compared > 0 && configuration.step.value > 0.0;
 }
 
 /// Beyond doubt.
@@ -31,12 +31,13 @@ bool beats(const Estimate& cost, double error, const Estimate& otherCost, double
            (error < otherError || cheaper(cost, otherCost));
 }
 
-void markPareto(std::span<RungResult> rungs) {
-    for (RungResult& rung : rungs)
-        rung.pareto =
-            measured(rung) && std::none_of(rungs.begin(), rungs.end(), [&](const RungResult& other) {
-                return comparable(rung, other) && measured(other) &&
-                       beats(other.step, felt(other.errors), rung.step, felt(rung.errors));
+void markPareto(std::span<ConfigurationResult> configurations) {
+    for (ConfigurationResult& configuration : configurations)
+        configuration.pareto =
+            measured(configuration) &&
+            std::none_of(configurations.begin(), configurations.end(), [&](const ConfigurationResult& other) {
+                return comparable(configuration, other) && measured(other) &&
+                       beats(other.step, felt(other.errors), configuration.step, felt(configuration.errors));
             });
 }
 

@@ -1,12 +1,12 @@
 #include "study/study.h"
 
 #include "haptics/scene/built_for.h"
+#include "study/ablation/ablation.h"
 #include "study/errors/compare.h"
 #include "study/errors/feel.h"
-#include "study/ladder/ladder.h"
 #include "study/pareto.h"
 #include "study/timing/clock_cost.h"
-#include "study/timing/rungs.h"
+#include "study/timing/configurations.h"
 #include "study/timing/step_figures.h"
 
 #include <algorithm>
@@ -18,19 +18,19 @@ namespace touchstone::study {
 namespace {
 
 constexpr double kTick = 1e-3; // s
-/// What kUntextured of the ladders says, and Coulomb's ladder of friction.
+/// What kUntextured of the ablations says, and Coulomb's ablation of friction.
 constexpr double kStiffness = 600.0, kSliding = 0.3; // N/m, 1
 
-/// Settings as they are felt: rungs that say the same are measured once.
+/// Settings as they are felt: configurations that say the same are measured once.
 struct Configuration {
     HapticSettings settings; ///< in effect
     FeltPath felt;
-    RungTimes times;
+    ConfigurationTimes times;
 };
 
-/// A rung of the plan with where it is measured.
+/// A configuration of the plan with where it is measured.
 struct Entry {
-    PlannedRung rung;
+    PlannedConfiguration configuration;
     size_t configuration = 0;
     Truth truth = Truth::Oracle;
 };
@@ -46,15 +46,15 @@ class Run {
     }
 
     void plan(bool tessellation, std::vector<std::string>& notes) {
-        for (const Ladder& ladder : ladders()) {
-            const bool wanted = options_.ladders.empty() ||
-                                std::find(options_.ladders.begin(), options_.ladders.end(), ladder.name) !=
-                                    options_.ladders.end();
-            if (!wanted || (ladder.name == "tessellation") != tessellation)
+        for (const Ablation& ablation : ablations()) {
+            const bool wanted =
+                options_.ablations.empty() || std::find(options_.ablations.begin(), options_.ablations.end(),
+                                                        ablation.name) != options_.ablations.end();
+            if (!wanted || (ablation.name == "tessellation") != tessellation)
                 continue;
-            for (PlannedRung& rung : planLadder(ladder, *bare_.haptic, notes)) {
-                const size_t at = configurationOf(rung.settings);
-                entries_.push_back({std::move(rung), at, truthOf(ladder)});
+            for (PlannedConfiguration& configuration : planAblation(ablation, *bare_.haptic, notes)) {
+                const size_t at = configurationOf(configuration.settings);
+                entries_.push_back({std::move(configuration), at, truthOf(ablation)});
             }
         }
     }
@@ -70,20 +70,20 @@ class Run {
     }
 
     void time() {
-        std::vector<Rung> rungs;
+        std::vector<TimedConfiguration> configurations;
         for (const Configuration& c : configurations_)
-            rungs.push_back({subject_.bench.name, &bare_, c.settings, subject_.speed});
+            configurations.push_back({subject_.bench.name, &bare_, c.settings, subject_.speed});
         const BenchPlan plan{.rounds = options_.rounds,
                              .ticksPerRound = options_.ticksPerRound,
                              .stages = true,
                              .ahead = static_cast<uint64_t>(options_.ticksPerRound) / 2 + 1};
-        std::vector<RungTimes> times =
-            timeRungs(rungs, plan, [&](double share) { progress_("timing", 0.5 + 0.5 * share); });
+        std::vector<ConfigurationTimes> times = timeConfigurations(
+            configurations, plan, [&](double share) { progress_("timing", 0.5 + 0.5 * share); });
         for (size_t i = 0; i < times.size(); ++i)
             configurations_[i].times = std::move(times[i]);
     }
 
-    void report(std::vector<RungResult>& results) {
+    void report(std::vector<ConfigurationResult>& results) {
         const double clock = static_cast<double>(clockCostNs());
         for (const Entry& entry : entries_)
             results.push_back(resultOf(entry, clock));
@@ -106,11 +106,11 @@ class Run {
         return bare;
     }
 
-    [[nodiscard]] Truth truthOf(const Ladder& ladder) const {
-        if (ladder.against == Against::Coulomb)
+    [[nodiscard]] Truth truthOf(const Ablation& ablation) const {
+        if (ablation.against == Against::Coulomb)
             return Truth::Coulomb;
-        if ((ladder.against == Against::Smooth && subject_.smooth == nullptr) ||
-            (ladder.against == Against::Relief && !subject_.relief))
+        if ((ablation.against == Against::Smooth && subject_.smooth == nullptr) ||
+            (ablation.against == Against::Bump && !subject_.bump))
             return Truth::Reference;
         return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;
     }
@@ -130,7 +130,7 @@ class Run {
         std::map<double, std::future<truth::RestPath>> pending;
         const int frame = bare_.haptic->objects.size() > 1 ? feel(*bare_.haptic, {}, hips_).object : 0;
         for (const Entry& entry : entries_) {
-            const double radius = feltRadius(entry.rung.settings);
+            const double radius = feltRadius(entry.configuration.settings);
             const bool rests = entry.truth == Truth::Analytic || entry.truth == Truth::Oracle;
             if (!rests || pending.contains(radius))
                 continue;
@@ -148,8 +148,8 @@ class Run {
         compareTheSameTicks();
     }
 
-    /// Where the oracle gave up for one radius the others say nothing either: rungs of one ladder are held to
-    /// the same ticks.
+    /// Where the oracle gave up for one radius the others say nothing either: configurations of one ablation
+    /// are held to the same ticks.
     void compareTheSameTicks() {
         for (const auto& [one, from] : rests_)
             for (auto& [other, to] : rests_)
@@ -159,14 +159,15 @@ class Run {
     }
 
     std::vector<truth::FeltTick> truthFor(const Entry& entry) {
-        const Against against = entry.rung.ladder->against;
+        const Against against = entry.configuration.ablation->against;
         if (against == Against::Coulomb)
-            return truth::springForces(restsOf(referenceFor(entry.rung.exact)), hips_, kStiffness, kSliding);
+            return truth::springForces(restsOf(referenceFor(entry.configuration.exact)), hips_, kStiffness,
+                                       kSliding);
         if (entry.truth == Truth::Reference)
-            return referenceFor(entry.rung.exact);
-        const double radius = feltRadius(entry.rung.settings);
-        if (against == Against::Relief)
-            return truth::reliefForces(rests_.at(radius), hips_, radius, kStiffness, subject_.relief);
+            return referenceFor(entry.configuration.exact);
+        const double radius = feltRadius(entry.configuration.settings);
+        if (against == Against::Bump)
+            return truth::reliefForces(rests_.at(radius), hips_, radius, kStiffness, subject_.bump);
         return truth::springForces(rests_.at(radius), hips_, kStiffness, 0.0);
     }
 
@@ -191,26 +192,26 @@ class Run {
         return references_.back().second;
     }
 
-    RungResult resultOf(const Entry& entry, double clock) {
+    ConfigurationResult resultOf(const Entry& entry, double clock) {
         const Configuration& c = configurations_[entry.configuration];
-        RungResult result;
+        ConfigurationResult result;
         result.scene = subject_.bench.name;
         result.shape = subject_.shape;
         result.triangles = subject_.bench.triangles();
         result.facetAngle = subject_.smooth != nullptr ? c.felt.facetAngle : 0.0;
         result.path = subject_.path;
-        result.ladder = entry.rung.ladder->name;
-        result.rung = entry.rung.name;
-        result.settings = entry.rung.text;
+        result.ablation = entry.configuration.ablation->name;
+        result.configuration = entry.configuration.name;
+        result.settings = entry.configuration.text;
         result.rateHz = 1.0 / kTick;
         result.truth = entry.truth;
-        result.isDefault = entry.rung.isDefault;
+        result.isDefault = entry.configuration.isDefault;
         result.errors = compareWithTruth(hips_, truthFor(entry), c.felt.ticks);
         addTimes(c.times, clock, result);
         return result;
     }
 
-    static void addTimes(const RungTimes& times, double clock, RungResult& result) {
+    static void addTimes(const ConfigurationTimes& times, double clock, ConfigurationResult& result) {
         const StepFigures figures = figuresOf(times.rounds, clock);
         result.step = figures.median;
         result.stepMean = figures.mean;
@@ -232,8 +233,8 @@ class Run {
     std::vector<std::pair<HapticSettings, std::vector<truth::FeltTick>>> references_;
 };
 
-void studyLadders(const Subject& subject, const StudyOptions& options, bool tessellation, StudyResult& result,
-                  const StudyProgress& progress) {
+void studyAblations(const Subject& subject, const StudyOptions& options, bool tessellation,
+                    StudyResult& result, const StudyProgress& progress) {
     Run run(subject, options, progress);
     std::vector<std::string> notes = subject.notes;
     run.plan(tessellation, notes);
@@ -241,28 +242,30 @@ void studyLadders(const Subject& subject, const StudyOptions& options, bool tess
         result.notes.push_back(subject.bench.name + ": " + note);
     run.feelAll();
     run.time();
-    std::vector<RungResult> rungs;
-    run.report(rungs);
-    markPareto(rungs);
+    std::vector<ConfigurationResult> configurations;
+    run.report(configurations);
+    markPareto(configurations);
     uint64_t failed = 0;
-    for (const RungResult& rung : rungs)
-        failed = std::max(failed, rung.errors.truthFailed);
+    for (const ConfigurationResult& configuration : configurations)
+        failed = std::max(failed, configuration.errors.truthFailed);
     if (failed > 0)
         result.notes.push_back(subject.bench.name + ": the oracle found no rest in " +
                                std::to_string(failed) + " ticks, which are not compared");
-    if (!rungs.empty() && std::all_of(rungs.begin(), rungs.end(),
-                                      [](const RungResult& rung) { return rung.errors.compared == 0; }))
+    if (!configurations.empty() && std::all_of(configurations.begin(), configurations.end(),
+                                               [](const ConfigurationResult& configuration) {
+                                                   return configuration.errors.compared == 0;
+                                               }))
         result.problems.push_back(subject.bench.name + (failed > 0
                                                             ? ": nothing could be compared with the oracle"
                                                             : ": the stroke touched nothing"));
-    std::move(rungs.begin(), rungs.end(), std::back_inserter(result.rungs));
+    std::move(configurations.begin(), configurations.end(), std::back_inserter(result.configurations));
 }
 
 } // namespace
 
 void studySubject(const Subject& subject, const StudyOptions& options, StudyResult& result,
                   const StudyProgress& progress) {
-    studyLadders(subject, options, false, result, progress);
+    studyAblations(subject, options, false, result, progress);
 }
 
 void studyTessellation(const ShapeKind& kind, const StudyOptions& options, StudyResult& result,
@@ -276,7 +279,7 @@ void studyTessellation(const ShapeKind& kind, const StudyOptions& options, Study
             progress(what, (static_cast<double>(done) + fraction) / static_cast<double>(scenes));
         };
         const Subject subject = kind.make(n);
-        studyLadders(subject, options, true, result, share);
+        studyAblations(subject, options, true, result, share);
         ++done;
     }
 }

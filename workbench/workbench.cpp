@@ -22,12 +22,12 @@
 #include "workbench/screen/model_picture.h"
 #include "workbench/screen/screen.h"
 #include "workbench/screen/view_control.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 #include "workbench/touch/force_key.h"
 #include "workbench/touch/live_touch.h"
 #include "workbench/window/layout.h"
-#include "workbench/window/leaving.h"
 #include "workbench/window/status_file.h"
+#include "workbench/window/unsaved_changes_prompt.h"
 #include "workbench/window/window_memory.h"
 
 #include <imgui.h>
@@ -162,7 +162,7 @@ class Workbench {
     [[nodiscard]] bool closed() {
         if (interrupted() || !window_.shouldClose() || left_)
             return interrupted() || window_.shouldClose();
-        if (leaving_.mayLeave({}, materials_, state_))
+        if (unsavedChanges_.mayLeave({}, materials_, state_))
             return true;
         window_.stayOpen();
         return false;
@@ -201,7 +201,7 @@ class Workbench {
     void takeModel() {
         // What was changed while it was read is asked for, too.
         if (opening_.arriving() && hasModel() &&
-            (materials_.saving() || !leaving_.mayLeave(opening_.path(), materials_, state_)))
+            (materials_.saving() || !unsavedChanges_.mayLeave(opening_.path(), materials_, state_)))
             return;
         try {
             if (std::optional<LoadedModel> loaded = opening_.update(screen_.renderer()))
@@ -224,7 +224,7 @@ class Workbench {
         notice_.clear(); // of the model before
         touch_.show(std::move(loaded), scene->path == defaultScene().string());
         drawn_.shown(scene);
-        leaving_.begin();
+        unsavedChanges_.begin();
         materials_.open(touch_.shown().model, isSample(scene->path));
         view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
         memory_.opened(std::filesystem::absolute(scene->path));
@@ -247,13 +247,14 @@ class Workbench {
     }
 
     void leaveFor(const std::filesystem::path& path) {
-        if (isRecording(path) || leaving_.mayLeave(path, materials_, state_))
+        if (isRecording(path) || unsavedChanges_.mayLeave(path, materials_, state_))
             open(path);
     }
 
     /// Goes where the user wanted to go, once unsaved materials are seen to.
     void leave() {
-        const std::optional<Leaving::Answer> answer = leaving_.update(materials_, state_, problem_);
+        const std::optional<UnsavedChangesPrompt::Answer> answer =
+            unsavedChanges_.update(materials_, state_, problem_);
         if (!answer)
             return;
         const bool arriving = opening_.arriving() && answer->target == opening_.path();
@@ -338,7 +339,7 @@ class Workbench {
 
     /// Tells the hand where it is to be, whichever it is.
     void moveHand() {
-        HandSwitch& hand = touch_.hand();
+        DeviceMultiplexer& hand = touch_.hand();
         if (touch_.takeBuiltAgain())
             view_.lift();
         if (const auto goal = view_.handGoal())
@@ -577,19 +578,19 @@ class Workbench {
     ForceKey forceKey_;
     KeyWatch forceWatch_;
     KeyQueue keys_;
-    TimelineDesk timeline_;
+    TimelineController timeline_;
     Opening opening_;
     DrawnMaterials drawn_;
-    MaterialDesk materials_;
+    MaterialController materials_;
     MaterialPanelState materialState_;
     Gallery gallery_;
     ViewControl view_;
     PanelState state_;
     ModelPicture picture_{stateFolder() / "pictures"};
-    PictureDesk chartPictures_{stateFolder() / "pictures"};
+    PictureController chartPictures_{stateFolder() / "pictures"};
     StatusFile status_;
     std::string problem_;
-    Leaving leaving_;
+    UnsavedChangesPrompt unsavedChanges_;
     bool left_ = false; // the user has said what becomes of unsaved materials
     FramePace pace_{kFramePeriod};
     double longestFrame_ = 0.0; // s, since a model was last opened

@@ -5,14 +5,14 @@
 
 namespace touchstone {
 
-inline constexpr double kLeastZoom = 0.1, kMostZoom = 10.0;
+inline constexpr double kMinZoom = 0.1, kMaxZoom = 10.0;
 
 /// The device's second button, as a bit of DeviceSample::buttons.
 inline constexpr uint32_t kClutchButton = 1u << 1;
 
 /// What the user wants of the workspace.
 struct WorkspaceWish {
-    double zoom = 1.0;   ///< m in the workspace for one m of the device, kLeastZoom..kMostZoom
+    double zoom = 1.0;   ///< m in the workspace for one m of the device, kMinZoom..kMaxZoom
     bool clutch = false; ///< while true the device moves and the HIP does not
 };
 
@@ -40,7 +40,7 @@ class WorkspaceMap {
     static constexpr double kLongestStep = 0.010;
 
     /// The device's `place` is the workspace's from now on, at the zoom that is wanted. The coupling goes on.
-    void begin(const WorkspaceWish& wish, const glm::dvec3& place = glm::dvec3(0.0)) noexcept;
+    void begin(const WorkspaceWish& target, const glm::dvec3& place = glm::dvec3(0.0)) noexcept;
     /// The device's `place` becomes the workspace's again, wherever that takes the HIP: for kCentring there
     /// is no sample, so that touch begins anew and is not dragged through the model.
     void centre(const glm::dvec3& place = glm::dvec3(0.0)) noexcept {
@@ -49,7 +49,7 @@ class WorkspaceMap {
     }
     /// Writes the mapping of this tick into `sample`, `seconds` after the last one (0 to kLongestStep of them
     /// count). A sample that is not valid gets the mapping as it is.
-    void apply(DeviceSample& sample, const WorkspaceWish& wish, double seconds) noexcept;
+    void apply(DeviceSample& sample, const WorkspaceWish& target, double seconds) noexcept;
 
     [[nodiscard]] const DeviceMapping& mapping() const { return mapping_; }
 

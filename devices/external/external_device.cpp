@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kPollMs = 1;                  // how long an order may wait while a client is there
 constexpr int kLonelyPollMs = 20;           // while none is
-constexpr int kMostInOneTurn = 64;          // packets, before an order gets its turn
+constexpr int kMaxInOneTurn = 64;           // packets, before an order gets its turn
 constexpr int64_t kKeepAliveNs = 5'000'000; // a client hears from us at least this often
 
 sockaddr_in loopback(uint16_t port) {
@@ -81,7 +81,7 @@ void ExternalDevice::run() {
 /// socket was last empty, and is taken to be that old.
 void ExternalDevice::receive() {
     int64_t arrivedNs = emptyNs_;
-    for (int n = 0; n < kMostInOneTurn; ++n) {
+    for (int n = 0; n < kMaxInOneTurn; ++n) {
         std::array<uint8_t, 256> packet; // longer ones are cut, which makes them as malformed as they are
         sockaddr_in from{};
         socklen_t length = sizeof from;

@@ -19,14 +19,14 @@ double radiansOf(const ArmMotor& motor, double count) {
 
 } // namespace
 
-ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMostMotors>& counts) {
-    const size_t motors = std::min(arm.motors.size(), kMostMotors);
-    std::array<double, kMostMotors> bodies{};
+ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMaxMotors>& counts) {
+    const size_t motors = std::min(arm.motors.size(), kMaxMotors);
+    std::array<double, kMaxMotors> bodies{};
     for (size_t m = 0; m < motors; ++m)
         bodies[m] = arm.motors[m].home + arm.motors[m].ratio * radiansOf(arm.motors[m], counts[m]);
 
-    std::array<StandingJoint, kMostJoints> standing;
-    const size_t joints = std::min(arm.joints.size(), kMostJoints);
+    std::array<StandingJoint, kMaxJoints> standing;
+    const size_t joints = std::min(arm.joints.size(), kMaxJoints);
     glm::dquat baseFromLink(1.0, 0.0, 0.0, 0.0);
     glm::dvec3 at(0.0);
     for (size_t j = 0; j < joints; ++j) {
@@ -62,7 +62,7 @@ ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMostMotors>& 
 Currents currentsOf(const ArmKinematics& arm, const ArmPose& pose, const glm::dvec3& force) {
     Currents currents{};
     double share = 1.0; // of the force that the weakest motor allows
-    for (size_t m = 0; m < std::min(arm.motors.size(), kMostMotors); ++m) {
+    for (size_t m = 0; m < std::min(arm.motors.size(), kMaxMotors); ++m) {
         const ArmMotor& motor = arm.motors[m];
         if (!(motor.torqueConstant > 0.0))
             continue;
@@ -80,7 +80,7 @@ Currents currentsOf(const ArmKinematics& arm, const ArmPose& pose, const glm::dv
 double resolutionOf(const ArmKinematics& arm) {
     const ArmPose home = poseOf(arm, {});
     double longest = 0.0;
-    for (size_t m = 0; m < std::min(arm.motors.size(), kMostMotors); ++m)
+    for (size_t m = 0; m < std::min(arm.motors.size(), kMaxMotors); ++m)
         longest = std::max(longest, glm::length(home.jacobian[m]) * radiansOf(arm.motors[m], 1.0));
     return longest;
 }

@@ -11,7 +11,7 @@
 
 namespace touchstone {
 
-inline constexpr size_t kMostMotors = 6, kMostJoints = 8;
+inline constexpr size_t kMaxMotors = 6, kMaxJoints = 8;
 
 /// A motor with its encoder; each drives one body of the mechanism.
 struct ArmMotor {
@@ -30,12 +30,12 @@ struct ArmJoint {
     glm::dvec3 offset{0.0};   ///< m, from the joint before it (the base's origin) to this one
     /// How each body's angle moves this joint; a parallelogram measures its second link against the base, so
     /// that its hinge moves by the difference.
-    std::array<double, kMostMotors> drive{};
+    std::array<double, kMaxMotors> drive{};
 };
 
 struct ArmKinematics {
-    std::vector<ArmMotor> motors;   ///< at most kMostMotors, in the order of the report's counts
-    std::vector<ArmJoint> joints;   ///< at most kMostJoints
+    std::vector<ArmMotor> motors;   ///< at most kMaxMotors, in the order of the report's counts
+    std::vector<ArmJoint> joints;   ///< at most kMaxJoints
     glm::dvec3 tip{0.0};            ///< m, what is held, from the last joint
     glm::dvec3 origin{0.0};         ///< m, in the base frame: where the device frame has its own origin
     glm::dmat3 deviceFromBase{1.0}; ///< rotation
@@ -45,13 +45,13 @@ struct ArmPose {
     glm::dvec3 position{0.0}; ///< m, device frame
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     /// m/rad of each motor, device frame: the columns of the Jacobian.
-    std::array<glm::dvec3, kMostMotors> jacobian{};
+    std::array<glm::dvec3, kMaxMotors> jacobian{};
 };
 
-using Currents = std::array<double, kMostMotors>; ///< A
+using Currents = std::array<double, kMaxMotors>; ///< A
 
 /// Where the hand is. `counts`: one for each motor.
-[[nodiscard]] ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMostMotors>& counts);
+[[nodiscard]] ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMaxMotors>& counts);
 
 /// The currents that make `force` (N, device frame) at the hand: torque = transposed Jacobian times force.
 /// When one would exceed its motor's limit all are scaled down together, so that the force keeps its

@@ -79,8 +79,8 @@ class Node {
     }
     [[nodiscard]] glm::dvec3 vector() const {
         (void)array(3, 3);
-        constexpr double kMost = 1e3;
-        return {at(0).number(-kMost, kMost), at(1).number(-kMost, kMost), at(2).number(-kMost, kMost)};
+        constexpr double kMax = 1e3;
+        return {at(0).number(-kMax, kMax), at(1).number(-kMax, kMax), at(2).number(-kMax, kMax)};
     }
     [[nodiscard]] glm::dvec3 direction() const {
         const glm::dvec3 v = vector();
@@ -162,9 +162,9 @@ ArmKinematics readArm(const Node& node) {
     node.object({"motors", "joints", "tip", "frame"});
     ArmKinematics arm;
     const Node motors = node["motors"], joints = node["joints"];
-    for (size_t m = 0; m < motors.array(1, kMostMotors); ++m)
+    for (size_t m = 0; m < motors.array(1, kMaxMotors); ++m)
         arm.motors.push_back(readMotor(motors.at(m)));
-    for (size_t j = 0; j < joints.array(1, kMostJoints); ++j)
+    for (size_t j = 0; j < joints.array(1, kMaxJoints); ++j)
         arm.joints.push_back(readJoint(joints.at(j), arm.motors.size()));
     if (node.has("tip"))
         arm.tip = node["tip"].vector();

@@ -12,7 +12,7 @@ constexpr double kSearchInterval = 0.5;     // s between two looks for a device 
 constexpr int kPollMs = 1;                  // of a driven device: how long an order may wait for a report
 constexpr int kRestingPollMs = 8;           // of the others
 constexpr int64_t kKeepAliveNs = 5'000'000; // a device hears from us at least this often
-constexpr int kMostQueued = 64;             // hidraw keeps as many
+constexpr int kMaxQueued = 64;              // hidraw keeps as many
 constexpr int kFailedSendsToGiveUp = 20;
 constexpr int kTriesOfTheLastWord = 5;
 constexpr double kSpaceMouseStaleAge = 0.1; // s; some report every 16 ms
@@ -119,7 +119,7 @@ void HidDevice::run() {
 
 /// The last word; a bus that is busy just now gets it a little later.
 void HidDevice::sayZero() {
-    std::array<uint8_t, kMostReportSize> report{};
+    std::array<uint8_t, kMaxReportSize> report{};
     const size_t length = recipe_.protocol->command(ForceOrder{}, report);
     for (int tries = 0; tries < kTriesOfTheLastWord; ++tries) {
         if (port_.write(std::span(report).first(length)))
@@ -159,7 +159,7 @@ void HidDevice::connect() {
 /// One turn: what has come, then what is to be said. A report that was already waiting may have come any time
 /// since the queue was last empty, and is taken to be that old.
 void HidDevice::exchange() {
-    std::array<uint8_t, kMostReportSize> buffer{};
+    std::array<uint8_t, kMaxReportSize> buffer{};
     const bool driven = recipe_.protocol->driven();
     int length = port_.read(buffer, 0);
     int64_t arrivedNs = emptyNs_;
@@ -187,7 +187,7 @@ void HidDevice::exchange() {
 void HidDevice::takeReports(std::span<uint8_t> buffer, int length, int64_t arrivedNs) {
     for (int n = 1;; ++n) {
         takeReport(buffer.first(static_cast<size_t>(length)), arrivedNs);
-        if (n == kMostQueued)
+        if (n == kMaxQueued)
             return;
         length = port_.read(buffer, 0);
         if (length < 0)
@@ -223,7 +223,7 @@ void HidDevice::takeReport(std::span<const uint8_t> report, int64_t arrivedNs) {
 void HidDevice::send(int64_t nowNs) {
     if (!mailbox_.updateOrder() && nowNs - sentNs_ < kKeepAliveNs)
         return;
-    std::array<uint8_t, kMostReportSize> report{};
+    std::array<uint8_t, kMaxReportSize> report{};
     const size_t length = recipe_.protocol->command(mailbox_.order(nowNs), report);
     sentNs_ = nowNs;
     if (port_.write(std::span(report).first(length))) {

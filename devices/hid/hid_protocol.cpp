@@ -42,7 +42,7 @@ class SpaceMouseProtocol final : public HidProtocol {
     }
     [[nodiscard]] bool silenceHolds() const override { return state_.axes == decltype(state_.axes){}; }
     [[nodiscard]] bool driven() const override { return false; }
-    size_t command(const ForceOrder&, std::span<uint8_t, kMostReportSize>) override { return 0; }
+    size_t command(const ForceOrder&, std::span<uint8_t, kMaxReportSize>) override { return 0; }
 
   private:
     SpaceMouseState state_;
@@ -68,7 +68,7 @@ class WoodenProtocol final : public HidProtocol {
         reading.valid = true;
         return ReportVerdict::Reading;
     }
-    size_t command(const ForceOrder& order, std::span<uint8_t, kMostReportSize> report) override {
+    size_t command(const ForceOrder& order, std::span<uint8_t, kMaxReportSize> report) override {
         std::array<int16_t, 3> milliamperes{};
         if (known_) {
             const Currents currents = currentsOf(arm_, pose_, order.force);
@@ -121,7 +121,7 @@ class RawProtocol final : public HidProtocol {
         byCounts_ = counts;
         return ReportVerdict::Reading;
     }
-    size_t command(const ForceOrder& order, std::span<uint8_t, kMostReportSize> report) override {
+    size_t command(const ForceOrder& order, std::span<uint8_t, kMaxReportSize> report) override {
         RawCommand command{.kind = byCounts_ ? kRawCurrent : kRawForce,
                            .sequence = ++said_,
                            .answers = heard_,
@@ -129,7 +129,7 @@ class RawProtocol final : public HidProtocol {
         constexpr double kMicro = 1e6;
         if (known_ && byCounts_) {
             const Currents currents = currentsOf(*arm_, pose_, order.force);
-            for (size_t i = 0; i < kMostMotors; ++i)
+            for (size_t i = 0; i < kMaxMotors; ++i)
                 command.values[i] = quantised<int32_t>(currents[i], kMicro);
         } else if (known_) {
             for (size_t i = 0; i < 3; ++i) {
@@ -145,7 +145,7 @@ class RawProtocol final : public HidProtocol {
 
   private:
     void placeByCounts(const RawState& state, DeviceReading& reading) {
-        std::array<double, kMostMotors> counts{};
+        std::array<double, kMaxMotors> counts{};
         std::copy(state.axes.begin(), state.axes.end(), counts.begin());
         pose_ = poseOf(*arm_, counts);
         reading.position = pose_.position;

@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-inline constexpr size_t kMostReportSize = 1 + 64;
+inline constexpr size_t kMaxReportSize = 1 + 64;
 
 /// One device's side of the conversation. I/O thread only; no transport, no clock.
 class HidProtocol {
@@ -28,7 +28,7 @@ class HidProtocol {
     [[nodiscard]] virtual bool driven() const { return true; }
     /// Writes the report that gives this order, its id first, and returns its length.
     [[nodiscard]] virtual size_t command(const ForceOrder& order,
-                                         std::span<uint8_t, kMostReportSize> report) = 0;
+                                         std::span<uint8_t, kMaxReportSize> report) = 0;
 };
 
 [[nodiscard]] std::unique_ptr<HidProtocol> makeSpaceMouseProtocol();

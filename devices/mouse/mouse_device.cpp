@@ -14,7 +14,7 @@ bool finite(const glm::dvec3& v) {
 /// The direction of what of `stretch` the planes hold off: without what friction adds along them. With one
 /// plane its normal; with three, or none, the direction of all of it.
 glm::dvec3 normalPart(const glm::dvec3& stretch, std::span<const glm::dvec3> planes) {
-    constexpr double kLeast = 1e-9; // of the stretch, and of a unit vector: planes that are nearly one
+    constexpr double kMin = 1e-9; // of the stretch, and of a unit vector: planes that are nearly one
     glm::dvec3 along(0.0);
     std::array<glm::dvec3, 3> basis{};
     size_t count = 0;
@@ -22,14 +22,14 @@ glm::dvec3 normalPart(const glm::dvec3& stretch, std::span<const glm::dvec3> pla
         for (size_t i = 0; i < count; ++i)
             axis -= glm::dot(axis, basis[i]) * basis[i];
         const double length = glm::length(axis);
-        if (!(length > kLeast) || count == basis.size())
+        if (!(length > kMin) || count == basis.size())
             continue;
         basis[count] = axis / length;
         along += glm::dot(stretch, basis[count]) * basis[count];
         ++count;
     }
     const double length = glm::length(along);
-    return length > kLeast * glm::length(stretch) ? along / length : glm::normalize(stretch);
+    return length > kMin * glm::length(stretch) ? along / length : glm::normalize(stretch);
 }
 
 } // namespace

@@ -16,9 +16,9 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kMostParts = 8;
+constexpr size_t kMaxParts = 8;
 constexpr double kSampleTime = 1e-3; ///< s; what moves at 10 m/s² is 1 µm off its chord
-constexpr double kMostSamples = 20000.0;
+constexpr double kMaxSamples = 20000.0;
 constexpr int kSide = 24;      ///< rays to a side of the view that count what shows
 constexpr size_t kBoxes = 256; ///< poses of the others that are boxed in, at most
 
@@ -54,7 +54,7 @@ class Movement {
         return motionOf(deviceFromScene_, pose_.sceneFromMesh()[instance], rest_[instance]);
     }
     std::shared_ptr<const PartMotion> over(size_t instance) {
-        const double steps = std::clamp(std::ceil(animation_.duration / kSampleTime), 1.0, kMostSamples);
+        const double steps = std::clamp(std::ceil(animation_.duration / kSampleTime), 1.0, kMaxSamples);
         std::vector<Similarity> samples;
         for (double i = 0.0; i <= steps; i += 1.0) {
             evaluate(animation_.duration * i / steps);
@@ -165,7 +165,7 @@ std::vector<MovingPart> movingParts(const Scene& scene, const Similarity& device
             order.emplace_back(rays, mover);
     }
     std::ranges::stable_sort(order, std::greater{}, [](const auto& entry) { return entry.first; });
-    order.resize(std::min(order.size(), kMostParts));
+    order.resize(std::min(order.size(), kMaxParts));
     Movement movement(scene, *animation, deviceFromScene);
     std::vector<MovingPart> parts;
     for (const auto& [rays, mover] : order) {

@@ -122,7 +122,7 @@ std::vector<EdgeSite> sharpestEdges(const TriangleSource& source, const Bounds& 
     for (const Edge& edge : edges) {
         const glm::dvec3 middle = 0.5 * (edge.from + edge.to);
         const auto isNear = [&](const EdgeSite& site) { return glm::distance(site.point, middle) < kApart; };
-        if (sites.size() < kMostEdges && std::ranges::none_of(sites, isNear))
+        if (sites.size() < kMaxEdges && std::ranges::none_of(sites, isNear))
             sites.push_back({middle, edge.normal, edge.inward});
     }
     return sites;

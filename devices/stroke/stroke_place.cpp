@@ -19,7 +19,7 @@ constexpr double kAround =
     0.003; ///< m: the surface's direction is its mean over so much, or less on small models
 constexpr double kOfModel = 0.02; ///< of the diagonal: so much less
 constexpr int kCandidates = 400;
-constexpr size_t kMostSites = 8;
+constexpr size_t kMaxSites = 8;
 constexpr double kApart = 0.06; ///< of the diagonal
 constexpr double kSteep = 2.0;  ///< how many half extents from the middle a surface seen edge-on counts as
 
@@ -71,7 +71,7 @@ std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds
         const auto isNear = [&](const SurfaceHit& other) {
             return glm::distance(other.point, hit.point) < kApart * bounds.diagonal();
         };
-        if (best.size() < kMostSites && std::ranges::none_of(best, isNear))
+        if (best.size() < kMaxSites && std::ranges::none_of(best, isNear))
             best.push_back(hit);
     }
     return best;

@@ -23,11 +23,11 @@ struct StrokeSite {
                                               const StrokeRequest& request);
 
 /// The middles of the sharpest convex edges of the model, the sharpest first; of those within a degree the
-/// one that faces `front` most, at most kMostEdges, 5 mm apart. Corners nearer than 1e-6 of the model's
+/// one that faces `front` most, at most kMaxEdges, 5 mm apart. Corners nearer than 1e-6 of the model's
 /// diagonal are one. Edges between less than 0.2 degrees or shorter than a hundredth of the diagonal do not
 /// count.
 [[nodiscard]] std::vector<EdgeSite> sharpestEdges(const TriangleSource& triangles, const Bounds& bounds,
                                                   const glm::dvec3& front);
-inline constexpr size_t kMostEdges = 48;
+inline constexpr size_t kMaxEdges = 48;
 
 } // namespace touchstone

@@ -116,7 +116,7 @@ double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& 
 constexpr double kWallCosine = 0.26;
 /// Of the reach: how far a wall must rise above the plane of the surface. Less is the facets of a smooth
 /// surface.
-constexpr double kLeastRise = 0.01;
+constexpr double kMinRise = 0.01;
 /// Of the reach: how far above a hit the space is taken to be free.
 constexpr double kFree = 0.25;
 
@@ -201,7 +201,7 @@ std::vector<double> wallsBeside(const TriangleSource& triangles, const View& vie
                 const double rise =
                     std::max({glm::dot(a - hits[i]->point, surface), glm::dot(b - hits[i]->point, surface),
                               glm::dot(c - hits[i]->point, surface)});
-                if (rise < kLeastRise * reach)
+                if (rise < kMinRise * reach)
                     return;
                 if (distanceToTriangle(hits[i]->point, {a, b, c}, normal) <= reach)
                     highest[i] = top;

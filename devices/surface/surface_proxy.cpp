@@ -75,7 +75,7 @@ void SurfaceProxy::follow(const glm::dvec3& hip) {
         FewPlanes<double> held;
         for (size_t i = 0; i < planes.count; ++i) {
             planes.plane[i].offset -= glm::dot(planes.plane[i].normal, moved);
-            const bool active = planes.count < FewPlanes<double>::kMost ||
+            const bool active = planes.count < FewPlanes<double>::kMax ||
                                 std::find(goal.active.begin(), goal.active.begin() + goal.count, i) !=
                                     goal.active.begin() + goal.count;
             if (active)

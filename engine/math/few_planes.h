@@ -20,8 +20,8 @@ struct FewPlane {
 
 template <class Real>
 struct FewPlanes {
-    static constexpr size_t kMost = 4; ///< three that hold it and the one that it has just met
-    std::array<FewPlane<Real>, kMost> plane;
+    static constexpr size_t kMax = 4; ///< three that hold it and the one that it has just met
+    std::array<FewPlane<Real>, kMax> plane;
     size_t count = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using Solver = std::variant<NeighbourhoodWatch, RayProxy<double>, RayProxy<float>>;
 
 Solver solverFor(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                 DeviceState& state, ProxyRest& rest) noexcept {
+                 DeviceState& state, SolveResult& rest) noexcept {
     const int budget = settings.iterationBudget;
     if (settings.contact == ContactMethod::Neighbourhood)
         return NeighbourhoodWatch(scene, motions, budget, state, rest);
@@ -20,17 +20,17 @@ Solver solverFor(const HapticScene& scene, ObjectMotions motions, const HapticSe
     return RayProxy<double>(scene, motions, budget, state, rest);
 }
 
-/// The watch has no part in what was pinched, and begins again where what it touches jumps.
+/// The watch has no part in what was jammed, and begins again where what it touches jumps.
 void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) noexcept {
-    if (state.pinched.count > 0) {
-        state.pinched.count = 0;
+    if (state.jammed.count > 0) {
+        state.jammed.count = 0;
         state.candidates.ignore({});
     }
     for (size_t k = 0; k < motions.size(); ++k) {
         if (!motions[k].jumped)
             continue;
         flags = flags | TickFlag::ObjectJumped;
-        if (static_cast<int>(k) == state.anchor) {
+        if (static_cast<int>(k) == state.reference) {
             state.watch.touching = state.placed = false;
             state.friction = FrictionState::Free;
         }
@@ -56,18 +56,19 @@ bool comparisonIsReady(const HapticScene& scene, const HapticSettings& settings)
 }
 
 /// The watch meets moving objects along the HIP's path, which is relative to them.
-void ComparisonSolver::carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                             DeviceState& state, uint32_t& flags) noexcept {
+void ComparisonSolver::followObjects(const HapticScene& scene, ObjectMotions motions,
+                                     const HapticSettings& settings, DeviceState& state,
+                                     uint32_t& flags) noexcept {
     leaveCarry(motions, state, flags);
     if (settings.contact != ContactMethod::Rays)
         return;
     leaveComparison(scene, motions, state);
-    carryByRays(scene, motions, state, flags);
+    sweepMovingObstaclesByRays(scene, motions, state, flags);
 }
 
 ComparisonSolver::ComparisonSolver(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, DeviceState& state,
-                                   ProxyRest& rest) noexcept
+                                   SolveResult& rest) noexcept
     : state_(state), solver_(solverFor(scene, motions, settings, state, rest)) {}
 
 bool ComparisonSolver::begin() noexcept {

@@ -21,12 +21,12 @@ namespace touchstone {
 /// no other shape.
 class ComparisonSolver {
   public:
-    /// What the objects' own motion does to the proxy before the solve (carry.h).
-    static void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                      DeviceState& state, uint32_t& flags) noexcept;
+    /// What the objects' own motion does to the proxy before the solve (moving_obstacles.h).
+    static void followObjects(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                              DeviceState& state, uint32_t& flags) noexcept;
 
     ComparisonSolver(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                     DeviceState& state, ProxyRest& rest) noexcept;
+                     DeviceState& state, SolveResult& rest) noexcept;
 
     /// Places the proxy in the first tick; false while the HIP is inside a body.
     [[nodiscard]] bool begin() noexcept;

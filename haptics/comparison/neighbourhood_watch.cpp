@@ -22,14 +22,14 @@ double floatMargin(const glm::dvec3& p) {
 } // namespace
 
 NeighbourhoodWatch::NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, int budget,
-                                       DeviceState& state, ProxyRest& rest) noexcept
+                                       DeviceState& state, SolveResult& rest) noexcept
     : scene_(scene), motions_(motions), state_(state),
       rest_(rest), budget_{.steps = static_cast<uint32_t>(budget)}, steps_(budget_.steps),
       before_(state.watch.side) {
     rest_.contactCount = 0;
     rest_.iterations = 0;
     rest_.flags = 0;
-    rest_.hold = SubGoal{};
+    rest_.activeSet = SubGoal{};
 }
 
 SurfaceView NeighbourhoodWatch::surface(size_t object) const noexcept {
@@ -39,7 +39,7 @@ SurfaceView NeighbourhoodWatch::surface(size_t object) const noexcept {
 bool NeighbourhoodWatch::begin() noexcept {
     if (!state_.placed) {
         state_.proxy =
-            motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip);
+            motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.inversePoint(state_.hip);
         state_.watch.touching = false;
         state_.placed = mayBegin(scene_, motions_, state_);
     }
@@ -49,12 +49,12 @@ bool NeighbourhoodWatch::begin() noexcept {
 }
 
 void NeighbourhoodWatch::query() noexcept {
-    const auto anchor = static_cast<size_t>(state_.anchor);
+    const auto reference = static_cast<size_t>(state_.reference);
     if (state_.watch.touching) {
-        const glm::dvec3 hip = motions_[anchor].workspaceFromObject.inversePoint(state_.hip);
-        const SurfacePlace here = walkTowards(surface(anchor), state_.watch.side, hip, budget_);
+        const glm::dvec3 hip = motions_[reference].workspaceFromObject.inversePoint(state_.hip);
+        const SurfacePlace here = walkTowards(surface(reference), state_.watch.side, hip, budget_);
         state_.watch.side = here.side;
-        if (budget_.spent || !isOnFreeSide(surface(anchor), here, hip, budget_))
+        if (budget_.spent || !isOnFreeSide(surface(reference), here, hip, budget_))
             return;
         // Off this surface: from where it was left, the way to the HIP may be barred by another.
         state_.watch.touching = false;
@@ -67,13 +67,13 @@ void NeighbourhoodWatch::query() noexcept {
 }
 
 /// Looks for the first triangle of any object that the HIP's path crosses, in each object's own frame, so
-/// that what moves towards a resting HIP crosses it too. `start`: anchor frame, where the path begins;
-/// `left`: on the anchor's surface, which it has just let go.
+/// that what moves towards a resting HIP crosses it too. `start`: reference object frame, where the path
+/// begins; `left`: on the reference object's surface, which it has just let go.
 bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
-    const auto anchor = static_cast<size_t>(state_.anchor);
-    const glm::dvec3 begin = motions_[anchor].before.point(start);
+    const auto reference = static_cast<size_t>(state_.reference);
+    const glm::dvec3 begin = motions_[reference].before.point(start);
     double first = 1.0;
-    int struck = -1;
+    int hit = -1;
     SurfacePlace place;
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
         ObjectMotion motion = motions_[k];
@@ -84,16 +84,16 @@ bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
                             glm::length(motion.workspaceFromObject.translation - motion.before.translation);
         if (near > 1.01 * motion.workspaceFromObject.scale * scene_.objects[k]->boundingRadius)
             continue;
-        const glm::dvec3 from = k == anchor ? start : motion.before.inversePoint(begin);
+        const glm::dvec3 from = k == reference ? start : motion.before.inversePoint(begin);
         const glm::dvec3 to = motion.workspaceFromObject.inversePoint(state_.hip);
         // What it has just left lies under its first step.
-        const double skip = left && k == anchor ? 2.0 * floatMargin(from) : -floatMargin(from);
+        const double skip = left && k == reference ? 2.0 * floatMargin(from) : -floatMargin(from);
         if (strikes(k, from, to, skip, first, place))
-            struck = static_cast<int>(k);
+            hit = static_cast<int>(k);
     }
-    if (struck < 0)
+    if (hit < 0)
         return false;
-    changeAnchor(state_, motions_, struck);
+    changeReference(state_, motions_, hit);
     state_.watch = {.side = place.side, .touching = true};
     state_.friction = FrictionState::Free; // another place: nothing sticks there yet
     return true;
@@ -159,8 +159,8 @@ void NeighbourhoodWatch::moveTowards(const glm::dvec3& goal) noexcept {
 /// Walks to the goal and says what is touched there: one feature, with the normal from the goal to it (on a
 /// face the face's own, to the last bit).
 void NeighbourhoodWatch::report(const glm::dvec3& goal) noexcept {
-    const auto anchor = static_cast<size_t>(state_.anchor);
-    const SurfaceView view = surface(anchor);
+    const auto reference = static_cast<size_t>(state_.reference);
+    const SurfaceView view = surface(reference);
     const SurfacePlace here = walkTowards(view, state_.watch.side, goal, budget_);
     state_.watch.side = here.side;
     state_.proxy = here.point;
@@ -178,12 +178,12 @@ void NeighbourhoodWatch::report(const glm::dvec3& goal) noexcept {
     rest_.contacts[0] = {.normal = normal,
                          .point = here.point,
                          .gap = kContactGap,
-                         .object = state_.anchor,
+                         .object = state_.reference,
                          .feature = triangleOf(here.side)};
     rest_.planes[0] = {normal, 0.0};
-    rest_.hold = SubGoal{};
-    rest_.hold.count = 1;
-    rest_.hold.multiplier[0] = distance;
+    rest_.activeSet = SubGoal{};
+    rest_.activeSet.count = 1;
+    rest_.activeSet.multiplier[0] = distance;
 }
 
 void NeighbourhoodWatch::placeAt(const glm::dvec3& p) noexcept {
@@ -199,14 +199,14 @@ void leaveWatch(const HapticScene& scene, ObjectMotions motions, DeviceState& st
     state.friction = FrictionState::Free;
     if (!state.placed)
         return;
-    const auto anchor = static_cast<size_t>(state.anchor);
-    const HapticObject& object = *scene.objects[anchor];
+    const auto reference = static_cast<size_t>(state.reference);
+    const HapticObject& object = *scene.objects[reference];
     const auto* neighbourhoods = scene.neighbourhoods();
     if (neighbourhoods == nullptr) {
         state.placed = false;
         return;
     }
-    const SurfaceView view{object, (*neighbourhoods)[anchor]};
+    const SurfaceView view{object, (*neighbourhoods)[reference]};
     state.proxy += kWeldTolerance * object.diagonal * view.normal(state.watch.side);
     state.candidates.invalidate();
     HapticSettings point;

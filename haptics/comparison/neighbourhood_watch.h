@@ -5,7 +5,7 @@
 #include "engine/math/object_motion.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/shape/mesh/surface_walk.h"
-#include "haptics/solve/proxy_rest.h"
+#include "haptics/solve/solve_result.h"
 #include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
@@ -20,19 +20,19 @@ namespace touchstone {
 ///
 /// A point method: it knows no radius. While it touches one object it looks at nothing but the neighbours of
 /// the place that it touches; see docs/architecture.md for what that costs. Bounded: `budget` steps and
-/// WalkBudget::kMostTests triangles a tick, beyond which it stops where it is and sets BudgetReached.
+/// WalkBudget::kMaxTests triangles a tick, beyond which it stops where it is and sets BudgetReached.
 class NeighbourhoodWatch {
   public:
     /// `scene` must have its neighbourhoods built.
     NeighbourhoodWatch(const HapticScene& scene, ObjectMotions motions, int budget, DeviceState& state,
-                       ProxyRest& rest) noexcept;
+                       SolveResult& rest) noexcept;
 
     /// Puts the proxy at the HIP in the first tick, and queries; false while the HIP is inside a closed
     /// object.
     [[nodiscard]] bool begin() noexcept;
 
-    /// Walks to the place of the surface nearest to `goal` (anchor frame) that a walk downhill finds; without
-    /// contact the proxy goes to `goal`.
+    /// Walks to the place of the surface nearest to `goal` (reference object frame) that a walk downhill
+    /// finds; without contact the proxy goes to `goal`.
     void moveTowards(const glm::dvec3& goal) noexcept;
     void dropTowards(const glm::dvec3& goal) noexcept { moveTowards(goal); }
 
@@ -41,7 +41,7 @@ class NeighbourhoodWatch {
 
   private:
     /// Finds out whether the HIP of this tick is held, by which object, and where: a new contact, the one
-    /// that there is, or none any more. What is touched first becomes the anchor.
+    /// that there is, or none any more. What is touched first becomes the reference object.
     void query() noexcept;
     bool acquire(const glm::dvec3& start, bool left) noexcept;
     bool strikes(size_t object, const glm::dvec3& from, const glm::dvec3& to, double skip, double& first,
@@ -52,7 +52,7 @@ class NeighbourhoodWatch {
     const HapticScene& scene_;
     ObjectMotions motions_;
     DeviceState& state_;
-    ProxyRest& rest_;
+    SolveResult& rest_;
     WalkBudget budget_;
     uint32_t steps_;      // that the tick began with
     TriangleSide before_; // where the tick began

@@ -81,19 +81,19 @@ std::optional<RayMeeting<Real>> meetAlong(const HapticObject& object, const glm:
 }
 
 template <class Real>
-Similarity RayPath<Real>::objectFromAnchor(int object) const noexcept {
+Similarity RayPath<Real>::objectFromReference(int object) const noexcept {
     return motions_[static_cast<size_t>(object)].workspaceFromObject.inverseTimes(
-        motions_[static_cast<size_t>(anchor_)].workspaceFromObject);
+        motions_[static_cast<size_t>(reference_)].workspaceFromObject);
 }
 
-/// Takes the objects other than the anchor whose spheres meet a ball around the way.
+/// Takes the objects other than the reference object whose spheres meet a ball around the way.
 template <class Real>
 void RayPath<Real>::gather(const glm::dvec3& from, const glm::dvec3& to) noexcept {
-    const Similarity& anchor = motions_[static_cast<size_t>(anchor_)].workspaceFromObject;
-    const glm::dvec3 begin = anchor.point(from), end = anchor.point(to);
+    const Similarity& reference = motions_[static_cast<size_t>(reference_)].workspaceFromObject;
+    const glm::dvec3 begin = reference.point(from), end = reference.point(to);
     if (radius_ >= 0.0 && glm::length(begin - middle_) <= radius_ && glm::length(end - middle_) <= radius_)
         return;
-    const double extent = anchor.scale * scene_.objects[static_cast<size_t>(anchor_)]->boundingRadius;
+    const double extent = reference.scale * scene_.objects[static_cast<size_t>(reference_)]->boundingRadius;
     middle_ = 0.5 * (begin + end);
     radius_ = glm::length(end - begin) + 1e-3 * extent;
     count_ = 0;
@@ -102,9 +102,9 @@ void RayPath<Real>::gather(const glm::dvec3& from, const glm::dvec3& to) noexcep
         const Similarity& pose = motions_[k].workspaceFromObject;
         const double reach = radius_ + 1.01 * pose.scale * scene_.boundingRadii[k];
         const glm::dvec3 off = pose.translation - middle_;
-        if (static_cast<int>(k) == anchor_ || glm::dot(off, off) > reach * reach)
+        if (static_cast<int>(k) == reference_ || glm::dot(off, off) > reach * reach)
             continue;
-        if (count_ == kMostNear) {
+        if (count_ == kMaxNear) {
             full_ = true;
             radius_ = -1.0;
             return;
@@ -113,17 +113,18 @@ void RayPath<Real>::gather(const glm::dvec3& from, const glm::dvec3& to) noexcep
     }
 }
 
-/// `from`, `direction` and `length` in the anchor's frame; `first`: distance of what was struck before.
+/// `from`, `direction` and `length` in the reference object's frame; `first`: distance of what was hit
+/// before.
 template <class Real>
 void RayPath<Real>::strikeOne(int object, const Vec& from, const Vec& direction, Real length, Real& first,
-                              std::optional<RayStrike<Real>>& struck) const noexcept {
+                              std::optional<RayStrike<Real>>& hit) const noexcept {
     const HapticObject& shape = *scene_.objects[static_cast<size_t>(object)];
     Vec start = from, towards = direction;
-    Real unit = 1; // anchor units in one of the object
+    Real unit = 1; // reference object units in one of the object
     Similarity here;
-    const bool foreign = object != anchor_;
+    const bool foreign = object != reference_;
     if (foreign) {
-        here = objectFromAnchor(object);
+        here = objectFromReference(object);
         start = Vec(here.point(glm::dvec3(from)));
         towards = Vec(here.direction(glm::dvec3(direction)));
         unit = Real(1.0 / here.scale);
@@ -141,36 +142,36 @@ void RayPath<Real>::strikeOne(int object, const Vec& from, const Vec& direction,
         8 * std::numeric_limits<Real>::epsilon() * std::max(unit * glm::length(start) - 2 * unit, Real(0));
     const Real free = met->rate < 0 ? (height - clearance) / -met->rate - coarse : Real(0);
     first = unit * met->distance;
-    struck = RayStrike<Real>{.normal = foreign ? Vec(glm::conjugate(here.rotation) * glm::dvec3(met->normal))
-                                               : met->normal,
-                             .share = std::clamp(free / length, Real(0), Real(1)),
-                             .back = met->back,
-                             .clearance = clearance,
-                             .object = object,
-                             .triangle = met->triangle};
+    hit = RayStrike<Real>{.normal = foreign ? Vec(glm::conjugate(here.rotation) * glm::dvec3(met->normal))
+                                            : met->normal,
+                          .share = std::clamp(free / length, Real(0), Real(1)),
+                          .back = met->back,
+                          .clearance = clearance,
+                          .object = object,
+                          .triangle = met->triangle};
 }
 
 template <class Real>
 std::optional<RayStrike<Real>> RayPath<Real>::strike(const Vec& from, const Vec& move) noexcept {
-    std::optional<RayStrike<Real>> struck;
+    std::optional<RayStrike<Real>> hit;
     const Real length = glm::length(move);
     const Vec direction = move / length;
     Real first = std::numeric_limits<Real>::infinity();
-    strikeOne(anchor_, from, direction, length, first, struck);
+    strikeOne(reference_, from, direction, length, first, hit);
     if (scene_.objects.size() == 1)
-        return struck;
+        return hit;
     gather(glm::dvec3(from), glm::dvec3(from + move));
     for (size_t i = 0; i < count_; ++i)
-        strikeOne(near_[i], from, direction, length, first, struck);
-    return struck;
+        strikeOne(near_[i], from, direction, length, first, hit);
+    return hit;
 }
 
 template <class Real>
 Real RayPath<Real>::height(const RayStrike<Real>& at, const Vec& p) const noexcept {
     const HapticObject& shape = *scene_.objects[static_cast<size_t>(at.object)];
-    if (at.object == anchor_)
+    if (at.object == reference_)
         return glm::dot(p - corner<Real>(shape, at.triangle, 0), at.normal);
-    const Similarity here = objectFromAnchor(at.object);
+    const Similarity here = objectFromReference(at.object);
     const RayFacet<Real> facet(shape, at.triangle);
     return Real(1.0 / here.scale) * at.back *
            glm::dot(Vec(here.point(glm::dvec3(p))) - facet.a, facet.normal);
@@ -179,7 +180,7 @@ Real RayPath<Real>::height(const RayStrike<Real>& at, const Vec& p) const noexce
 template <class Real>
 bool RayPath<Real>::stands(const RayStrike<Real>& at, const Vec& p) const noexcept {
     const RayFacet<Real> facet(*scene_.objects[static_cast<size_t>(at.object)], at.triangle);
-    const Vec q = at.object == anchor_ ? p : Vec(objectFromAnchor(at.object).point(glm::dvec3(p)));
+    const Vec q = at.object == reference_ ? p : Vec(objectFromReference(at.object).point(glm::dvec3(p)));
     // Beyond its edge by the rounding of the place it still stands there: or it would be let go of and found
     // again for as long as there are moves.
     constexpr Real kLoose = Real(0.05) * kRayClearance<Real>;

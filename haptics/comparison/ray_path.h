@@ -26,14 +26,14 @@ struct RayFacet {
     RayFacet(const HapticObject& object, uint32_t triangle) noexcept;
 };
 
-/// A surface that a move runs into, in the anchor's frame.
+/// A surface that a move runs into, in the reference object's frame.
 template <class Real>
 struct RayStrike {
     using Vec = glm::vec<3, Real>;
     Vec normal{Real(0)}; ///< unit, on the side that the move comes from
     Real share = 0;      ///< of the move, up to where it is nearer to the surface than the clearance
     Real back = 1;       ///< 1 or -1: by which the triangle's own normal is turned
-    Real clearance = 0;  ///< of its object, anchor units
+    Real clearance = 0;  ///< of its object, reference object units
     int object = -1;
     uint32_t triangle = 0;
 };
@@ -53,18 +53,18 @@ template <class Real>
 meetAlong(const HapticObject& object, const glm::vec<3, Real>& from, const glm::vec<3, Real>& direction,
           Real far) noexcept;
 
-/// The objects near one device's god-object in one tick. Anchor frame.
+/// The objects near one device's god-object in one tick. Reference frame.
 template <class Real>
 class RayPath {
   public:
     using Vec = glm::vec<3, Real>;
-    RayPath(const HapticScene& scene, ObjectMotions motions, int anchor) noexcept
-        : scene_(scene), motions_(motions), anchor_(anchor) {}
+    RayPath(const HapticScene& scene, ObjectMotions motions, int reference) noexcept
+        : scene_(scene), motions_(motions), reference_(reference) {}
 
     /// The first surface that the move from `from` brings nearer than its clearance.
     [[nodiscard]] std::optional<RayStrike<Real>> strike(const Vec& from, const Vec& move) noexcept;
 
-    /// Height over the plane of what was struck, on the side where it was struck from; anchor units.
+    /// Height over the plane of what was hit, on the side where it was hit from; reference object units.
     [[nodiscard]] Real height(const RayStrike<Real>& at, const Vec& p) const noexcept;
     /// True where `p` is near the triangle and its foot lies on it.
     [[nodiscard]] bool stands(const RayStrike<Real>& at, const Vec& p) const noexcept;
@@ -72,16 +72,16 @@ class RayPath {
     [[nodiscard]] bool full() const noexcept { return full_; }
 
   private:
-    static constexpr size_t kMostNear = 64;
+    static constexpr size_t kMaxNear = 64;
     void gather(const glm::dvec3& from, const glm::dvec3& to) noexcept;
     void strikeOne(int object, const Vec& from, const Vec& direction, Real length, Real& first,
-                   std::optional<RayStrike<Real>>& struck) const noexcept;
-    [[nodiscard]] Similarity objectFromAnchor(int object) const noexcept;
+                   std::optional<RayStrike<Real>>& hit) const noexcept;
+    [[nodiscard]] Similarity objectFromReference(int object) const noexcept;
 
     const HapticScene& scene_;
     ObjectMotions motions_;
-    int anchor_;
-    std::array<int, kMostNear> near_; // `count_` of them
+    int reference_;
+    std::array<int, kMaxNear> near_; // `count_` of them
     size_t count_ = 0;
     bool full_ = false;
     glm::dvec3 middle_{0.0}; ///< workspace, of the ball whose objects are known

@@ -32,21 +32,21 @@ constexpr uint32_t kRaysPerMove = 4;
 
 template <class Real>
 RayProxy<Real>::RayProxy(const HapticScene& scene, ObjectMotions motions, int budget, DeviceState& state,
-                         ProxyRest& rest) noexcept
+                         SolveResult& rest) noexcept
     : scene_(scene), motions_(motions), state_(state), rest_(rest), moves_(static_cast<uint32_t>(budget)),
-      rays_(kRaysPerMove * static_cast<uint32_t>(budget)), path_(scene, motions, state.anchor),
+      rays_(kRaysPerMove * static_cast<uint32_t>(budget)), path_(scene, motions, state.reference),
       at_(state.proxy) {
     rest_.contactCount = 0;
     rest_.iterations = 0;
     rest_.flags = 0;
-    rest_.hold = SubGoal{};
+    rest_.activeSet = SubGoal{};
 }
 
 template <class Real>
 bool RayProxy<Real>::begin() noexcept {
     if (state_.placed)
         return true;
-    placeAt(motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip));
+    placeAt(motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.inversePoint(state_.hip));
     state_.placed = mayBegin(scene_, motions_, state_);
     return state_.placed;
 }
@@ -60,8 +60,8 @@ void RayProxy<Real>::placeAt(const glm::dvec3& p) noexcept {
 
 /// Where the planes leave the god-object to go, and which of them hold it: the others are let go of.
 template <class Real>
-void RayProxy<Real>::wish(const Vec& goal) noexcept {
-    wish_ = goal - at_;
+void RayProxy<Real>::target(const Vec& goal) noexcept {
+    target_ = goal - at_;
     multiplier_ = {};
     if (heldCount_ == 0)
         return;
@@ -69,8 +69,8 @@ void RayProxy<Real>::wish(const Vec& goal) noexcept {
     planes.count = heldCount_;
     for (size_t i = 0; i < heldCount_; ++i)
         planes.plane[i] = {held_[i].normal, held_[i].clearance - path_.height(held_[i], at_)};
-    const FewPlanesGoal<Real> nearest = nearestOnPlanes<Real>(wish_, planes);
-    wish_ = nearest.point;
+    const FewPlanesGoal<Real> nearest = nearestOnPlanes<Real>(target_, planes);
+    target_ = nearest.point;
     if (!nearest.found) // between planes that leave no room: all of them hold it there
         return;
     std::array<RayStrike<Real>, 4> holding;
@@ -84,15 +84,15 @@ void RayProxy<Real>::wish(const Vec& goal) noexcept {
 
 /// A plane more, or again. There is always room: after `wish` at most three are held.
 template <class Real>
-void RayProxy<Real>::add(const RayStrike<Real>& struck) noexcept {
+void RayProxy<Real>::add(const RayStrike<Real>& hit) noexcept {
     for (size_t i = 0; i < heldCount_; ++i)
-        if (held_[i].object == struck.object && held_[i].triangle == struck.triangle) {
-            held_[i] = struck;
+        if (held_[i].object == hit.object && held_[i].triangle == hit.triangle) {
+            held_[i] = hit;
             return;
         }
     if (heldCount_ == held_.size())
         --heldCount_;
-    held_[heldCount_++] = struck;
+    held_[heldCount_++] = hit;
 }
 
 /// Out of moves over what it was sliding on: that still holds the hand, or the force would drop out.
@@ -111,8 +111,8 @@ void RayProxy<Real>::solve(const glm::dvec3& towards, bool sliding) noexcept {
     heldCount_ = 0;
     bool touched = false;
     for (int fruitless = 0;;) {
-        wish(goal);
-        const Real length = glm::length(wish_), still = stillAfter<Real>(rest_.iterations);
+        target(goal);
+        const Real length = glm::length(target_), still = stillAfter<Real>(rest_.iterations);
         if (!(length > still) || fruitless > kFruitlessRays || (touched && !sliding))
             break;
         if (moves_ == 0 || rays_ == 0) {
@@ -121,14 +121,14 @@ void RayProxy<Real>::solve(const glm::dvec3& towards, bool sliding) noexcept {
             break;
         }
         --rays_;
-        const std::optional<RayStrike<Real>> struck = path_.strike(at_, wish_);
+        const std::optional<RayStrike<Real>> hit = path_.strike(at_, target_);
         if (path_.full()) {
             rest_.flags = rest_.flags | TickFlag::CandidatesFull;
             break;
         }
-        const Real share = struck ? struck->share : Real(1);
+        const Real share = hit ? hit->share : Real(1);
         if (share * length > still) {
-            at_ += share * wish_;
+            at_ += share * target_;
             fruitless = 0;
             --moves_;
             ++rest_.iterations;
@@ -140,10 +140,10 @@ void RayProxy<Real>::solve(const glm::dvec3& towards, bool sliding) noexcept {
         } else {
             ++fruitless;
         }
-        touched = struck.has_value();
-        if (struck) {
-            add(*struck);
-            last_ = *struck;
+        touched = hit.has_value();
+        if (hit) {
+            add(*hit);
+            last_ = *hit;
         }
     }
     report();
@@ -154,8 +154,8 @@ template <class Real>
 void RayProxy<Real>::report() noexcept {
     state_.proxy = glm::dvec3(at_);
     rest_.contactCount = 0;
-    rest_.hold = SubGoal{};
-    for (size_t i = 0; i < std::min(heldCount_, rest_.hold.active.size()); ++i) {
+    rest_.activeSet = SubGoal{};
+    for (size_t i = 0; i < std::min(heldCount_, rest_.activeSet.active.size()); ++i) {
         const RayStrike<Real>& plane = held_[i];
         const Vec foot = at_ - path_.height(plane, at_) * plane.normal;
         const auto k = static_cast<size_t>(rest_.contactCount++);
@@ -165,9 +165,9 @@ void RayProxy<Real>::report() noexcept {
                              .object = plane.object,
                              .feature = plane.triangle};
         rest_.planes[k] = {rest_.contacts[k].normal, 0.0};
-        rest_.hold.active[k] = static_cast<int>(k);
-        rest_.hold.multiplier[k] = static_cast<double>(multiplier_[i]);
-        rest_.hold.count = static_cast<int>(k) + 1;
+        rest_.activeSet.active[k] = static_cast<int>(k);
+        rest_.activeSet.multiplier[k] = static_cast<double>(multiplier_[i]);
+        rest_.activeSet.count = static_cast<int>(k) + 1;
     }
 }
 
@@ -176,7 +176,7 @@ template class RayProxy<float>;
 
 namespace {
 
-/// The way of the god-object past one object in this tick, in that object's frame; where it is struck, the
+/// The way of the god-object past one object in this tick, in that object's frame; where it is hit, the
 /// place where the object holds it from then on.
 std::optional<glm::dvec3> runInto(const HapticScene& scene, const ObjectMotion& motion, size_t object,
                                   const glm::dvec3& before, const glm::dvec3& now) {
@@ -198,34 +198,34 @@ std::optional<glm::dvec3> runInto(const HapticScene& scene, const ObjectMotion& 
 
 } // namespace
 
-void carryByRays(const HapticScene& scene, ObjectMotions motions, DeviceState& state,
-                 uint32_t& flags) noexcept {
+void sweepMovingObstaclesByRays(const HapticScene& scene, ObjectMotions motions, DeviceState& state,
+                                uint32_t& flags) noexcept {
     state.clearance = 0.0;
     if (!state.placed || motions.data() == scene.restMotions.data())
         return;
     constexpr int kRounds = 4;
     for (int round = 0; round < kRounds; ++round) {
-        const auto anchor = static_cast<size_t>(state.anchor);
-        const glm::dvec3 before = motions[anchor].before.point(state.proxy),
-                         now = motions[anchor].workspaceFromObject.point(state.proxy);
-        int struckBy = -1;
+        const auto reference = static_cast<size_t>(state.reference);
+        const glm::dvec3 before = motions[reference].before.point(state.proxy),
+                         now = motions[reference].workspaceFromObject.point(state.proxy);
+        int hitBy = -1;
         glm::dvec3 place(0.0);
-        for (size_t k = 0; k < scene.objects.size() && struckBy < 0; ++k) {
-            if (k == anchor || motions[k].jumped)
+        for (size_t k = 0; k < scene.objects.size() && hitBy < 0; ++k) {
+            if (k == reference || motions[k].jumped)
                 continue;
             if (const auto held = runInto(scene, motions[k], k, before, now)) {
-                struckBy = static_cast<int>(k);
+                hitBy = static_cast<int>(k);
                 place = *held;
             }
         }
-        if (struckBy < 0)
+        if (hitBy < 0)
             return;
-        changeAnchor(state, motions, struckBy);
+        changeReference(state, motions, hitBy);
         state.proxy = place;
         state.friction = FrictionState::Free;
         state.shaded = false;
     }
-    flags = flags | TickFlag::Pinched;
+    flags = flags | TickFlag::Jammed;
 }
 
 } // namespace touchstone

@@ -5,7 +5,7 @@
 #include "engine/math/object_motion.h"
 #include "haptics/comparison/ray_path.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/solve/proxy_rest.h"
+#include "haptics/solve/solve_result.h"
 #include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
@@ -29,12 +29,13 @@ class RayProxy {
   public:
     using Vec = glm::vec<3, Real>;
     RayProxy(const HapticScene& scene, ObjectMotions motions, int budget, DeviceState& state,
-             ProxyRest& rest) noexcept;
+             SolveResult& rest) noexcept;
 
     /// Puts the god-object at the HIP in the first tick; false while the HIP is inside a closed object.
     [[nodiscard]] bool begin() noexcept;
 
-    /// Moves the god-object to a rest (`goal`: anchor frame). Anytime: every move ends in free space.
+    /// Moves the god-object to a rest (`goal`: reference object frame). Anytime: every move ends in free
+    /// space.
     void moveTowards(const glm::dvec3& goal) noexcept { solve(goal, true); }
     /// Straight until it touches something.
     void dropTowards(const glm::dvec3& goal) noexcept { solve(goal, false); }
@@ -43,31 +44,31 @@ class RayProxy {
 
   private:
     void solve(const glm::dvec3& goal, bool sliding) noexcept;
-    void wish(const Vec& goal) noexcept;
-    void add(const RayStrike<Real>& struck) noexcept;
+    void target(const Vec& goal) noexcept;
+    void add(const RayStrike<Real>& hit) noexcept;
     void holdInTheAir(const Vec& goal) noexcept;
     void report() noexcept;
 
     const HapticScene& scene_;
     ObjectMotions motions_;
     DeviceState& state_;
-    ProxyRest& rest_;
+    SolveResult& rest_;
     uint32_t moves_, rays_; ///< that are left
     RayPath<Real> path_;
-    Vec at_; ///< the god-object, anchor frame
+    Vec at_; ///< the god-object, reference object frame
     std::array<RayStrike<Real>, 4> held_;
     size_t heldCount_ = 0;
     RayStrike<Real> last_; ///< of this tick
-    Vec wish_{Real(0)};    ///< way to the place nearest to the goal on the planes held
+    Vec target_{Real(0)};  ///< way to the place nearest to the goal on the planes held
     std::array<Real, 4> multiplier_{};
 };
 
 extern template class RayProxy<double>;
 extern template class RayProxy<float>;
 
-/// Stage 2 where objects move: the god-object goes with its anchor; an object that runs into it takes it
-/// along. One that two run into stays with the last, and may be left behind by the other (Pinched).
-void carryByRays(const HapticScene& scene, ObjectMotions motions, DeviceState& state,
-                 uint32_t& flags) noexcept;
+/// Stage 2 where objects move: the god-object goes with its reference object; an object that runs into it
+/// takes it along. One that two run into stays with the last, and may be left behind by the other (Jammed).
+void sweepMovingObstaclesByRays(const HapticScene& scene, ObjectMotions motions, DeviceState& state,
+                                uint32_t& flags) noexcept;
 
 } // namespace touchstone

@@ -11,11 +11,12 @@ void CandidateCache::prepare(Candidate& item) noexcept {
     item.prepared = true;
 }
 
-bool CandidateCache::gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,
-                                  const glm::dvec3& centre, double radius) noexcept {
-    const bool foreign = objectFromAnchor != nullptr;
-    const double scale = foreign ? objectFromAnchor->scale : 1.0;
-    const glm::dvec3 local = foreign ? objectFromAnchor->point(centre) : centre;
+bool CandidateCache::gatherObject(const HapticObject& object, int index,
+                                  const Similarity* objectFromReference, const glm::dvec3& centre,
+                                  double radius) noexcept {
+    const bool foreign = objectFromReference != nullptr;
+    const double scale = foreign ? objectFromReference->scale : 1.0;
+    const glm::dvec3 local = foreign ? objectFromReference->point(centre) : centre;
     const double localRadius = scale * radius;
     // The search works in float on vertices of magnitude one: widen the ball by more than their rounding.
     const double rounding = 4e-7 * (1.0 + glm::length(local));
@@ -40,62 +41,63 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index, const S
         ++count_;
     }
     if (foreign)
-        turnIntoAnchor(before, objectFromAnchor->inverse());
+        turnIntoReference(before, objectFromReference->inverse());
     return true;
 }
 
-/// Items gathered in the frame of their own object, from `first` on, are put into that of the anchor.
-void CandidateCache::turnIntoAnchor(size_t first, const Similarity& anchorFromObject) noexcept {
+/// Items gathered in the frame of their own object, from `first` on, are put into that of the reference
+/// object.
+void CandidateCache::turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept {
     for (size_t i = first; i < count_; ++i) {
         Candidate& item = items_[i];
         prepare(item);
         item.triangle =
-            Triangle(anchorFromObject.point(item.triangle.a), anchorFromObject.point(item.triangle.b),
-                     anchorFromObject.point(item.triangle.c));
-        // distance >= offset + g . p, and p is where the anchor's frame has it.
+            Triangle(referenceFromObject.point(item.triangle.a), referenceFromObject.point(item.triangle.b),
+                     referenceFromObject.point(item.triangle.c));
+        // distance >= offset + g . p, and p is where the reference object's frame has it.
         Block& block = bounds_[i / kBlock];
         const size_t k = i % kBlock;
         const glm::dvec3 gradient =
-            anchorFromObject.direction(glm::dvec3(block.x[k], block.y[k], block.z[k]));
-        const double scaled = anchorFromObject.scale * block.offset[k];
+            referenceFromObject.direction(glm::dvec3(block.x[k], block.y[k], block.z[k]));
+        const double scaled = referenceFromObject.scale * block.offset[k];
         block.x[k] = gradient.x;
         block.y[k] = gradient.y;
         block.z[k] = gradient.z;
-        block.offset[k] = scaled - glm::dot(gradient, anchorFromObject.translation);
+        block.offset[k] = scaled - glm::dot(gradient, referenceFromObject.translation);
     }
 }
 
 bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                            std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
+                            std::span<const glm::dvec4> spheres, int reference, const glm::dvec3& centre,
                             double radius) noexcept {
     return gatherAll(
-        objects, poses, [&](size_t k) { return spheres[k]; }, anchor, centre, radius);
+        objects, poses, [&](size_t k) { return spheres[k]; }, reference, centre, radius);
 }
 
 bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                            std::span<const double> radii, int anchor, const glm::dvec3& centre,
+                            std::span<const double> radii, int reference, const glm::dvec3& centre,
                             double radius) noexcept {
     const auto sphereOf = [&](size_t k) {
         const Similarity& pose = poses[k].workspaceFromObject;
         return glm::dvec4(pose.translation, pose.scale * radii[k]);
     };
-    return gatherAll(objects, poses, sphereOf, anchor, centre, radius);
+    return gatherAll(objects, poses, sphereOf, reference, centre, radius);
 }
 
 /// `sphereOf(k)` touches nothing of the object itself: of a thousand, most lie far from the hand and far from
 /// each other in memory.
 template <class SphereOf>
 bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects,
-                               ObjectMotions poses, const SphereOf& sphereOf, int anchor,
+                               ObjectMotions poses, const SphereOf& sphereOf, int reference,
                                const glm::dvec3& centre, double radius) noexcept {
     invalidate();
     oneSided_ = false;
     centre_ = centre;
     radius_ = radius;
-    const Similarity& workspaceFromAnchor = poses[static_cast<size_t>(anchor)].workspaceFromObject;
-    const glm::dvec3 place = workspaceFromAnchor.point(centre);
+    const Similarity& workspaceFromReference = poses[static_cast<size_t>(reference)].workspaceFromObject;
+    const glm::dvec3 place = workspaceFromReference.point(centre);
     // A share more than double rounds at the far end of a scene.
-    const double room = workspaceFromAnchor.scale * radius + 1e-14 * glm::length(place);
+    const double room = workspaceFromReference.scale * radius + 1e-14 * glm::length(place);
     for (size_t k = 0; k < objects.size(); ++k) {
         const glm::dvec4 sphere = sphereOf(k);
         const glm::dvec3 apart = place - glm::dvec3(sphere);
@@ -107,17 +109,17 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
         if (std::find(ignored_.begin(), end, index) != end)
             continue;
         bool fits = true;
-        const auto gatherFrom = [&](const Similarity* objectFromAnchor) {
+        const auto gatherFrom = [&](const Similarity* objectFromReference) {
             if (objects[k]->shape != nullptr)
-                return shapes_.add(*objects[k]->shape, index, objectFromAnchor, centre, radius);
-            return gatherObject(*objects[k], index, objectFromAnchor, centre, radius);
+                return shapes_.add(*objects[k]->shape, index, objectFromReference, centre, radius);
+            return gatherObject(*objects[k], index, objectFromReference, centre, radius);
         };
-        if (index == anchor) {
+        if (index == reference) {
             fits = gatherFrom(nullptr);
         } else {
-            const Similarity objectFromAnchor =
-                poses[k].workspaceFromObject.inverseTimes(workspaceFromAnchor);
-            fits = gatherFrom(&objectFromAnchor);
+            const Similarity objectFromReference =
+                poses[k].workspaceFromObject.inverseTimes(workspaceFromReference);
+            fits = gatherFrom(&objectFromReference);
         }
         if (!fits) {
             invalidate();

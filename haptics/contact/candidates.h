@@ -26,7 +26,7 @@ struct Candidate {
     uint32_t index = 0;    ///< triangle of that object
     bool prepared = false; ///< `triangle` is filled in
     uint32_t measured = 0; ///< CandidateCache::place_ when its distance was last evaluated
-    Triangle triangle;     ///< frame of the anchor object, object units
+    Triangle triangle;     ///< frame of the reference object, object units
 };
 
 /// Every triangle that meets the ball (centre, radius) is in `items`, every other shape in `shapes`; those
@@ -50,20 +50,21 @@ class CandidateCache {
     CandidateCache()
         : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity) {}
 
-    /// Collects what meets the ball, in the frame of `anchor`. False when there may be more than kCapacity:
-    /// then the cache is empty and invalid. `spheres`: bounding spheres of the objects at these poses
-    /// (centre, radius; workspace).
+    /// Collects what meets the ball, in the frame of `reference`. False when there may be more than
+    /// kCapacity: then the cache is empty and invalid. `spheres`: bounding spheres of the objects at these
+    /// poses (centre, radius; workspace).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                std::span<const glm::dvec4> spheres, int anchor, const glm::dvec3& centre,
+                std::span<const glm::dvec4> spheres, int reference, const glm::dvec3& centre,
                 double radius) noexcept;
     /// The same where only their radii are known (object units).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                std::span<const double> radii, int anchor, const glm::dvec3& centre, double radius) noexcept;
+                std::span<const double> radii, int reference, const glm::dvec3& centre,
+                double radius) noexcept;
 
-    /// What a gather leaves out from now on: at most kMostIgnored objects.
-    static constexpr size_t kMostIgnored = 8;
+    /// What a gather leaves out from now on: at most kMaxIgnored objects.
+    static constexpr size_t kMaxIgnored = 8;
     void ignore(std::span<const int> objects) noexcept {
-        ignoredCount_ = std::min(objects.size(), kMostIgnored);
+        ignoredCount_ = std::min(objects.size(), kMaxIgnored);
         std::copy_n(objects.begin(), ignoredCount_, ignored_.begin());
     }
 
@@ -166,10 +167,10 @@ class CandidateCache {
     [[nodiscard]] bool passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept;
     template <class SphereOf>
     bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                   const SphereOf& sphereOf, int anchor, const glm::dvec3& centre, double radius) noexcept;
+                   const SphereOf& sphereOf, int reference, const glm::dvec3& centre, double radius) noexcept;
     static void prepare(Candidate& item) noexcept;
-    void turnIntoAnchor(size_t first, const Similarity& anchorFromObject) noexcept;
-    bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromAnchor,
+    void turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept;
+    bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromReference,
                       const glm::dvec3& centre, double radius) noexcept;
 
     void setBound(size_t i, const glm::dvec3& p, double distance, const glm::dvec3& gradient) noexcept {
@@ -188,7 +189,7 @@ class CandidateCache {
     std::vector<Block> bounds_;
     std::vector<Approach> approaches_;
     std::vector<TriangleTree::Near> found_; ///< of one object
-    std::array<int, kMostIgnored> ignored_{};
+    std::array<int, kMaxIgnored> ignored_{};
     NearShapes shapes_;
     size_t ignoredCount_ = 0;
     size_t count_ = 0;

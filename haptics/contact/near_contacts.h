@@ -1,5 +1,5 @@
 #pragma once
-// What the proxy solver asks of all that is near it: triangles of meshes and other shapes alike. Anchor
+// What the proxy solver asks of all that is near it: triangles of meshes and other shapes alike. Reference
 // frame, object units.
 
 #include "haptics/contact/candidates.h"

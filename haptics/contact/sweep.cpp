@@ -99,8 +99,8 @@ template <bool OneSided>
 
 } // namespace
 
-double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move, double reach,
-                 double limit) noexcept {
+double timeOfImpact(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move, double reach,
+                    double limit) noexcept {
     const double free = cache.anyOneSided() ? firstTouchOneSided(cache, p, move, reach, limit)
                                             : firstTouch<false>(cache, p, move, reach, limit);
     return cache.shapes().empty() ? free : cache.shapes().sweep(p, move, reach, free);

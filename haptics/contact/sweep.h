@@ -6,7 +6,7 @@ namespace touchstone {
 
 /// Share of `move` (at most `limit`) for which a sphere of radius `reach` around p + t * move is free of
 /// every candidate. Never too much: the place where it ends is free, too. At most 40 steps a candidate.
-[[nodiscard]] double freeShare(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move,
-                               double reach, double limit) noexcept;
+[[nodiscard]] double timeOfImpact(CandidateCache& cache, const glm::dvec3& p, const glm::dvec3& move,
+                                  double reach, double limit) noexcept;
 
 } // namespace touchstone

@@ -16,7 +16,7 @@ std::span<const ContactLoad> held(const ContactLoads& loads) {
 
 /// f_i. Along a projected normal feel.depth is longer than lambda_i.
 glm::dvec3 contactForce(const ContactLoad& contact) {
-    const SurfaceFeel& feel = contact.feel;
+    const SurfaceSample& feel = contact.feel;
     if (!feel.hasHeight)
         return feel.stiffness * feel.depth * feel.lengthening * feel.textured;
     const double reach = std::max(contact.depth, feel.depth);
@@ -27,7 +27,7 @@ glm::dvec3 contactForce(const ContactLoad& contact) {
 /// True where F is K (p - h), to the last bit.
 bool alike(const ContactLoads& loads) {
     return std::ranges::all_of(held(loads), [&](const ContactLoad& contact) {
-        const SurfaceFeel& feel = contact.feel;
+        const SurfaceSample& feel = contact.feel;
         return feel.stiffness == loads.contacts[0].feel.stiffness && feel.depth == contact.length &&
                feel.normal == contact.plane && feel.textured == contact.plane && feel.lengthening == 1.0;
     });
@@ -35,12 +35,12 @@ bool alike(const ContactLoads& loads) {
 
 } // namespace
 
-void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int anchor,
-               const ProxyRest& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
-               double workspacePerAnchor, const glm::dvec3& velocity, double zoom, double dt,
+void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
+               const SolveResult& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
+               double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
                ContactLoads& loads) noexcept {
     loads.count = hold.count;
-    loads.offset = workspacePerAnchor * offset;
+    loads.offset = workspacePerReference * offset;
     loads.loaded = 0;
     double sum = 0.0, weighted = 0.0, most = -1.0;
     for (size_t i = 0; i < static_cast<size_t>(hold.count); ++i) {
@@ -49,11 +49,11 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
         ContactLoad& load = loads.contacts[i];
         load.surface = contact.normal;
         load.plane = twoPass ? rest.shadedPlanes[at].normal : contact.normal;
-        load.length = workspacePerAnchor * hold.multiplier[i];
-        const TurnedNormal turned = turnedNormal(scene, motions, settings, anchor, contact, load.plane);
+        load.length = workspacePerReference * hold.multiplier[i];
+        const TurnedNormal turned = turnedNormal(scene, motions, settings, reference, contact, load.plane);
         load.depth = glm::dot(load.plane, loads.offset) / turned.cosine;
         const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);
-        load.feel = readSurface(scene, motions, settings, anchor, contact, turned.normal,
+        load.feel = readSurface(scene, motions, settings, reference, contact, turned.normal,
                                 load.length / turned.cosine, speed, dt);
         if (zoom > 1.0) {
             const double share = bearableShare(load.feel.stiffness, zoom, settings, scene.limits);
@@ -71,7 +71,7 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
     }
     const double resultant = glm::length(loads.offset);
     loads.stiffness = sum > 0.0 ? weighted / sum : loads.contacts[0].feel.stiffness;
-    loads.bounding = sum > kMostLoad * resultant ? kMostLoad * resultant / sum : 1.0;
+    loads.bounding = sum > kMaxLoad * resultant ? kMaxLoad * resultant / sum : 1.0;
 }
 
 glm::dvec3 elasticForce(const ContactLoads& loads) noexcept {

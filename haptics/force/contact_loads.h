@@ -3,8 +3,8 @@
 
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
-#include "haptics/solve/proxy_rest.h"
-#include "haptics/surface/surface_feel.h"
+#include "haptics/solve/solve_result.h"
+#include "haptics/surface/surface_sample.h"
 
 #include <glm/glm.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace touchstone {
 
-/// One active plane's part in p - h = sum lambda_i n_i (p: proxy without friction, h: HIP). Anchor frame,
+/// One active plane's part in p - h = sum lambda_i n_i (p: proxy without friction, h: HIP). Reference frame,
 /// workspace m.
 struct ContactLoad {
     glm::dvec3 surface{0.0}; ///< unit normal of the true plane
@@ -23,7 +23,7 @@ struct ContactLoad {
     double depth = 0.0;
     /// Its `normal` is the one felt (turned by `direction` or `projected`), its `depth` is lambda_i along it.
     /// Stiffness, damping and viscous term are those that the device bears at this zoom.
-    SurfaceFeel feel;
+    SurfaceSample feel;
 };
 
 /// The elastic force is
@@ -31,12 +31,13 @@ struct ContactLoad {
 /// with t_i = min(1, H_i / max(d_i, lambda_i)): the displacement law of spring_damper.h at the HIP's depth
 /// d_i below the plane, times the plane's part lambda_i / d_i of it; where walls meet at less than a right
 /// angle (d_i < lambda_i), at the depth lambda_i, whole. For one plane it is that law; at right angles each
-/// plane feels its own relief whole; planes almost parallel share one. Where all k_i are equal and nothing is
-/// textured or turned F = k (p - h), also where a solve ended before its rest. K = sum k_i lambda_i / sum
-/// lambda_i. Continuous in h wherever p, the normals and the samples are, since f_i vanishes with lambda_i.
+/// plane feels its own bump height whole; planes almost parallel share one. Where all k_i are equal and
+/// nothing is textured or turned F = k (p - h), also where a solve ended before its rest. K = sum k_i
+/// lambda_i / sum lambda_i. Continuous in h wherever p, the normals and the samples are, since f_i vanishes
+/// with lambda_i.
 ///
 /// Two walls that almost oppose each other carry loads far beyond the resultant (lambda = 1 / (2 sin(a / 2))
-/// times it in a groove of angle a); beta = min(1, kMostLoad |p - h| / sum lambda_i) bounds what a difference
+/// times it in a groove of angle a); beta = min(1, kMaxLoad |p - h| / sum lambda_i) bounds what a difference
 /// of their stiffness, and friction on them, make of it. It is 1 where the least singular value of the
 /// normals is 0.1: sum lambda_i <= sqrt(3) |p - h| / 0.1.
 struct ContactLoads {
@@ -49,18 +50,18 @@ struct ContactLoads {
 };
 
 /// sum lambda_i over |p - h|, beyond which the loads count no more.
-inline constexpr double kMostLoad = 20.0;
+inline constexpr double kMaxLoad = 20.0;
 
 /// Reads the surface under every active plane of `hold`, which are those of shadedPlanes with `twoPass`.
-/// `offset`: p - h, anchor units. `velocity` of the HIP against the surface, m/s, anchor frame. `zoom` as in
-/// bearableShare, to which each contact's stiffness is cut by itself: a stiffer plane that joins without load
-/// changes nothing.
-void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int anchor,
-               const ProxyRest& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
-               double workspacePerAnchor, const glm::dvec3& velocity, double zoom, double dt,
+/// `offset`: p - h, reference object units. `velocity` of the HIP against the surface, m/s, reference object
+/// frame. `zoom` as in bearableShare, to which each contact's stiffness is cut by itself: a stiffer plane
+/// that joins without load changes nothing.
+void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
+               const SolveResult& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
+               double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
                ContactLoads& loads) noexcept;
 
-/// F above, N, anchor frame.
+/// F above, N, reference object frame.
 [[nodiscard]] glm::dvec3 elasticForce(const ContactLoads& loads) noexcept;
 
 /// The part of the plane in what planes that are almost parallel hold together: lambda_i / d_i, at most 1.

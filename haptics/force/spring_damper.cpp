@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
+glm::dvec3 springDamperForce(const SurfaceSample& feel, const glm::dvec3& frictionStretch,
                              const glm::dvec3& viscousForce, const glm::dvec3& velocity) noexcept {
     if (!feel.touching)
         return glm::dvec3(0.0);

@@ -1,7 +1,7 @@
 #pragma once
 // Stage 7: what the hand should feel, before safety.
 
-#include "haptics/surface/surface_feel.h"
+#include "haptics/surface/surface_sample.h"
 
 #include <glm/glm.hpp>
 
@@ -13,7 +13,7 @@ namespace touchstone {
 /// k d m / (n . m) = k d (n - grad H), a lateral force beside an unchanged normal one; plus friction k *
 /// (held proxy - frictionless proxy); minus damping of the velocity into the surface (never pulling); plus
 /// the viscous part of friction. `frictionStretch` in m, `velocity` of the HIP against the surface in m/s.
-[[nodiscard]] glm::dvec3 springDamperForce(const SurfaceFeel& feel, const glm::dvec3& frictionStretch,
+[[nodiscard]] glm::dvec3 springDamperForce(const SurfaceSample& feel, const glm::dvec3& frictionStretch,
                                            const glm::dvec3& viscousForce,
                                            const glm::dvec3& velocity) noexcept;
 

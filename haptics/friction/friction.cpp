@@ -27,7 +27,7 @@ FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
 /// surface bulges, above it, in the air, where it is hollow.
 template <class Solver>
 bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Solver& proxy,
-            const DeviceState& state, const ProxyRest& rest) {
+            const DeviceState& state, const SolveResult& rest) {
     proxy.moveTowards(goal);
     if (!touches(rest))
         proxy.dropTowards(goal + down);
@@ -39,7 +39,7 @@ bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, So
 /// down goes past a rim, is not kept. A place in the air would hold the proxy there for as long as it sticks.
 template <class Solver>
 void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec3& down, Solver& proxy,
-              DeviceState& state, const ProxyRest& rest) {
+              DeviceState& state, const SolveResult& rest) {
     // Where a wall stands between the last place and this one, or the surface bends sharply, it is met from
     // the frictionless side.
     constexpr double kNear = 0.1;
@@ -63,7 +63,7 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
 
 template <class Solver>
 glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Solver& proxy,
-                         DeviceState& state, ProxyRest& rest) noexcept {
+                         DeviceState& state, SolveResult& rest) noexcept {
     if (!cone.rough()) {
         state.friction = FrictionState::Free;
         return glm::dvec3(0.0);
@@ -95,14 +95,14 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
         state.stictionPoint = held;
         return held - frictionless;
     }
-    const glm::dvec3 wish = answer.share * answer.stretch;
-    if (wish != glm::dvec3(0.0) || !touches(rest)) // else the proxy already stands there
-        holdBack(held, wish, cone.down(), proxy, state, rest);
+    const glm::dvec3 target = answer.share * answer.stretch;
+    if (target != glm::dvec3(0.0) || !touches(rest)) // else the proxy already stands there
+        holdBack(held, target, cone.down(), proxy, state, rest);
     state.stictionPoint = ownPlace ? state.proxy : answer.stays ? point : frictionless + answer.stretch;
     // On a curved surface, and where a wall is in the way, the chord is not quite what was asked for: the
     // force is, never more, and never more than the contacts bear along it.
     const glm::dvec3 kept = state.proxy - frictionless;
-    double asked = glm::dot(wish, wish);
+    double asked = glm::dot(target, target);
     const double got = glm::dot(kept, kept);
     if (cone.several()) {
         const FrictionCone::Limit borne = cone.along(kept);
@@ -112,8 +112,8 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
 }
 
 template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, ProxySolver&,
-                                  DeviceState&, ProxyRest&) noexcept;
+                                  DeviceState&, SolveResult&) noexcept;
 template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, ComparisonSolver&,
-                                  DeviceState&, ProxyRest&) noexcept;
+                                  DeviceState&, SolveResult&) noexcept;
 
 } // namespace touchstone

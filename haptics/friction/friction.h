@@ -11,13 +11,13 @@
 namespace touchstone {
 
 /// Holds the proxy back by the law that `mode` names. On entry the proxy is where stage 4 left it; `held` is
-/// where it stood at the end of the last tick (anchor frame). The proxy is moved by the solver from places
-/// where it stood before, so it stays on the surface and inside all planes; where it sticks it goes back to
-/// `held` to the last bit, so that nothing drifts. Returns the friction force over K (anchor units): the way
-/// from the frictionless place to the proxy, no longer than the law has it. Solver: ProxySolver or
-/// ComparisonSolver.
+/// where it stood at the end of the last tick (reference object frame). The proxy is moved by the solver from
+/// places where it stood before, so it stays on the surface and inside all planes; where it sticks it goes
+/// back to `held` to the last bit, so that nothing drifts. Returns the friction force over K (reference
+/// object units): the way from the frictionless place to the proxy, no longer than the law has it. Solver:
+/// ProxySolver or ComparisonSolver.
 template <class Solver>
 glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Solver& proxy,
-                         DeviceState& state, ProxyRest& rest) noexcept;
+                         DeviceState& state, SolveResult& rest) noexcept;
 
 } // namespace touchstone

@@ -4,11 +4,11 @@
 
 namespace touchstone {
 
-FrictionCone::FrictionCone(const SurfaceFeel& feel, const glm::dvec3& velocity,
-                           double workspacePerAnchor) noexcept
+FrictionCone::FrictionCone(const SurfaceSample& feel, const glm::dvec3& velocity,
+                           double workspacePerReference) noexcept
     : count_(1), rough_(feel.touching && feel.staticFriction > 0.0), stiffness_(feel.stiffness),
-      workspacePerAnchor_(workspacePerAnchor) {
-    single_ = {.depth = feel.depth / workspacePerAnchor,
+      workspacePerReference_(workspacePerReference) {
+    single_ = {.depth = feel.depth / workspacePerReference,
                .staticFriction = feel.staticFriction,
                .dynamicFriction = feel.dynamicFriction};
     down_ = -single_.depth * feel.normal;
@@ -22,12 +22,12 @@ FrictionCone::FrictionCone(const SurfaceFeel& feel, const glm::dvec3& velocity,
 }
 
 FrictionCone::FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity,
-                           double workspacePerAnchor) noexcept
-    : count_(loads.count), stiffness_(loads.stiffness), workspacePerAnchor_(workspacePerAnchor),
-      down_(-loads.offset / workspacePerAnchor) {
+                           double workspacePerReference) noexcept
+    : count_(loads.count), stiffness_(loads.stiffness), workspacePerReference_(workspacePerReference),
+      down_(-loads.offset / workspacePerReference) {
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
         const ContactLoad& contact = loads.contacts[i];
-        const SurfaceFeel& feel = contact.feel;
+        const SurfaceSample& feel = contact.feel;
         const double load = loads.bounding * feel.stiffness * feel.depth;
         disks_[i] = {.normal = contact.surface,
                      .load = load,
@@ -38,7 +38,7 @@ FrictionCone::FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity
     }
 }
 
-void FrictionCone::addViscous(const SurfaceFeel& feel, const glm::dvec3& normal, double load, double part,
+void FrictionCone::addViscous(const SurfaceSample& feel, const glm::dvec3& normal, double load, double part,
                               const glm::dvec3& velocity) noexcept {
     if (!(feel.viscousFriction > 0.0))
         return;
@@ -68,7 +68,7 @@ FrictionCone::Limit FrictionCone::along(const glm::dvec3& stretch) const noexcep
     }
     if (!(load > 0.0) || !(stiffness_ > 0.0))
         return {};
-    return {.depth = load / (stiffness_ * workspacePerAnchor_),
+    return {.depth = load / (stiffness_ * workspacePerReference_),
             .staticFriction = std::max(stays, 0.0) / load,
             .dynamicFriction = std::max(slides, 0.0) / load};
 }

@@ -2,7 +2,7 @@
 // How much friction the contacts bear: the sum of their cones, less what the viscous term takes of it.
 
 #include "haptics/force/contact_loads.h"
-#include "haptics/surface/surface_feel.h"
+#include "haptics/surface/surface_sample.h"
 
 #include <glm/glm.hpp>
 
@@ -23,11 +23,13 @@ namespace touchstone {
 class FrictionCone {
   public:
     FrictionCone() = default; ///< nothing is touched
-    /// `velocity` of the HIP against the surface, m/s; `workspacePerAnchor` m per anchor unit.
-    FrictionCone(const SurfaceFeel& feel, const glm::dvec3& velocity, double workspacePerAnchor) noexcept;
-    FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity, double workspacePerAnchor) noexcept;
+    /// `velocity` of the HIP against the surface, m/s; `workspacePerReference` m per reference object unit.
+    FrictionCone(const SurfaceSample& feel, const glm::dvec3& velocity,
+                 double workspacePerReference) noexcept;
+    FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity,
+                 double workspacePerReference) noexcept;
 
-    /// What a law is given for the stretch that it meets. Lengths in anchor units.
+    /// What a law is given for the stretch that it meets. Lengths in reference object units.
     struct Limit {
         double depth = 0.0; ///< N / K
         double staticFriction = 0.0, dynamicFriction = 0.0;
@@ -39,10 +41,10 @@ class FrictionCone {
     [[nodiscard]] double stiffness() const noexcept { return stiffness_; } ///< K, N/m, of the stretch
     [[nodiscard]] const glm::dvec3& viscousForce() const noexcept {
         return viscousForce_;
-    } ///< N, anchor frame
+    } ///< N, reference object frame
     [[nodiscard]] const glm::dvec3& down() const noexcept {
         return down_;
-    } ///< h - p, anchor units; of one contact along its felt normal
+    } ///< h - p, reference object units; of one contact along its felt normal
 
   private:
     struct Disk {
@@ -50,14 +52,14 @@ class FrictionCone {
         double load = 0.0; ///< N_i, N
         double staticFriction = 0.0, dynamicFriction = 0.0;
     };
-    void addViscous(const SurfaceFeel& feel, const glm::dvec3& normal, double load, double part,
+    void addViscous(const SurfaceSample& feel, const glm::dvec3& normal, double load, double part,
                     const glm::dvec3& velocity) noexcept;
 
     std::array<Disk, 3> disks_;
     int count_ = 0;
     Limit single_; ///< of one contact, whatever the direction
     bool rough_ = false;
-    double stiffness_ = 0.0, workspacePerAnchor_ = 1.0;
+    double stiffness_ = 0.0, workspacePerReference_ = 1.0;
     double viscous_ = 0.0; ///< sum V_i of the contacts that have a cone, N
     glm::dvec3 viscousForce_{0.0}, down_{0.0};
 };

@@ -8,7 +8,7 @@
 
 namespace touchstone {
 
-/// The object whose bounding sphere is nearest to `hip` (workspace); the first anchor.
+/// The object whose bounding sphere is nearest to `hip` (workspace); the first reference object.
 [[nodiscard]] int nearestObject(const HapticScene& scene, ObjectMotions motions,
                                 const glm::dvec3& hip) noexcept;
 

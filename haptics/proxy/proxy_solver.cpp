@@ -2,7 +2,7 @@
 
 #include "haptics/contact/near_contacts.h"
 #include "haptics/contact/sweep.h"
-#include "haptics/proxy/carry.h"
+#include "haptics/proxy/moving_obstacles.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/settings/tick_flags.h"
 
@@ -35,32 +35,33 @@ constexpr double kAhead = 0.5;
 constexpr double kLasting = 2.0;
 
 /// A sweep ends at this gap, short of the resting one: a surface that the proxy rests on at kContactGap and
-/// slides along is then not struck again at once by the rounding of its gradient.
+/// slides along is then not hit again at once by the rounding of its gradient.
 constexpr double kStrikeGap = 0.5 * kContactGap;
 
 } // namespace
 
 ProxySolver::ProxySolver(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                         DeviceState& state, ProxyRest& rest) noexcept
+                         DeviceState& state, SolveResult& rest) noexcept
     : scene_(scene), motions_(motions), workspaceRadius_(settings.proxyRadius),
       budget_(settings.iterationBudget), state_(state), rest_(rest) {
     rest_.contactCount = 0;
     rest_.iterations = 0;
     rest_.flags = 0;
-    rest_.hold = SubGoal{};
+    rest_.activeSet = SubGoal{};
     state_.candidates.moved(); // another contact model may have had the proxy since
-    adoptAnchor(state_.anchor);
+    adoptReference(state_.reference);
 }
 
-void ProxySolver::carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                        DeviceState& state, uint32_t& flags) noexcept {
-    carryProxy(scene, motions, settings.proxyRadius, state, flags);
+void ProxySolver::followObjects(const HapticScene& scene, ObjectMotions motions,
+                                const HapticSettings& settings, DeviceState& state,
+                                uint32_t& flags) noexcept {
+    sweepMovingObstacles(scene, motions, settings.proxyRadius, state, flags);
 }
 
 bool ProxySolver::begin() noexcept {
     if (state_.placed)
         return true;
-    placeAt(motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.inversePoint(state_.hip));
+    placeAt(motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.inversePoint(state_.hip));
     if (!mayBegin(scene_, motions_, state_))
         return false;
     state_.candidates.invalidate(); // what moved since the last try is not where it was gathered
@@ -68,9 +69,9 @@ bool ProxySolver::begin() noexcept {
     return state_.placed;
 }
 
-void ProxySolver::adoptAnchor(int anchor) noexcept {
-    state_.anchor = anchor;
-    const auto index = static_cast<size_t>(anchor);
+void ProxySolver::adoptReference(int reference) noexcept {
+    state_.reference = reference;
+    const auto index = static_cast<size_t>(reference);
     const double skin = 0.5 * kWeldTolerance * scene_.objects[index]->diagonal;
     const double scaled = workspaceRadius_ / motions_[index].workspaceFromObject.scale;
     radius_ = std::max(scaled, skin);
@@ -98,12 +99,12 @@ void ProxySolver::measureClearance() noexcept {
         stands = least > radius_ - CandidateCache::kNotClear ? radius_ : least;
     }
     state_.clearance =
-        std::min(stands, radius_) * motions_[static_cast<size_t>(state_.anchor)].workspaceFromObject.scale;
+        std::min(stands, radius_) * motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.scale;
 }
 
 bool ProxySolver::gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept {
     const auto within = [&](auto bounds) {
-        return cache.gather(scene_.objects, motions_, bounds, state_.anchor, centre, radius);
+        return cache.gather(scene_.objects, motions_, bounds, state_.reference, centre, radius);
     };
     return motions_.data() == scene_.restMotions.data()
                ? within(std::span<const glm::dvec4>(scene_.restSpheres))
@@ -210,7 +211,7 @@ void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
     if (!landed)
         return;
     buildPlanes();
-    rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
 }
 
 bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
@@ -233,7 +234,7 @@ bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
     if (cache.freeAlong(p, glm::dvec3(0.0), reach) >= 0.0)
         return holds(cache);
     // Too far from the proxy for its ball: a small one about p.
-    CandidateCache& about = state_.carryCandidates;
+    CandidateCache& about = state_.obstacleCandidates;
     about.standsClearBy(cache.standing());
     return gather(about, p, reach) && holds(about);
 }
@@ -242,18 +243,18 @@ bool ProxySolver::slideOnFacet(const glm::dvec3& goal) noexcept {
     if (rest_.contactCount != 1)
         return false;
     Contact& contact = rest_.contacts[0];
-    const glm::dvec3 wish = goal - state_.proxy;
-    const double above = glm::dot(wish, contact.normal);
+    const glm::dvec3 target = goal - state_.proxy;
+    const double above = glm::dot(target, contact.normal);
     // A goal in the air would have to be dropped from.
     if (above > kContactReach)
         return false;
-    const glm::dvec3 move = wish - above * contact.normal;
+    const glm::dvec3 move = target - above * contact.normal;
     const double length = glm::length(move);
     if (!(length > 0.0))
         return false;
     CandidateCache& cache = state_.candidates;
     if (cache.freeAlong(state_.proxy, move / length, radius_ + kContactReach) < length ||
-        freeShare(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
+        timeOfImpact(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
         return false;
     if (!moveOnFacet(cache, state_.proxy + move, radius_, contact))
         return false;
@@ -269,7 +270,7 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
     const double length = glm::length(move);
     CandidateCache& cache = state_.candidates;
     if (!(length > 0.0) || cache.freeAlong(state_.proxy, move / length, radius_ + kContactReach) < length ||
-        freeShare(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
+        timeOfImpact(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
         return false;
     placeAt(to);
     return true;
@@ -278,12 +279,12 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
 /// Around the edge or corner that alone holds the proxy: both legs of rollOver are one move, made whole or
 /// not at all.
 bool ProxySolver::rollAround(const glm::dvec3& goal) noexcept {
-    if (rest_.hold.count != 1)
+    if (rest_.activeSet.count != 1)
         return false;
     const glm::dvec3 start = state_.proxy;
     const std::optional<RollOver> way =
-        rollOver(state_.candidates, rest_.contacts[static_cast<size_t>(rest_.hold.active[0])], start, goal,
-                 radius_ + kContactGap);
+        rollOver(state_.candidates, rest_.contacts[static_cast<size_t>(rest_.activeSet.active[0])], start,
+                 goal, radius_ + kContactGap);
     if (!way || !goStraight(way->corner))
         return false;
     if (goStraight(way->end))
@@ -298,8 +299,8 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
         return false;
     findContacts();
     buildPlanes();
-    rest_.hold = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
-    const glm::dvec3 move = rest_.hold.point;
+    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+    const glm::dvec3 move = rest_.activeSet.point;
     const double length = glm::length(move);
     if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves) {
         withoutProgress_ = 0;
@@ -321,8 +322,8 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     const double known = cover(direction, length);
     if (known < 0.0)
         return false;
-    const double share =
-        freeShare(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, std::min(1.0, known / length));
+    const double share = timeOfImpact(state_.candidates, state_.proxy, move, radius_ + kStrikeGap,
+                                      std::min(1.0, known / length));
     state_.proxy += share * move;
     state_.candidates.moved();
     lastMove_ = share * length;
@@ -331,12 +332,12 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     return true;
 }
 
-void changeAnchor(DeviceState& state, ObjectMotions motions, int anchor) noexcept {
-    if (anchor == state.anchor)
+void changeReference(DeviceState& state, ObjectMotions motions, int reference) noexcept {
+    if (reference == state.reference)
         return;
-    const Similarity newFromOld = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(
-        motions[static_cast<size_t>(state.anchor)].workspaceFromObject);
-    state.anchor = anchor;
+    const Similarity newFromOld = motions[static_cast<size_t>(reference)].workspaceFromObject.inverseTimes(
+        motions[static_cast<size_t>(state.reference)].workspaceFromObject);
+    state.reference = reference;
     state.proxy = newFromOld.point(state.proxy);
     state.stictionPoint = newFromOld.point(state.stictionPoint);
     state.frictionless = newFromOld.point(state.frictionless);

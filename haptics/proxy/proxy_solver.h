@@ -6,7 +6,7 @@
 #include "engine/math/object_motion.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
-#include "haptics/solve/proxy_rest.h"
+#include "haptics/solve/solve_result.h"
 #include "haptics/state/device_state.h"
 
 #include <glm/glm.hpp>
@@ -33,26 +33,26 @@ inline constexpr double kRestLength = 1e-11;
 
 /// False where nothing is touched, and where the budget ended the last move in the air: its contacts are then
 /// what the proxy was sliding on, farther away than a surface that is touched.
-[[nodiscard]] inline bool touches(const ProxyRest& rest) noexcept {
+[[nodiscard]] inline bool touches(const SolveResult& rest) noexcept {
     for (uint32_t i = 0; i < rest.contactCount; ++i)
         if (rest.contacts[i].gap <= kContactReach)
             return true;
     return false;
 }
 
-/// One device in one tick. Everything is in the frame of the anchor object; radius and lengths in object
+/// One device in one tick. Everything is in the frame of the reference object; radius and lengths in object
 /// units.
 class ProxySolver {
   public:
-    /// `settings.proxyRadius`: workspace metres. The proxy is at least half the weld tolerance of the anchor:
-    /// a god-object that closes every crack narrower than that, and knows its side of a sheet by standing on
-    /// it.
+    /// `settings.proxyRadius`: workspace metres. The proxy is at least half the weld tolerance of the
+    /// reference object: a god-object that closes every crack narrower than that, and knows its side of a
+    /// sheet by standing on it.
     ProxySolver(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                DeviceState& state, ProxyRest& rest) noexcept;
+                DeviceState& state, SolveResult& rest) noexcept;
 
-    /// What the objects' own motion does to the proxy before the solve (carry.h).
-    static void carry(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                      DeviceState& state, uint32_t& flags) noexcept;
+    /// What the objects' own motion does to the proxy before the solve (moving_obstacles.h).
+    static void followObjects(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                              DeviceState& state, uint32_t& flags) noexcept;
 
     /// Places the proxy in the first tick, in free space only. False while touch may not begin
     /// (place_proxy.h) or the HIP is within the proxy's radius of a surface: it feels nothing until it has
@@ -62,8 +62,9 @@ class ProxySolver {
     /// The solve without friction goes on from `place`, where it ended in the last tick.
     void resumeFrom(const glm::dvec3& place) noexcept { placeAt(place); }
 
-    /// Moves the proxy to a rest: the point nearest to `goal` (anchor frame) that can be reached by sliding
-    /// without leaving free space. Anytime: every move ends in free space and none goes away from the goal.
+    /// Moves the proxy to a rest: the point nearest to `goal` (reference object frame) that can be reached by
+    /// sliding without leaving free space. Anytime: every move ends in free space and none goes away from the
+    /// goal.
     void moveTowards(const glm::dvec3& goal) noexcept;
 
     /// Moves the proxy straight towards `goal` until it touches something, without sliding on from there. May
@@ -71,8 +72,8 @@ class ProxySolver {
     /// the proxy back to the surface.
     void dropTowards(const glm::dvec3& goal) noexcept;
 
-    /// True where a proxy at `p` (anchor frame) would touch a surface and be nearer than its radius to none.
-    /// Nothing moves. Only after a solve.
+    /// True where a proxy at `p` (reference object frame) would touch a surface and be nearer than its radius
+    /// to none. Nothing moves. Only after a solve.
     [[nodiscard]] bool touchesAt(const glm::dvec3& p) noexcept;
 
     /// Straight to the place nearest to `goal` on the plane of the one facet that the proxy rests on, where
@@ -80,8 +81,8 @@ class ProxySolver {
     /// not so simple. Only after a solve that came to rest. What moveTowards would do in two moves.
     [[nodiscard]] bool slideOnFacet(const glm::dvec3& goal) noexcept;
 
-    /// Puts the proxy at `p` (anchor frame) without a sweep. Only for places that are known to be free: where
-    /// the proxy stood before, or where isFree says so.
+    /// Puts the proxy at `p` (reference object frame) without a sweep. Only for places that are known to be
+    /// free: where the proxy stood before, or where isFree says so.
     void placeAt(const glm::dvec3& p) noexcept;
 
     /// The way to a place that a solve looks for starts at `p`, where the proxy stood before.
@@ -103,7 +104,7 @@ class ProxySolver {
     [[nodiscard]] double radius() const noexcept { return radius_; }
 
   private:
-    void adoptAnchor(int anchor) noexcept;
+    void adoptReference(int reference) noexcept;
     void measureClearance() noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     void findContacts(double within = kContactReach) noexcept;
@@ -123,10 +124,10 @@ class ProxySolver {
     glm::dvec3 heading_{0.0};
     int budget_;
     DeviceState& state_;
-    ProxyRest& rest_;
+    SolveResult& rest_;
 };
 
-/// Makes `anchor` the frame in which the device's proxy lives, stiction point and shading along with it.
-void changeAnchor(DeviceState& state, ObjectMotions motions, int anchor) noexcept;
+/// Makes `reference` the frame in which the device's proxy lives, stiction point and shading along with it.
+void changeReference(DeviceState& state, ObjectMotions motions, int reference) noexcept;
 
 } // namespace touchstone

@@ -44,7 +44,7 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
         const double start = within / motions[k].workspaceFromObject.scale;
         Nearest nearest{scene.objects[k].get(), motions[k].workspaceFromObject.inversePoint(point), start};
         if (const Shape* shape = scene.objects[k]->shape.get()) {
-            std::array<FeatureDistance, NearShapes::kMostFeatures> found;
+            std::array<FeatureDistance, NearShapes::kMaxFeatures> found;
             const size_t count = shape->near(nearest.point, start, found);
             for (const FeatureDistance& d : std::span(found).first(count))
                 within = std::min(within, std::abs(d.distance) * motions[k].workspaceFromObject.scale);

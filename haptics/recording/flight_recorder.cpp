@@ -128,7 +128,7 @@ void prune(const FlightConfig& config) {
     }
     std::sort(files.begin(), files.end());
     for (size_t i = 0; i + 1 < files.size(); ++i) { // the newest stays
-        if (files.size() - i <= config.mostFiles && bytes <= config.mostBytes)
+        if (files.size() - i <= config.maxFiles && bytes <= config.maxBytes)
             break;
         bytes -= fs::file_size(files[i].second, error);
         fs::remove(files[i].second, error);

@@ -15,12 +15,12 @@
 namespace touchstone {
 
 struct FlightConfig {
-    std::filesystem::path folder;           ///< made where it is not there
-    double seconds = 10.0;                  ///< that are kept at least
-    double afterwards = 1.0;                ///< s that follow a fault in its file
-    double pause = 60.0;                    ///< s in which the same fault makes no second file
-    size_t mostFiles = 20;                  ///< the oldest go
-    uint64_t mostBytes = uint64_t{1} << 28; ///< of all files together
+    std::filesystem::path folder;          ///< made where it is not there
+    double seconds = 10.0;                 ///< that are kept at least
+    double afterwards = 1.0;               ///< s that follow a fault in its file
+    double pause = 60.0;                   ///< s in which the same fault makes no second file
+    size_t maxFiles = 20;                  ///< the oldest go
+    uint64_t maxBytes = uint64_t{1} << 28; ///< of all files together
     RecordingOrigin origin;
 };
 

@@ -13,7 +13,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kMostSentences = 20;
+constexpr size_t kMaxSentences = 20;
 
 } // namespace
 
@@ -101,7 +101,7 @@ std::optional<uint64_t> RecordingReader::findSync(uint64_t from) {
 
 void RecordingReader::spoilt(std::string what) {
     damaged_ = true;
-    if (damage_.size() < kMostSentences)
+    if (damage_.size() < kMaxSentences)
         damage_.push_back(std::move(what));
 }
 

@@ -31,7 +31,7 @@ uint32_t hashOf(const Values&... values) noexcept {
 
 StageHashes stageHashes(const StageTrace& trace, const HapticOutput& output) noexcept {
     return {hashOf(output.hip, output.hipVelocity),
-            hashOf(trace.proxy[0], trace.anchor),
+            hashOf(trace.proxy[0], trace.reference),
             hashOf(trace.proxy[1]),
             hashOf(trace.proxy[2]),
             hashOf(output.contacts, output.object, output.triangle, output.normal, output.height,

@@ -31,10 +31,10 @@ glm::dvec3 shortened(const glm::dvec3& v, double longest, bool& cut) {
 
 /// One step from `last` towards `target`. Both lie in the ball of radius `most`, which is convex, so the step
 /// does too; the last line only matters when the ball itself has shrunk since the last tick.
-glm::dvec3 stepTowards(const glm::dvec3& last, const glm::dvec3& target, double most, double mostStep,
+glm::dvec3 stepTowards(const glm::dvec3& last, const glm::dvec3& target, double most, double maxStep,
                        bool& cut) {
     bool stepCut = false;
-    const glm::dvec3 step = shortened(target - last, mostStep, stepCut);
+    const glm::dvec3 step = shortened(target - last, maxStep, stepCut);
     cut |= stepCut;
     return shortened(stepCut ? last + step : target, most, cut);
 }

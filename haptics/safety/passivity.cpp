@@ -33,14 +33,14 @@ glm::dvec3 passiveForce(const glm::dvec3& force, double dt, const DeviceLimits& 
                         const PassivityState& state, double ramp) noexcept {
     if (!(state.balance > 0.0))
         return force;
-    const glm::dvec3 left = std::max(0.0, 1.0 - state.balance / kMostEnergy) * force;
+    const glm::dvec3 left = std::max(0.0, 1.0 - state.balance / kMaxEnergy) * force;
     const double square = glm::dot(state.way, state.way);
     if (!(square > 0.0) || !(dt > 0.0))
         return left;
     // In terms of the way w = v dt: a v = (a / dt) w, and a = E / (dt v²) makes that E / w² times w. A
     // sampled damper beyond mass / dt turns the motion round; half of that leaves room for what is late by a
     // tick.
-    const double most = ramp * limits.apparentMass * std::min(kMostDampingRate, 0.5 / dt) / dt;
+    const double most = ramp * limits.apparentMass * std::min(kMaxDampingRate, 0.5 / dt) / dt;
     const double pushed = std::max(0.0, glm::dot(left, state.way)) / square;
     return left - std::min(state.balance / square, most + pushed) * state.way;
 }

@@ -12,14 +12,14 @@ namespace touchstone {
 /// 1/s. The controller's damper is at most the device's apparentMass times this: by itself it slows the
 /// device e-fold in 4 ms. Faster answers sooner, but multiplies the steps of the position sensor into kicks
 /// (0.56 N a step of 30 µm at 75 g and 1 kHz).
-inline constexpr double kMostDampingRate = 250.0;
+inline constexpr double kMaxDampingRate = 250.0;
 
 /// J. The controller lets the force yield as the balance rises, until at this none is left: so whatever the
 /// wall, the sensor or the delay, no more than this can be given, and the work of the ticks that the slew
 /// limit and the delay need until the yielded force is what the device holds. Ordinary touch stays below a
 /// sixth of it (tests/stability/closed_loop/effects_test.cpp); less makes such touch softer where it is
 /// lively.
-inline constexpr double kMostEnergy = 2e-3;
+inline constexpr double kMaxEnergy = 2e-3;
 
 /// J. A balance above this is worth a flag: the energy that sampling alone gives in a firm tap (k v² T² / 2 a
 /// tick: 0.1 mJ for 20 ticks at 1000 N/m and 0.1 m/s), which hand and device swallow unnoticed.
@@ -57,8 +57,8 @@ inline void losePosition(PassivityState& state) noexcept {
 }
 
 /// The controller, after observeEnergy: N, what is left of `force` (N), which is all of it where the balance
-/// is not above zero. It yields by balance / kMostEnergy. A damper -a v with a = E / (dt v²) is added, which
-/// takes the balance E back in one tick if the hand goes on at v; at most kMostDampingRate's, and on top of
+/// is not above zero. It yields by balance / kMaxEnergy. A damper -a v with a = E / (dt v²) is added, which
+/// takes the balance E back in one tick if the hand goes on at v; at most kMaxDampingRate's, and on top of
 /// that what the force itself pushes along the motion, which taking away cannot overshoot. `ramp`: 0..1, the
 /// share that `force` was let pass, which holds for the most of the damper too: at 0 nothing drags.
 [[nodiscard]] glm::dvec3 passiveForce(const glm::dvec3& force, double dt, const DeviceLimits& limits,

@@ -110,7 +110,7 @@ void MaterialUse::add(const HapticObject& object) {
     bytes.tangents += more.tangents;
     bytes.uv[0] += more.uv[0];
     bytes.uv[1] += more.uv[1];
-    bytes.relief += more.relief;
+    bytes.bump += more.bump;
     bytes.stiffness += more.stiffness;
     bytes.damping += more.damping;
     bytes.friction += more.friction;
@@ -132,7 +132,7 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
     };
     add(Effect::ForceShading, shading(data, use), use.bytes.normals);
     add(Effect::NormalMap, normalMap(material, data), mapBytes(data.normal) + use.bytes.tangents);
-    add(Effect::HeightMap, heightMap(material, data, use), mapBytes(data.height) + use.bytes.relief);
+    add(Effect::HeightMap, heightMap(material, data, use), mapBytes(data.height) + use.bytes.bump);
     add(Effect::Friction, friction(data, use), mapBytes(data.friction.map) + use.bytes.friction);
     add(Effect::ViscousFriction,
         data.viscousFriction > 0.0 ? Verdict{true, number(data.viscousFriction) + " N s/m"}
@@ -169,7 +169,7 @@ const char* effectName(Effect effect) {
 /// A map or an attribute without a coefficient above zero has no say and does not count: see feelsPlain.
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
-    plan.plainFeel = true;
+    plan.plainSample = true;
     plan.dampingMap = plan.oneSided = false;
     plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
     for (HapticMaterialData& m : scene.materials)
@@ -191,7 +191,7 @@ void settlePlan(HapticScene& scene) {
         plan.oneFacetShading |= shaded && mode != ShadingMode::TwoPass;
     }
     for (const auto& object : scene.objects)
-        plan.plainFeel &= scene.materials[static_cast<size_t>(object->material)].plain;
+        plan.plainSample &= scene.materials[static_cast<size_t>(object->material)].plain;
 }
 
 namespace {

@@ -14,9 +14,9 @@ namespace touchstone {
 namespace {
 
 int32_t saturated(long long nanoseconds) {
-    constexpr long long kLeast = std::numeric_limits<int32_t>::min(),
-                        kMost = std::numeric_limits<int32_t>::max();
-    return static_cast<int32_t>(std::clamp(nanoseconds, kLeast, kMost));
+    constexpr long long kMin = std::numeric_limits<int32_t>::min(),
+                        kMax = std::numeric_limits<int32_t>::max();
+    return static_cast<int32_t>(std::clamp(nanoseconds, kMin, kMax));
 }
 
 /// Where a hand was longer ago than `staleAge` it need not be any more: nothing is known of it. So a device
@@ -64,7 +64,7 @@ ServoLoop::ServoLoop(DevicePort port, const ServoConfig& config)
     : port_(port), config_(config), records_(config.ringCapacity) {
     if (port.sample == nullptr || port.apply == nullptr)
         throw Error("servo", "", "the device port is incomplete", "");
-    if (!(config.rateHz >= kLeastServoRate && config.rateHz <= kMostServoRate))
+    if (!(config.rateHz >= kMinServoRate && config.rateHz <= kMaxServoRate))
         throw Error("servo", "rate", "must be 100..4000 Hz", "1000 suits most devices");
 }
 

@@ -43,15 +43,15 @@ struct TickRecord {
 };
 
 struct ServoConfig {
-    double rateHz = 1000.0; ///< kLeastServoRate..kMostServoRate
+    double rateHz = 1000.0; ///< kMinServoRate..kMaxServoRate
     size_t ringCapacity = 1 << 14;
     bool wantRealtime = true;       ///< false: ask the system for nothing (tests, sanitizers)
     double checkpointSeconds = 1.0; ///< from one TouchCheckpoint to the next
     bool stageTimes = false;        ///< TickRecord::stageNs; some 200 ns a tick
 };
 
-inline constexpr double kLeastServoRate = 100.0; ///< Hz; below it a stiff wall can no longer be stable
-inline constexpr double kMostServoRate = 4000.0; ///< Hz; above it wake-up latency is no longer small
+inline constexpr double kMinServoRate = 100.0;  ///< Hz; below it a stiff wall can no longer be stable
+inline constexpr double kMaxServoRate = 4000.0; ///< Hz; above it wake-up latency is no longer small
 
 /// Reads one sample and takes one command; all are called on the servo thread and must not block, allocate
 /// or throw. Plain functions, so that haptics links no device.
@@ -72,7 +72,7 @@ enum class SceneSwap : uint8_t {
 /// Owner thread constructs, starts and stops; everything else says its thread.
 class ServoLoop {
   public:
-    /// Throws Error if the rate is outside kLeastServoRate..kMostServoRate or the port is incomplete.
+    /// Throws Error if the rate is outside kMinServoRate..kMaxServoRate or the port is incomplete.
     explicit ServoLoop(DevicePort port, const ServoConfig& config = {});
     ~ServoLoop();
     ServoLoop(const ServoLoop&) = delete;

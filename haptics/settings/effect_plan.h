@@ -33,7 +33,7 @@ struct EffectPlan {
     std::vector<PlannedEffect> effects;
     // Smooth surfaces: of any material that does not say off; of those that are two-pass by themselves; of
     // those that say projected or direction. Where none is, stage 4 is not there.
-    bool plainFeel = false; ///< every touchable material is plain: stages 5 and 6 are not there either
+    bool plainSample = false; ///< every touchable material is plain: stages 5 and 6 are not there either
     bool dampingMap =
         false; ///< some touchable material has one, which a session's own damping is multiplied by
     bool oneSided = false; ///< some touchable object shows only its front

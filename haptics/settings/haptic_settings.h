@@ -17,7 +17,7 @@ enum class Precision : uint8_t { Double, Single };
 /// Material: as each material's forceShading says (auto is two-pass). The others hold for every material but
 /// those that say off.
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
-/// How the relief of the maps becomes force (force/spring_damper.h).
+/// How the bump height of the maps becomes force (force/spring_damper.h).
 enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
 /// How a place between texels is read. Mip: bilinear in the level whose texel is two strokes long, which
 /// leaves out what would alias at the servo rate; the others read the finest level, whatever the stroke.

@@ -21,7 +21,7 @@ enum class TickFlag : uint32_t {
     ForceRamping = 1u << 9,   ///< safety fades the force in (enabled, scene swapped) or out (input stale)
     NeighbourhoodMissing = 1u << 11, ///< what contact=neighbourhood or =rays needs is not built yet: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
-    Pinched = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
+    Jammed = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
     EnergyGiven = 1u << 14,  ///< the device gave more energy than it took, by more than kNoticedEnergy
     EnergyDamped = 1u << 15, ///< passivity=control: a damper took some of it back
     ObjectJumped = 1u << 13, ///< an object was put elsewhere (an animation began again) and swept nothing

@@ -52,7 +52,7 @@ struct SmoothFacet {
 std::optional<FirstGoal> goalOnFacet(const HapticObject& object, const HapticSettings& settings,
                                      const DeviceState& state, const glm::dvec3& hip,
                                      const glm::dvec3& guess) {
-    constexpr int kMostSteps = 6;
+    constexpr int kMaxSteps = 6;
     constexpr double kStill = 1e-8; // object units; what is left is a few hundredths of it
     const SmoothFacet facet(object, state.shadedTriangle);
     glm::dvec3 place = state.proxy - facet.a, up = facet.normal;
@@ -67,7 +67,7 @@ std::optional<FirstGoal> goalOnFacet(const HapticObject& object, const HapticSet
     const glm::dvec3 hand = hip - facet.a;
     place = hand + glm::dot(guess, place - hand) * guess;
     place -= (glm::dot(place, up) - height) * up;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         const glm::dvec3 field = outwards * facet.normalAt(place);
         const double squared = glm::dot(field, field), cosine = glm::dot(field, up);
         const double depth = glm::dot(field, place - hand);
@@ -99,8 +99,8 @@ FirstGoal firstGoal(const HapticScene& scene, const HapticSettings& settings, co
     if (!state.shaded)
         return {.goal = hip};
     const glm::dvec3 normal = travel > 0.0 ? state.shadedNormal + state.shadedTurn : state.shadedNormal;
-    if (state.shadedObject == state.anchor) {
-        const HapticObject& object = *scene.objects[static_cast<size_t>(state.anchor)];
+    if (state.shadedObject == state.reference) {
+        const HapticObject& object = *scene.objects[static_cast<size_t>(state.reference)];
         const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
         // A checkpoint may name any facet: one of an object without normals, too. A flat one may have held
         // the proxy beside a smooth one.

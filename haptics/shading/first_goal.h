@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// Anchor frame, object units.
+/// Reference frame, object units.
 struct FirstGoal {
     glm::dvec3 goal{0.0};
     bool onFacet = false;   ///< the rounds end here if the proxy comes to `place` on the facet it was on

@@ -22,7 +22,7 @@ constexpr double kLargestTurn = 0.1;
 
 /// Where the interpolated planes through the proxy send it.
 struct ShadedGoal {
-    glm::dvec3 goal{0.0};   ///< anchor frame
+    glm::dvec3 goal{0.0};   ///< reference object frame
     glm::dvec3 normal{0.0}; ///< unit, from the HIP to the goal; meaningful while held
     bool tilted = false;    ///< some interpolated normal differs from the true one
     bool held = false;      ///< a tilted plane holds the HIP off
@@ -31,7 +31,7 @@ struct ShadedGoal {
 
 /// A goal above all true planes would lift the proxy off: such a goal put back onto the nearest of them [000
 /// §4].
-glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const ProxyRest& rest) {
+glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const SolveResult& rest) {
     double nearest = INFINITY;
     glm::dvec3 normal(0.0);
     for (uint32_t i = 0; i < rest.contactCount; ++i) {
@@ -48,24 +48,24 @@ glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const P
 /// First pass: the nearest point to the HIP on the interpolated planes, put back onto the nearest true plane
 /// where it is above all of them, since a goal up there would lift the proxy off [000 §4].
 ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                      const DeviceState& state, const glm::dvec3& hip, ProxyRest& rest) {
+                      const DeviceState& state, const glm::dvec3& hip, SolveResult& rest) {
     auto& planes = rest.shadedPlanes;
     ShadedGoal result;
     for (uint32_t i = 0; i < rest.contactCount; ++i) {
         const Contact& contact = rest.contacts[i];
         const bool shaded = shadingMode(settings, materialOf(scene, contact)) == ShadingMode::TwoPass;
         planes[i] = {
-            shaded ? interpolatedNormal(scene, motions, state.anchor, contact, settings.shadingTiltLimit)
+            shaded ? interpolatedNormal(scene, motions, state.reference, contact, settings.shadingTiltLimit)
                    : contact.normal,
             0.0};
         result.tilted |= planes[i].normal != contact.normal;
     }
-    const glm::dvec3 wish = hip - state.proxy;
-    const SubGoal pass = rest.shadedHold = nearestFeasible(wish, {planes.data(), rest.contactCount});
+    const glm::dvec3 target = hip - state.proxy;
+    const SubGoal pass = rest.shadedActiveSet = nearestFeasible(target, {planes.data(), rest.contactCount});
     result.goal = state.proxy + pass.point;
     if (pass.count == 0)
         return result;
-    const glm::dvec3 towards = pass.point - wish;
+    const glm::dvec3 towards = pass.point - target;
     const double length = glm::length(towards);
     result.held = result.tilted && length > 0.0;
     if (result.held) {
@@ -92,7 +92,7 @@ glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm
 
 /// True where stage 3 came to rest where the first goal said, held by that facet alone: then a round would
 /// find just that goal again.
-bool cameTo(const FirstGoal& first, const DeviceState& state, const ProxyRest& rest) {
+bool cameTo(const FirstGoal& first, const DeviceState& state, const SolveResult& rest) {
     if (!first.onFacet || rest.contactCount != 1)
         return false;
     const Contact& contact = rest.contacts[0];
@@ -103,19 +103,19 @@ bool cameTo(const FirstGoal& first, const DeviceState& state, const ProxyRest& r
 
 } // namespace
 
-glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
+glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int reference,
                               const Contact& contact, double tiltLimit) noexcept {
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
     if (object.shape == nullptr && object.smooth[contact.feature] == 0)
         return contact.normal;
     glm::dvec3 point = contact.point, trueNormal = contact.normal;
-    Similarity anchorFromObject;
-    const bool foreign = contact.object != anchor;
+    Similarity referenceFromObject;
+    const bool foreign = contact.object != reference;
     if (foreign) {
-        anchorFromObject = motions[static_cast<size_t>(anchor)].workspaceFromObject.inverseTimes(
+        referenceFromObject = motions[static_cast<size_t>(reference)].workspaceFromObject.inverseTimes(
             motions[k].workspaceFromObject);
-        const Similarity back = anchorFromObject.inverse();
+        const Similarity back = referenceFromObject.inverse();
         point = back.point(point);
         trueNormal = back.direction(trueNormal);
     }
@@ -137,18 +137,18 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
         const double sine = glm::length(sideways);
         normal = sine > 0.0 ? limit * trueNormal + std::sin(tiltLimit) / sine * sideways : trueNormal;
     }
-    return foreign ? anchorFromObject.direction(normal) : normal;
+    return foreign ? referenceFromObject.direction(normal) : normal;
 }
 
 template <class Solver>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                   const glm::dvec3& hip, const FirstGoal& first, Solver& proxy, DeviceState& state,
-                  ProxyRest& rest) noexcept {
+                  SolveResult& rest) noexcept {
     if (cameTo(first, state, rest)) {
         state.shadedTurn = smallTurn(first.normal - state.shadedNormal);
         state.shadedNormal = first.normal;
-        rest.shadedHold = SubGoal{};
-        rest.shadedHold.count = 1;
+        rest.shadedActiveSet = SubGoal{};
+        rest.shadedActiveSet.count = 1;
         return;
     }
     const bool wasShaded = state.shaded;
@@ -197,8 +197,8 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
 }
 
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const FirstGoal&, ProxySolver&, DeviceState&, ProxyRest&) noexcept;
+                           const FirstGoal&, ProxySolver&, DeviceState&, SolveResult&) noexcept;
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
-                           const FirstGoal&, ComparisonSolver&, DeviceState&, ProxyRest&) noexcept;
+                           const FirstGoal&, ComparisonSolver&, DeviceState&, SolveResult&) noexcept;
 
 } // namespace touchstone

@@ -12,11 +12,11 @@
 
 namespace touchstone {
 
-/// The normal that the model's vertex normals give at a contact (anchor frame, unit), on the proxy's side and
-/// tilted from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1, eq. 1]; on an
-/// edge they are the two vertices' weights by inverse distance and at a vertex its own normal, as the paper
-/// has these cases. The true normal where the triangle is flat.
-[[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int anchor,
+/// The normal that the model's vertex normals give at a contact (reference object frame, unit), on the
+/// proxy's side and tilted from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1,
+/// eq. 1]; on an edge they are the two vertices' weights by inverse distance and at a vertex its own normal,
+/// as the paper has these cases. The true normal where the triangle is flat.
+[[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int reference,
                                             const Contact& contact, double tiltLimit) noexcept;
 
 /// Ruspini's two-pass shading run to its fixed point: goal = nearest point to the HIP on the interpolated
@@ -27,6 +27,6 @@ namespace touchstone {
 template <class Solver>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                   const glm::dvec3& hip, const FirstGoal& first, Solver& proxy, DeviceState& state,
-                  ProxyRest& rest) noexcept;
+                  SolveResult& rest) noexcept;
 
 } // namespace touchstone

@@ -3,7 +3,7 @@
 
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
-#include "haptics/solve/proxy_rest.h"
+#include "haptics/solve/solve_result.h"
 
 namespace touchstone {
 

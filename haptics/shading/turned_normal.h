@@ -3,13 +3,13 @@
 
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
-#include "haptics/solve/proxy_rest.h"
+#include "haptics/solve/solve_result.h"
 
 #include <glm/glm.hpp>
 
 namespace touchstone {
 
-/// Which way a contact pushes. Anchor frame.
+/// Which way a contact pushes. Reference frame.
 struct TurnedNormal {
     glm::dvec3 normal{0.0}; ///< unit
     double cosine = 1.0;    ///< the distance from the facet, over this, is the distance along `normal`
@@ -19,7 +19,7 @@ struct TurnedNormal {
 /// turns the force to the interpolated normal; Ho (`projected`) takes the distance of the HIP from the facet
 /// along it [000 §4.1].
 [[nodiscard]] TurnedNormal turnedNormal(const HapticScene& scene, ObjectMotions motions,
-                                        const HapticSettings& settings, int anchor, const Contact& contact,
+                                        const HapticSettings& settings, int reference, const Contact& contact,
                                         const glm::dvec3& normal) noexcept;
 
 } // namespace touchstone

@@ -22,11 +22,11 @@ struct Contact {
     /// Of a contact that is no triangle of the cache.
     static constexpr uint32_t kNoCandidate = UINT32_MAX;
 
-    glm::dvec3 normal{0.0};            ///< unit, from the surface to the proxy's centre, anchor frame
-    glm::dvec3 point{0.0};             ///< on the surface, anchor frame
-    double gap = 0.0;                  ///< distance minus radius, object units
-    int object = -1;                   ///< HapticScene::objects
-    FeatureId feature = 0;             ///< of that object's shape; of a mesh the triangle
+    glm::dvec3 normal{0.0}; ///< unit, from the surface to the proxy's centre, reference object frame
+    glm::dvec3 point{0.0};  ///< on the surface, reference object frame
+    double gap = 0.0;       ///< distance minus radius, object units
+    int object = -1;        ///< HapticScene::objects
+    FeatureId feature = 0;  ///< of that object's shape; of a mesh the triangle
     uint32_t candidate = kNoCandidate; ///< of the CandidateCache, until it gathers again
 };
 

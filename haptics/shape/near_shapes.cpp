@@ -5,20 +5,20 @@
 
 namespace touchstone {
 
-bool NearShapes::add(const Shape& shape, int object, const Similarity* objectFromAnchor,
+bool NearShapes::add(const Shape& shape, int object, const Similarity* objectFromReference,
                      const glm::dvec3& centre, double radius) noexcept {
-    const bool foreign = objectFromAnchor != nullptr;
+    const bool foreign = objectFromReference != nullptr;
     std::array<FeatureDistance, 1> any;
-    if (shape.near(foreign ? objectFromAnchor->point(centre) : centre,
-                   foreign ? objectFromAnchor->scale * radius : radius, any) == 0)
+    if (shape.near(foreign ? objectFromReference->point(centre) : centre,
+                   foreign ? objectFromReference->scale * radius : radius, any) == 0)
         return true;
-    if (count_ == kMostShapes)
+    if (count_ == kMaxShapes)
         return false;
     Placed& placed = placed_[count_++];
     placed = {&shape, object, {}, {}};
     if (foreign) {
-        placed.objectFromAnchor = *objectFromAnchor;
-        placed.anchorFromObject = objectFromAnchor->inverse();
+        placed.objectFromReference = *objectFromReference;
+        placed.referenceFromObject = objectFromReference->inverse();
     }
     return true;
 }
@@ -27,9 +27,10 @@ double NearShapes::sweep(const glm::dvec3& p, const glm::dvec3& move, double rea
                          double limit) const noexcept {
     for (size_t i = 0; i < count_; ++i) {
         const Placed& placed = placed_[i];
-        const Similarity& objectFromAnchor = placed.objectFromAnchor;
-        const double impact = placed.shape->sweep(objectFromAnchor.point(p), objectFromAnchor.scale * reach,
-                                                  objectFromAnchor.vector(move), limit);
+        const Similarity& objectFromReference = placed.objectFromReference;
+        const double impact =
+            placed.shape->sweep(objectFromReference.point(p), objectFromReference.scale * reach,
+                                objectFromReference.vector(move), limit);
         limit = impact > 0.0 ? std::min(impact, limit) : 0.0; // no number is no free way
     }
     return limit;

@@ -1,5 +1,5 @@
 #pragma once
-// The shapes near the proxy that are no meshes, in the frame of the anchor.
+// The shapes near the proxy that are no meshes, in the frame of the reference object.
 
 #include "engine/math/similarity.h"
 #include "haptics/shape/shape.h"
@@ -18,34 +18,34 @@ class NearShapes {
   public:
     /// Shapes near one place: with more the ball is made smaller. Features of each: farther ones are not felt
     /// (TickFlag::CandidatesFull).
-    static constexpr size_t kMostShapes = 16, kMostFeatures = 16;
+    static constexpr size_t kMaxShapes = 16, kMaxFeatures = 16;
 
     void clear() noexcept { count_ = 0; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    /// Adds the shape if it comes within `radius` of `centre` (anchor frame). False when there are too many.
-    /// `objectFromAnchor`: null for the anchor itself.
-    [[nodiscard]] bool add(const Shape& shape, int object, const Similarity* objectFromAnchor,
+    /// Adds the shape if it comes within `radius` of `centre` (reference object frame). False when there are
+    /// too many. `objectFromReference`: null for the reference object itself.
+    [[nodiscard]] bool add(const Shape& shape, int object, const Similarity* objectFromReference,
                            const glm::dvec3& centre, double radius) noexcept;
 
-    /// Shape::sweep of a ball of `reach` at p over all of them. Anchor frame.
+    /// Shape::sweep of a ball of `reach` at p over all of them. Reference frame.
     [[nodiscard]] double sweep(const glm::dvec3& p, const glm::dvec3& move, double reach,
                                double limit) const noexcept;
 
     /// The distance of the nearest within `reach` of p; INFINITY where there is none.
     [[nodiscard]] double nearest(const glm::dvec3& p, double reach) const noexcept;
 
-    /// Calls visit(object, feature distance in the anchor frame) for every feature within `reach` of p. False
-    /// where a shape has more of them than there is room for.
+    /// Calls visit(object, feature distance in the reference object frame) for every feature within `reach`
+    /// of p. False where a shape has more of them than there is room for.
     template <class Visit>
     bool eachNear(const glm::dvec3& p, double reach, const Visit& visit) const noexcept {
         bool all = true;
         for (size_t i = 0; i < count_; ++i) {
             const Placed& placed = placed_[i];
-            std::array<FeatureDistance, kMostFeatures> found;
-            const size_t count = placed.shape->near(placed.objectFromAnchor.point(p),
-                                                    placed.objectFromAnchor.scale * reach, found);
+            std::array<FeatureDistance, kMaxFeatures> found;
+            const size_t count = placed.shape->near(placed.objectFromReference.point(p),
+                                                    placed.objectFromReference.scale * reach, found);
             for (size_t k = 0; k < std::min(count, found.size()); ++k)
-                visit(placed.object, inAnchor(placed, found[k]));
+                visit(placed.object, inReference(placed, found[k]));
             all &= count <= found.size();
         }
         return all;
@@ -55,15 +55,15 @@ class NearShapes {
     struct Placed {
         const Shape* shape = nullptr;
         int object = -1; ///< HapticScene::objects
-        Similarity objectFromAnchor, anchorFromObject;
+        Similarity objectFromReference, referenceFromObject;
     };
-    static FeatureDistance inAnchor(const Placed& placed, const FeatureDistance& d) noexcept {
-        const Similarity& anchorFromObject = placed.anchorFromObject;
-        return {anchorFromObject.scale * d.distance, anchorFromObject.direction(d.gradient),
-                anchorFromObject.point(d.closest), d.feature};
+    static FeatureDistance inReference(const Placed& placed, const FeatureDistance& d) noexcept {
+        const Similarity& referenceFromObject = placed.referenceFromObject;
+        return {referenceFromObject.scale * d.distance, referenceFromObject.direction(d.gradient),
+                referenceFromObject.point(d.closest), d.feature};
     }
 
-    std::array<Placed, kMostShapes> placed_;
+    std::array<Placed, kMaxShapes> placed_;
     size_t count_ = 0;
 };
 

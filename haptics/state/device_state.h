@@ -5,8 +5,8 @@
 #include "engine/math/similarity.h"
 #include "haptics/contact/candidates.h"
 #include "haptics/safety/force_limiter.h"
-#include "haptics/solve/proxy_rest.h"
-#include "haptics/state/carried_object.h"
+#include "haptics/solve/solve_result.h"
+#include "haptics/state/moving_obstacle.h"
 
 #include <glm/glm.hpp>
 
@@ -17,7 +17,7 @@ namespace touchstone {
 
 /// Where the neighbourhood watch is, with `contact=neighbourhood`.
 struct WatchState {
-    uint32_t side = 0;     ///< TriangleSide of the anchor
+    uint32_t side = 0;     ///< TriangleSide of the reference object
     bool touching = false; ///< else the proxy is where the HIP is
 };
 
@@ -32,34 +32,35 @@ struct DeviceState {
     glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
     double unsampled = 0.0;   ///< s since the last usable sample, kForceRampOutTime at most
 
-    // Stages 2 and 3. The proxy lives in the frame of the anchor: the object touched last. When the anchor
-    // moves it carries the proxy along.
+    // Stages 2 and 3. The proxy lives in the frame of the reference object: the object touched last. When the
+    // reference object moves it carries the proxy along.
     bool placed = false; ///< the proxy is in free space or on a surface; false: not yet outside
     /// The model came to be where the hand was (a scene swap, a device that is taken up or comes back):
     /// nothing is felt before the hand is clear of it (proxy/clear_of_model.h).
     bool mustLeave = false;
-    int anchor = -1;       ///< HapticScene::objects
-    glm::dvec3 proxy{0.0}; ///< anchor frame, object units
+    int reference = -1;    ///< HapticScene::objects
+    glm::dvec3 proxy{0.0}; ///< reference object frame, object units
     /// Workspace m that the proxy stands clear of one-sided surfaces, while placed: the radius, less while
     /// one that has grown is still being lifted out. What is nearer is being come through.
     double clearance = 0.0;
     CandidateCache candidates;
-    CandidateCache carryCandidates; ///< of one object that moves towards the proxy, or of a place far from it
-    std::vector<CarriedObject> carried = std::vector<CarriedObject>(256); ///< those near, while a tick runs
-    PinchedObjects pinched;
+    CandidateCache
+        obstacleCandidates; ///< of one object that moves towards the proxy, or of a place far from it
+    std::vector<MovingObstacle> carried = std::vector<MovingObstacle>(256); ///< those near, while a tick runs
+    PinchedObjects jammed;
     double gatherMargin = 1e-3; ///< object units; adapts to the density of triangles
     WatchState watch;
 
-    ProxyRest rest; ///< of this tick; kept here because clearing it each tick costs more than a sweep
+    SolveResult rest; ///< of this tick; kept here because clearing it each tick costs more than a sweep
 
     // Stage 4: the goal that the shaded planes gave, relative to the HIP, to start the next tick from.
     bool shaded = false;
-    glm::dvec3 shadedNormal{0.0}; ///< anchor frame
+    glm::dvec3 shadedNormal{0.0}; ///< reference object frame
     glm::dvec3 shadedTurn{0.0};   ///< what that normal turned by in the last tick
     int shadedObject = -1;        ///< whose facet alone held the HIP off; -1: none, or several did
     uint32_t shadedTriangle = 0;
 
-    // Stage 6, anchor frame.
+    // Stage 6, reference object frame.
     FrictionState friction = FrictionState::Free;
     glm::dvec3 stictionPoint{0.0}; ///< a proxy position; with friction=ho on the chord between two
     glm::dvec3 frictionless{0.0};  ///< where the proxy would be without friction; while friction is not Free
@@ -72,10 +73,10 @@ struct DeviceState {
         sampled = placed = mustLeave = shaded = watch.touching = false;
         shadedTurn = glm::dvec3(0.0);
         velocity = glm::dvec3(0.0);
-        anchor = -1;
+        reference = -1;
         friction = FrictionState::Free;
         candidates.invalidate();
-        pinched.count = 0;
+        jammed.count = 0;
         candidates.ignore({});
     }
 };

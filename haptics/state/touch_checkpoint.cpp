@@ -10,9 +10,9 @@ namespace touchstone {
 namespace {
 
 /// Everything that one tick leaves to the next, in the order of the bytes: scalars, vectors and arrays of
-/// them. Not: what a tick writes before it reads (rest, carried, carryCandidates, limiter.passivity.way) and
-/// what can be found again (candidates). A field that is added to DeviceState and outlives the tick must be
-/// added here and to docs/recording.md; tests/unit/recording watches the sizes.
+/// them. Not: what a tick writes before it reads (rest, carried, obstacleCandidates, limiter.passivity.way)
+/// and what can be found again (candidates). A field that is added to DeviceState and outlives the tick must
+/// be added here and to docs/recording.md; tests/unit/recording watches the sizes.
 template <class State, class Visit>
 void eachField(State& s, const Visit& visit) {
     visit(s.sampled);
@@ -22,12 +22,12 @@ void eachField(State& s, const Visit& visit) {
     visit(s.unsampled);
     visit(s.placed);
     visit(s.mustLeave);
-    visit(s.anchor);
+    visit(s.reference);
     visit(s.proxy);
     visit(s.clearance);
-    visit(s.pinched.objects);
-    visit(s.pinched.places);
-    visit(s.pinched.count);
+    visit(s.jammed.objects);
+    visit(s.jammed.places);
+    visit(s.jammed.count);
     visit(s.gatherMargin);
     visit(s.watch.side);
     visit(s.watch.touching);
@@ -60,10 +60,10 @@ struct CarriedFields {
     glm::dvec3 hip{0.0}, travel{0.0}, velocity{0.0};
     double unsampled = 0.0;
     bool placed = false, mustLeave = false;
-    int anchor = -1;
+    int reference = -1;
     glm::dvec3 proxy{0.0};
     double clearance = 0.0;
-    PinchedObjects pinched;
+    PinchedObjects jammed;
     double gatherMargin = 0.0;
     WatchState watch;
     bool shaded = false;
@@ -102,11 +102,11 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
     if (!reasonable(fields))
         return false;
     const int objects = scene != nullptr ? static_cast<int>(scene->objects.size()) : 0;
-    if (fields.anchor >= objects || fields.pinched.count > PinchedObjects::kMost ||
+    if (fields.reference >= objects || fields.jammed.count > PinchedObjects::kMax ||
         fields.friction > FrictionState::Sliding)
         return false;
-    for (size_t i = 0; i < fields.pinched.count; ++i)
-        if (fields.pinched.objects[i] < 0 || fields.pinched.objects[i] >= objects)
+    for (size_t i = 0; i < fields.jammed.count; ++i)
+        if (fields.jammed.objects[i] < 0 || fields.jammed.objects[i] >= objects)
             return false;
     const auto inObject = [&](int object, uint32_t triangle) {
         return object >= 0 && object < objects &&
@@ -119,7 +119,7 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
     // After a scene swap it names a facet of the scene before, which nobody asks for.
     if (fields.shaded && fields.shadedObject != -1 && !isFeature(fields.shadedObject, fields.shadedTriangle))
         return false;
-    return !fields.watch.touching || inObject(fields.anchor, triangleOf(fields.watch.side));
+    return !fields.watch.touching || inObject(fields.reference, triangleOf(fields.watch.side));
 }
 
 /// The bytes back into fields. A bool is read as a number: another byte than 0 and 1 would be no bool.
@@ -158,7 +158,7 @@ bool restoreCheckpoint(std::span<const std::byte> bytes, const HapticScene* scen
         return false;
     readFields(bytes, state);
     state.candidates.invalidate();
-    state.candidates.ignore(state.pinched.ignored());
+    state.candidates.ignore(state.jammed.ignored());
     return true;
 }
 

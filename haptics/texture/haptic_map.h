@@ -79,7 +79,7 @@ class HapticMap {
     /// of the bilinear surface averaged over one texel; linear between levels.
     [[nodiscard]] Slope slope(const glm::dvec2& uv, double level) const;
 
-    // The rungs beside those: in texture/map_filters.cpp, so that they cost the others nothing.
+    // The configurations beside those: in texture/map_filters.cpp, so that they cost the others nothing.
 
     /// The texels around a place in the finest level and their shares, by the filters that know no levels.
     struct Patch {

@@ -1,4 +1,4 @@
-// The rungs of the texture filter and the gradient beside the default.
+// The configurations of the texture filter and the gradient beside the default.
 
 #include "haptics/texture/haptic_map.h"
 #include "haptics/texture/map_stencil.h"

@@ -12,8 +12,8 @@
 #include "haptics/shading/first_goal.h"
 #include "haptics/shading/force_shading.h"
 #include "haptics/shading/turned_normal.h"
-#include "haptics/surface/plain_feel.h"
-#include "haptics/surface/surface_feel.h"
+#include "haptics/surface/plain_sample.h"
+#include "haptics/surface/surface_sample.h"
 
 #include <type_traits>
 #include <variant>
@@ -24,16 +24,16 @@ namespace {
 
 /// The felt shape at the final proxy: which way it pushes and how deep the HIP is, for each shading model.
 struct FeltShape {
-    glm::dvec3 normal{0.0}; ///< unit, anchor frame
-    double depth = 0.0;     ///< anchor units
+    glm::dvec3 normal{0.0}; ///< unit, reference object frame
+    double depth = 0.0;     ///< reference object units
 };
 
 /// The force of one facet turned. Out of line: what a scene does not call for must not take registers from
 /// what it does.
 [[gnu::noinline]] FeltShape turnedShape(const HapticScene& scene, ObjectMotions motions,
-                                        const HapticSettings& settings, int anchor, const Contact& facet,
+                                        const HapticSettings& settings, int reference, const Contact& facet,
                                         const glm::dvec3& offset, const FeltShape& shape) {
-    const TurnedNormal turned = turnedNormal(scene, motions, settings, anchor, facet, shape.normal);
+    const TurnedNormal turned = turnedNormal(scene, motions, settings, reference, facet, shape.normal);
     if (turned.cosine == 1.0)
         return {turned.normal, shape.depth};
     return {turned.normal, glm::dot(offset, facet.normal) / turned.cosine};
@@ -49,16 +49,16 @@ struct FeltShape {
     const Contact& holder = state.rest.contacts[hold.count > 0 ? static_cast<size_t>(hold.active[0]) : 0];
     const FeltShape shape{depth > 100.0 * kContactGap ? offset / depth : holder.normal, depth};
     if (oneFacet && hold.count == 1)
-        return turnedShape(scene, motions, settings, state.anchor, holder, offset, shape);
+        return turnedShape(scene, motions, settings, state.reference, holder, offset, shape);
     return shape;
 }
 
-/// Velocity of the HIP against the anchor's surface, m/s, in the anchor frame.
-glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& anchor, const DeviceState& state) {
-    const Similarity& now = anchor.workspaceFromObject;
+/// Velocity of the HIP against the reference object's surface, m/s, in the reference object frame.
+glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& reference, const DeviceState& state) {
+    const Similarity& now = reference.workspaceFromObject;
     glm::dvec3 carried(0.0);
-    if (!input.objects.empty() && !anchor.jumped)
-        carried = (now.point(state.proxy) - anchor.before.point(state.proxy)) / input.dt;
+    if (!input.objects.empty() && !reference.jumped)
+        carried = (now.point(state.proxy) - reference.before.point(state.proxy)) / input.dt;
     return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
@@ -66,14 +66,14 @@ glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& anchor, c
 [[gnu::noinline]] void feelTexture(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
                                    const Contact& contact, const glm::dvec3& normal, double depth,
-                                   const glm::dvec3& velocity, double dt, SurfaceFeel& feel) {
+                                   const glm::dvec3& velocity, double dt, SurfaceSample& feel) {
     const double speed = glm::length(velocity - glm::dot(velocity, normal) * normal);
-    feel = readSurface(scene, motions, settings, state.anchor, contact, normal, depth, speed, dt);
+    feel = readSurface(scene, motions, settings, state.reference, contact, normal, depth, speed, dt);
 }
 
 /// Stages 5 and 7 but for friction, where each of several contacts has its say.
 struct SeveralContacts {
-    glm::dvec3 force{0.0}; ///< elastic and damping, N, anchor frame
+    glm::dvec3 force{0.0}; ///< elastic and damping, N, reference object frame
     FrictionCone cone;
 };
 
@@ -81,15 +81,15 @@ struct SeveralContacts {
 /// `velocity` of the HIP against the surface; the force has `zoom` taken out, and is what the device bears.
 [[gnu::noinline]] void feelSeveral(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
-                                   const SubGoal& hold, const glm::dvec3& offset, double workspacePerAnchor,
-                                   const glm::dvec3& velocity, double zoom, double dt, SurfaceFeel& feel,
-                                   SeveralContacts& several) {
+                                   const SubGoal& hold, const glm::dvec3& offset,
+                                   double workspacePerReference, const glm::dvec3& velocity, double zoom,
+                                   double dt, SurfaceSample& feel, SeveralContacts& several) {
     ContactLoads loads;
-    readLoads(scene, motions, settings, state.anchor, state.rest, hold, state.shaded, offset,
-              workspacePerAnchor, velocity, zoom, dt, loads);
+    readLoads(scene, motions, settings, state.reference, state.rest, hold, state.shaded, offset,
+              workspacePerReference, velocity, zoom, dt, loads);
     const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(zoom, 1.0);
     several.force = elastic + dampingForce(loads, felt);
-    several.cone = FrictionCone(loads, felt, workspacePerAnchor);
+    several.cone = FrictionCone(loads, felt, workspacePerReference);
     feel = loads.contacts[static_cast<size_t>(loads.loaded)].feel;
     const double force = glm::length(elastic);
     if (force > 0.0 && glm::length(offset) > 100.0 * kContactGap)
@@ -101,8 +101,8 @@ struct SeveralContacts {
 /// True where the planes need not be told apart: all of one plain material without damping whose force
 /// nothing turns, which gives K (p - h) whichever of them carries it; or none of them carries anything
 /// (RayProxy between planes that leave it no room).
-bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet, const ProxyRest& rest,
-               const SubGoal& hold) {
+bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet,
+               const SolveResult& rest, const SubGoal& hold) {
     if (kPlainTick || !(hold.multiplier[0] + hold.multiplier[1] + hold.multiplier[2] > 0.0))
         return true;
     if (oneFacet)
@@ -120,34 +120,34 @@ bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool on
 }
 
 /// What holds the hand, before friction moves the proxy away from there.
-void publishContact(const Similarity& workspaceFromAnchor, const ProxyRest& rest, const SurfaceFeel& feel,
-                    HapticOutput& output) {
+void publishContact(const Similarity& workspaceFromReference, const SolveResult& rest,
+                    const SurfaceSample& feel, HapticOutput& output) {
     output.contacts = rest.contactCount;
     if (!feel.touching)
         return;
     output.object = feel.object;
     output.triangle = static_cast<int>(feel.triangle);
-    output.normal = workspaceFromAnchor.direction(feel.textured);
+    output.normal = workspaceFromReference.direction(feel.textured);
     output.height = feel.height;
-    output.planeCount = static_cast<uint32_t>(rest.hold.count);
+    output.planeCount = static_cast<uint32_t>(rest.activeSet.count);
     for (size_t i = 0; i < output.planeCount; ++i)
-        output.planes[i] =
-            workspaceFromAnchor.direction(rest.contacts[static_cast<size_t>(rest.hold.active[i])].normal);
+        output.planes[i] = workspaceFromReference.direction(
+            rest.contacts[static_cast<size_t>(rest.activeSet.active[i])].normal);
 }
 
-void publishProxy(const Similarity& workspaceFromAnchor, const DeviceState& state, const ProxyRest& rest,
+void publishProxy(const Similarity& workspaceFromReference, const DeviceState& state, const SolveResult& rest,
                   HapticOutput& output) {
-    output.proxy = workspaceFromAnchor.point(state.proxy);
+    output.proxy = workspaceFromReference.point(state.proxy);
     output.penetration = glm::length(output.proxy - output.hip);
     output.iterations = rest.iterations;
     output.friction = state.friction;
     if (state.friction != FrictionState::Free)
-        output.stictionPoint = workspaceFromAnchor.point(state.stictionPoint);
+        output.stictionPoint = workspaceFromReference.point(state.stictionPoint);
 }
 
 /// True where no material of the scene calls for stages 4 to 6.
 bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
-    return kPlainTick || (scene.plan.plainFeel && !(settings.staticFriction > 0.0) &&
+    return kPlainTick || (scene.plan.plainSample && !(settings.staticFriction > 0.0) &&
                           !(scene.plan.dampingMap && settings.damping > 0.0) &&
                           (!scene.plan.anyShading ||
                            (!anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings))));
@@ -155,20 +155,21 @@ bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) 
 
 /// What stages 5 to 7 give.
 struct Felt {
-    glm::dvec3 force{0.0}; ///< N, anchor frame
+    glm::dvec3 force{0.0}; ///< N, reference object frame
     double share = 1.0;    ///< of it that the device bears
     int object = -1;       ///< HapticScene::objects; -1: nothing is touched
 };
 
 /// Stages 5 to 7, and of 4 what turns the force alone. `held`: where the proxy was when the tick began;
-/// `hip`: anchor frame. Effects: some material of the scene calls for more than a constant stiffness and
-/// damping, or several contacts are felt apart.
+/// `hip`: reference object frame. Effects: some material of the scene calls for more than a constant
+/// stiffness and damping, or several contacts are felt apart.
 template <bool Effects, class Solver, class Stopwatch>
-Felt feelSurface(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-                 ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& hold,
-                 Solver& proxy, DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
-    ProxyRest& rest = state.rest;
-    const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
+Felt sampleSurface(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                   ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& hold,
+                   Solver& proxy, DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
+    SolveResult& rest = state.rest;
+    const Similarity& workspaceFromReference =
+        motions[static_cast<size_t>(state.reference)].workspaceFromObject;
     const bool oneFacet = Effects && anyOneFacet(scene.plan, settings);
     const bool asOne = !Effects || hold.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, hold);
     FeltShape shape;
@@ -177,26 +178,26 @@ Felt feelSurface(const HapticScene& scene, const HapticSettings& settings, const
     stopwatch.lap(Stage::Shading);
 
     // 5. Surface: what material, attributes and maps are under each contact.
-    glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.anchor)], state);
-    SurfaceFeel feel;
+    glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.reference)], state);
+    SurfaceSample feel;
     [[maybe_unused]] std::conditional_t<Effects, SeveralContacts, std::monostate> several;
     bool plain = true;
     if (rest.contactCount > 0) {
         const Contact& contact = loadedContact(rest, hold);
-        const double depth = shape.depth * workspaceFromAnchor.scale;
+        const double depth = shape.depth * workspaceFromReference.scale;
         plain = !Effects || (asOne && feelsPlain(materialOf(scene, contact), settings));
         if (plain)
-            plainFeel(scene, settings, contact, shape.normal, depth, feel);
+            plainSample(scene, settings, contact, shape.normal, depth, feel);
         else if (asOne)
             feelTexture(scene, motions, settings, state, contact, shape.normal, depth, velocity, input.dt,
                         feel);
         else if constexpr (Effects)
-            feelSeveral(scene, motions, settings, state, hold, state.proxy - hip, workspaceFromAnchor.scale,
-                        velocity, output.zoom, input.dt, feel, several);
+            feelSeveral(scene, motions, settings, state, hold, state.proxy - hip,
+                        workspaceFromReference.scale, velocity, output.zoom, input.dt, feel, several);
     }
     if (feel.tiltCompressed)
         output.flags = output.flags | TickFlag::TiltCompressed;
-    publishContact(workspaceFromAnchor, rest, feel, output);
+    publishContact(workspaceFromReference, rest, feel, output);
     if (output.zoom > 1.0)
         velocity /= output.zoom;
     stopwatch.lap(Stage::Texture);
@@ -207,8 +208,8 @@ Felt feelSurface(const HapticScene& scene, const HapticSettings& settings, const
         state.friction = FrictionState::Free;
     } else if (!plain || state.friction != FrictionState::Free) {
         if (asOne)
-            several.cone = FrictionCone(feel, velocity, workspaceFromAnchor.scale);
-        stretch = workspaceFromAnchor.scale *
+            several.cone = FrictionCone(feel, velocity, workspaceFromReference.scale);
+        stretch = workspaceFromReference.scale *
                   applyFriction(settings.friction, several.cone, held, proxy, state, rest);
     }
     stopwatch.lap(Stage::Friction);
@@ -230,7 +231,7 @@ Felt feelSurface(const HapticScene& scene, const HapticSettings& settings, const
 /// Out of line: what a scene does not call for must not take registers from what it does.
 template <class... Arguments>
 [[gnu::noinline]] Felt feelEffects(Arguments&&... arguments) {
-    return feelSurface<true>(arguments...);
+    return sampleSurface<true>(arguments...);
 }
 
 /// Stages 3 and 4 where two-pass shading moves the proxy. Out of line as all that a scene may not call for.
@@ -252,10 +253,10 @@ template <class Solver, class Stopwatch>
     const bool effects = !callsForNoEffect(scene, settings);
 
     // 2. Contact query: the proxy goes with its object and meets what moved towards it.
-    ProxyRest& rest = state.rest;
-    if (state.anchor < 0)
-        state.anchor = nearestObject(scene, motions, state.hip);
-    Solver::carry(scene, motions, settings, state, output.flags);
+    SolveResult& rest = state.rest;
+    if (state.reference < 0)
+        state.reference = nearestObject(scene, motions, state.hip);
+    Solver::followObjects(scene, motions, settings, state, output.flags);
     Solver proxy(scene, motions, settings, state, rest);
     if (!proxy.begin()) {
         state.friction = FrictionState::Free;
@@ -264,8 +265,9 @@ template <class Solver, class Stopwatch>
         output.flags = output.flags | TickFlag::StartedInside;
         return;
     }
-    const Similarity workspaceFromAnchor = motions[static_cast<size_t>(state.anchor)].workspaceFromObject;
-    const glm::dvec3 hip = workspaceFromAnchor.inversePoint(state.hip);
+    const Similarity workspaceFromReference =
+        motions[static_cast<size_t>(state.reference)].workspaceFromObject;
+    const glm::dvec3 hip = workspaceFromReference.inversePoint(state.hip);
     const glm::dvec3 held = state.proxy;
     // The place without friction is a god-object of its own, which friction does not hold back [001 §4.1.1]:
     // it goes on from where it was. Not where objects move: what they may have pushed is the proxy.
@@ -276,30 +278,30 @@ template <class Solver, class Stopwatch>
     // 3. Proxy solve: as near to the goal as free space allows; and 4. force shading: the same solve against
     // the interpolated planes.
     if (effects && anyTwoPass(scene.plan, settings)) {
-        solveShaded(scene, motions, settings, hip, glm::length(state.travel) / workspaceFromAnchor.scale,
+        solveShaded(scene, motions, settings, hip, glm::length(state.travel) / workspaceFromReference.scale,
                     proxy, state, stopwatch);
     } else {
         state.shaded = false; // what was felt before it was switched off is no place to start from again
         proxy.moveTowards(hip);
         stopwatch.lap(Stage::Proxy);
     }
-    const SubGoal& hold = state.shaded ? rest.shadedHold : rest.hold;
+    const SubGoal& hold = state.shaded ? rest.shadedActiveSet : rest.activeSet;
 
     // 5. to 7. Surface, friction, force.
     const bool varied = effects || (hold.count > 1 && !feltAsOne(scene, settings, false, rest, hold));
     const Felt felt = varied ? feelEffects(scene, settings, input, motions, hip, held, hold, proxy, state,
                                            output, stopwatch)
-                             : feelSurface<false>(scene, settings, input, motions, hip, held, hold, proxy,
-                                                  state, output, stopwatch);
-    output.force = workspaceFromAnchor.direction(felt.force);
+                             : sampleSurface<false>(scene, settings, input, motions, hip, held, hold, proxy,
+                                                    state, output, stopwatch);
+    output.force = workspaceFromReference.direction(felt.force);
     if (output.zoom > 1.0)
         output.force *= felt.share;
     output.flags |= rest.flags;
-    publishProxy(workspaceFromAnchor, state, rest, output);
+    publishProxy(workspaceFromReference, state, rest, output);
     // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
     // tick can hold feels nothing until the hand is in the open again.
     if (felt.object >= 0 && !input.objects.empty())
-        changeAnchor(state, motions, felt.object);
+        changeReference(state, motions, felt.object);
     if (rest.contactCount == 0 && has(rest.flags, TickFlag::CandidatesFull))
         state.placed = false;
     stopwatch.lap(Stage::Force);
@@ -312,20 +314,20 @@ template <class Solver, class Stopwatch>
 }
 
 /// A tick without a sample in a scene that moves: the proxy goes on with the objects, as if the hand stood. A
-/// watch that touches goes with its anchor; one in the free would have to know where every object was when
-/// the hand was last seen, and begins again.
-void carryUnseen(const HapticScene& scene, const HapticSettings& settings, ObjectMotions motions,
-                 DeviceState& state, uint32_t& flags) {
-    if (!state.placed || state.anchor < 0)
+/// watch that touches goes with its reference object; one in the free would have to know where every object
+/// was when the hand was last seen, and begins again.
+void followUnseen(const HapticScene& scene, const HapticSettings& settings, ObjectMotions motions,
+                  DeviceState& state, uint32_t& flags) {
+    if (!state.placed || state.reference < 0)
         return;
     if (comparisonIsReady(scene, settings)) {
-        ComparisonSolver::carry(scene, motions, settings, state, flags);
+        ComparisonSolver::followObjects(scene, motions, settings, state, flags);
         if (settings.contact == ContactMethod::Neighbourhood && !state.watch.touching)
             state.placed = false;
         return;
     }
     leaveComparison(scene, motions, state);
-    ProxySolver::carry(scene, motions, settings, state, flags);
+    ProxySolver::followObjects(scene, motions, settings, state, flags);
 }
 
 /// The contact models that are there to be compared with the sweep. False where the tick is the sweep's after
@@ -382,7 +384,7 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         if (sampled && !scene.objects.empty())
             touchWithModel(scene, settings, input, state, output, stopwatch);
         else if (!input.objects.empty())
-            carryUnseen(scene, settings, input.objects, state, output.flags);
+            followUnseen(scene, settings, input.objects, state, output.flags);
 
         // 8. Safety: the only thing that may reach a device.
         const SafetyInputs safety{.limits = scene.limits,

@@ -14,9 +14,9 @@ namespace touchstone {
 /// reached.
 struct StageTrace {
     /// After contact query (carried by its object, placed), proxy solve and force shading: frame of the
-    /// anchor, object units.
+    /// reference object, object units.
     std::array<glm::dvec3, 3> proxy{};
-    int anchor = -1; ///< HapticScene::objects
+    int reference = -1; ///< HapticScene::objects
 };
 
 /// What the servo, `touch` and a replay pass as Stopwatch. One instantiation for all three, since the
@@ -37,7 +37,7 @@ class StageTracer {
         if (clock_ != nullptr) [[unlikely]]
             readClock(stage);
         if (stage == Stage::Contact)
-            trace_.anchor = state_.anchor;
+            trace_.reference = state_.reference;
         if (stage == Stage::Contact || stage == Stage::Proxy || stage == Stage::Shading)
             trace_.proxy[static_cast<size_t>(stage) - static_cast<size_t>(Stage::Contact)] = state_.proxy;
     }

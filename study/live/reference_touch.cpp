@@ -65,28 +65,28 @@ void ReferenceTouch::adopt(const TickRecord& record, const HapticSettings& setti
     state_.travel = glm::dvec3(0.0);
     state_.unsampled = 0.0;
     // Where objects move, what is touched carries the proxy from there on.
-    const int anchor = felt.object >= 0 && moving_.moving() ? felt.object : record.trace.anchor;
-    if (!state_.sampled || has(felt.flags, TickFlag::StartedInside) || anchor < 0 ||
-        static_cast<size_t>(anchor) >= motions.size())
+    const int reference = felt.object >= 0 && moving_.moving() ? felt.object : record.trace.reference;
+    if (!state_.sampled || has(felt.flags, TickFlag::StartedInside) || reference < 0 ||
+        static_cast<size_t>(reference) >= motions.size())
         return; // it is placed anew in the next tick
-    const Similarity& workspaceFromAnchor = motions[static_cast<size_t>(anchor)].workspaceFromObject;
-    state_.anchor = anchor;
+    const Similarity& workspaceFromReference = motions[static_cast<size_t>(reference)].workspaceFromObject;
+    state_.reference = reference;
     state_.placed = true;
     state_.clearance = feltRadius(settings);
-    state_.proxy = workspaceFromAnchor.inversePoint(felt.proxy);
+    state_.proxy = workspaceFromReference.inversePoint(felt.proxy);
     if (settings.contact == ContactMethod::Neighbourhood) {
         // A walk's proxy stands on the facet itself, where the sweep has no side: a little off it, and what
         // stuck there is let go (neighbourhood_watch.cpp, leaveWatch).
-        const HapticObject& object = *scene_->objects[static_cast<size_t>(anchor)];
+        const HapticObject& object = *scene_->objects[static_cast<size_t>(reference)];
         for (uint32_t i = 0; i < felt.planeCount; ++i)
             state_.proxy += kWeldTolerance * object.diagonal *
-                            (glm::conjugate(workspaceFromAnchor.rotation) * felt.planes[i]);
+                            (glm::conjugate(workspaceFromReference.rotation) * felt.planes[i]);
         return;
     }
     state_.friction = felt.friction;
-    state_.frictionless = anchor == record.trace.anchor ? record.trace.proxy.back() : state_.proxy;
+    state_.frictionless = reference == record.trace.reference ? record.trace.proxy.back() : state_.proxy;
     if (felt.friction != FrictionState::Free)
-        state_.stictionPoint = workspaceFromAnchor.inversePoint(felt.stictionPoint);
+        state_.stictionPoint = workspaceFromReference.inversePoint(felt.stictionPoint);
 }
 
 bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& settings, TickError& error) {
@@ -110,8 +110,9 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
     input.devices = {&record.sample, 1};
     input.objects = moved;
     StageTrace trace;
-    StageTracer tracer(state_,
-                       trace); // the servo's instantiation: where the rungs are the same, so are the bits
+    StageTracer tracer(
+        state_,
+        trace); // the servo's instantiation: where the configurations are the same, so are the bits
     hapticStep(*scene_, referenceOf(settings), input, world_, {&state_, 1}, {&output_, 1}, tracer);
     error = errorOf(record.output, output_);
     return true;

@@ -1,6 +1,6 @@
 #pragma once
 // How far what is felt is from the best that this program knows: the same hand on the same scene, touched a
-// second time with the most exact rung of every ladder.
+// second time with the most exact configuration of every ablation.
 
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/servo_loop.h"
@@ -10,11 +10,11 @@
 
 namespace touchstone::study {
 
-/// What is felt with `settings`, as exactly as it can be: every choice of method at its most exact rung,
-/// every choice of what is to be felt as it is. Method: contact (the sweep, in double), the proxy's moves (to
-/// the end), shading (two-pass wherever the material does not say off; `off` and the one-facet models are
-/// cheaper rungs of it). To be felt: stiffness, damping, friction and its law, texture and its law, tilt
-/// limits, the proxy's radius (of a point method none).
+/// What is felt with `settings`, as exactly as it can be: every choice of method at its most exact
+/// configuration, every choice of what is to be felt as it is. Method: contact (the sweep, in double), the
+/// proxy's moves (to the end), shading (two-pass wherever the material does not say off; `off` and the
+/// one-facet models are cheaper configurations of it). To be felt: stiffness, damping, friction and its law,
+/// texture and its law, tilt limits, the proxy's radius (of a point method none).
 [[nodiscard]] HapticSettings referenceOf(const HapticSettings& settings);
 
 /// One tick beside the reference. Workspace, SI.

@@ -17,7 +17,7 @@ DeviceLimits noLimits() {
 
 ClosedLoop::ClosedLoop(const HapticScene& scene, const HapticSettings& settings, const PlantParameters& plant,
                        double rateHz, const DeviceLimits& limits)
-    : settings_(settings), rate_(rateHz), hand_(wish_, plant) {
+    : settings_(settings), rate_(rateHz), hand_(target_, plant) {
     const std::shared_ptr<HapticScene> own = copyOf(scene);
     own->limits = limits;
     scene_ = own;

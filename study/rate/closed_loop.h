@@ -1,7 +1,7 @@
 #pragma once
 // A simulated device in a hand against the whole haptic step: position to force to motion, offline.
 
-#include "devices/plant/yielding_hand.h"
+#include "devices/plant/hand_impedance.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/tick/haptic_step.h"
 
@@ -37,9 +37,9 @@ class ClosedLoop {
     [[nodiscard]] const Plant& plant() const { return hand_.plant(); }
 
   private:
-    class Wish final : public Device {
+    class Target final : public Device {
       public:
-        explicit Wish(ClosedLoop& loop) : loop_(loop) {}
+        explicit Target(ClosedLoop& loop) : loop_(loop) {}
         [[nodiscard]] std::string name() const override { return "wish"; }
         [[nodiscard]] DeviceLimits limits() const override { return {}; }
         [[nodiscard]] DeviceSample sample(double time) noexcept override {
@@ -55,8 +55,8 @@ class ClosedLoop {
     std::shared_ptr<const HapticScene> scene_;
     HapticSettings settings_;
     double rate_;
-    Wish wish_{*this};
-    YieldingHand hand_;
+    Target target_{*this};
+    HandImpedance hand_;
     WorldState world_;
     DeviceState state_;
     HapticOutput output_;

@@ -71,13 +71,13 @@ class Row {
 
 void writeStudyCsv(const StudyResult& result, const std::filesystem::path& file) {
     OutputFile out(file);
-    RungResult none;
+    ConfigurationResult none;
     Row names(true);
     visitFields(names, none);
     out.write(names.line());
-    for (RungResult rung : result.rungs) {
+    for (ConfigurationResult configuration : result.configurations) {
         Row values(false);
-        visitFields(values, rung);
+        visitFields(values, configuration);
         out.write(values.line());
     }
     out.commit();

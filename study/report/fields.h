@@ -52,14 +52,14 @@ void visitFields(Visitor& visit, StageFields& s) {
 }
 
 template <class Visitor>
-void visitFields(Visitor& visit, RungResult& r) {
+void visitFields(Visitor& visit, ConfigurationResult& r) {
     visit("scene", "", r.scene);
     visit("shape", "", r.shape);
     visit("triangles", "", r.triangles);
     visit("facet_angle", "rad", r.facetAngle);
     visit("path", "", r.path);
-    visit("ladder", "", r.ladder);
-    visit("rung", "", r.rung);
+    visit("ladder", "", r.ablation);
+    visit("rung", "", r.configuration);
     visit("settings", "", r.settings);
     visit("rate", "hz", r.rateHz);
     visit("truth", "", r.truth);
@@ -108,7 +108,7 @@ template <class Visitor>
 void visitFields(Visitor& visit, StudyResult& s) {
     visit("provenance", "", s.provenance);
     visit("noticeable", "", s.noticeable);
-    visit("rungs", "", s.rungs);
+    visit("rungs", "", s.configurations);
     visit("rates", "", s.rates);
     visit("problems", "", s.problems);
     visit("notes", "", s.notes);

@@ -23,9 +23,9 @@ void append(std::vector<Element>& all, const std::vector<Element>& more, std::se
             twice(element);
 }
 
-using RungKey = std::tuple<std::string, std::string, std::string, std::string, std::string, double>;
-RungKey rungKey(const RungResult& r) {
-    return {r.scene, r.path, r.ladder, r.rung, r.settings, r.rateHz};
+using ConfigurationKey = std::tuple<std::string, std::string, std::string, std::string, std::string, double>;
+ConfigurationKey rungKey(const ConfigurationResult& r) {
+    return {r.scene, r.path, r.ablation, r.configuration, r.settings, r.rateHz};
 }
 double rateKey(const RateResult& r) {
     return r.rateHz;
@@ -38,7 +38,7 @@ std::string noticeableKey(const JustNoticeable& j) {
 
 StudyResult mergeStudies(std::span<const StudyResult> shards) {
     StudyResult all;
-    std::set<RungKey> rungs;
+    std::set<ConfigurationKey> configurations;
     std::set<double> rates;
     std::set<std::string> noticeable, strangers;
     if (!shards.empty()) {
@@ -50,10 +50,11 @@ StudyResult mergeStudies(std::span<const StudyResult> shards) {
             all.problems.push_back("some times were measured elsewhere and do not compare: " +
                                    measuredBy(shard.provenance));
         append(all.noticeable, shard.noticeable, noticeable, noticeableKey, [](const JustNoticeable&) {});
-        append(all.rungs, shard.rungs, rungs, rungKey, [&](const RungResult& r) {
-            all.problems.push_back(r.scene + ", " + r.path + ", " + r.rung +
-                                   ": measured twice; the first one counts");
-        });
+        append(all.configurations, shard.configurations, configurations, rungKey,
+               [&](const ConfigurationResult& r) {
+                   all.problems.push_back(r.scene + ", " + r.path + ", " + r.configuration +
+                                          ": measured twice; the first one counts");
+               });
         append(all.rates, shard.rates, rates, rateKey, [&](const RateResult& r) {
             all.problems.push_back("the servo rate of " + std::to_string(std::lround(r.rateHz)) +
                                    " Hz was measured twice; the first one counts");

@@ -10,8 +10,9 @@
 
 namespace touchstone::study {
 
-/// One row a rung; the unit stands in the column's name, numbers are as exact as in memory. The rates and
-/// what the whole study has in common are in the JSON alone. Throws Error where the file cannot be written.
+/// One row a configuration; the unit stands in the column's name, numbers are as exact as in memory. The
+/// rates and what the whole study has in common are in the JSON alone. Throws Error where the file cannot be
+/// written.
 void writeStudyCsv(const StudyResult& result, const std::filesystem::path& file);
 
 /// Everything. What `readStudyJson` makes of it equals `result` to the bit (but for names that are not

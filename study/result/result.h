@@ -41,26 +41,26 @@ struct Errors {
 };
 
 /// What the errors are against: the smooth shape in closed form; the mesh itself, in long double; the
-/// ladder's most exact rung, where an effect has no other truth; Coulomb's law on what is felt without
-/// friction.
+/// ablation's most exact configuration, where an effect has no other truth; Coulomb's law on what is felt
+/// without friction.
 enum class Truth : uint8_t { Analytic, Oracle, Reference, Coulomb };
 
-/// By what a rung is nearer the truth than another (Pareto fronts), N.
+/// By what a configuration is nearer the truth than another (Pareto fronts), N.
 [[nodiscard]] inline double felt(const Errors& errors) {
     return errors.force.p99;
 }
 
 /// One configuration on one scene and path.
-struct RungResult {
+struct ConfigurationResult {
     std::string scene;    ///< "torus 64,800", "WaterBottle.glb"
     std::string shape;    ///< the analytic shape or the file's name without the tessellation: groups scenes
     size_t triangles = 0; ///< of the scene
     double facetAngle =
         0.0;              ///< rad, mean angle between adjacent facets under the path; 0: not a tessellation
     std::string path;     ///< "stroke 1 mm, 0.1 m/s"
-    std::string ladder;   ///< "contact", "shading", …, "combination"; see study/ladder
-    std::string rung;     ///< "sweep r = 0.5 mm"
-    std::string settings; ///< "contact=sweep proxyRadius=0.0005": what --set takes to get it
+    std::string ablation; ///< "contact", "shading", …, "combination"; see study/ablation
+    std::string configuration; ///< "sweep r = 0.5 mm"
+    std::string settings;      ///< "contact=sweep proxyRadius=0.0005": what --set takes to get it
     double rateHz = 1000.0;
     Truth truth = Truth::Oracle;
     bool isDefault = false; ///< what the program does by itself
@@ -72,8 +72,9 @@ struct RungResult {
     std::array<Estimate, kStageCount> stages;
     double rayFloor = 0.0; ///< ns, median of one Embree ray from proxy to HIP in the same ticks
     Errors errors;
-    bool pareto = false; ///< no other rung of this scene, path and ladder beats it (study/pareto.h)
-    bool operator==(const RungResult&) const = default;
+    bool pareto =
+        false; ///< no other configuration of this scene, path and ablation beats it (study/pareto.h)
+    bool operator==(const ConfigurationResult&) const = default;
 };
 
 /// Closed-loop stability over the servo rate.
@@ -103,10 +104,11 @@ struct Provenance {
 struct StudyResult {
     Provenance provenance;
     std::vector<JustNoticeable> noticeable;
-    std::vector<RungResult> rungs;
+    std::vector<ConfigurationResult> configurations;
     std::vector<RateResult> rates;
     std::vector<std::string> problems; ///< models that could not be studied: file and reason
-    std::vector<std::string> notes;    ///< rungs left out because they make no difference there, and such
+    std::vector<std::string>
+        notes; ///< configurations left out because they make no difference there, and such
     bool operator==(const StudyResult&) const = default;
 };
 

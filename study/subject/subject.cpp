@@ -95,11 +95,11 @@ Subject reliefSubject(size_t triangles) {
     subject.bench = reliefScene(
         name, std::move(sheetOfWaves), subject.bench.stroke, kTexels, kScale,
         [phase](double u, double v) { return 0.5 + 0.25 * (std::cos(phase(u)) + std::cos(phase(v))); });
-    subject.relief = [phase](const glm::dvec3& place) {
+    subject.bump = [phase](const glm::dvec3& place) {
         const double a = phase(place.x / kSheet + 0.5), b = phase(place.z / kSheet + 0.5);
         const double rise = 0.25 * kScale * 2.0 * kPi * kWaves / kSheet;
-        return truth::ReliefAt{kScale * (0.5 + 0.25 * (std::cos(a) + std::cos(b))),
-                               glm::dvec3(-rise * std::sin(a), 0.0, -rise * std::sin(b))};
+        return truth::BumpAt{kScale * (0.5 + 0.25 * (std::cos(a) + std::cos(b))),
+                             glm::dvec3(-rise * std::sin(a), 0.0, -rise * std::sin(b))};
     };
     return subject;
 }

@@ -17,7 +17,7 @@ struct Subject {
     std::string shape, path;
     double speed = 0.1;           ///< m/s, with which bench.stroke is taken
     truth::SmoothShapePtr smooth; ///< null: the mesh is all there is
-    truth::Relief relief;         ///< what its height map means; empty: none, or no more than its texels say
+    truth::Bump bump;             ///< what its height map means; empty: none, or no more than its texels say
     std::vector<std::string> notes;
 
     /// Where the hand is at `time`, s: it comes down from above.

@@ -14,9 +14,9 @@ namespace touchstone::study {
 [[nodiscard]] Estimate meanOf(std::span<const double> rounds);
 
 /// Two runs of one build put code and data elsewhere in memory and meet another mood of the machine, which no
-/// round of either can know: in eight runs of 48 rungs on each of two scenes, on a busy machine, medians of
-/// the bootstrap alone changed places in 400 of 109,000 pairs that it held apart; 5 % more to either side, in
-/// none.
+/// round of either can know: in eight runs of 48 configurations on each of two scenes, on a busy machine,
+/// medians of the bootstrap alone changed places in 400 of 109,000 pairs that it held apart; 5 % more to
+/// either side, in none.
 inline constexpr double kBetweenRuns = 0.05;
 
 /// The interval with what lies between runs: for what is compared with another run.

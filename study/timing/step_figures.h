@@ -2,7 +2,7 @@
 // From the ticks that were timed to the figures of a step and its stages.
 
 #include "study/result/result.h"
-#include "study/timing/rungs.h"
+#include "study/timing/configurations.h"
 
 namespace touchstone::study {
 

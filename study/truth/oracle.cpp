@@ -16,32 +16,32 @@ constexpr long double kErosion = 1e-16L;
 
 /// Nearest point to `wish` in the cone of directions that no plane forbids (n . x >= 0), by enumeration of
 /// all sets of up to three planes.
-LVec3 nearestAllowed(const LVec3& wish, const std::vector<LVec3>& n) {
+LVec3 nearestAllowed(const LVec3& target, const std::vector<LVec3>& n) {
     const auto allowed = [&](const LVec3& x) {
         for (const LVec3& normal : n)
-            if (glm::dot(normal, x) < -1e-17L * (1.0L + glm::length(wish)))
+            if (glm::dot(normal, x) < -1e-17L * (1.0L + glm::length(target)))
                 return false;
         return true;
     };
-    if (allowed(wish))
-        return wish;
+    if (allowed(target))
+        return target;
     LVec3 best(0.0L);
-    long double least = glm::dot(wish, wish); // staying put is always allowed
+    long double least = glm::dot(target, target); // staying put is always allowed
     const auto consider = [&](const LVec3& x) {
-        const long double away = glm::dot(x - wish, x - wish);
+        const long double away = glm::dot(x - target, x - target);
         if (away < least && allowed(x)) {
             least = away;
             best = x;
         }
     };
     for (size_t i = 0; i < n.size(); ++i)
-        consider(wish - glm::dot(wish, n[i]) * n[i]);
+        consider(target - glm::dot(target, n[i]) * n[i]);
     for (size_t i = 0; i < n.size(); ++i)
         for (size_t k = i + 1; k < n.size(); ++k) {
             const LVec3 line = glm::cross(n[i], n[k]);
             const long double squared = glm::dot(line, line);
             if (squared > 1e-30L)
-                consider(glm::dot(wish, line) / squared * line);
+                consider(glm::dot(target, line) / squared * line);
         }
     return best; // with three independent planes only the corner itself is left, which is staying put
 }
@@ -122,7 +122,7 @@ void tellWhatIsThere(std::vector<Near>& near, const LVec3& p, long double radius
 } // namespace
 
 OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, long double radius,
-                      int mostMoves) {
+                      int maxMoves) {
     OracleRest rest;
     rest.proxy = from;
     // Only triangles that the way could meet: the proxy never leaves the ball through itself around the goal.
@@ -132,7 +132,7 @@ OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, lo
         near.push_back({soup.corners(t), soup.oneSided(t), 0.0L});
     const bool oneSided =
         std::any_of(near.begin(), near.end(), [](const Near& t) { return t.oneSided >= 0; });
-    for (; rest.moves < mostMoves; ++rest.moves) {
+    for (; rest.moves < maxMoves; ++rest.moves) {
         rest.touching.clear();
         if (oneSided)
             tellWhatIsThere(near, rest.proxy, radius);

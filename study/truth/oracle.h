@@ -21,7 +21,7 @@ inline constexpr int kOracleMoves = 200000;
 /// Moves a sphere of `radius` from `from` (free) towards `goal` along free space until it rests; the soup's
 /// frame.
 [[nodiscard]] OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal,
-                                    long double radius, int mostMoves = kOracleMoves);
+                                    long double radius, int maxMoves = kOracleMoves);
 
 /// What is left of the wish to move at `proxy`, given the surfaces that touch there: the distance from
 /// goal - proxy to the cone that the inward normals span. Zero at a valid rest. Object units.

@@ -82,13 +82,13 @@ std::vector<FeltTick> springForces(const RestPath& path, std::span<const glm::dv
 }
 
 std::vector<FeltTick> reliefForces(const RestPath& path, std::span<const glm::dvec3> hips, double radius,
-                                   double stiffness, const Relief& relief) {
+                                   double stiffness, const Bump& bump) {
     std::vector<FeltTick> ticks = springForces(path, hips, stiffness, 0.0);
     for (size_t i = 0; i < hips.size(); ++i) {
         if (!ticks[i].contact)
             continue;
         const glm::dvec3& n = path.normals[i];
-        const ReliefAt at = relief(path.proxies[i] - radius * n);
+        const BumpAt at = bump(path.proxies[i] - radius * n);
         const glm::dvec3 m = glm::normalize(n - at.slope + glm::dot(at.slope, n) * n);
         const double depth = glm::length(path.proxies[i] - hips[i]);
         ticks[i].force =

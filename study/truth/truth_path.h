@@ -1,6 +1,6 @@
 #pragma once
-// What a hand should feel on its way: the truth of a whole path, once for all rungs that are compared with
-// it.
+// What a hand should feel on its way: the truth of a whole path, once for all configurations that are
+// compared with it.
 
 #include "study/truth/smooth_shape.h"
 
@@ -45,16 +45,16 @@ struct RestPath {
 [[nodiscard]] std::vector<FeltTick> springForces(const RestPath& path, std::span<const glm::dvec3> hips,
                                                  double stiffness, double friction);
 
-/// A relief over a smooth shape: its height over the lowest place, m, and the slope of that.
-struct ReliefAt {
+/// A bump height over a smooth shape: its height over the lowest place, m, and the slope of that.
+struct BumpAt {
     double height = 0.0;
     glm::dvec3 slope{0.0};
 };
-using Relief = std::function<ReliefAt(const glm::dvec3& place)>;
+using Bump = std::function<BumpAt(const glm::dvec3& place)>;
 
-/// The same without friction, for a relief that displaces the surface by [000]'s law: with depth d, height H
-/// and m the normal that the slope leaves of n, k [(d - H) n + H m] where d >= H, else k d m.
+/// The same without friction, for a bump height that displaces the surface by [000]'s law: with depth d,
+/// height H and m the normal that the slope leaves of n, k [(d - H) n + H m] where d >= H, else k d m.
 [[nodiscard]] std::vector<FeltTick> reliefForces(const RestPath& path, std::span<const glm::dvec3> hips,
-                                                 double radius, double stiffness, const Relief& relief);
+                                                 double radius, double stiffness, const Bump& bump);
 
 } // namespace touchstone::truth

@@ -9,7 +9,7 @@
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/query/ray_floor.h"
 #include "haptics/shading/force_shading.h"
-#include "haptics/surface/surface_feel.h"
+#include "haptics/surface/surface_sample.h"
 #include "haptics/tick/haptic_step.h"
 #include "study/timing/bench_scene.h"
 
@@ -112,8 +112,8 @@ class Hand {
     HapticOutput output;
     [[nodiscard]] const HapticScene& scene() const { return *scene_.haptic; }
     [[nodiscard]] ObjectMotions motions() const { return scene_.haptic->restMotions; }
-    [[nodiscard]] Similarity workspaceFromAnchor() const {
-        return motions()[static_cast<size_t>(state.anchor)].workspaceFromObject;
+    [[nodiscard]] Similarity workspaceFromReference() const {
+        return motions()[static_cast<size_t>(state.reference)].workspaceFromObject;
     }
     [[nodiscard]] const HapticSettings& settings() const { return settings_; }
 
@@ -130,7 +130,7 @@ class Hand {
 /// From where to where rays go, and what the surface is like there.
 struct Touched {
     glm::dvec3 proxy, hip;
-    ProxyRest rest;
+    SolveResult rest;
     glm::dvec3 normal;
     double depth;
 };
@@ -140,7 +140,7 @@ std::vector<Touched> touches(Hand& hand, size_t count = 256) {
         if (const HapticOutput& o = hand.tick(); o.contacts > 0)
             all.push_back(
                 {o.proxy, o.hip, hand.state.rest,
-                 glm::normalize(glm::conjugate(hand.workspaceFromAnchor().rotation) * (o.proxy - o.hip)),
+                 glm::normalize(glm::conjugate(hand.workspaceFromReference().rotation) * (o.proxy - o.hip)),
                  o.penetration});
     if (all.size() < count)
         throw std::logic_error("the hand does not touch");
@@ -204,7 +204,7 @@ void addTicks(const std::string& name, const BenchScene& (*scene)(), Assignments
 void solves(benchmark::State& state, Hand& hand) {
     for (size_t i = 0; i < hand.places(); ++i)
         (void)hand.tick(); // so that candidates and margin are those of this path
-    const Similarity frame = hand.workspaceFromAnchor();
+    const Similarity frame = hand.workspaceFromReference();
     uint64_t iterations = 0;
     loop(state, [&] {
         const glm::dvec3& hip = hand.next();
@@ -250,12 +250,12 @@ void addContact() {
     benchmark::RegisterBenchmark("contact/gather", [](benchmark::State& state) {
         Hand hand(torus(), settingsOf({}));
         const std::vector<Touched> places = touches(hand);
-        const Similarity frame = hand.workspaceFromAnchor();
+        const Similarity frame = hand.workspaceFromReference();
         size_t at = 0;
         loop(state, [&] {
             const Touched& t = places[at = (at + 1) % places.size()];
             benchmark::DoNotOptimize(hand.state.candidates.gather(
-                hand.scene().objects, hand.motions(), hand.scene().boundingRadii, hand.state.anchor,
+                hand.scene().objects, hand.motions(), hand.scene().boundingRadii, hand.state.reference,
                 frame.inversePoint(t.proxy), hand.state.gatherMargin));
         });
         state.counters["triangles"] = static_cast<double>(hand.state.candidates.count());
@@ -284,7 +284,7 @@ void addSurface() {
         size_t at = 0;
         loop(state, [&] {
             const Touched& t = places[at = (at + 1) % places.size()];
-            benchmark::DoNotOptimize(interpolatedNormal(hand.scene(), hand.motions(), hand.state.anchor,
+            benchmark::DoNotOptimize(interpolatedNormal(hand.scene(), hand.motions(), hand.state.reference,
                                                         t.rest.contacts[0], kSteepest));
         });
     });
@@ -297,16 +297,16 @@ void addSurface() {
             loop(state, [&] {
                 const Touched& t = places[at = (at + 1) % places.size()];
                 benchmark::DoNotOptimize(readSurface(hand.scene(), hand.motions(), settings,
-                                                     hand.state.anchor, t.rest.contacts[0], t.normal, t.depth,
-                                                     kStep / kTick, kTick));
+                                                     hand.state.reference, t.rest.contacts[0], t.normal,
+                                                     t.depth, kStep / kTick, kTick));
             });
         });
     benchmark::RegisterBenchmark("force", [](benchmark::State& state) {
         const HapticSettings settings = settingsOf({{"texture", "law"}});
         Hand hand(richTorus(), settings);
-        std::vector<SurfaceFeel> feels;
+        std::vector<SurfaceSample> feels;
         for (const Touched& t : touches(hand))
-            feels.push_back(readSurface(hand.scene(), hand.motions(), settings, hand.state.anchor,
+            feels.push_back(readSurface(hand.scene(), hand.motions(), settings, hand.state.reference,
                                         t.rest.contacts[0], t.normal, t.depth, kStep / kTick, kTick));
         size_t at = 0;
         loop(state, [&] {

@@ -32,7 +32,7 @@ DeviceFile shipped(const char* name) {
 }
 
 void checkCommand(HidProtocol& protocol, const DeviceFile* file) {
-    std::array<uint8_t, kMostReportSize> report{};
+    std::array<uint8_t, kMaxReportSize> report{};
     const size_t length = protocol.command({.force = {3.0, -7.0, 2.0}}, report);
     TOUCHSTONE_PROMISE(length <= report.size() && (length > 0) == protocol.driven());
     if (file == nullptr || !file->arm)

@@ -67,7 +67,7 @@ RayFigures compare(const Scene& scene, Fit fit, Precision precision, double spee
                                   pose.scale;
     const auto proxy = [&] {
         return LVec3(pose.inversePoint(
-            bench.scene->objects[static_cast<size_t>(bench.state[0].anchor)]->workspaceFromObject.point(
+            bench.scene->objects[static_cast<size_t>(bench.state[0].reference)]->workspaceFromObject.point(
                 bench.state[0].proxy)));
     };
     RayFigures figures;

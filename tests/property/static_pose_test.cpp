@@ -150,7 +150,7 @@ class RandomFile {
         maker_.append("meshes", mesh);
     }
 
-    /// Joints below kLeastJoints, so that every skin has them. Weights of several sets sum to anything
+    /// Joints below kMinJoints, so that every skin has them. Weights of several sets sum to anything
     /// positive.
     void addInfluences(size_t count, size_t set, json& attributes) {
         const bool wide = chance(0.5);
@@ -160,7 +160,7 @@ class RandomFile {
         for (size_t i = 0; i < count; ++i) {
             double sum = 0.0;
             for (size_t k = 0; k < 4; ++k) {
-                narrowJoints.push_back(static_cast<uint8_t>(below(kLeastJoints)));
+                narrowJoints.push_back(static_cast<uint8_t>(below(kMinJoints)));
                 wideJoints.push_back(narrowJoints.back());
                 weights.push_back(chance(0.5) ? 0.0f : static_cast<float>(real(0.1, 1.0)));
                 sum += static_cast<double>(weights.back());
@@ -245,7 +245,7 @@ class RandomFile {
     }
 
     void addSkin() {
-        const size_t joints = kLeastJoints + below(3);
+        const size_t joints = kMinJoints + below(3);
         json skin = {{"joints", json::array()}};
         std::vector<float> binds;
         for (size_t j = 0; j < joints; ++j) {
@@ -289,7 +289,7 @@ class RandomFile {
         }
     }
 
-    static constexpr size_t kLeastJoints = 3;
+    static constexpr size_t kMinJoints = 3;
     std::mt19937 random_;
     GltfMaker maker_;
     std::vector<size_t> targets_; ///< by mesh

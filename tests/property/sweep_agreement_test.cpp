@@ -24,7 +24,8 @@ struct World {
     std::shared_ptr<const HapticScene> scene;
 };
 
-/// One object, and two at different scales that overlap: the second is foreign to the anchor's frame.
+/// One object, and two at different scales that overlap: the second is foreign to the reference object's
+/// frame.
 std::vector<World> worlds() {
     std::vector<World> made;
     for (const auto& [name, shape] :
@@ -96,7 +97,7 @@ TEST(Sweep, EndsAtTheFirstTouchAndNotLater) {
         const Soup soup(*world.scene, 0);
         Places places(*world.scene);
         CandidateCache cache;
-        int struck = 0, passed = 0;
+        int hit = 0, passed = 0;
         for (int trial = 0; trial < 800; ++trial) {
             const double reach = std::pow(10.0, places.between(-6.3, -2.0));
             const glm::dvec3 start = places.next(0.05);
@@ -107,20 +108,20 @@ TEST(Sweep, EndsAtTheFirstTouchAndNotLater) {
                               start, glm::length(move) + reach + 1e-6))
                 continue;
             cache.moved();
-            const double share = freeShare(cache, start, move, reach, 1.0);
+            const double share = timeOfImpact(cache, start, move, reach, 1.0);
             const LVec3 end = LVec3(start) + static_cast<long double>(share) * LVec3(move);
             const auto enough = static_cast<long double>(reach);
             EXPECT_GT(soup.clearance(LVec3(start), end, enough), enough - static_cast<long double>(kTouch))
                 << "ran into something, trial " << trial;
             if (share < 1.0) {
-                ++struck;
+                ++hit;
                 EXPECT_LT(soup.nearest(end).distance, enough + static_cast<long double>(kTouch))
                     << "stopped in free space, trial " << trial;
             } else {
                 ++passed;
             }
         }
-        EXPECT_GT(struck, 100);
+        EXPECT_GT(hit, 100);
         EXPECT_GT(passed, 20);
     }
 }

@@ -10,9 +10,9 @@
 #include "tests/support/virtual_display.h"
 #include "workbench/model/model.h"
 #include "workbench/panels/material_window.h"
-#include "workbench/screen/picture_desk.h"
+#include "workbench/screen/picture_controller.h"
 #include "workbench/screen/style.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 #include "workbench/window/layout.h"
 
 #include <GLFW/glfw3.h>
@@ -46,7 +46,7 @@ class PanelGolden : public ::testing::Test {
         target_ = std::make_unique<WindowTarget>(*gpu_, window_, [] { applyStyle(1.0f); });
         target_->keepPanels(true, 0.0); // all in every frame
         model_ = loadModel(TOUCHSTONE_ASSETS "/doughnut.glb", Fit::Workspace, DeviceLimits{});
-        desk_.open(model_, false);
+        controller_.open(model_, false);
         touchForTenSeconds();
         describe();
     }
@@ -186,12 +186,12 @@ class PanelGolden : public ::testing::Test {
     std::unique_ptr<Gpu> gpu_;
     std::unique_ptr<WindowTarget> target_;
     Model model_;
-    MaterialDesk desk_;
+    MaterialController controller_;
     ServoView servo_;
     ForceHistory forces_{10000};
     MouseDevice hand_;
-    AgainHand again_{hand_};
-    TimelineDesk timeline_{again_, {}};
+    PlaybackDevice again_{hand_};
+    TimelineController timeline_{again_, {}};
     PanelInput input_;
     PanelState state_;
     std::map<std::string, WidgetRect> rects_;
@@ -280,9 +280,9 @@ TEST_F(PanelGolden, ARecordingThatIsLookedAt) {
 }
 
 /// Of one frame both desks want a part, and the device goes before either has it.
-TEST_F(PanelGolden, APictureComesThoughItsFrameIsLostOrAnotherDeskTakesIt) {
+TEST_F(PanelGolden, APictureComesThoughItsFrameIsLostOrAnotherControllerTakesIt) {
     const ScratchFolder scratch;
-    PictureDesk model(scratch / "model"), charts(scratch / "charts");
+    PictureController model(scratch / "model"), charts(scratch / "charts");
     model.request(*target_, {.width = 40, .height = 30}, "a");
     charts.request(*target_, {.width = 20, .height = 10}, "b");
     frame({});
@@ -333,7 +333,7 @@ TEST_F(PanelGolden, MaterialEditor) {
     MaterialPanelState state;
     bool open = true;
     const auto editor = [&](Widgets& widgets) {
-        drawMaterialWindow(input, rects_.at("picture"), open, desk_, state, widgets);
+        drawMaterialWindow(input, rects_.at("picture"), open, controller_, state, widgets);
     };
     expectPanel(
         "editor", Part::Picture, [&] { input.deviceStiffness = 900.0; }, editor);

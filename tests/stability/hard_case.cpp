@@ -18,22 +18,23 @@ namespace {
 
 constexpr double kStiffness = 1000.0; // N/m, Variant::settings
 
-/// Of the anchor: a rest is known to a few contact gaps, and whatever is nearer than this touches.
+/// Of the reference object: a rest is known to a few contact gaps, and whatever is nearer than this touches.
 constexpr double kTouchReach = 8.0 * kContactGap;
-/// Of the anchor and of the depth: rounding of a rest. The gradient of a distance of 5e-7 is good to 2e-10.
+/// Of the reference object and of the depth: rounding of a rest. The gradient of a distance of 5e-7 is good
+/// to 2e-10.
 constexpr double kRestRounding = 1e-9;
-/// Of the anchor, while shaded: the shading ends when its goal moves by less than 1e-8; the goals' steps
-/// shrink by at most a half, so what is left is as much again.
+/// Of the reference object, while shaded: the shading ends when its goal moves by less than 1e-8; the goals'
+/// steps shrink by at most a half, so what is left is as much again.
 constexpr double kShadedRounding = 2e-8;
-/// Of the anchor, times the stiffness: what forces are good to.
+/// Of the reference object, times the stiffness: what forces are good to.
 constexpr double kForceRounding = 10.0 * kRestRounding;
-/// Of the anchor, times the stiffness, squared.
+/// Of the reference object, times the stiffness, squared.
 constexpr double kEnergyRounding = 1e-13;
 /// A solve may end at the budget of moves, safe but short of its rest: round a rounded tip, and on facets
 /// 1e-8 to 1e-4 rad apart, the solver takes more than 64 moves now and then. It must catch up within so many
 /// ticks.
 constexpr int kLateTicks = 20;
-constexpr double kBehind = 1e-5; // of the anchor: 1 µm
+constexpr double kBehind = 1e-5; // of the reference object: 1 µm
 /// Ticks until a held force is judged.
 constexpr int kSettleTicks = 20;
 
@@ -83,11 +84,11 @@ void HardCase::side(std::function<double(const glm::dvec3&)> outside, double all
 }
 
 double HardCase::effectiveRadius() const {
-    const int anchor = std::max(bench.state[0].anchor, 0);
-    const HapticObject& object = *bench.scene->objects[static_cast<size_t>(anchor)];
+    const int reference = std::max(bench.state[0].reference, 0);
+    const HapticObject& object = *bench.scene->objects[static_cast<size_t>(reference)];
     const Similarity& pose = bench.motions.empty()
                                  ? object.workspaceFromObject
-                                 : bench.motions[static_cast<size_t>(anchor)].workspaceFromObject;
+                                 : bench.motions[static_cast<size_t>(reference)].workspaceFromObject;
     return std::max(variant_.radius, 0.5 * kWeldTolerance * object.diagonal * pose.scale);
 }
 
@@ -244,10 +245,10 @@ void HardCase::takeForce(const Touching& touching, double behind) {
     // What the world did to the HIP counts as the HIP's motion.
     double travel = glm::distance(now.hip, last_.hip), grown = 0.0;
     if (!bench.motions.empty()) {
-        const ObjectMotion& anchor = bench.motions[static_cast<size_t>(bench.state[0].anchor)];
-        travel = glm::distance(now.hip,
-                               anchor.workspaceFromObject.point(anchor.before.inverse().point(last_.hip)));
-        grown = std::abs(anchor.workspaceFromObject.scale / anchor.before.scale - 1.0);
+        const ObjectMotion& reference = bench.motions[static_cast<size_t>(bench.state[0].reference)];
+        travel = glm::distance(
+            now.hip, reference.workspaceFromObject.point(reference.before.inverse().point(last_.hip)));
+        grown = std::abs(reference.workspaceFromObject.scale / reference.before.scale - 1.0);
     }
     const double change = glm::length(now.force - last_.force);
     const double depth = std::max(glm::distance(now.proxy, now.hip), glm::distance(last_.proxy, last_.hip));

@@ -66,10 +66,10 @@ const HapticOutput& MovingWorld::step(const glm::dvec3& hip) {
         largestStep = std::max(largestStep, glm::length(out.force - lastForce_));
     lastForce_ = out.force;
     ++ticks;
-    pinchedTicks += pinched();
+    pinchedTicks += jammed();
     contactTicks += out.contacts > 0;
     for (size_t k = 0; k < boxes.size() && !has(out.flags, TickFlag::StartedInside); ++k)
-        if (!bench.state[0].pinched.holds(static_cast<int>(k))) {
+        if (!bench.state[0].jammed.holds(static_cast<int>(k))) {
             EXPECT_GE(clearance(k), radius - 1e-9) << "box " << k << " at tick " << ticks;
         }
     return out;

@@ -15,7 +15,7 @@ namespace touchstone::test {
 [[nodiscard]] Similarity posed(const glm::dvec3& at, double angle = 0.0, const glm::dvec3& axis = {0, 0, 1});
 
 /// Closed boxes, each an object. Every step fails the test where the proxy is nearer than its radius to a box
-/// that is not pinched, where anything is not finite or anything was allocated.
+/// that is not jammed, where anything is not finite or anything was allocated.
 class MovingWorld {
   public:
     struct Box {
@@ -28,7 +28,7 @@ class MovingWorld {
     const HapticOutput& step(const glm::dvec3& hip);
     /// Clearance of the proxy's centre from box k, m; negative inside.
     [[nodiscard]] double clearance(size_t k) const;
-    [[nodiscard]] bool pinched() const { return has(bench.output.flags, TickFlag::Pinched); }
+    [[nodiscard]] bool jammed() const { return has(bench.output.flags, TickFlag::Jammed); }
 
     std::vector<Box> boxes;
     TouchBench bench;

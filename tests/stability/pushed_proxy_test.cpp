@@ -68,17 +68,17 @@ TEST(PushedProxy, APistonPressesTheHandOntoAWallAndLetsItGoAgain) {
             EXPECT_LE(world.largestStep, kStiffness * std::max(speed * kDt, 0.0225)) << "N in one tick";
             // Shut: 1 mm into the floor.
             glide(0.003, -0.001, speed, press);
-            EXPECT_TRUE(world.pinched());
+            EXPECT_TRUE(world.jammed());
             EXPECT_LT(std::abs(world.bench.output.proxy.y), 0.003) << "it stays where it is squeezed";
-            const int pinched = world.pinchedTicks;
+            const int jammed = world.pinchedTicks;
             world.largestStep = 0.0;
             for (int i = 0; i < 50; ++i)
                 press(-0.001);
-            EXPECT_EQ(world.pinchedTicks, pinched + 50);
+            EXPECT_EQ(world.pinchedTicks, jammed + 50);
             EXPECT_LT(world.largestStep, 1e-6) << "shut it holds still";
             // Open again: between the two as if nothing had been.
             glide(-0.001, 0.06, speed, press);
-            EXPECT_FALSE(world.pinched());
+            EXPECT_FALSE(world.jammed());
             world.step(hand);
             EXPECT_NEAR(world.bench.output.proxy.y, std::max(depth, v.radius), kSkin);
             EXPECT_EQ(world.bench.output.object, depth < 0.0 ? 0 : -1);
@@ -136,12 +136,12 @@ TEST(PushedProxy, TwoJawsCloseOnTheHandAndOpenAgain) {
             glide(0.03, 0.001, speed, close);
             EXPECT_EQ(world.pinchedTicks, 0) << "there is room for it";
             glide(0.001, shut, speed, close);
-            EXPECT_TRUE(world.pinched());
+            EXPECT_TRUE(world.jammed());
             for (int i = 0; i < 20; ++i)
                 close(shut);
             glide(shut, 0.03, speed, close);
             close(0.03);
-            EXPECT_FALSE(world.pinched());
+            EXPECT_FALSE(world.jammed());
             EXPECT_NEAR(glm::length(world.bench.output.proxy - hand), 0.0, 1e-9) << "free again";
             EXPECT_EQ(glm::length(world.bench.output.force), 0.0);
         }

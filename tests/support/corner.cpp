@@ -124,7 +124,7 @@ std::vector<double> coefficients(const std::vector<glm::dvec3>& n, const glm::dv
     return multipliers(n, lengths);
 }
 
-double leastSingularValue(const std::vector<glm::dvec3>& n) {
+double minSingularValue(const std::vector<glm::dvec3>& n) {
     if (n.size() == 1)
         return 1.0;
     if (n.size() == 2)
@@ -178,7 +178,7 @@ double loadOf(const HapticOutput& out, const glm::dvec3& offset) {
     constexpr double kParallel = 1e-6; // planes nearer to each other carry the load together
     const std::vector<glm::dvec3> planes(out.planes.begin(), out.planes.begin() + out.planeCount);
     double load = 0.0;
-    if (planes.size() > 1 && leastSingularValue(planes) > kParallel)
+    if (planes.size() > 1 && minSingularValue(planes) > kParallel)
         for (const double part : coefficients(planes, offset))
             load += part;
     return std::max(load, glm::length(offset));

@@ -41,7 +41,7 @@ struct Corner {
 [[nodiscard]] Corner cornerOf(const HapticScene& scene);
 
 /// The least singular value of the matrix of the normals.
-[[nodiscard]] double leastSingularValue(const std::vector<glm::dvec3>& normals);
+[[nodiscard]] double minSingularValue(const std::vector<glm::dvec3>& normals);
 
 /// p - h = sum lambda_i n_i for the place p nearest to h of a ball of `radius` in the hollow, by trying every
 /// set of walls.

@@ -60,11 +60,11 @@ void ExactTrial::fault(const std::string& what) {
 }
 
 ExactTrial::Frame ExactTrial::frame() {
-    const int anchor = bench_.state[0].anchor;
-    const HapticObject& object = *bench_.scene->objects[static_cast<size_t>(anchor)];
+    const int reference = bench_.state[0].reference;
+    const HapticObject& object = *bench_.scene->objects[static_cast<size_t>(reference)];
     const double scale = object.workspaceFromObject.scale;
     Frame f;
-    f.soup = &soup(anchor);
+    f.soup = &soup(reference);
     f.goal = LSimilarity(object.workspaceFromObject).inversePoint(LVec3(bench_.output.hip));
     f.radius = static_cast<long double>(
         std::max(bench_.settings.proxyRadius / scale, 0.5 * kWeldTolerance * object.diagonal));

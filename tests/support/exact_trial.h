@@ -89,7 +89,7 @@ class ExactTrial {
     std::map<int, std::unique_ptr<Soup>> soups_;
     std::vector<DeviceState> saved_, after_;
     bool finished_ = true;
-    std::optional<LVec3> free_; ///< where the free-running oracle stands, anchor frame
+    std::optional<LVec3> free_; ///< where the free-running oracle stands, reference object frame
     struct Parting {
         int start = 0, ticks = 0;
         long double first = 0.0L, most = 0.0L, ours = 0.0L, oracles = 0.0L;

@@ -81,7 +81,7 @@ Shape star(Dice& dice) {
     return shape;
 }
 
-Shape relief(Dice& dice) {
+Shape bump(Dice& dice) {
     const uint32_t kind = dice.below(5);
     const double amplitude = dice.log(1e-6, 0.05), waves = dice.in(1.0, 12.0);
     return terrain(2 + dice.below(60), [&](double u, double v) {
@@ -180,7 +180,7 @@ StrokeShape strokeShape(uint32_t seed) {
     using Maker = Shape (*)(Dice&);
     static constexpr std::array<std::pair<const char*, Maker>, 7> kFamilies{{{"body", body},
                                                                              {"star", star},
-                                                                             {"relief", relief},
+                                                                             {"relief", bump},
                                                                              {"thin", thin},
                                                                              {"bits", bits},
                                                                              {"heap", heap},

@@ -77,9 +77,9 @@ std::vector<LVec3> SurfaceHand::stroke() {
         surface = above - next.distance * next.normal;
         normal = next.distance > 0.0L ? next.normal : normal;
         const long double waver = 0.6L + 0.4L * std::cos(0.9L * static_cast<long double>(i));
-        const LVec3 wish = surface - depth * waver * normal - path.back();
-        const long double far = glm::length(wish);
-        path.push_back(path.back() + (far > step ? step / far : 1.0L) * wish);
+        const LVec3 target = surface - depth * waver * normal - path.back();
+        const long double far = glm::length(target);
+        path.push_back(path.back() + (far > step ? step / far : 1.0L) * target);
     }
     append(path, surface + height * normal, step);
     return path;

@@ -5,7 +5,7 @@
 #include "engine/core/realtime_guard.h"
 #include "study/result/provenance.h"
 #include "study/timing/clock_cost.h"
-#include "study/timing/rungs.h"
+#include "study/timing/configurations.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/options/commands.h"
 
@@ -66,13 +66,13 @@ class Progress {
     bool shown_;
 };
 
-Json rungJson(const Rung& rung, const RungTimes& times) {
-    return {{"name", rung.name},
-            {"scene", rung.scene->name},
-            {"triangles", rung.scene->triangles()},
-            {"objects", rung.scene->haptic->objects.size()},
-            {"settings", settingsJson(rung.settings)},
-            {"speed_m_s", rung.speed},
+Json rungJson(const TimedConfiguration& configuration, const ConfigurationTimes& times) {
+    return {{"name", configuration.name},
+            {"scene", configuration.scene->name},
+            {"triangles", configuration.scene->triangles()},
+            {"objects", configuration.scene->haptic->objects.size()},
+            {"settings", settingsJson(configuration.settings)},
+            {"speed_m_s", configuration.speed},
             {"ticks", times.ticks},
             {"ticks_in_contact", times.contactTicks},
             {"step_p50_ns", times.median()},
@@ -119,7 +119,7 @@ constexpr size_t kEffectTriangles = 64'800;
 /// Proxy radius (m), and what all effects together may take on top of a bare tick, in rays.
 constexpr std::array<std::pair<double, double>, 2> kEffectBounds{{{0.0, 4.0}, {0.5e-3, 8.0}}};
 
-void printFast(const FastCase& fast, const RungTimes& times, Verdicts& verdicts) {
+void printFast(const FastCase& fast, const ConfigurationTimes& times, Verdicts& verdicts) {
     const double tail = times.p99() / times.median();
     std::string rays = number("%.1f", times.inRays()), spread = number("%.1f", tail);
     if (fast.raysBound > 0.0) {
@@ -132,28 +132,29 @@ void printFast(const FastCase& fast, const RungTimes& times, Verdicts& verdicts)
                 rays.c_str(), spread.c_str(), fast.peer);
 }
 
-void printObjects(const Rung& rung, const RungTimes& times, const char* peer) {
-    std::printf("| %s, r = %.1f mm, 0.1 m/s | %s / %s | %.0f | %.1f | %.1f | %s |\n", rung.name.c_str(),
-                1e3 * rung.settings.proxyRadius, microseconds(times.median()).c_str(),
-                microseconds(times.p99()).c_str(), times.rayMedian(), times.inRays(),
-                times.p99() / times.median(), peer);
+void printObjects(const TimedConfiguration& configuration, const ConfigurationTimes& times,
+                  const char* peer) {
+    std::printf("| %s, r = %.1f mm, 0.1 m/s | %s / %s | %.0f | %.1f | %.1f | %s |\n",
+                configuration.name.c_str(), 1e3 * configuration.settings.proxyRadius,
+                microseconds(times.median()).c_str(), microseconds(times.p99()).c_str(), times.rayMedian(),
+                times.inRays(), times.p99() / times.median(), peer);
 }
 
 /// All effects at once over the same ticks without any, in rays.
-void printEffects(const Rung& rung, const RungTimes& with, const RungTimes& without, double bound,
-                  Verdicts& verdicts) {
+void printEffects(const TimedConfiguration& configuration, const ConfigurationTimes& with,
+                  const ConfigurationTimes& without, double bound, Verdicts& verdicts) {
     const double above = (with.median() - without.median()) / without.rayMedian();
     std::printf(
         "all effects on, torus 64,800, r = %.1f mm: %s / %s µs, without %s; on top %.1f rays of %.0f: "
         "%s\n",
-        1e3 * rung.settings.proxyRadius, microseconds(with.median()).c_str(),
+        1e3 * configuration.settings.proxyRadius, microseconds(with.median()).c_str(),
         microseconds(with.p99()).c_str(), microseconds(without.median()).c_str(), above, bound,
         verdicts.word(above <= bound));
 }
 
 Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
     std::deque<BenchScene> scenes;
-    std::vector<Rung> rungs;
+    std::vector<TimedConfiguration> configurations;
     std::vector<const FastCase*> cases;
     for (const FastCase& fast : kFastCases) {
         if (fast.triangles > options.largestTriangles)
@@ -168,53 +169,53 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
             scene = &scenes.back();
         }
         cases.push_back(&fast);
-        rungs.push_back({scene->name, scene, bare(fast.radius), fast.speed});
+        configurations.push_back({scene->name, scene, bare(fast.radius), fast.speed});
     }
-    const size_t objectRungs = rungs.size();
+    const size_t objectConfigurations = configurations.size();
     for (const size_t count : {size_t{1}, kObjects})
         scenes.push_back(sphereGridScene(count));
     const BenchScene *one = &scenes[scenes.size() - 2], *many = &scenes.back();
     for (const double radius : {0.0, 0.5e-3})
         for (const BenchScene* scene : {one, many})
-            rungs.push_back({scene->name, scene, bare(radius), 0.1});
+            configurations.push_back({scene->name, scene, bare(radius), 0.1});
 
-    const size_t effectRungs = rungs.size();
+    const size_t effectConfigurations = configurations.size();
     // The bare tick knows of no effect at all: not even a stiffness map, which no setting switches off.
     scenes.push_back(torusScene(kEffectTriangles));
     scenes.push_back(torusWithAllEffects(kEffectTriangles));
     for (const auto& [radius, bound] : kEffectBounds) {
         HapticSettings all;
         all.proxyRadius = radius;
-        rungs.push_back({"no effects", &scenes[scenes.size() - 2], bare(radius), 0.1});
-        rungs.push_back({"all effects", &scenes.back(), all, 0.1});
+        configurations.push_back({"no effects", &scenes[scenes.size() - 2], bare(radius), 0.1});
+        configurations.push_back({"all effects", &scenes.back(), all, 0.1});
     }
-    const std::vector<RungTimes> times =
-        timeRungs(rungs, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("fast"));
+    const std::vector<ConfigurationTimes> times = timeConfigurations(
+        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("fast"));
     std::printf("| stroke 1 mm deep | step, median / p99, µs | ray, ns | in rays | p99 / median | CHAI3D "
                 "3.3.0, µs |\n"
                 "|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < cases.size(); ++i)
         printFast(*cases[i], times[i], verdicts);
     std::string verdict;
-    for (size_t i = objectRungs; i < effectRungs; i += 2) {
-        printObjects(rungs[i], times[i], "");
-        printObjects(rungs[i + 1], times[i + 1], "204");
+    for (size_t i = objectConfigurations; i < effectConfigurations; i += 2) {
+        printObjects(configurations[i], times[i], "");
+        printObjects(configurations[i + 1], times[i + 1], "204");
         const double ratio = medianRatio(times[i + 1], times[i]);
         verdict += grouped(kObjects) + " objects take " + number("%.2f", ratio) + " times as long as one" +
-                   number(" (r = %.1f mm), of ", 1e3 * rungs[i].settings.proxyRadius) +
+                   number(" (r = %.1f mm), of ", 1e3 * configurations[i].settings.proxyRadius) +
                    number("%.0f", kObjectsBound) + ": " + verdicts.word(ratio <= kObjectsBound) +
                    number("; their p99 is %.0f times as long\n", times[i + 1].p99() / times[i].p99());
     }
     std::printf("\n%s", verdict.c_str());
     for (size_t i = 0; i < kEffectBounds.size(); ++i) {
-        const size_t at = effectRungs + 2 * i;
-        printEffects(rungs[at], times[at + 1], times[at], kEffectBounds[i].second, verdicts);
+        const size_t at = effectConfigurations + 2 * i;
+        printEffects(configurations[at], times[at + 1], times[at], kEffectBounds[i].second, verdicts);
     }
     Json json = Json::array();
     uint64_t allocations = 0;
-    for (size_t i = 0; i < rungs.size(); ++i) {
+    for (size_t i = 0; i < configurations.size(); ++i) {
         allocations += times[i].allocations;
-        json.push_back(rungJson(rungs[i], times[i]));
+        json.push_back(rungJson(configurations[i], times[i]));
         if (i < cases.size() && cases[i]->raysBound > 0.0)
             json.back()["bound_in_rays"] = cases[i]->raysBound;
     }
@@ -242,7 +243,7 @@ std::deque<GrowthColumn> growthColumns(size_t largest) {
     return columns;
 }
 
-struct Ladder {
+struct Ablation {
     const char* name;
     HapticSettings settings;
 };
@@ -258,7 +259,7 @@ HapticSettings byRays(HapticSettings settings, Precision precision) {
     return settings;
 }
 
-std::vector<Ladder> growthLadder() {
+std::vector<Ablation> growthAblation() {
     return {{"sweep, r = 0", bare(0.0)},
             {"sweep, r = 0.5 mm", bare(0.5e-3)},
             {"neighbourhood watch", walking(bare(0.0))},
@@ -270,15 +271,15 @@ std::vector<Ladder> growthLadder() {
 
 Json benchGrowth(const BenchOptions& options) {
     const std::deque<GrowthColumn> columns = growthColumns(options.largestTriangles);
-    const std::vector<Ladder> ladder = growthLadder();
-    std::vector<Rung> rungs;
+    const std::vector<Ablation> ablation = growthAblation();
+    std::vector<TimedConfiguration> configurations;
     for (const GrowthColumn& column : columns)
         column.scene.haptic->buildNeighbourhoods();
     for (const GrowthColumn& column : columns)
-        for (const Ladder& method : ladder)
-            rungs.push_back({method.name, &column.scene, method.settings, 0.1});
-    const std::vector<RungTimes> times =
-        timeRungs(rungs, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("growth"));
+        for (const Ablation& method : ablation)
+            configurations.push_back({method.name, &column.scene, method.settings, 0.1});
+    const std::vector<ConfigurationTimes> times = timeConfigurations(
+        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("growth"));
 
     const auto row = [&](const std::string& title, const auto& cell) {
         std::printf("| %s |", title.c_str());
@@ -286,8 +287,8 @@ Json benchGrowth(const BenchOptions& options) {
             std::printf(" %s |", std::string(cell(c)).c_str());
         std::printf("\n");
     };
-    const auto at = [&](size_t column, size_t method) -> const RungTimes& {
-        return times[column * ladder.size() + method];
+    const auto at = [&](size_t column, size_t method) -> const ConfigurationTimes& {
+        return times[column * ablation.size() + method];
     };
     row("", [&](size_t c) { return columns[c].scene.name; });
     row("---", [](size_t) { return "---"; });
@@ -295,8 +296,8 @@ Json benchGrowth(const BenchOptions& options) {
     row("Number of lines", [&](size_t c) { return grouped(columns[c].scene.lines()); });
     row("Number of polygons", [&](size_t c) { return grouped(columns[c].scene.triangles()); });
     row("Haptic servo rate [000 Table I], kHz", [&](size_t c) { return columns[c].seedRate; });
-    for (size_t m = 0; m < ladder.size(); ++m) {
-        row(std::string(ladder[m].name) + ", kHz by median (p99)",
+    for (size_t m = 0; m < ablation.size(); ++m) {
+        row(std::string(ablation[m].name) + ", kHz by median (p99)",
             [&](size_t c) { return kilohertz(at(c, m).median()) + " (" + kilohertz(at(c, m).p99()) + ")"; });
         row("its step, median / p99, µs (mean moves)", [&](size_t c) {
             return microseconds(at(c, m).median()) + " / " + microseconds(at(c, m).p99()) +
@@ -307,14 +308,14 @@ Json benchGrowth(const BenchOptions& options) {
     std::printf("\n");
 
     Json json = Json::array();
-    for (size_t i = 0; i < rungs.size(); ++i)
-        json.push_back(rungJson(rungs[i], times[i]));
+    for (size_t i = 0; i < configurations.size(); ++i)
+        json.push_back(rungJson(configurations[i], times[i]));
     return json;
 }
 
 /// The worst tick: what the longest of a round takes in half of the rounds, so that a tick from which the
 /// machine was taken away does not count.
-double worst(const RungTimes& times) {
+double worst(const ConfigurationTimes& times) {
     return static_cast<double>(times.longest.percentile(0.5));
 }
 
@@ -326,24 +327,25 @@ Json benchMoving(const BenchOptions& options) {
     if (kJawTriangles <= options.largestTriangles)
         for (const Jaws jaws : {Jaws::Boxes, Jaws::Balls})
             scenes.push_back(jawsScene(jaws, kJawTriangles));
-    std::vector<Rung> rungs;
+    std::vector<TimedConfiguration> configurations;
     for (const double radius : {0.0, 0.5e-3})
         for (const BenchScene& scene : scenes)
-            rungs.push_back(
+            configurations.push_back(
                 {scene.name, &scene, bare(radius), scene.haptic->objects.size() == 2 ? 0.01 : 0.1});
-    const std::vector<RungTimes> times =
-        timeRungs(rungs, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("moving"));
+    const std::vector<ConfigurationTimes> times = timeConfigurations(
+        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("moving"));
     std::printf("| objects that move | step, median / p99 / worst, µs | their poses, median, µs | ray, ns | "
                 "in rays | pinched ticks |\n|---|---|---|---|---|---|\n");
     Json json = Json::array();
-    for (size_t i = 0; i < rungs.size(); ++i) {
+    for (size_t i = 0; i < configurations.size(); ++i) {
         const bool moves = !times[i].poses.empty();
-        std::printf("| %s, r = %.1f mm | %s / %s / %s | %s | %.0f | %.1f | %s |\n", rungs[i].name.c_str(),
-                    1e3 * rungs[i].settings.proxyRadius, microseconds(times[i].median()).c_str(),
-                    microseconds(times[i].p99()).c_str(), microseconds(worst(times[i])).c_str(),
+        std::printf("| %s, r = %.1f mm | %s / %s / %s | %s | %.0f | %.1f | %s |\n",
+                    configurations[i].name.c_str(), 1e3 * configurations[i].settings.proxyRadius,
+                    microseconds(times[i].median()).c_str(), microseconds(times[i].p99()).c_str(),
+                    microseconds(worst(times[i])).c_str(),
                     moves ? microseconds(static_cast<double>(times[i].poses.percentile(0.5))).c_str() : "",
                     times[i].rayMedian(), times[i].inRays(), grouped(times[i].pinchedTicks).c_str());
-        json.push_back(rungJson(rungs[i], times[i]));
+        json.push_back(rungJson(configurations[i], times[i]));
         json.back()["step_worst_ns"] = worst(times[i]);
         json.back()["pinched_ticks"] = times[i].pinchedTicks;
         if (moves)

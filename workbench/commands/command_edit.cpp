@@ -17,12 +17,12 @@ namespace {
 
 /// "0 rubber, 1 steel": what the file has.
 std::string materialList(const Scene& scene, size_t count) {
-    constexpr size_t kMost = 20;
+    constexpr size_t kMax = 20;
     std::string list;
-    for (size_t m = 0; m < std::min(count, kMost); ++m)
+    for (size_t m = 0; m < std::min(count, kMax); ++m)
         list += (m == 0 ? "" : ", ") + std::to_string(m) +
                 (scene.materials[m].name.empty() ? "" : " " + scene.materials[m].name);
-    return count > kMost ? list + ", ..." : list;
+    return count > kMax ? list + ", ..." : list;
 }
 
 /// Those that an index, a name or "all" means. The scene's first materials are the file's, in their order.

@@ -1,7 +1,7 @@
 // The same loops as in the window, without one: the simulated hand strokes the model in real time.
 
 #include "devices/device/mapped_device.h"
-#include "devices/plant/yielding_hand.h"
+#include "devices/plant/hand_impedance.h"
 #include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
@@ -16,7 +16,7 @@
 #include "workbench/figures/stolen_time.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
-#include "workbench/files/recording_desk.h"
+#include "workbench/files/recording_controller.h"
 #include "workbench/guards/interrupt.h"
 #include "workbench/hand/device_menu.h"
 #include "workbench/hand/device_port.h"
@@ -61,12 +61,12 @@ class TickReader {
         }
     }
 
-    void drain(ServoLoop& servo, RecordingDesk& desk) {
+    void drain(ServoLoop& servo, RecordingController& controller) {
         TickRecord record;
         rows_.clear();
         while (servo.popRecord(record)) {
             statistics.addLive(record);
-            desk.recorder().take(record);
+            controller.recorder().take(record);
             if (record.output.contacts > 0) {
                 statistics.addProxyGap(
                     proxyGap(*model_.haptic, moving_.at(record.time), record.output, options_.settings));
@@ -78,7 +78,7 @@ class TickReader {
         }
         if (csv_)
             csv_->write(rows_);
-        desk.update();
+        controller.update();
     }
     void commit() {
         if (csv_)
@@ -111,7 +111,7 @@ TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Mo
 
 /// Draws at the frame rate until the time is over; the servo ticks beside it.
 Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
-                  TickReader& reader, RecordingDesk& desk) {
+                  TickReader& reader, RecordingController& controller) {
     View view = frontView(model, options.size);
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
@@ -125,7 +125,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
         servo.updateSnapshot();
-        reader.drain(servo, desk);
+        reader.drain(servo, controller);
         overlay.clear();
         drawTick(servo.snapshot(), options.settings, lookOf(servo.snapshot(), options.settings, model),
                  overlay);
@@ -177,7 +177,7 @@ int runCommand(const RunOptions& options) {
     model.haptic->buildRays(); // the report's proxy gap is measured with Embree, in the middle of the run
     SimulatedHand path(
         std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options.stroke)));
-    YieldingHand yielding(path, options.plant);
+    HandImpedance yielding(path, options.plant);
     Device& simulated = options.openLoop ? static_cast<Device&>(path) : yielding;
     MappedDevice hand(device != nullptr ? *device : simulated, options.zoom,
                       device != nullptr ? glm::dvec3(0.0) : path.path().place());
@@ -196,18 +196,18 @@ int runCommand(const RunOptions& options) {
 
     ServoLoop servo(portOf(hand), {.rateHz = options.rateHz, .stageTimes = true});
     servo.setSettings(options.settings);
-    RecordingDesk desk(servo, options.recording, "run");
-    desk.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
-                                 identify(*model.haptic, *model.scene, Fit::Workspace));
+    RecordingController controller(servo, options.recording, "run");
+    controller.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
+                                       identify(*model.haptic, *model.scene, Fit::Workspace));
     realtime::resetViolations();
     const StolenTime stolenTime;
     servo.start();
-    const Frames frames = drawFrames(options, model, servo, renderer, reader, desk);
+    const Frames frames = drawFrames(options, model, servo, renderer, reader, controller);
     servo.stop();
     const std::optional<double> stolen = stolenTime.seconds();
     const RealtimeViolations violations = realtime::violations();
-    reader.drain(servo, desk);
-    desk.finish();
+    reader.drain(servo, controller);
+    controller.finish();
 
     if (!options.screenshot.empty()) {
         Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
@@ -258,7 +258,7 @@ int runCommand(const RunOptions& options) {
             {"force", reader.statistics.forceJson()},
             {"energy", reader.statistics.energyJson()},
             {"flags", reader.statistics.flagsJson()},
-            {"recording", desk.json()},
+            {"recording", controller.json()},
             {"gpu",
              {{"name", gpu->name()},
               {"description", gpu->description()},
@@ -277,7 +277,7 @@ int runCommand(const RunOptions& options) {
     if (device == nullptr)
         requireTouch(options.scene, options.stroke, path.path().period(), frames.seconds,
                      reader.statistics.contactTicks());
-    return desk.failed() ? 1 : 0;
+    return controller.failed() ? 1 : 0;
 }
 
 } // namespace touchstone

@@ -1,10 +1,10 @@
 // What accuracy costs in time, on our shapes and on anybody's models: the command around study/.
 
 #include "engine/core/error.h"
+#include "study/ablation/ablation.h"
 #include "study/compare_studies.h"
 #include "study/errors/noticeable.h"
-#include "study/ladder/ladder.h"
-#include "study/rate/rate_ladder.h"
+#include "study/rate/rate_ablation.h"
 #include "study/report/report.h"
 #include "study/result/provenance.h"
 #include "study/study.h"
@@ -59,16 +59,16 @@ const ShapeKind* kindNamed(const std::string& name) {
     return nullptr;
 }
 
-void printLadders() {
-    for (const Ladder& ladder : ladders()) {
-        std::printf("%s: %s\n  under every rung: %s\n", std::string(ladder.name).c_str(),
-                    std::string(ladder.question).c_str(), std::string(ladder.base).c_str());
-        for (const RungLine& line : rungLines())
-            if (line.ladder == ladder.name)
+void printAblations() {
+    for (const Ablation& ablation : ablations()) {
+        std::printf("%s: %s\n  under every rung: %s\n", std::string(ablation.name).c_str(),
+                    std::string(ablation.question).c_str(), std::string(ablation.base).c_str());
+        for (const ConfigurationLine& line : rungLines())
+            if (line.ablation == ablation.name)
                 std::printf("  %-18s %s\n", std::string(line.name).c_str(),
                             std::string(line.settings).c_str());
         for (const Product& product : products())
-            if (product.ladder == ladder.name) {
+            if (product.ablation == ablation.name) {
                 std::printf("  every choice of one rung each of:");
                 for (const std::string_view axis : product.axes)
                     std::printf(" %s", std::string(axis).c_str());
@@ -131,7 +131,7 @@ std::vector<Asked> share(const StudyCommandOptions& options) {
     if (options.what.empty())
         for (const ShapeKind& kind : shapeKinds())
             what.emplace_back(kind.name);
-    if (options.what.empty() && options.ladders.empty())
+    if (options.what.empty() && options.ablations.empty())
         what.emplace_back(kRate);
     std::sort(what.begin(), what.end());
     what.erase(std::unique(what.begin(), what.end()), what.end());
@@ -172,25 +172,29 @@ double sum(const std::array<Estimate, kStageCount>& stages) {
 
 void printTable(const StudyResult& result) {
     std::string scene;
-    for (const RungResult& rung : result.rungs) {
-        if (rung.scene != scene) {
-            scene = rung.scene;
+    for (const ConfigurationResult& configuration : result.configurations) {
+        if (configuration.scene != scene) {
+            scene = configuration.scene;
             std::printf("\n%s, %s\n  * on the Pareto front, = what the program does by itself\n",
-                        scene.c_str(), rung.path.c_str());
+                        scene.c_str(), configuration.path.c_str());
             std::printf("  %-56s %9s %17s %8s %10s %9s %9s\n", "rung", "ns", "95 %", "stages", "force mN",
                         "angle", "proxy um");
         }
-        const Errors& e = rung.errors;
-        std::printf("%c%c %-56s %9.0f %8.0f..%-7.0f %7.1f%% %10.4g %8.3f° %9.4g\n", rung.pareto ? '*' : ' ',
-                    rung.isDefault ? '=' : ' ', (rung.ladder + ": " + rung.rung).c_str(), rung.step.value,
-                    rung.step.low, rung.step.high,
-                    rung.stepMean.value > 0.0 ? 100.0 * (sum(rung.stages) / rung.stepMean.value - 1.0) : 0.0,
+        const Errors& e = configuration.errors;
+        std::printf("%c%c %-56s %9.0f %8.0f..%-7.0f %7.1f%% %10.4g %8.3f° %9.4g\n",
+                    configuration.pareto ? '*' : ' ', configuration.isDefault ? '=' : ' ',
+                    (configuration.ablation + ": " + configuration.configuration).c_str(),
+                    configuration.step.value, configuration.step.low, configuration.step.high,
+                    configuration.stepMean.value > 0.0
+                        ? 100.0 * (sum(configuration.stages) / configuration.stepMean.value - 1.0)
+                        : 0.0,
                     1e3 * felt(e), e.forceDirection.p99 / 0.017453292519943295, 1e6 * e.position.p99);
     }
     double furthest = 0.0;
-    for (const RungResult& rung : result.rungs)
-        if (rung.stepMean.value > 0.0)
-            furthest = std::max(furthest, std::fabs(sum(rung.stages) / rung.stepMean.value - 1.0));
+    for (const ConfigurationResult& configuration : result.configurations)
+        if (configuration.stepMean.value > 0.0)
+            furthest =
+                std::max(furthest, std::fabs(sum(configuration.stages) / configuration.stepMean.value - 1.0));
     if (furthest > 0.0)
         std::printf("\nthe stages of every rung add up to its step within %.1f %%\n", 100.0 * furthest);
     for (const RateResult& r : result.rates)
@@ -199,7 +203,7 @@ void printTable(const StudyResult& result) {
             "given %.3g mJ; %.3f..%.3f %% of a processor\n",
             r.rateHz, r.stiffestStable, r.bound, 1e3 * r.energyCreated, 100.0 * r.busy.low,
             100.0 * r.busy.high);
-    if (result.rungs.empty())
+    if (result.configurations.empty())
         return;
     std::printf(
         "\nforce, angle and proxy: 99th percentile of the difference from the truth. stages: how much "
@@ -220,24 +224,24 @@ void publish(const StudyResult& result, const std::filesystem::path& out, bool p
         std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
     for (const std::string& problem : drawn.problems)
         std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
-    std::printf("%s: %zu rungs, %zu problems, %zu plots\n", (out / "study.json").c_str(), result.rungs.size(),
-                result.problems.size(), drawn.files.size());
+    std::printf("%s: %zu rungs, %zu problems, %zu plots\n", (out / "study.json").c_str(),
+                result.configurations.size(), result.problems.size(), drawn.files.size());
 }
 
 } // namespace
 
 int studyCommand(const StudyCommandOptions& options) {
     if (options.list) {
-        printLadders();
+        printAblations();
         return 0;
     }
-    for (const std::string& name : options.ladders)
-        if (std::none_of(ladders().begin(), ladders().end(),
-                         [&](const Ladder& ladder) { return ladder.name == name; }))
+    for (const std::string& name : options.ablations)
+        if (std::none_of(ablations().begin(), ablations().end(),
+                         [&](const Ablation& ablation) { return ablation.name == name; }))
             throw Error("study", "--ladder", "there is no ladder '" + name + "'",
                         "see touchstone study --list");
     StudyOptions plan;
-    plan.ladders = options.ladders;
+    plan.ablations = options.ablations;
     if (options.quick) {
         plan.rounds = 25;
         plan.errorTicks = 1500;
@@ -245,8 +249,8 @@ int studyCommand(const StudyCommandOptions& options) {
     }
     if (options.rounds > 0)
         plan.rounds = options.rounds;
-    const bool tessellate = plan.ladders.empty() || std::find(plan.ladders.begin(), plan.ladders.end(),
-                                                              "tessellation") != plan.ladders.end();
+    const bool tessellate = plan.ablations.empty() || std::find(plan.ablations.begin(), plan.ablations.end(),
+                                                                "tessellation") != plan.ablations.end();
     StudyResult result;
     result.provenance = provenanceOf(options.commandLine);
     result.noticeable = noticeableDifferences();
@@ -271,7 +275,7 @@ int studyCommand(const StudyCommandOptions& options) {
     printTable(result);
     publish(result, options.out, options.shards == 1);
     // A share without work is done; one of which nothing came has failed.
-    return mine.empty() || !result.rungs.empty() || !result.rates.empty() ? 0 : 1;
+    return mine.empty() || !result.configurations.empty() || !result.rates.empty() ? 0 : 1;
 }
 
 int studyMerge(const StudyMergeOptions& options) {

@@ -1,6 +1,6 @@
 // Offline and deterministic: a path of the hand in, every tick out, as fast as it goes.
 
-#include "devices/plant/yielding_hand.h"
+#include "devices/plant/hand_impedance.h"
 #include "devices/simulated/replay_device.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
@@ -196,7 +196,7 @@ class OfflineTouch {
     WorldState world_;
     DeviceState device_;
     PlannedHand path_;
-    YieldingHand yielding_; // in the closed loop
+    HandImpedance yielding_; // in the closed loop
     Device& hand_;
     uint64_t number_ = 0;
 };

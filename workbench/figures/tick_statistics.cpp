@@ -15,7 +15,7 @@ constexpr std::array<std::pair<TickFlag, std::string_view>, 16> kFlagNames{{
     {TickFlag::InputInvalid, "input_invalid"},
     {TickFlag::StartedInside, "started_inside"},
     {TickFlag::BudgetReached, "budget_reached"},
-    {TickFlag::Pinched, "pinched"},
+    {TickFlag::Jammed, "pinched"},
     {TickFlag::ObjectJumped, "object_jumped"},
     {TickFlag::CandidatesFull, "candidates_full"},
     {TickFlag::ShadingNotConverged, "shading_not_converged"},
@@ -77,7 +77,7 @@ void TickStatistics::add(const HapticOutput& output, int64_t stepNs) {
     step_.add(stepNs);
     work_.add(output.force, output.hip);
     balance_ = output.energyBalance;
-    mostBalance_ = std::max(mostBalance_, balance_);
+    maxBalance_ = std::max(maxBalance_, balance_);
     commandWork_.add(output.commandInWorkspace, output.hip);
     for (size_t i = 0; i < kFlagCount; ++i)
         if (has(output.flags, kFlagNames[i].first))
@@ -88,8 +88,8 @@ void TickStatistics::add(const HapticOutput& output, int64_t stepNs) {
     stepInContact_.add(stepNs);
     const double force = glm::length(output.force);
     forceSum_ += force;
-    mostForce_ = std::max(mostForce_, force);
-    mostPenetration_ = std::max(mostPenetration_, output.penetration);
+    maxForce_ = std::max(maxForce_, force);
+    maxPenetration_ = std::max(maxPenetration_, output.penetration);
 }
 
 void TickStatistics::addProxyGap(double gap) {
@@ -97,7 +97,7 @@ void TickStatistics::addProxyGap(double gap) {
     ++gaps_;
     if (std::abs(gap) <= kOnMesh)
         ++gapsWithinMicrometre_;
-    mostGap_ = std::max(mostGap_, std::abs(gap));
+    maxGap_ = std::max(maxGap_, std::abs(gap));
 }
 
 nlohmann::ordered_json TickStatistics::stepJson() const {
@@ -130,20 +130,20 @@ nlohmann::ordered_json TickStatistics::contactJson() const {
     nlohmann::ordered_json json{
         {"ticks", contactTicks_},
         {"share", ticks_ > 0 ? static_cast<double>(contactTicks_) / static_cast<double>(ticks_) : 0.0},
-        {"max_penetration_m", mostPenetration_},
+        {"max_penetration_m", maxPenetration_},
         {"proxy_on_mesh_share", nullptr},
         {"max_proxy_gap_m", nullptr},
     };
     if (gaps_ > 0) {
         json["proxy_on_mesh_share"] = static_cast<double>(gapsWithinMicrometre_) / static_cast<double>(gaps_);
-        json["max_proxy_gap_m"] = mostGap_;
+        json["max_proxy_gap_m"] = maxGap_;
     }
     return json;
 }
 
 nlohmann::ordered_json TickStatistics::forceJson() const {
     return {{"mean_n", contactTicks_ > 0 ? forceSum_ / static_cast<double>(contactTicks_) : 0.0},
-            {"max_n", mostForce_}};
+            {"max_n", maxForce_}};
 }
 
 nlohmann::ordered_json TickStatistics::energyJson() const {
@@ -152,7 +152,7 @@ nlohmann::ordered_json TickStatistics::energyJson() const {
             {"sampling_j", work_.given() - work_.law()},
             {"command_given_j", commandWork_.given()},
             {"balance_j", balance_},
-            {"most_balance_j", mostBalance_},
+            {"most_balance_j", maxBalance_},
             {"gaps", work_.gaps()}};
 }
 

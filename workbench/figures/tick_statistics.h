@@ -66,10 +66,10 @@ class TickStatistics {
     uint64_t nextStep_ = 0;
     uint64_t ticks_ = 0, contactTicks_ = 0;
     WorkMeter work_, commandWork_;
-    double balance_ = 0.0, mostBalance_ = 0.0;
+    double balance_ = 0.0, maxBalance_ = 0.0;
     uint64_t gaps_ = 0, gapsWithinMicrometre_ = 0;
-    double mostGap_ = 0.0;
-    double forceSum_ = 0.0, mostForce_ = 0.0, mostPenetration_ = 0.0;
+    double maxGap_ = 0.0;
+    double forceSum_ = 0.0, maxForce_ = 0.0, maxPenetration_ = 0.0;
     std::array<uint64_t, kFlagCount> flags_{};
 };
 

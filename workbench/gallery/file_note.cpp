@@ -13,8 +13,8 @@ namespace touchstone {
 
 namespace {
 
-constexpr uint64_t kMostJson = 16u << 20; // bytes
-constexpr size_t kLongest = 200;          // bytes of a note
+constexpr uint64_t kMaxJson = 16u << 20; // bytes
+constexpr size_t kLongest = 200;         // bytes of a note
 
 /// The JSON of a .gltf, or the first chunk of a .glb.
 std::string jsonOf(const std::filesystem::path& model) {
@@ -33,7 +33,7 @@ std::string jsonOf(const std::filesystem::path& model) {
         stream.clear();
         stream.seekg(0);
     }
-    if (length == 0 || length > kMostJson)
+    if (length == 0 || length > kMaxJson)
         return {};
     std::string text(length, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(length));

@@ -11,16 +11,16 @@ namespace touchstone {
 
 // A sanitizer's map of all memory counts, too.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr uint64_t kMostMemory = std::numeric_limits<uint64_t>::max();
+constexpr uint64_t kMaxMemory = std::numeric_limits<uint64_t>::max();
 #else
-constexpr uint64_t kMostMemory = uint64_t{2} << 30;
+constexpr uint64_t kMaxMemory = uint64_t{2} << 30;
 #endif
 
 /// What a process of ours may use.
 struct ProcessLimits {
     unsigned processorSeconds = 60;
-    unsigned seconds = 180;        ///< of the clock, for who waits for it
-    uint64_t memory = kMostMemory; ///< bytes of its own, writable
+    unsigned seconds = 180;       ///< of the clock, for who waits for it
+    uint64_t memory = kMaxMemory; ///< bytes of its own, writable
 };
 
 /// Its exit status where it could not become the program.

@@ -64,9 +64,9 @@ bool ThumbnailCache::makeRoom() const {
     for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
         if (entry.path().extension() == ".png")
             kept.push_back({entry.last_write_time(error), entry.path()});
-    if (kept.size() >= kMost) {
+    if (kept.size() >= kMax) {
         std::ranges::sort(kept, std::greater<>{}, &Kept::time);
-        for (size_t i = kMost - 1; i < kept.size(); ++i)
+        for (size_t i = kMax - 1; i < kept.size(); ++i)
             std::filesystem::remove(kept[i].file, error);
     }
     return true;

@@ -10,7 +10,7 @@ namespace touchstone {
 class ThumbnailCache {
   public:
     /// The newest that are kept: some 12 kB each.
-    static constexpr size_t kMost = 200;
+    static constexpr size_t kMax = 200;
 
     explicit ThumbnailCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
     /// Where the system wants it.

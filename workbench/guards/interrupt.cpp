@@ -13,7 +13,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kMostInterrupts = 3; // the last one kills, should the end hang
+constexpr int kMaxInterrupts = 3; // the last one kills, should the end hang
 
 // Handlers run on any thread, several at a time; they may only use what has no lock.
 std::atomic<int> came{0}, handling{0};
@@ -28,9 +28,9 @@ extern "C" void onInterrupt(int signal) {
         given->takeAway(false);
     handling.fetch_sub(1);
     const int count = came.fetch_add(1) + 1;
-    if (count + 1 == kMostInterrupts && mayHang.load())
+    if (count + 1 == kMaxInterrupts && mayHang.load())
         alarm(InterruptedForce::kLastSeconds); // whose signal ends the process
-    if (count + 1 >= kMostInterrupts)
+    if (count + 1 >= kMaxInterrupts)
         std::signal(signal, SIG_DFL);
 }
 

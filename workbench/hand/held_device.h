@@ -1,7 +1,7 @@
 #pragma once
 
 #include "workbench/hand/device_menu.h"
-#include "workbench/hand/hand_switch.h"
+#include "workbench/hand/device_multiplexer.h"
 
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@ namespace touchstone {
 /// limits: it waits until the servo has adopted that; meanwhile nothing is held. Main thread.
 class HeldDevice {
   public:
-    explicit HeldDevice(HandSwitch& hand) : hand_(hand) {}
+    explicit HeldDevice(DeviceMultiplexer& hand) : hand_(hand) {}
 
     /// In every frame. `choice` becomes what is really chosen: empty where it cannot be opened. True where
     /// the scene has to be offered anew with `limits`.
@@ -28,7 +28,7 @@ class HeldDevice {
     [[nodiscard]] const DeviceMenu& menu() const { return menu_; }
 
   private:
-    HandSwitch& hand_;
+    DeviceMultiplexer& hand_;
     DeviceMenu menu_;
     std::shared_ptr<LinkedDevice> coming_;
 };

@@ -41,12 +41,12 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
         ->type_name("S")
         ->check(CLI::Range(0.1, 3600.0))
         ->needs(test);
-    constexpr double kMostForce = 2.0; // N; a hand that holds the device loosely keeps it
+    constexpr double kMaxForce = 2.0; // N; a hand that holds the device loosely keeps it
     app.add_option(
            "--force", options.force,
            "Push this hard along each axis in turn; without it no force is ever sent. Hold the device!")
         ->type_name("N")
-        ->check(CLI::Range(0.0, kMostForce))
+        ->check(CLI::Range(0.0, kMaxForce))
         ->needs(test);
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE")->needs(test);
 }
@@ -240,7 +240,7 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
            "and `rate`, the servo's; without any, every shape and the rate")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
-    app.add_option("--ladder", options.ladders, "Climb this ladder alone (see --list); may be given again")
+    app.add_option("--ladder", options.ablations, "Climb this ladder alone (see --list); may be given again")
         ->type_name("NAME")
         ->expected(1)
         ->take_all();

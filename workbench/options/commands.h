@@ -124,19 +124,19 @@ struct BenchOptions {
     std::string what;           ///< empty: all of it
     std::filesystem::path json; ///< empty: not asked for
     size_t largestTriangles = 1'000'000;
-    int rounds = 20;    ///< of 1000 ticks for each rung
+    int rounds = 20;    ///< of 1000 ticks for each configuration
     bool check = false; ///< status 1 where a bound is missed
 };
 int benchCommand(const BenchOptions& options);
 
 /// touchstone study [NAME|FILE...] --out DIR
 struct StudyCommandOptions {
-    std::vector<std::string> what;    ///< shapes by name, files and folders; empty: every shape
-    std::filesystem::path out;        ///< a folder
-    std::vector<std::string> ladders; ///< empty: all
-    int rounds = 0;                   ///< turns of each rung; 0: as many as make intervals of a few per cent
+    std::vector<std::string> what;      ///< shapes by name, files and folders; empty: every shape
+    std::filesystem::path out;          ///< a folder
+    std::vector<std::string> ablations; ///< empty: all
+    int rounds = 0; ///< turns of each configuration; 0: as many as make intervals of a few per cent
     bool quick = false;
-    bool list = false;         ///< the ladders and shapes, and nothing else
+    bool list = false;         ///< the ablations and shapes, and nothing else
     int shard = 1, shards = 1; ///< every `shards`-th of what is asked for, from the `shard`-th
     std::string commandLine;   ///< as it was typed, for who reads the results
 };
@@ -146,8 +146,8 @@ int studyCommand(const StudyCommandOptions& options);
 struct StudyCompareOptions {
     std::filesystem::path first, second;
 };
-/// Status 1 where two rungs whose intervals do not overlap in the first study have changed places in the
-/// second.
+/// Status 1 where two configurations whose intervals do not overlap in the first study have changed places in
+/// the second.
 int studyCompare(const StudyCompareOptions& options);
 
 /// touchstone study merge DIR... --out DIR

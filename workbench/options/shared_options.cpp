@@ -13,7 +13,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kMostPixels = 16384;
+constexpr int kMaxPixels = 16384;
 
 constexpr const char* kDeviceHelp =
     "What is held: %, auto (what is plugged in), udp[:PORT] (another program), /dev/hidrawN, a device "
@@ -29,7 +29,7 @@ bool parseSize(const std::string& text, glm::ivec2& size) {
         return false;
     const auto height = std::from_chars(width.ptr + 1, end, parsed.y);
     if (height.ec != std::errc{} || height.ptr != end || std::min(parsed.x, parsed.y) < 1 ||
-        std::max(parsed.x, parsed.y) > kMostPixels)
+        std::max(parsed.x, parsed.y) > kMaxPixels)
         return false;
     size = parsed;
     return true;
@@ -82,7 +82,7 @@ void addSize(CLI::App& app, glm::ivec2& size, const std::string& meaning) {
                if (!parseSize(text, size))
                    throw CLI::ValidationError("--size", "'" + text +
                                                             "' is not a size; write WIDTHxHEIGHT, 1.." +
-                                                            std::to_string(kMostPixels) + " pixels each");
+                                                            std::to_string(kMaxPixels) + " pixels each");
            },
            meaning)
         ->type_name("WxH");
@@ -147,13 +147,11 @@ void addZoom(CLI::App& app, double& zoom) {
            "--workspace-scale", zoom,
            "How far the hand goes in the model for each metre of the device, or of the simulated hand [1]")
         ->type_name("FACTOR")
-        ->check(CLI::Range(kLeastZoom, kMostZoom));
+        ->check(CLI::Range(kMinZoom, kMaxZoom));
 }
 
 void addRate(CLI::App& app, double& rate, const std::string& meaning) {
-    app.add_option("--rate", rate, meaning)
-        ->type_name("HZ")
-        ->check(CLI::Range(kLeastServoRate, kMostServoRate));
+    app.add_option("--rate", rate, meaning)->type_name("HZ")->check(CLI::Range(kMinServoRate, kMaxServoRate));
 }
 
 void addGpu(CLI::App& app, std::string& gpu) {

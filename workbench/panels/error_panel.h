@@ -5,8 +5,8 @@
 
 namespace touchstone {
 
-/// How far from the most exact rungs the touch of the last seconds was, beside the differences that people
-/// just notice. Marks "error".
+/// How far from the most exact configurations the touch of the last seconds was, beside the differences that
+/// people just notice. Marks "error".
 void drawError(const study::LiveErrorFigures& error, Widgets& widgets);
 
 /// Whether nobody is expected to notice what `error` holds, at its 99th percentile; true without contact.

@@ -76,7 +76,7 @@ void workspace(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const DeviceMapping& mapping = input.servo->last.sample.mapping;
     auto zoom = static_cast<float>(state.workspace.zoom);
     ImGui::PushItemWidth(-1.0f);
-    if (ImGui::SliderFloat("##zoom", &zoom, static_cast<float>(kLeastZoom), static_cast<float>(kMostZoom),
+    if (ImGui::SliderFloat("##zoom", &zoom, static_cast<float>(kMinZoom), static_cast<float>(kMaxZoom),
                            "zoom %.2fx", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
         state.workspace.zoom = static_cast<double>(zoom);
     widgets.mark("zoom");

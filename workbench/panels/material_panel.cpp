@@ -53,10 +53,10 @@ const HapticMaterial::Field<float>* settledField(const HapticMaterial& haptic, s
 
 class MaterialPanel {
   public:
-    MaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, MaterialPanelState& state,
+    MaterialPanel(const MaterialPanelInput& input, MaterialController& controller, MaterialPanelState& state,
                   Widgets& widgets)
-        : in_(input), desk_(desk), edits_(desk.edits()), state_(state), widgets_(widgets), m_(state.material),
-          now_(edits_.now(m_)), was_(edits_.inFile(m_)) {
+        : in_(input), controller_(controller), edits_(controller.edits()), state_(state), widgets_(widgets),
+          m_(state.material), now_(edits_.now(m_)), was_(edits_.inFile(m_)) {
         // What would hold with the statement as it is shown; the scene's copy may be a few frames behind.
         HapticLayers says = materialOf(m_).says;
         says.ours = now_;
@@ -310,15 +310,15 @@ class MaterialPanel {
     }
 
     void saving() {
-        const bool inPlace = desk_.canSaveInPlace();
-        if (button("Save", "save", edits_.edited() && !desk_.saving() && inPlace,
-                   inPlace ? "Ctrl+S: into " + desk_.path().string()
+        const bool inPlace = controller_.canSaveInPlace();
+        if (button("Save", "save", edits_.edited() && !controller_.saving() && inPlace,
+                   inPlace ? "Ctrl+S: into " + controller_.path().string()
                            : "this is the program's own scene: save it under another name"))
-            desk_.save();
+            controller_.save();
         ImGui::SameLine();
-        if (button("Save as ...", "saveAs", !desk_.saving(), "under another name")) {
+        if (button("Save as ...", "saveAs", !controller_.saving(), "under another name")) {
             state_.askTarget = !state_.askTarget;
-            state_.target = desk_.path().string();
+            state_.target = controller_.path().string();
         }
         if (edits_.edited()) {
             ImGui::SameLine();
@@ -326,10 +326,10 @@ class MaterialPanel {
         }
         if (state_.askTarget)
             askTarget();
-        if (!desk_.notice().empty()) {
-            ImGui::PushStyleColor(ImGuiCol_Text, desk_.failed() ? ImVec4(0.95f, 0.5f, 0.42f, 1.0f)
-                                                                : ImVec4(0.6f, 0.8f, 0.65f, 1.0f));
-            ImGui::TextWrapped("%s", desk_.notice().c_str());
+        if (!controller_.notice().empty()) {
+            ImGui::PushStyleColor(ImGuiCol_Text, controller_.failed() ? ImVec4(0.95f, 0.5f, 0.42f, 1.0f)
+                                                                      : ImVec4(0.6f, 0.8f, 0.65f, 1.0f));
+            ImGui::TextWrapped("%s", controller_.notice().c_str());
             ImGui::PopStyleColor();
         }
     }
@@ -346,13 +346,13 @@ class MaterialPanel {
         ImGui::SameLine();
         std::error_code ignored;
         const bool replaces = std::filesystem::exists(state_.target, ignored) &&
-                              !std::filesystem::equivalent(state_.target, desk_.path(), ignored);
+                              !std::filesystem::equivalent(state_.target, controller_.path(), ignored);
         const bool pressed = ImGui::Button(replaces ? "Replace##as" : "Save##as");
         widgets_.mark("saveTarget");
         if (replaces)
             ImGui::TextDisabled("this file is there already");
         if ((pressed || (entered && !replaces)) && !state_.target.empty()) {
-            desk_.saveAs(state_.target);
+            controller_.saveAs(state_.target);
             state_.askTarget = false;
         }
     }
@@ -372,7 +372,7 @@ class MaterialPanel {
     }
 
     const MaterialPanelInput& in_;
-    MaterialDesk& desk_;
+    MaterialController& controller_;
     MaterialEdits& edits_;
     MaterialPanelState& state_;
     Widgets& widgets_;
@@ -383,11 +383,11 @@ class MaterialPanel {
 
 } // namespace
 
-void drawMaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, MaterialPanelState& state,
-                       Widgets& widgets) {
+void drawMaterialPanel(const MaterialPanelInput& input, MaterialController& controller,
+                       MaterialPanelState& state, Widgets& widgets) {
     if (input.scene == nullptr)
         return;
-    if (desk.edits().size() == 0) {
+    if (controller.edits().size() == 0) {
         ImGui::TextWrapped("The file has no materials: what it feels like cannot be kept in it.");
         return;
     }
@@ -396,10 +396,10 @@ void drawMaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, Mate
         if (touched >= 0 && !ImGui::IsAnyItemActive())
             state.material = static_cast<size_t>(touched);
     }
-    state.material = std::min(state.material, desk.edits().size() - 1);
-    MaterialPanel(input, desk, state, widgets).draw();
+    state.material = std::min(state.material, controller.edits().size() - 1);
+    MaterialPanel(input, controller, state, widgets).draw();
     if (!ImGui::IsAnyItemActive())
-        desk.edits().endGesture();
+        controller.edits().endGesture();
 }
 
 } // namespace touchstone

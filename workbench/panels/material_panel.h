@@ -2,7 +2,7 @@
 // The material editor's widgets.
 
 #include "engine/scene/scene.h"
-#include "workbench/editor/material_desk.h"
+#include "workbench/editor/material_controller.h"
 #include "workbench/panels/widgets.h"
 
 #include <string>
@@ -28,7 +28,7 @@ struct MaterialPanelState {
 /// Draws the editor into the current ImGui window and makes the changes at the desk. Widgets are called
 /// "edit.material", "edit.preset", "edit.FIELD", "reset.FIELD", "undo", "redo", "resetMaterial", "save",
 /// "saveAs". Main thread, within an ImGui frame.
-void drawMaterialPanel(const MaterialPanelInput& input, MaterialDesk& desk, MaterialPanelState& state,
-                       Widgets& widgets);
+void drawMaterialPanel(const MaterialPanelInput& input, MaterialController& controller,
+                       MaterialPanelState& state, Widgets& widgets);
 
 } // namespace touchstone

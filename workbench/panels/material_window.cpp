@@ -10,21 +10,21 @@ namespace touchstone {
 
 namespace {
 
-void materialKeys(MaterialDesk& desk, MaterialPanelState& state) {
+void materialKeys(MaterialController& controller, MaterialPanelState& state) {
     if (ctrlPressed(keyOf('z'), true)) {
         if (ImGui::GetIO().KeyShift)
-            desk.edits().redo();
+            controller.edits().redo();
         else
-            desk.edits().undo();
+            controller.edits().undo();
     }
     if (ctrlPressed(keyOf('y'), true))
-        desk.edits().redo();
-    if (ctrlPressed(keyOf('s')) && desk.edits().edited()) {
-        if (desk.canSaveInPlace()) {
-            desk.save();
+        controller.edits().redo();
+    if (ctrlPressed(keyOf('s')) && controller.edits().edited()) {
+        if (controller.canSaveInPlace()) {
+            controller.save();
         } else {
             state.askTarget = true;
-            state.target = desk.path().string();
+            state.target = controller.path().string();
         }
     }
 }
@@ -32,8 +32,8 @@ void materialKeys(MaterialDesk& desk, MaterialPanelState& state) {
 } // namespace
 
 void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& picture, bool& open,
-                        MaterialDesk& desk, MaterialPanelState& state, Widgets& widgets) {
-    materialKeys(desk, state);
+                        MaterialController& controller, MaterialPanelState& state, Widgets& widgets) {
+    materialKeys(controller, state);
     if (!open)
         return;
     constexpr float kWidth = 320.0f, kHeight = 610.0f, kMargin = 8.0f; // units
@@ -45,7 +45,7 @@ void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& pictu
         ImVec2(std::min(room.x, widgets.units(kWidth)), std::min(room.y, widgets.units(kHeight))),
         ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Material", &open, ImGuiWindowFlags_NoSavedSettings))
-        drawMaterialPanel(input, desk, state, widgets);
+        drawMaterialPanel(input, controller, state, widgets);
     ImGui::End();
 }
 

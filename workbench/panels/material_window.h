@@ -8,6 +8,6 @@ namespace touchstone {
 /// (window coordinates), never larger than that. Its keys hold whether it is open or not: Ctrl+Z,
 /// Ctrl+Shift+Z or Ctrl+Y, Ctrl+S. Main thread, within an ImGui frame.
 void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& picture, bool& open,
-                        MaterialDesk& desk, MaterialPanelState& state, Widgets& widgets);
+                        MaterialController& controller, MaterialPanelState& state, Widgets& widgets);
 
 } // namespace touchstone

@@ -1,6 +1,6 @@
 #include "workbench/panels/colors.h"
 #include "workbench/panels/panels.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
 

@@ -59,7 +59,7 @@ struct PanelInput {
     std::string deviceStatus; ///< where the chosen device is, or what is wrong with it
     SoundStatus sound;
     const ServoView* servo = nullptr;
-    TimelineDesk* timeline = nullptr;
+    TimelineController* timeline = nullptr;
     const TickRecord* tick = nullptr; ///< that is shown: the servo's newest, or the recording's at the cursor
     const ForceHistory* forces = nullptr;
     std::string picture; ///< what became of the last picture that was to be saved; empty: none yet

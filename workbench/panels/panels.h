@@ -24,7 +24,7 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Sound on and off, its volume and what became of it.
 void drawSound(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Every choice of method.
-void drawRungs(PanelState& state, Widgets& widgets);
+void drawConfigurations(PanelState& state, Widgets& widgets);
 /// How punctual the servo is, and the picture.
 void drawServo(const PanelInput& input, Widgets& widgets);
 

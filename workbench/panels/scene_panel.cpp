@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kMostNodes = 300; // in the tree; more are told by their number
+constexpr size_t kMaxNodes = 300; // in the tree; more are told by their number
 
 /// The Scene node that is touched, or -1.
 int touchedNode(const PanelInput& input) {
@@ -37,13 +37,13 @@ class NodeTree {
         for (size_t i = 0; i < scene_.nodes.size(); ++i)
             if (scene_.nodes[i].parent < 0)
                 draw(i);
-        if (scene_.nodes.size() > kMostNodes)
-            ImGui::TextDisabled("and %zu more", scene_.nodes.size() - kMostNodes);
+        if (scene_.nodes.size() > kMaxNodes)
+            ImGui::TextDisabled("and %zu more", scene_.nodes.size() - kMaxNodes);
     }
 
   private:
     void draw(size_t node) {
-        if (drawn_++ >= kMostNodes)
+        if (drawn_++ >= kMaxNodes)
             return;
         const bool leaf = children_[node].empty(), touched = static_cast<int>(node) == touched_;
         const std::string name =

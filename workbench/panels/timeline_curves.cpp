@@ -2,7 +2,7 @@
 
 #include "workbench/panels/scale.h"
 #include "workbench/panels/timeline_panel.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
 
@@ -26,7 +26,7 @@ constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52
                 kGap = IM_COL32(235, 75, 65, 220), kScene = IM_COL32(120, 205, 130, 220),
                 kSettings = IM_COL32(190, 150, 240, 230), kNote = IM_COL32(228, 231, 234, 220);
 
-constexpr double kLeastTop = 0.5;     // N, so that noise in the air does not fill the picture
+constexpr double kMinTop = 0.5;       // N, so that noise in the air does not fill the picture
 constexpr float kLabelWidth = 108.0f; // units, as that of the charts
 
 ImU32 colorOf(TimelineMark::Kind kind) {
@@ -47,11 +47,11 @@ ImU32 colorOf(TimelineMark::Kind kind) {
 class Strip {
   public:
     /// `near`: forces that are never near zero fill the strip.
-    Strip(TimelineDesk& desk, double begin, double end, bool near, float height, Widgets& widgets)
-        : desk_(desk), line_(desk.timeline()), widgets_(widgets), draw_(*ImGui::GetWindowDrawList()),
-          corner_(ImGui::GetCursorScreenPos()), left_(corner_.x + widgets.units(kLabelWidth)),
-          right_(corner_.x + ImGui::GetContentRegionAvail().x), height_(height), begin_(begin),
-          end_(std::max(end, begin + 1e-6)), near_(near) {}
+    Strip(TimelineController& controller, double begin, double end, bool near, float height, Widgets& widgets)
+        : controller_(controller), line_(controller.timeline()), widgets_(widgets),
+          draw_(*ImGui::GetWindowDrawList()), corner_(ImGui::GetCursorScreenPos()),
+          left_(corner_.x + widgets.units(kLabelWidth)), right_(corner_.x + ImGui::GetContentRegionAvail().x),
+          height_(height), begin_(begin), end_(std::max(end, begin + 1e-6)), near_(near) {}
 
     /// Curve, contact, marks and cursor; scrubs. True while it is being dragged.
     bool draw(const char* name) {
@@ -116,7 +116,7 @@ class Strip {
         for (const std::optional<MinMax>& column : again_)
             if (column)
                 all = {std::min(all.least, column->least), std::max(all.most, column->most)};
-        most_ = niceCeiling(std::max(kLeastTop, static_cast<double>(all.most)));
+        most_ = niceCeiling(std::max(kMinTop, static_cast<double>(all.most)));
         least_ = 0.0;
         // Nothing but contact: the differences are what is looked at.
         constexpr double kSteps = 4.0;
@@ -131,10 +131,10 @@ class Strip {
     /// What was felt again, by column. Of more ticks than this in a strip it is not drawn: the near view has
     /// it.
     void feltAgain() {
-        constexpr size_t kMostTicks = 200'000;
-        const TouchAgain& again = desk_.again();
+        constexpr size_t kMaxTicks = 200'000;
+        const TouchAgain& again = controller_.again();
         again_.assign(static_cast<size_t>(columns()), std::nullopt);
-        if (line_.indexAt(end_) - line_.indexAt(begin_) > kMostTicks || again.force().empty())
+        if (line_.indexAt(end_) - line_.indexAt(begin_) > kMaxTicks || again.force().empty())
             return;
         for (int c = 0; c < columns(); ++c) {
             const auto [from, to] = ticksOf(c);
@@ -153,7 +153,7 @@ class Strip {
     }
 
     void loop() {
-        const Playback& at = desk_.playback();
+        const Playback& at = controller_.playback();
         if (!at.beginMark() && !at.endMark())
             return;
         const float from = xOf(line_.seconds(at.first())), to = xOf(line_.seconds(at.last()));
@@ -226,7 +226,7 @@ class Strip {
     }
 
     void cursor() {
-        const float x = xOf(desk_.playback().seconds());
+        const float x = xOf(controller_.playback().seconds());
         draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), kCursor, 1.5f);
         const float grip = widgets_.units(4.0f);
         draw_.AddTriangleFilled(ImVec2(x - grip, bottom()), ImVec2(x, bottom() - 1.6f * grip),
@@ -239,9 +239,9 @@ class Strip {
         widgets_.mark(name);
         const float x = ImGui::GetIO().MousePos.x;
         if (ImGui::IsItemActive()) {
-            desk_.stopTouchingAgain();
-            desk_.playback().play(false);
-            desk_.playback().seek(secondsAt(std::clamp(x, left_, right_)));
+            controller_.stopTouchingAgain();
+            controller_.playback().play(false);
+            controller_.playback().seek(secondsAt(std::clamp(x, left_, right_)));
         } else if (ImGui::IsItemHovered()) {
             tell(x);
         }
@@ -253,17 +253,17 @@ class Strip {
         ImGui::BeginTooltip();
         ImGui::Text("%.3f s   %.3f N", line_.seconds(at), static_cast<double>(line_.force()[at]));
         int told = 0;
-        constexpr int kMostTold = 6;
+        constexpr int kMaxTold = 6;
         for (const TimelineMark& mark : line_.marks()) {
             const float there = xOf(line_.seconds(std::min(mark.index, line_.size() - 1)));
-            if (std::abs(there - x) > widgets_.units(5.0f) || ++told > kMostTold)
+            if (std::abs(there - x) > widgets_.units(5.0f) || ++told > kMaxTold)
                 continue;
             ImGui::TextColored(ImColor(colorOf(mark.kind)), "%s", mark.text.c_str());
         }
         ImGui::EndTooltip();
     }
 
-    TimelineDesk& desk_;
+    TimelineController& controller_;
     const Timeline& line_;
     Widgets& widgets_;
     ImDrawList& draw_;
@@ -277,44 +277,46 @@ class Strip {
 
 } // namespace
 
-void drawOverview(TimelineDesk& desk, float height, Widgets& widgets) {
+void drawOverview(TimelineController& controller, float height, Widgets& widgets) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    Strip strip(desk, 0.0, desk.timeline().length(), false, height, widgets);
+    Strip strip(controller, 0.0, controller.timeline().length(), false, height, widgets);
     (void)strip.draw("timeline");
     char text[48];
-    std::snprintf(text, sizeof text, "%.3f s", desk.playback().seconds());
+    std::snprintf(text, sizeof text, "%.3f s", controller.playback().seconds());
     strip.label(0, kText, text);
-    std::snprintf(text, sizeof text, "of %.1f s", desk.timeline().length());
+    std::snprintf(text, sizeof text, "of %.1f s", controller.timeline().length());
     strip.label(1, kLabel, text);
     ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + height));
 }
 
-void drawNear(TimelineDesk& desk, TimelinePanelState& state, float height, Widgets& widgets) {
+void drawNear(TimelineController& controller, TimelinePanelState& state, float height, Widgets& widgets) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const Playback& at = desk.playback();
-    const double length = desk.timeline().length();
-    constexpr double kLeastSpan = 0.02, kMostSpan = 20.0; // s
-    state.span = std::clamp(state.span, kLeastSpan, kMostSpan);
+    const Playback& at = controller.playback();
+    const double length = controller.timeline().length();
+    constexpr double kMinSpan = 0.02, kMaxSpan = 20.0; // s
+    state.span = std::clamp(state.span, kMinSpan, kMaxSpan);
     // It stands still until the cursor leaves it: nothing runs under the eye.
     const double offset = (at.seconds() - state.nearBegin) / state.span;
     const bool dragged = ImGui::IsMouseDown(0) && offset >= 0.0 && offset <= 1.0;
     if (!dragged && (offset < 0.02 || offset > 0.98))
-        state.nearBegin = at.seconds() - (at.playing() || desk.again().running() ? 0.1 : 0.5) * state.span;
+        state.nearBegin =
+            at.seconds() - (at.playing() || controller.again().running() ? 0.1 : 0.5) * state.span;
     state.nearBegin = std::clamp(state.nearBegin, 0.0, std::max(0.0, length - state.span));
-    Strip strip(desk, state.nearBegin, std::min(length, state.nearBegin + state.span), true, height, widgets);
+    Strip strip(controller, state.nearBegin, std::min(length, state.nearBegin + state.span), true, height,
+                widgets);
     (void)strip.draw("near");
     const float wheel = ImGui::GetIO().MouseWheel;
     if (ImGui::IsItemHovered() && wheel != 0.0f) {
         const double share = std::clamp(offset, 0.0, 1.0);
-        state.span =
-            std::clamp(state.span * std::pow(0.8, static_cast<double>(wheel)), kLeastSpan, kMostSpan);
+        state.span = std::clamp(state.span * std::pow(0.8, static_cast<double>(wheel)), kMinSpan, kMaxSpan);
         state.nearBegin = at.seconds() - share * state.span;
     }
     char text[48];
-    std::snprintf(text, sizeof text, "%.3f N", static_cast<double>(desk.timeline().force()[at.cursor()]));
+    std::snprintf(text, sizeof text, "%.3f N",
+                  static_cast<double>(controller.timeline().force()[at.cursor()]));
     strip.label(0, kForce, "then");
     strip.labelRight(0, kForce, text);
-    const TouchAgain& again = desk.again();
+    const TouchAgain& again = controller.again();
     const size_t cursor = at.cursor();
     if (cursor >= again.first() && cursor - again.first() < again.force().size() &&
         !std::isnan(again.force()[cursor - again.first()])) {

@@ -4,7 +4,7 @@
 #include "workbench/panels/colors.h"
 #include "workbench/panels/timeline_curves.h"
 #include "workbench/screen/keys.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -37,14 +37,14 @@ bool button(const char* label, const char* name, const char* tip, Widgets& widge
     return pressed;
 }
 
-void transport(TimelineDesk& desk, Widgets& widgets) {
-    Playback& at = desk.playback();
+void transport(TimelineController& controller, Widgets& widgets) {
+    Playback& at = controller.playback();
     if (button("|<", "toBegin", "Home", widgets))
         at.toBegin();
     if (button("<", "stepBack", "a tick back: Left; with Shift 100 ms", widgets))
         at.step(-1);
     if (button(at.playing() ? "Pause##play" : "Play##play", "play", "K", widgets)) {
-        desk.stopTouchingAgain();
+        controller.stopTouchingAgain();
         at.play(!at.playing());
     }
     if (button(">", "stepOn", "a tick on: Right; with Shift 100 ms", widgets))
@@ -73,31 +73,33 @@ void transport(TimelineDesk& desk, Widgets& widgets) {
         at.clearMarks();
 }
 
-void examination(TimelineDesk& desk, Widgets& widgets) {
+void examination(TimelineController& controller, Widgets& widgets) {
     char label[48] = "Verify";
-    if (desk.verifying())
-        std::snprintf(label, sizeof label, "Cancel (%.0f %%)", 100.0 * desk.verifyingFraction());
+    if (controller.verifying())
+        std::snprintf(label, sizeof label, "Cancel (%.0f %%)", 100.0 * controller.verifyingFraction());
     if (button((std::string(label) + "##verify").c_str(), "verify",
                "touches all of it again, as fast as it goes, and compares every bit", widgets)) {
-        if (desk.verifying())
-            desk.cancelVerifying();
+        if (controller.verifying())
+            controller.cancelVerifying();
         else
-            desk.verify();
+            controller.verify();
     }
-    const bool again = desk.again().running();
+    const bool again = controller.again().running();
     const char* const text = again ? "Stop" : "Touch again";
     beside(ImGui::CalcTextSize(text).x + widgets.units(32.0f));
     if (widgets.lampButton("touchAgain", text, again, kBlue)) {
         if (again)
-            desk.stopTouchingAgain();
-        else if (desk.modelIsOpen())
-            desk.touchAgain();
+            controller.stopTouchingAgain();
+        else if (controller.modelIsOpen())
+            controller.touchAgain();
     }
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(desk.modelIsOpen() ? "the recorded hand, with the settings and materials of now"
-                                             : "the model that was touched is not open");
-    if (!desk.modelIsOpen() && desk.modelFile() && button("Open its model", "openModel", "", widgets))
-        desk.wantModel();
+        ImGui::SetTooltip(controller.modelIsOpen()
+                              ? "the recorded hand, with the settings and materials of now"
+                              : "the model that was touched is not open");
+    if (!controller.modelIsOpen() && controller.modelFile() &&
+        button("Open its model", "openModel", "", widgets))
+        controller.wantModel();
 }
 
 struct News {
@@ -106,21 +108,21 @@ struct News {
 };
 
 /// What came of it, or what is to be known.
-News newsOf(const TimelineDesk& desk) {
-    const TouchAgain::Means means = desk.again().means();
+News newsOf(const TimelineController& controller) {
+    const TouchAgain::Means means = controller.again().means();
     char text[160];
     if (means.ticks > 0) {
         std::snprintf(text, sizeof text, "then %.3f N, again %.3f N, on average in contact", means.recorded,
                       means.now);
         return {text, kBlue};
     }
-    if (desk.again().running())
+    if (controller.again().running())
         return {"the hand is on its way to where the recording begins", kBlue};
-    if (!desk.verdict().empty())
-        return {desk.verdict(), desk.verdictEqual() ? kGreen : kRed};
-    if (!desk.notes().empty())
-        return {desk.notes().front() + (desk.notes().size() > 1 ? " …" : ""), kAmber};
-    const Timeline& timeline = desk.timeline();
+    if (!controller.verdict().empty())
+        return {controller.verdict(), controller.verdictEqual() ? kGreen : kRed};
+    if (!controller.notes().empty())
+        return {controller.notes().front() + (controller.notes().size() > 1 ? " …" : ""), kAmber};
+    const Timeline& timeline = controller.timeline();
     return {timeline.file().filename().string() + ", made by " + timeline.origin().command + ", " +
                 std::to_string(timeline.size()) + " ticks",
             ImGui::GetColorU32(ImGuiCol_TextDisabled)};
@@ -133,7 +135,7 @@ float heightOf(const News& news) {
                     2.0f * ImGui::GetTextLineHeight());
 }
 
-void tell(const News& news, const TimelineDesk& desk, Widgets& widgets) {
+void tell(const News& news, const TimelineController& controller, Widgets& widgets) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, heightOf(news));
     const ImVec4 clip(at.x, at.y, at.x + size.x, at.y + size.y);
     ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, news.color,
@@ -144,10 +146,10 @@ void tell(const News& news, const TimelineDesk& desk, Widgets& widgets) {
         return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(widgets.units(600.0f));
-    ImGui::TextUnformatted(desk.timeline().file().c_str());
-    if (!desk.verdict().empty())
-        ImGui::TextUnformatted(desk.verdict().c_str());
-    for (const std::string& note : desk.notes())
+    ImGui::TextUnformatted(controller.timeline().file().c_str());
+    if (!controller.verdict().empty())
+        ImGui::TextUnformatted(controller.verdict().c_str());
+    for (const std::string& note : controller.notes())
         ImGui::TextUnformatted(note.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -163,17 +165,18 @@ std::string lengthText(const RecordingFacts& facts) {
     return facts.wholeLength ? text : "about " + std::string(text);
 }
 
-void list(TimelineDesk& desk, TimelinePanelState& state, Widgets& widgets) {
+void list(TimelineController& controller, TimelinePanelState& state, Widgets& widgets) {
     if (!ImGui::BeginChild("recordings", ImVec2(0.0f, 0.0f))) {
         ImGui::EndChild();
         return;
     }
-    if (desk.list().recordings().empty())
-        ImGui::TextDisabled(desk.list().read() ? "Nothing is recorded yet: F9 begins and ends a recording."
-                                               : "Looking for recordings");
-    for (const RecordingFacts& facts : desk.list().recordings()) {
+    if (controller.list().recordings().empty())
+        ImGui::TextDisabled(controller.list().read()
+                                ? "Nothing is recorded yet: F9 begins and ends a recording."
+                                : "Looking for recordings");
+    for (const RecordingFacts& facts : controller.list().recordings()) {
         const std::string name = facts.file.filename().string();
-        const bool open = desk.looking() && desk.timeline().file() == facts.file;
+        const bool open = controller.looking() && controller.timeline().file() == facts.file;
         ImGui::PushID(facts.file.c_str());
         if (ImGui::Selectable(facts.date.c_str(), open))
             state.open = facts.file;
@@ -197,46 +200,46 @@ void list(TimelineDesk& desk, TimelinePanelState& state, Widgets& widgets) {
 
 } // namespace
 
-bool followDesk(const TimelineDesk& desk, TimelinePanelState& state) {
-    const bool begun = desk.looking() && !state.looking;
-    if (desk.looking() != state.looking)
-        state.shown = desk.looking();
+bool followController(const TimelineController& controller, TimelinePanelState& state) {
+    const bool begun = controller.looking() && !state.looking;
+    if (controller.looking() != state.looking)
+        state.shown = controller.looking();
     if (begun)
         state.list = false;
-    state.looking = desk.looking();
+    state.looking = controller.looking();
     return begun;
 }
 
-void drawTimeline(TimelineDesk& desk, TimelinePanelState& state, Widgets& widgets) {
-    if (!desk.looking())
-        return list(desk, state, widgets);
+void drawTimeline(TimelineController& controller, TimelinePanelState& state, Widgets& widgets) {
+    if (!controller.looking())
+        return list(controller, state, widgets);
     if (state.list) {
         beside(widgets.units(60.0f));
         if (widgets.lampButton("recordings", "List", true, kBlue))
             state.list = false;
-        return list(desk, state, widgets);
+        return list(controller, state, widgets);
     }
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                         ImVec2(widgets.units(4.0f), ImGui::GetStyle().ItemSpacing.y));
-    transport(desk, widgets);
-    examination(desk, widgets);
+    transport(controller, widgets);
+    examination(controller, widgets);
     beside(widgets.units(55.0f));
     if (widgets.lampButton("recordings", "List", false, kBlue))
         state.list = true;
     ImGui::PopStyleVar();
     const float gap = ImGui::GetStyle().ItemSpacing.y;
-    const News news = newsOf(desk);
+    const News news = newsOf(controller);
     const float room = ImGui::GetContentRegionAvail().y - heightOf(news) - 2.0f * gap;
     const float overview = std::clamp(0.5f * room, widgets.units(24.0f), widgets.units(44.0f));
-    drawOverview(desk, overview, widgets);
+    drawOverview(controller, overview, widgets);
     ImGui::Dummy(ImVec2(0.0f, 0.0f));
-    drawNear(desk, state, std::max(room - overview, widgets.units(24.0f)), widgets);
+    drawNear(controller, state, std::max(room - overview, widgets.units(24.0f)), widgets);
     ImGui::Dummy(ImVec2(0.0f, 0.0f));
-    tell(news, desk, widgets);
+    tell(news, controller, widgets);
 }
 
-void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& widgets) {
-    if (!desk.looking())
+void drawLookingCard(TimelineController& controller, const WidgetRect& picture, Widgets& widgets) {
+    if (!controller.looking())
         return;
     const float margin = widgets.units(12.0f);
     ImGui::SetNextWindowPos(ImVec2(picture.x + 0.5f * picture.width, picture.y + picture.height - margin),
@@ -245,12 +248,12 @@ void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& wid
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(8.0f)));
     if (beginCardWindow("looking", widgets)) {
         ImGui::AlignTextToFramePadding();
-        ImGui::TextColored(ImColor(kAmber), desk.again().running()
+        ImGui::TextColored(ImColor(kAmber), controller.again().running()
                                                 ? "The recorded hand touches again; the force is off"
                                                 : "A recording; the force is off");
         ImGui::SameLine();
         if (ImGui::Button("Back to the live hand"))
-            desk.leave();
+            controller.leave();
         widgets.mark("backToLive");
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("Escape");
@@ -259,14 +262,14 @@ void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& wid
     ImGui::PopStyleVar();
 }
 
-void timelineKeys(TimelineDesk& desk) {
+void timelineKeys(TimelineController& controller) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (!desk.looking() || io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper)
+    if (!controller.looking() || io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper)
         return;
-    Playback& at = desk.playback();
+    Playback& at = controller.playback();
     const bool shift = io.KeyShift;
     const auto stepOnce = [&](int direction) {
-        desk.stopTouchingAgain();
+        controller.stopTouchingAgain();
         at.play(false);
         if (shift)
             at.stepSeconds(direction * kShiftStep);
@@ -282,7 +285,7 @@ void timelineKeys(TimelineDesk& desk) {
     if (keyPressed(GLFW_KEY_END))
         at.toEnd();
     if (keyPressed(keyOf('k'))) {
-        desk.stopTouchingAgain();
+        controller.stopTouchingAgain();
         at.play(!at.playing());
     }
     if (keyPressed(keyOf('a'))) {

@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-class TimelineDesk;
+class TimelineController;
 
 /// What a person has chosen about how a recording is shown.
 struct TimelinePanelState {
@@ -21,17 +21,17 @@ struct TimelinePanelState {
 };
 
 /// What is looked at is shown, and what is left is not. True where somebody has just begun to look.
-bool followDesk(const TimelineDesk& desk, TimelinePanelState& state);
+bool followController(const TimelineController& controller, TimelinePanelState& state);
 
 /// The recording's timeline, or the list of recordings where none is looked at. What is pressed and dragged
 /// is done at once. Main thread, within an ImGui window.
-void drawTimeline(TimelineDesk& desk, TimelinePanelState& state, Widgets& widgets);
+void drawTimeline(TimelineController& controller, TimelinePanelState& state, Widgets& widgets);
 
 /// On the picture while a recording is looked at: that the force is off, and the way back. `picture`: its
 /// place.
-void drawLookingCard(TimelineDesk& desk, const WidgetRect& picture, Widgets& widgets);
+void drawLookingCard(TimelineController& controller, const WidgetRect& picture, Widgets& widgets);
 
 /// K, arrows, Home and End, A and B. Within an ImGui frame in which nobody types.
-void timelineKeys(TimelineDesk& desk);
+void timelineKeys(TimelineController& controller);
 
 } // namespace touchstone

@@ -83,9 +83,9 @@ bool ModelPicture::save(WindowTarget& target, const Frame& frame) {
                                      : "";
         const std::string view(frame.options.mode == ViewMode::Shaded ? ""
                                                                       : viewModeName(frame.options.mode));
-        desk_.request(target, frame.place, view.empty() ? name : name + "-" + view);
+        controller_.request(target, frame.place, view.empty() ? name : name + "-" + view);
     }
-    return desk_.update(target);
+    return controller_.update(target);
 }
 
 } // namespace touchstone

@@ -3,7 +3,7 @@
 #include "renderer/window_target.h"
 #include "workbench/model/model.h"
 #include "workbench/screen/overlays.h"
-#include "workbench/screen/picture_desk.h"
+#include "workbench/screen/picture_controller.h"
 #include "workbench/screen/view_legend.h"
 
 namespace touchstone {
@@ -13,7 +13,7 @@ namespace touchstone {
 class ModelPicture {
   public:
     /// Pictures that are saved go into `folder`.
-    explicit ModelPicture(std::filesystem::path folder) : desk_(std::move(folder)) {}
+    explicit ModelPicture(std::filesystem::path folder) : controller_(std::move(folder)) {}
 
     struct Frame {
         const Model& model; ///< its scene may be null
@@ -37,13 +37,13 @@ class ModelPicture {
 
     /// After endFrame: keeps the picture that `options` asked for. True when there is news in `message`.
     bool save(WindowTarget& target, const Frame& frame);
-    [[nodiscard]] const std::string& message() const { return desk_.message(); }
+    [[nodiscard]] const std::string& message() const { return controller_.message(); }
 
   private:
     void colorMaterials(const Frame& frame, SceneRenderer& renderer);
     void drawMagnifier(const Frame& frame, const View& main, SceneRenderer& renderer, EyePlaces& places);
 
-    PictureDesk desk_;
+    PictureController controller_;
     Overlay overlay_;
     ViewLegend legend_;
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan the colours show

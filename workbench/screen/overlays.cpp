@@ -11,11 +11,11 @@ namespace {
 
 // Sizes in the workspace, m: a model is fitted to 150 mm.
 constexpr double kHipRadius = 1.6e-3;
-constexpr double kLeastProxyRadius = 2.6e-3; // a god-object has none, but must be seen
+constexpr double kMinProxyRadius = 2.6e-3; // a god-object has none, but must be seen
 constexpr double kStictionRadius = 1.1e-3;
 constexpr double kPlaneRadius = 9e-3;
 constexpr double kForceLength = 0.04; // m of arrow for one newton
-constexpr double kMostForceLength = 0.1;
+constexpr double kMaxForceLength = 0.1;
 constexpr double kArrowRadius = 0.8e-3;
 constexpr double kNormalLength = 0.018;
 constexpr double kNormalRadius = 0.45e-3;
@@ -31,7 +31,7 @@ constexpr glm::vec4 kConeColor{0.1f, 0.9f, 0.35f, 0.55f};
 constexpr glm::vec4 kNormalColor{0.9f, 0.9f, 0.95f, 1.0f};
 
 double drawnRadius(const HapticSettings& settings, double scale) {
-    return std::max(settings.proxyRadius, scale * kLeastProxyRadius);
+    return std::max(settings.proxyRadius, scale * kMinProxyRadius);
 }
 
 /// Rim and some of the sides of a cone that opens from `tip` along unit `axis`; `slope` is the tangent of its
@@ -68,7 +68,7 @@ void drawTick(const TickRecord& record, const HapticSettings& settings, const Ti
         overlay.lines.push_back({.from = tick.hip, .to = tick.proxy, .color = kHipColor});
     const double force = glm::length(tick.force);
     if (look.shown.force && force > 0.0) {
-        const double length = scale * std::min(kForceLength * force, kMostForceLength);
+        const double length = scale * std::min(kForceLength * force, kMaxForceLength);
         overlay.arrows.push_back(
             {tick.proxy, tick.proxy + tick.force * (length / force), scale * kArrowRadius, kForceColor});
     }

@@ -185,7 +185,7 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
         return;
     }
     if (notches != 0.0 && !io.KeyCtrl)
-        options.press = std::clamp(options.press * std::pow(kWheelPress, notches), kLeastPress, kMostPress);
+        options.press = std::clamp(options.press * std::pow(kWheelPress, notches), kMinPress, kMaxPress);
     if (!io.MouseDown[1] && !io.MouseDown[2] && !io.KeyAlt)
         pointHand(now, options);
 }
@@ -209,9 +209,9 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
     const glm::dvec2 pointer(static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y));
     if (!ImGui::IsMousePosValid())
         return;
-    const Ray sight = camera_.rayThroughPixel(pointer - now.origin, now.area);
+    const Ray picker = camera_.rayThroughPixel(pointer - now.origin, now.area);
     armed_ = armed_ || !io.MouseDown[0];
-    if (const std::optional<PointedSurface> seen = now.look(sight)) {
+    if (const std::optional<PointedSurface> seen = now.look(picker)) {
         const PointedSurface surface = withRoom(now, *seen);
         liftWhereBlocked(now, MouseHand::hoverOver(surface));
         // It comes back in the air, before it presses.
@@ -226,7 +226,7 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
         return hand_.pointAt(surface, {.force = pressing_ ? options.press : 0.0});
     }
     pressed_ = {.press = 0.0};
-    hand_.pointPast({camera_.right(), camera_.up(), camera_.forward()}, sight.origin, sight.direction);
+    hand_.pointPast({camera_.right(), camera_.up(), camera_.forward()}, picker.origin, picker.direction);
     liftWhereBlocked(now, hand_.goal());
 }
 

@@ -18,7 +18,7 @@ class ViewControl {
     /// m of depth of the free hand for one notch of the wheel; a tenth of it with Shift.
     static constexpr double kWheelDepth = 2e-3;
     /// By how much a notch makes the hand press harder, and the least and most that it presses with, N.
-    static constexpr double kWheelPress = 1.25, kLeastPress = 0.05, kMostPress = 5.0;
+    static constexpr double kWheelPress = 1.25, kMinPress = 0.05, kMaxPress = 5.0;
 
     /// A new model: looks at all of it and rests the hand in front of it.
     void lookAt(const Bounds& bounds, double aspect);

@@ -134,7 +134,7 @@ void RecordingList::update(double now) {
         return;
     last_ = now;
     job_.start([folders = folders_, known = recordings_](const JobProgress&) {
-        return recordingsIn(folders, known, kMost);
+        return recordingsIn(folders, known, kMax);
     });
 }
 

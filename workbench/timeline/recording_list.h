@@ -42,7 +42,7 @@ class RecordingList {
 
   private:
     static constexpr double kRenewal = 2.0; // s
-    static constexpr size_t kMost = 200;
+    static constexpr size_t kMax = 200;
 
     std::vector<std::filesystem::path> folders_;
     std::vector<RecordingFacts> recordings_;

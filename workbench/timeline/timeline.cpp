@@ -13,15 +13,15 @@ namespace {
 
 constexpr size_t kLongestSegment = 4096; // ticks, where no checkpoint ends it
 constexpr double kLongestStep = 3600.0;  // s between two ticks; more is a clock that was set
-constexpr float kMostShown = 1e6f;       // N and m: what is no number or beyond is drawn there
-constexpr size_t kMostMarks = 20000;     // of a recording whose settings change in every tick
+constexpr float kMaxShown = 1e6f;        // N and m: what is no number or beyond is drawn there
+constexpr size_t kMaxMarks = 20000;      // of a recording whose settings change in every tick
 
 std::string fileName(const SceneIdentity& scene) {
     return std::filesystem::path(scene.path).filename().string();
 }
 
 float shown(double value) {
-    return std::isfinite(value) ? std::min(static_cast<float>(value), kMostShown) : kMostShown;
+    return std::isfinite(value) ? std::min(static_cast<float>(value), kMaxShown) : kMaxShown;
 }
 
 } // namespace
@@ -39,7 +39,7 @@ class TimelineMaker {
 
   private:
     void mark(TimelineMark::Kind kind, std::string text) {
-        if (line_.marks_.size() < kMostMarks)
+        if (line_.marks_.size() < kMaxMarks)
             line_.marks_.push_back({line_.size(), kind, std::move(text)});
     }
     void take(const RecordingOrigin& origin) {

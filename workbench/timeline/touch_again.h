@@ -2,8 +2,8 @@
 
 #include "engine/math/similarity.h"
 #include "workbench/readings/force_history.h"
-#include "workbench/timeline/again_hand.h"
 #include "workbench/timeline/background_job.h"
+#include "workbench/timeline/playback_device.h"
 #include "workbench/timeline/timeline.h"
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace touchstone {
 /// force that comes of it beside the recorded one. Main thread.
 class TouchAgain {
   public:
-    explicit TouchAgain(AgainHand& hand) : hand_(hand) {}
+    explicit TouchAgain(PlaybackDevice& hand) : hand_(hand) {}
 
     struct Part {
         size_t first = 0, last = 0; ///< ticks of the recording
@@ -52,7 +52,7 @@ class TouchAgain {
   private:
     void feel(double seconds, float force);
 
-    AgainHand& hand_;
+    PlaybackDevice& hand_;
     std::shared_ptr<const Timeline> timeline_;
     Part part_;
     BackgroundJob<std::shared_ptr<const RecordedPath>> reading_;

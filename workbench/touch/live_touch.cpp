@@ -14,15 +14,15 @@ constexpr double kChartSeconds = 10.0;
 
 LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell)
     : servo_(portOf(sound_.hand()), {.rateHz = options.rateHz, .stageTimes = true}),
-      desk_(servo_, options.recording, "window", std::move(tell)), liveError_(options.rateHz),
+      controller_(servo_, options.recording, "window", std::move(tell)), liveError_(options.rateHz),
       forces_(static_cast<size_t>(kChartSeconds * options.rateHz)) {}
 
 LiveTouch::~LiveTouch() {
     servo_.stop();
     servoView_.drain(
-        servo_, forces_, desk_.recorder(), liveError_,
+        servo_, forces_, controller_.recorder(), liveError_,
         std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
-    desk_.finish();
+    controller_.finish();
 }
 
 void LiveTouch::show(LoadedModel loaded, bool generated) {
@@ -52,13 +52,13 @@ void LiveTouch::saved(const std::filesystem::path& path, const FileStamp& stamp,
     shown_.identity.fileSize = stamp.size;
     shown_.identity.fileHash = stamp.hash;
     shown_.identity.edits = std::move(edits);
-    desk_.recorder().sceneOffered(offered_, shown_.identity);
+    controller_.recorder().sceneOffered(offered_, shown_.identity);
 }
 
 void LiveTouch::update(double now) {
     servo_.updateSnapshot();
-    servoView_.drain(servo_, forces_, desk_.recorder(), liveError_, now);
-    desk_.update();
+    servoView_.drain(servo_, forces_, controller_.recorder(), liveError_, now);
+    controller_.update();
 }
 
 void LiveTouch::send(const HapticSettings& settings) {
@@ -90,7 +90,7 @@ void LiveTouch::layStroke(const StrokeRequest& stroke, const glm::dvec3& facing,
     const HapticOutput& felt = tick().output;
     // Not what a glide or a recording touches again: nothing is coupled then.
     if (felt.contacts > 0 && tick().scene == offered_ && tick().sample.mapping.coupling > 0.0) {
-        const Similarity rest = sight_.restFromNow(felt.object, tick().time); // strokes are laid onto that
+        const Similarity rest = picker_.restFromNow(felt.object, tick().time); // strokes are laid onto that
         strokes_.touched({rest.point(felt.proxy), rest.direction(felt.normal)});
     }
     if (auto path = strokes_.update(stroke, facing, simulated))
@@ -108,14 +108,14 @@ std::shared_ptr<HapticScene> LiveTouch::limited(const HapticScene& scene) const 
 /// To the servo, and to what records it, sounds it and compares it.
 void LiveTouch::offerScene(SceneSwap swap) {
     shown_.identity.limits = shown_.model.haptic->limits;
-    sight_.show(shown_.model.haptic, shown_.model.scene);
+    picker_.show(shown_.model.haptic, shown_.model.scene);
     if (swap == SceneSwap::Anew) {
         sound_.interrupt();
         hand_.leave();
         builtAgain_ = true;
     }
     offered_ = servo_.offerScene(shown_.model.haptic, shown_.model.scene, swap);
-    desk_.recorder().sceneOffered(offered_, shown_.identity);
+    controller_.recorder().sceneOffered(offered_, shown_.identity);
     liveError_.sceneOffered(offered_, shown_.model.haptic, shown_.model.scene);
 }
 

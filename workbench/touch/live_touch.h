@@ -4,18 +4,18 @@
 #include "haptics/servo/servo_loop.h"
 #include "study/live/live_error.h"
 #include "workbench/editor/live_materials.h"
-#include "workbench/files/recording_desk.h"
-#include "workbench/hand/hand_switch.h"
+#include "workbench/files/recording_controller.h"
+#include "workbench/hand/device_multiplexer.h"
 #include "workbench/hand/held_device.h"
-#include "workbench/hand/sight.h"
-#include "workbench/hand/stroke_desk.h"
+#include "workbench/hand/picker.h"
+#include "workbench/hand/stroke_controller.h"
 #include "workbench/model/background_build.h"
 #include "workbench/model/model_loader.h"
 #include "workbench/options/commands.h"
 #include "workbench/readings/force_history.h"
 #include "workbench/readings/servo_view.h"
-#include "workbench/sound/sound_desk.h"
-#include "workbench/timeline/again_hand.h"
+#include "workbench/sound/sound_controller.h"
+#include "workbench/timeline/playback_device.h"
 
 #include <functional>
 #include <optional>
@@ -29,8 +29,8 @@ namespace touchstone {
 /// own.
 class LiveTouch {
   public:
-    /// `tell` gets what a person is to know of recordings. Errors as RecordingDesk. The servo stands still
-    /// until `start`.
+    /// `tell` gets what a person is to know of recordings. Errors as RecordingController. The servo stands
+    /// still until `start`.
     LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell);
     /// Ends what is recorded as it should.
     ~LiveTouch();
@@ -67,7 +67,7 @@ class LiveTouch {
     [[nodiscard]] DeviceLimits limits() const { return held_.limits(); }
     /// What lies on a ray of the workspace now.
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
-        return sight_.look(ray, tick().time, settings);
+        return picker_.look(ray, tick().time, settings);
     }
     [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); } ///< the newest at `update`
     [[nodiscard]] ForceSwitch& forceSwitch() { return servo_.forceSwitch(); }
@@ -76,23 +76,23 @@ class LiveTouch {
     [[nodiscard]] double rateHz() const { return servo_.rateHz(); }
     [[nodiscard]] const ServoView& figures() const { return servoView_; }
     [[nodiscard]] const ForceHistory& forces() const { return forces_; }
-    [[nodiscard]] HandSwitch& hand() { return hand_; }
+    [[nodiscard]] DeviceMultiplexer& hand() { return hand_; }
     [[nodiscard]] DeviceMenu& devices() { return held_.menu(); }
-    [[nodiscard]] AgainHand& again() { return again_; }
-    [[nodiscard]] SoundDesk& sound() { return sound_; }
-    [[nodiscard]] RecordingDesk& recording() { return desk_; }
+    [[nodiscard]] PlaybackDevice& again() { return again_; }
+    [[nodiscard]] SoundController& sound() { return sound_; }
+    [[nodiscard]] RecordingController& recording() { return controller_; }
     [[nodiscard]] std::string strokeNotice() const { return strokes_.notice(); }
 
   private:
     [[nodiscard]] std::shared_ptr<HapticScene> limited(const HapticScene& scene) const;
     void offerScene(SceneSwap swap = SceneSwap::Anew);
 
-    HandSwitch hand_;
+    DeviceMultiplexer hand_;
     HeldDevice held_{hand_};
-    AgainHand again_{hand_};
-    SoundDesk sound_{again_};
+    PlaybackDevice again_{hand_};
+    SoundController sound_{again_};
     ServoLoop servo_;
-    RecordingDesk desk_;
+    RecordingController controller_;
     study::LiveError liveError_;
     ServoView servoView_;
     ForceHistory forces_;
@@ -101,8 +101,8 @@ class LiveTouch {
     uint32_t offered_ = 0;               // number of the newest scene
     std::optional<HapticSettings> sent_; // to the servo
     BackgroundBuild build_;
-    Sight sight_;
-    StrokeDesk strokes_;
+    Picker picker_;
+    StrokeController strokes_;
 };
 
 } // namespace touchstone

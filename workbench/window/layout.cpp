@@ -6,7 +6,7 @@
 #include "workbench/panels/error_panel.h"
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -21,7 +21,7 @@ namespace {
 
 // Units of layout.
 constexpr float kBar = 42.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
-constexpr float kLeastWidth = 320.0f, kLeastHeight = 180.0f; // of the picture
+constexpr float kMinWidth = 320.0f, kMinHeight = 180.0f; // of the picture
 constexpr float kFolded = 20.0f; // what is left of a folded panel: the arrow that unfolds it
 
 // Without a background: what is cleared has its colour already, and the CPU may be who fills it.
@@ -139,9 +139,9 @@ void zoomKeys(PanelState& state) {
     if (keyPressed(clutch) && io.KeyShift)
         state.centrePressed = true;
     if (keyPressed(GLFW_KEY_PAGE_UP))
-        zoom = std::min(zoom * kStep, kMostZoom);
+        zoom = std::min(zoom * kStep, kMaxZoom);
     if (keyPressed(GLFW_KEY_PAGE_DOWN))
-        zoom = std::max(zoom / kStep, kLeastZoom);
+        zoom = std::max(zoom / kStep, kMinZoom);
 }
 
 /// What acts beneath a card that has the keys, and so rests while there is one.
@@ -216,7 +216,7 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.section("HOW FAR FROM EXACT");
     drawError(input.servo->error, widgets);
     widgets.section("HOW IT IS DONE");
-    drawRungs(state, widgets);
+    drawConfigurations(state, widgets);
     widgets.section("SERVO");
     drawServo(input, widgets);
 }
@@ -242,9 +242,9 @@ PanelFolds fittingFolds(const PanelFolds& folds, const glm::vec2& window, float 
     const auto width = [&] {
         return units.x - (fitting.left ? kFolded : kLeft) - (fitting.right ? kFolded : kRight);
     };
-    fitting.left = fitting.left || width() < kLeastWidth;
-    fitting.right = fitting.right || width() < kLeastWidth;
-    fitting.bottom = fitting.bottom || units.y - kBar - kBottom < kLeastHeight;
+    fitting.left = fitting.left || width() < kMinWidth;
+    fitting.right = fitting.right || width() < kMinWidth;
+    fitting.bottom = fitting.bottom || units.y - kBar - kBottom < kMinHeight;
     return fitting;
 }
 
@@ -271,7 +271,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
         state.workspace.clutch = false; // its key is not looked at
     }
     walk(state);
-    if (followDesk(*input.timeline, state.timeline))
+    if (followController(*input.timeline, state.timeline))
         state.folds.bottom = false;
     const PictureRect picture = pictureRect(state.folds, {display.x, display.y}, input.scale);
     const float below = picture.y + picture.height, beyond = picture.x + picture.width;

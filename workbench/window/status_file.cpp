@@ -5,7 +5,7 @@
 #include "workbench/figures/settings_json.h"
 #include "workbench/panels/error_panel.h"
 #include "workbench/panels/panels.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 
 namespace touchstone {
 

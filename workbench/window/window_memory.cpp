@@ -56,7 +56,7 @@ WindowMemory memoryOf(const Json& json) {
             glm::clamp(glm::ivec2((*size)[0].get<int>(), (*size)[1].get<int>()), kSmallest, kLargest);
     if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
         for (const Json& file : *recent)
-            if (file.is_string() && memory.recent.size() < WindowMemory::kMostRecent)
+            if (file.is_string() && memory.recent.size() < WindowMemory::kMaxRecent)
                 memory.recent.emplace_back(file.get<std::string>());
     return memory;
 }
@@ -66,7 +66,7 @@ WindowMemory memoryOf(const Json& json) {
 void WindowMemory::opened(const std::filesystem::path& file) {
     std::erase(recent, file);
     recent.insert(recent.begin(), file);
-    recent.resize(std::min(recent.size(), kMostRecent));
+    recent.resize(std::min(recent.size(), kMaxRecent));
 }
 
 WindowMemory readMemory(const std::filesystem::path& file) {

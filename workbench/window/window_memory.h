@@ -18,7 +18,7 @@ struct WindowMemory {
     std::vector<std::filesystem::path> recent; ///< files opened, newest first
     bool operator==(const WindowMemory&) const = default;
 
-    static constexpr size_t kMostRecent = 8;
+    static constexpr size_t kMaxRecent = 8;
     void opened(const std::filesystem::path& file);
     void forget(const std::filesystem::path& file) { std::erase(recent, file); }
 };

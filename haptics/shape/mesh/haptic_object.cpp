@@ -78,7 +78,7 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, c
     object.heights = mesh.heights;
     if (!mesh.heights.empty()) {
         const auto [least, greatest] = std::minmax_element(mesh.heights.begin(), mesh.heights.end());
-        object.leastHeight = *least;
+        object.minHeight = *least;
         object.greatestHeight = *greatest;
     }
 }
@@ -185,8 +185,8 @@ AttributeBytes HapticObject::attributeBytes() const {
     return {.normals = anySmooth ? bytesOf(normals) + bytesOf(smooth) : 0,
             .tangents = bytesOf(tangents),
             .uv = {bytesOf(uv[0]), bytesOf(uv[1])},
-            .relief = bytesOf(heights) + bytesOf(uvGradients[0]) + bytesOf(uvGradients[1]) +
-                      bytesOf(heightGradients),
+            .bump = bytesOf(heights) + bytesOf(uvGradients[0]) + bytesOf(uvGradients[1]) +
+                    bytesOf(heightGradients),
             .stiffness = bytesOf(stiffness),
             .damping = bytesOf(damping),
             .friction = bytesOf(friction)};

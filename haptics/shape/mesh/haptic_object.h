@@ -36,9 +36,9 @@ struct ObjectUse {
 
 /// What an object keeps for effects, bytes.
 struct AttributeBytes {
-    uint64_t normals = 0, tangents = 0, uv[2] = {}, relief = 0, stiffness = 0, damping = 0, friction = 0;
+    uint64_t normals = 0, tangents = 0, uv[2] = {}, bump = 0, stiffness = 0, damping = 0, friction = 0;
     [[nodiscard]] uint64_t all() const {
-        return normals + tangents + uv[0] + uv[1] + relief + stiffness + damping + friction;
+        return normals + tangents + uv[0] + uv[1] + bump + stiffness + damping + friction;
     }
 };
 
@@ -61,7 +61,7 @@ struct HapticObject {
     std::vector<glm::vec2> uv[2];    ///< per source vertex; may be empty
     std::vector<float> stiffness, damping, friction; ///< per source vertex; may be empty
     std::vector<float> heights;                      ///< per source vertex, model metres; may be empty
-    float leastHeight = 0.0f, greatestHeight = 0.0f;
+    float minHeight = 0.0f, greatestHeight = 0.0f;
     std::vector<GradientPair>
         uvGradients[2]; ///< per source vertex, per object unit; only of a height map's set
     std::vector<GradientPair> heightGradients; ///< of `heights`, model metres per object unit, and nothing

@@ -84,13 +84,13 @@ std::optional<RayCrossing> firstCrossing(const HapticObject& object, const glm::
 
 std::optional<uint32_t> crossings(const HapticObject& object, const glm::dvec3& from,
                                   const glm::dvec3& direction) noexcept {
-    constexpr uint32_t kMostTriangles = 16384;
+    constexpr uint32_t kMaxTriangles = 16384;
     const Stretch stretch = withinReach(object, from, direction);
     if (stretch.end < stretch.begin)
         return 0;
     const double end = stretch.end - stretch.begin;
     const glm::dvec3 start = from + stretch.begin * direction;
-    uint32_t count = 0, left = kMostTriangles;
+    uint32_t count = 0, left = kMaxTriangles;
     object.tree.walkRay(start, direction, end, [&](uint32_t triangle) {
         bool back = false;
         count += crossingAt(object, triangle, start, direction, back) > 0.0 ? 1 : 0;

@@ -29,8 +29,8 @@ bool isFlatTo(const SurfaceView& surface, TriangleSide side) {
 /// The side beyond edge `edge` at its point `at`. Triangles without area are walked through: the way on is
 /// over whichever other edge of theirs is nearest to the point.
 TriangleSide beyond(const SurfaceView& surface, TriangleSide side, uint32_t edge, const glm::dvec3& at) {
-    constexpr int kMostSlivers = 8;
-    for (int sliver = 0; sliver < kMostSlivers; ++sliver) {
+    constexpr int kMaxSlivers = 8;
+    for (int sliver = 0; sliver < kMaxSlivers; ++sliver) {
         const uint32_t* from = cornersOf(surface, side);
         const uint32_t a = from[edge], b = from[next(edge)];
         const TriangleSide on = surface.adjacency.across(side, edge);

@@ -34,10 +34,10 @@ struct SurfacePlace {
 
 /// What is left of a tick. No walk takes longer than this, whatever the mesh is like.
 struct WalkBudget {
-    static constexpr uint32_t kMostTests = 8192; ///< triangles looked at in a tick: 0.1 ms
+    static constexpr uint32_t kMaxTests = 8192; ///< triangles looked at in a tick: 0.1 ms
 
     uint32_t steps = 0; ///< from one feature to the next
-    uint32_t tests = kMostTests;
+    uint32_t tests = kMaxTests;
     bool spent = false; ///< something was left undone
 };
 

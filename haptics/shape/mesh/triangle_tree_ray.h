@@ -17,9 +17,9 @@ struct BoxRay {
     BoxRay(const glm::dvec3& start, const glm::dvec3& direction) : from(start) {
         for (glm::length_t k = 0; k < 3; ++k) {
             // No box is parallel to a ray: 0 * infinity would be no number.
-            constexpr float kLeast = 1e-20f;
+            constexpr float kMin = 1e-20f;
             const auto d = static_cast<float>(direction[k]);
-            perDirection[k] = 1.0f / (std::abs(d) < kLeast ? std::copysign(kLeast, d) : d);
+            perDirection[k] = 1.0f / (std::abs(d) < kMin ? std::copysign(kMin, d) : d);
         }
     }
     /// Whether it meets the box within 0..end; true for some that it misses by less than `kMargin`.

@@ -6,7 +6,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kMostRoundAVertex = 256;
+constexpr size_t kMaxRoundAVertex = 256;
 /// Normals within 0.26 degrees are one: both sides of a UV seam on a surface that goes on smoothly.
 constexpr double kSameNormal = 0.99999;
 /// Gradients in one chart differ by less than this share of their length; at a mirror line by twice it.
@@ -105,7 +105,7 @@ std::vector<GradientPair> smoothGradients(const GradientMesh& mesh, std::span<co
     };
     for (size_t v = 0; v < mesh.vertices.size(); ++v) {
         const std::span<const uint32_t> around = corners.at(v);
-        if (around.size() > kMostRoundAVertex)
+        if (around.size() > kMaxRoundAVertex)
             continue;
         for (const uint32_t c : around) {
             const uint32_t source = mesh.sourceIndices[c];

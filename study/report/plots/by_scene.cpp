@@ -7,18 +7,19 @@ namespace touchstone::study {
 
 std::vector<SceneRungs> byScene(const StudyResult& result, bool tessellations) {
     std::vector<SceneRungs> scenes;
-    for (const RungResult& rung : result.rungs) {
+    for (const ConfigurationResult& configuration : result.configurations) {
         auto at = std::find_if(scenes.begin(), scenes.end(), [&](const SceneRungs& s) {
-            return s.scene == rung.scene && s.path == rung.path;
+            return s.scene == configuration.scene && s.path == configuration.path;
         });
         if (at == scenes.end())
-            at = scenes.insert(scenes.end(), {rung.scene, rung.path, {}, ""});
-        at->rungs.push_back(&rung);
+            at = scenes.insert(scenes.end(), {configuration.scene, configuration.path, {}, ""});
+        at->configurations.push_back(&configuration);
     }
     if (!tessellations)
         std::erase_if(scenes, [](const SceneRungs& s) {
-            return std::all_of(s.rungs.begin(), s.rungs.end(),
-                               [](const RungResult* r) { return r->ladder == kTessellationLadder; });
+            return std::all_of(
+                s.configurations.begin(), s.configurations.end(),
+                [](const ConfigurationResult* r) { return r->ablation == kTessellationAblation; });
         });
     std::set<std::string> taken;
     for (SceneRungs& scene : scenes) {

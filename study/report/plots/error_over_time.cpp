@@ -31,9 +31,9 @@ constexpr std::array<std::string_view, 4> kAgainst{"the shape in closed form", "
                                                    "its most exact rung", "Coulomb's law"};
 
 struct Point {
-    const RungResult* rung;
-    double error;  ///< of the plot's unit
-    size_t ladder; ///< series
+    const ConfigurationResult* configuration;
+    double error;    ///< of the plot's unit
+    size_t ablation; ///< series
     bool front = false;
     int number = 0; ///< in the key; 0: none
 };
@@ -42,9 +42,9 @@ struct Point {
 void markFront(std::vector<Point>& points) {
     for (Point& p : points)
         p.front = std::none_of(points.begin(), points.end(), [&](const Point& other) {
-            return other.ladder == p.ladder && other.rung->truth == p.rung->truth &&
-                   other.rung->rateHz == p.rung->rateHz &&
-                   beats(other.rung->step, other.error, p.rung->step, p.error);
+            return other.ablation == p.ablation && other.configuration->truth == p.configuration->truth &&
+                   other.configuration->rateHz == p.configuration->rateHz &&
+                   beats(other.configuration->step, other.error, p.configuration->step, p.error);
         });
 }
 
@@ -52,13 +52,14 @@ class ErrorPlot {
   public:
     ErrorPlot(const SceneRungs& scene, const Quantity& quantity, const StudyResult& result)
         : scene_(scene), quantity_(quantity), result_(result) {
-        for (const RungResult* rung : scene.rungs)
-            if (rung->errors.compared > 0 && rung->step.value > 0.0) {
-                auto at = std::find(ladders_.begin(), ladders_.end(), rung->ladder);
-                if (at == ladders_.end())
-                    at = ladders_.insert(ladders_.end(), rung->ladder);
-                points_.push_back({rung, quantity.inUnit * (rung->errors.*quantity.spread).p99,
-                                   static_cast<size_t>(at - ladders_.begin())});
+        for (const ConfigurationResult* configuration : scene.configurations)
+            if (configuration->errors.compared > 0 && configuration->step.value > 0.0) {
+                auto at = std::find(ablations_.begin(), ablations_.end(), configuration->ablation);
+                if (at == ablations_.end())
+                    at = ablations_.insert(ablations_.end(), configuration->ablation);
+                points_.push_back({configuration,
+                                   quantity.inUnit * (configuration->errors.*quantity.spread).p99,
+                                   static_cast<size_t>(at - ablations_.begin())});
             }
         for (const JustNoticeable& j : result.noticeable)
             if (j.quantity == quantity.noticeable && j.value > 0.0)
@@ -86,25 +87,27 @@ class ErrorPlot {
     }
 
   private:
-    /// The largest ladder has numbers on its front alone, the others on each rung; within a ladder by time.
+    /// The largest ablation has numbers on its front alone, the others on each configuration; within an
+    /// ablation by time.
     void number() {
-        std::vector<size_t> sizes(ladders_.size());
+        std::vector<size_t> sizes(ablations_.size());
         for (const Point& p : points_)
-            ++sizes[p.ladder];
+            ++sizes[p.ablation];
         const size_t most = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
         std::stable_sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) {
-            return a.ladder != b.ladder ? a.ladder < b.ladder : a.rung->step.value < b.rung->step.value;
+            return a.ablation != b.ablation ? a.ablation < b.ablation
+                                            : a.configuration->step.value < b.configuration->step.value;
         });
         int next = 0;
         for (Point& p : points_)
-            if (next < kMostNumbers &&
-                (sizes[p.ladder] < std::max(most, kLargeLadder) || p.front || p.rung->isDefault))
+            if (next < kMaxNumbers &&
+                (sizes[p.ablation] < std::max(most, kLargeAblation) || p.front || p.configuration->isDefault))
                 p.number = ++next;
     }
 
     /// A page that is as high as its key.
     void makeRoom() {
-        double key = kKeyEnd + kKeyLadder * static_cast<double>(ladders_.size());
+        double key = kKeyEnd + kKeyAblation * static_cast<double>(ablations_.size());
         for (const Point& p : points_)
             key += p.number > 0 ? kKeyRung : 0.0;
         const double below = paper_.height - paper_.area.top;
@@ -116,7 +119,8 @@ class ErrorPlot {
         std::vector<double> times, errors;
         bool exact = false;
         for (const Point& p : points_) {
-            for (const double ns : {p.rung->step.low, p.rung->step.value, p.rung->step.high})
+            for (const double ns :
+                 {p.configuration->step.low, p.configuration->step.value, p.configuration->step.high})
                 times.push_back(1e-3 * ns);
             errors.push_back(p.error);
             exact = exact || !(p.error >= quantity_.floor);
@@ -173,7 +177,7 @@ class ErrorPlot {
     }
     [[nodiscard]] Obstacle pixel(const Point& p) const {
         const Area& a = paper_.area;
-        return {x_.fraction(1e-3 * p.rung->step.value) * (a.right - a.left),
+        return {x_.fraction(1e-3 * p.configuration->step.value) * (a.right - a.left),
                 y_.fraction(y_.place(p.error)) * (a.top - a.bottom)};
     }
 
@@ -185,10 +189,10 @@ class ErrorPlot {
         std::vector<const Point*> owners;
         for (const Point& p : points_) {
             marks.push_back(pixel(p));
-            if (p.rung->isDefault) // its ring
+            if (p.configuration->isDefault) // its ring
                 marks.back().halfWidth = marks.back().halfHeight = 5.5;
-            const double low = x_.fraction(1e-3 * p.rung->step.low),
-                         high = x_.fraction(1e-3 * p.rung->step.high);
+            const double low = x_.fraction(1e-3 * p.configuration->step.low),
+                         high = x_.fraction(1e-3 * p.configuration->step.high);
             if (high > low) // its interval
                 marks.push_back({0.5 * (low + high) * (a.right - a.left), marks.back().y,
                                  0.5 * (high - low) * (a.right - a.left) - kMarkSize, 0.0});
@@ -206,7 +210,7 @@ class ErrorPlot {
         std::string script;
         for (size_t i = 0; i < places.size(); ++i) {
             const PlacedLabel& l = places[i];
-            const std::string colour(markOf(owners[i]->ladder).colour);
+            const std::string colour(markOf(owners[i]->ablation).colour);
             if (l.leader)
                 script += "set arrow from screen " + at(a.left + anchors[i].x, a.bottom + anchors[i].y) +
                           " to screen " + at(a.left + l.x, a.bottom + l.y) +
@@ -217,37 +221,39 @@ class ErrorPlot {
         return script;
     }
 
-    /// Ladders with their marks, and under each the rungs that have numbers.
+    /// Ablations with their marks, and under each the configurations that have numbers.
     [[nodiscard]] std::string key() const {
         const double left = paper_.area.right + 26.0;
         double y = paper_.area.top;
         std::string script;
         const auto down = [&](double by) { y -= by; };
-        for (size_t ladder = 0; ladder < ladders_.size(); ++ladder) {
-            size_t rungs = 0, numbered = 0;
+        for (size_t ablation = 0; ablation < ablations_.size(); ++ablation) {
+            size_t configurations = 0, numbered = 0;
             Truth truth = Truth::Oracle;
             for (const Point& p : points_)
-                if (p.ladder == ladder) {
-                    ++rungs;
+                if (p.ablation == ablation) {
+                    ++configurations;
                     numbered += p.number > 0 ? 1 : 0;
-                    truth = p.rung->truth;
+                    truth = p.configuration->truth;
                 }
-            script += markAt(paper_, left + 5.0, y, markOf(ladder));
-            script += labelAt(paper_, left + 18.0, y,
-                              cut(ladders_[ladder], 30) + ", against " +
-                                  std::string(kAgainst[static_cast<size_t>(truth)]) +
-                                  (numbered < rungs ? " (" + std::to_string(rungs) + "):" : ""),
-                              "tc rgb '" + std::string(markOf(ladder).colour) + "'", 12.5);
+            script += markAt(paper_, left + 5.0, y, markOf(ablation));
+            script +=
+                labelAt(paper_, left + 18.0, y,
+                        cut(ablations_[ablation], 30) + ", against " +
+                            std::string(kAgainst[static_cast<size_t>(truth)]) +
+                            (numbered < configurations ? " (" + std::to_string(configurations) + "):" : ""),
+                        "tc rgb '" + std::string(markOf(ablation).colour) + "'", 12.5);
             down(kKeyTitle);
             for (const Point& p : points_)
-                if (p.ladder == ladder && p.number > 0) {
+                if (p.ablation == ablation && p.number > 0) {
                     script += labelAt(paper_, left + 34.0, y, std::to_string(p.number), "right", 11.5);
-                    script +=
-                        labelAt(paper_, left + 42.0, y,
-                                cut(p.rung->rung, 50) + (p.rung->isDefault ? " (default)" : ""), "", 11.5);
+                    script += labelAt(paper_, left + 42.0, y,
+                                      cut(p.configuration->configuration, 50) +
+                                          (p.configuration->isDefault ? " (default)" : ""),
+                                      "", 11.5);
                     down(kKeyRung);
                 }
-            down(kKeyLadder - kKeyTitle);
+            down(kKeyAblation - kKeyTitle);
         }
         script +=
             "set arrow from screen " + at(left - 3.0, y) + " to screen " + at(left + 14.0, y) +
@@ -260,20 +266,20 @@ class ErrorPlot {
         return script;
     }
 
-    /// A block a ladder: time, its interval, error, drawn error, and whether on the front and the default.
+    /// A block an ablation: time, its interval, error, drawn error, and whether on the front and the default.
     [[nodiscard]] std::string data() const {
         std::string text;
-        for (size_t ladder = 0; ladder < ladders_.size(); ++ladder) {
-            text += "# " + ladders_[ladder] + ": time, low, high (us), error as drawn (" +
+        for (size_t ablation = 0; ablation < ablations_.size(); ++ablation) {
+            text += "# " + ablations_[ablation] + ": time, low, high (us), error as drawn (" +
                     std::string(quantity_.unit) + "), error, front, default\n";
             for (const Point& p : points_)
-                if (p.ladder == ladder) {
+                if (p.ablation == ablation) {
                     std::array<char, 256> line{};
                     std::snprintf(line.data(), line.size(), "%.9g %.9g %.9g %.9g %.9g %d %d # ",
-                                  1e-3 * p.rung->step.value, 1e-3 * p.rung->step.low,
-                                  1e-3 * p.rung->step.high, y_.place(p.error), p.error, p.front ? 1 : 0,
-                                  p.rung->isDefault ? 1 : 0);
-                    text += line.data() + slug(p.rung->rung) + "\n";
+                                  1e-3 * p.configuration->step.value, 1e-3 * p.configuration->step.low,
+                                  1e-3 * p.configuration->step.high, y_.place(p.error), p.error,
+                                  p.front ? 1 : 0, p.configuration->isDefault ? 1 : 0);
+                    text += line.data() + slug(p.configuration->configuration) + "\n";
                 }
             text += "\n\n";
         }
@@ -283,7 +289,7 @@ class ErrorPlot {
     [[nodiscard]] std::string plots(const std::string& name) const {
         std::string script = "set datafile missing NaN\nplot "; // lines go on over what is missing
         const std::string file = "'" + name + ".dat'";
-        for (size_t i = 0; i < ladders_.size(); ++i) {
+        for (size_t i = 0; i < ablations_.size(); ++i) {
             const std::string colour(markOf(i).colour), index = " index " + std::to_string(i);
             script += (i > 0 ? ", \\\n  " : "") + file + index +
                       " using ($6 == 1 ? $1 : NaN):4 with lines lw 1.6 lc rgb '" + colour + "', \\\n  " +
@@ -295,16 +301,16 @@ class ErrorPlot {
         return script + "\n";
     }
 
-    /// Pixels of the key: a rung's line, a ladder's title, that with the gap after it, the two lines at the
-    /// end.
-    static constexpr double kKeyRung = 15.5, kKeyTitle = 18.0, kKeyLadder = 25.0, kKeyEnd = 38.0;
-    static constexpr int kMostNumbers = 48;   ///< more than these nobody looks up
-    static constexpr size_t kLargeLadder = 8; ///< rungs, from which on only the front is numbered
+    /// Pixels of the key: a configuration's line, an ablation's title, that with the gap after it, the two
+    /// lines at the end.
+    static constexpr double kKeyRung = 15.5, kKeyTitle = 18.0, kKeyAblation = 25.0, kKeyEnd = 38.0;
+    static constexpr int kMaxNumbers = 48;      ///< more than these nobody looks up
+    static constexpr size_t kLargeAblation = 8; ///< configurations, from which on only the front is numbered
     const SceneRungs& scene_;
     const Quantity& quantity_;
     const StudyResult& result_;
     const JustNoticeable* noticeable_ = nullptr;
-    std::vector<std::string> ladders_;
+    std::vector<std::string> ablations_;
     std::vector<Point> points_;
     Paper paper_;
     LogAxis x_, y_;

@@ -155,16 +155,16 @@ std::string openPaper(const std::string& name, const Paper& paper, const Provena
     return script;
 }
 
-LogAxis LogAxis::around(const std::vector<double>& values, double leastLow) {
+LogAxis LogAxis::around(const std::vector<double>& values, double minLow) {
     double low = INFINITY, high = 0.0;
     for (const double value : values)
-        if (std::isfinite(value) && value > 0.0 && value >= leastLow) {
+        if (std::isfinite(value) && value > 0.0 && value >= minLow) {
             low = std::min(low, value);
             high = std::max(high, value);
         }
     LogAxis axis;
     if (!(high > 0.0))
-        low = high = leastLow > 0.0 ? leastLow : 1.0;
+        low = high = minLow > 0.0 ? minLow : 1.0;
     axis.low = stepBelow(low / 1.08);
     axis.high = stepAbove(high * 1.08);
     while (axis.high < 3.1 * axis.low)

@@ -62,7 +62,7 @@ struct LogAxis {
     std::string bandTic; ///< what stands beside it: "exact"
 
     /// To hold all positive `values`, at least half a decade, ends on steps of 1, 2, 5.
-    static LogAxis around(const std::vector<double>& values, double leastLow = 0.0);
+    static LogAxis around(const std::vector<double>& values, double minLow = 0.0);
     /// What gnuplot is to draw for a value: below `low`, a place in the band.
     [[nodiscard]] double place(double value) const;
     [[nodiscard]] double bottom() const; ///< where the axis begins, below its band

@@ -5,11 +5,11 @@
 
 namespace touchstone::study {
 
-/// For each scene and path and for force, place and direction: error over time per tick of every rung, by
-/// ladder, with the ladder's Pareto front and what people just notice.
+/// For each scene and path and for force, place and direction: error over time per tick of every
+/// configuration, by ablation, with the ablation's Pareto front and what people just notice.
 [[nodiscard]] std::vector<Figure> errorOverTime(const StudyResult& result);
 
-/// For each scene and path: the mean tick of each rung by stage.
+/// For each scene and path: the mean tick of each configuration by stage.
 [[nodiscard]] std::vector<Figure> costByStage(const StudyResult& result);
 
 /// For each shape that was cut into different numbers of triangles: time per tick over their number beside
@@ -23,15 +23,15 @@ namespace touchstone::study {
 /// The stiffest stable wall over the servo's rate, beside theory, and what of a processor that takes.
 [[nodiscard]] std::vector<Figure> stabilityOverRate(const StudyResult& result);
 
-/// Rungs of one scene and path, in the study's order.
+/// Configurations of one scene and path, in the study's order.
 struct SceneRungs {
     std::string scene, path;
-    std::vector<const RungResult*> rungs;
+    std::vector<const ConfigurationResult*> configurations;
     std::string file; ///< a name for it in names of files, of no other scene
 };
 /// `tessellations`: also scenes on which nothing but tessellation was studied.
 [[nodiscard]] std::vector<SceneRungs> byScene(const StudyResult& result, bool tessellations);
 
-inline constexpr std::string_view kTessellationLadder = "tessellation";
+inline constexpr std::string_view kTessellationAblation = "tessellation";
 
 } // namespace touchstone::study

@@ -55,12 +55,12 @@ class Drawing {
                 xs.push_back(p.x);
                 for (const double y : {p.low, p.y, p.high})
                     ys.push_back(y);
-                exact = exact || !(p.y >= plot_.leastY) || !(p.y > 0.0);
+                exact = exact || !(p.y >= plot_.minY) || !(p.y > 0.0);
             }
         for (const Threshold& t : plot_.thresholds)
             xs.push_back(t.at);
         x_ = LogAxis::around(xs);
-        y_ = LogAxis::around(ys, plot_.leastY);
+        y_ = LogAxis::around(ys, plot_.minY);
         y_.band = exact;
         y_.bandTic = "exact";
     }

@@ -29,7 +29,7 @@ struct SeriesPlot {
     std::vector<Series> series;
     std::vector<Threshold> thresholds;
     std::string thresholdTitle;
-    double leastY = 0.0; ///< what is less is drawn as exact
+    double minY = 0.0; ///< what is less is drawn as exact
     std::string leastText;
 };
 

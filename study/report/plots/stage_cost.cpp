@@ -12,22 +12,23 @@ namespace {
 constexpr std::array<std::string_view, kStageCount> kStageColours{"#888888", "#0072b2", "#56b4e9", "#009e73",
                                                                   "#e69f00", "#d55e00", "#b0498c", "#444444"};
 constexpr double kBarHeight = 19.0; // pixels, with the gap
-constexpr size_t kMostBars = 60;
+constexpr size_t kMaxBars = 60;
 
 class StagePlot {
   public:
     StagePlot(const SceneRungs& scene, const StudyResult& result) : scene_(scene), result_(result) {
-        // Rungs of different ladders with the same settings in effect are one measurement: as the settings
-        // say.
+        // Configurations of different ablations with the same settings in effect are one measurement: as the
+        // settings say.
         std::set<std::string> shown;
         size_t large = 0;
-        for (const RungResult* rung : scene.rungs)
-            large += rung->stepMean.value > 0.0 ? 1 : 0;
-        for (const RungResult* rung : scene.rungs)
-            if (rung->stepMean.value > 0.0 && rungs_.size() < kMostBars &&
-                (large <= kMostBars / 2 || rung->ladder != largest() || rung->pareto || rung->isDefault) &&
-                shown.insert(rung->ladder + "\n" + rung->rung).second)
-                rungs_.push_back(rung);
+        for (const ConfigurationResult* configuration : scene.configurations)
+            large += configuration->stepMean.value > 0.0 ? 1 : 0;
+        for (const ConfigurationResult* configuration : scene.configurations)
+            if (configuration->stepMean.value > 0.0 && configurations_.size() < kMaxBars &&
+                (large <= kMaxBars / 2 || configuration->ablation != largest() || configuration->pareto ||
+                 configuration->isDefault) &&
+                shown.insert(configuration->ablation + "\n" + configuration->configuration).second)
+                configurations_.push_back(configuration);
         paper_.width = 1180.0;
         paper_.area.left = 400.0;
         paper_.area.right = 1140.0;
@@ -35,7 +36,7 @@ class StagePlot {
         paper_.height = 105.0 + rows() * kBarHeight + 110.0;
         paper_.area.top = paper_.height - 110.0;
     }
-    [[nodiscard]] bool empty() const { return rungs_.empty(); }
+    [[nodiscard]] bool empty() const { return configurations_.empty(); }
 
     [[nodiscard]] Figure figure() {
         Figure figure;
@@ -45,8 +46,8 @@ class StagePlot {
             cut(scene_.path, 80) + ". Mean over the ticks in contact; the clock's own cost is taken off.";
         figure.script = openPaper(figure.name, paper_, result_.provenance);
         double most = 0.0;
-        for (const RungResult* rung : rungs_)
-            most = std::max({most, rung->stepMean.value, sum(*rung)});
+        for (const ConfigurationResult* configuration : configurations_)
+            most = std::max({most, configuration->stepMean.value, sum(*configuration)});
         std::array<char, 200> line{};
         std::snprintf(line.data(), line.size(),
                       "set xrange [0:%.6g]\nset yrange [%.6g:%.6g]\nunset ytics\nset border 1\n", 1.04 * most,
@@ -70,23 +71,23 @@ class StagePlot {
     }
 
   private:
-    static double sum(const RungResult& rung) {
+    static double sum(const ConfigurationResult& configuration) {
         double total = 0.0;
-        for (const Estimate& stage : rung.stages)
+        for (const Estimate& stage : configuration.stages)
             total += std::max(0.0, stage.value);
         return total;
     }
-    /// The ladder with the most rungs of this scene.
+    /// The ablation with the most configurations of this scene.
     [[nodiscard]] std::string largest() const {
         std::string name;
         std::ptrdiff_t most = 0;
-        for (const RungResult* candidate : scene_.rungs) {
-            const auto size =
-                std::count_if(scene_.rungs.begin(), scene_.rungs.end(),
-                              [&](const RungResult* r) { return r->ladder == candidate->ladder; });
+        for (const ConfigurationResult* candidate : scene_.configurations) {
+            const auto size = std::count_if(
+                scene_.configurations.begin(), scene_.configurations.end(),
+                [&](const ConfigurationResult* r) { return r->ablation == candidate->ablation; });
             if (size > most) {
                 most = size;
-                name = candidate->ladder;
+                name = candidate->ablation;
             }
         }
         return name;
@@ -94,32 +95,34 @@ class StagePlot {
     [[nodiscard]] double rows() const {
         double count = 0.0;
         const std::string* last = nullptr;
-        for (const RungResult* rung : rungs_) {
-            count += last != nullptr && *last != rung->ladder ? 1.6 : 1.0;
-            last = &rung->ladder;
+        for (const ConfigurationResult* configuration : configurations_) {
+            count += last != nullptr && *last != configuration->ablation ? 1.6 : 1.0;
+            last = &configuration->ablation;
         }
         return count;
     }
-    /// Calls `each` with every rung and its row; ladders stand apart.
+    /// Calls `each` with every configuration and its row; ablations stand apart.
     void eachRow(const auto& each) const {
         double row = 0.0;
         const std::string* last = nullptr;
-        for (const RungResult* rung : rungs_) {
-            const bool begins = last == nullptr || *last != rung->ladder;
+        for (const ConfigurationResult* configuration : configurations_) {
+            const bool begins = last == nullptr || *last != configuration->ablation;
             row += last != nullptr && begins ? 0.6 : 0.0;
-            each(*rung, row, begins);
+            each(*configuration, row, begins);
             row += 1.0;
-            last = &rung->ladder;
+            last = &configuration->ablation;
         }
     }
     [[nodiscard]] std::string names() const {
         std::string script;
-        eachRow([&](const RungResult& rung, double row, bool begins) {
+        eachRow([&](const ConfigurationResult& configuration, double row, bool begins) {
             const double y = paper_.area.top - (row + 0.5) / rows() * (paper_.area.top - paper_.area.bottom);
             if (begins)
-                script += labelAt(paper_, 20.0, y, cut(rung.ladder, 16), "tc rgb '#0072b2'", 12.0);
-            script += labelAt(paper_, paper_.area.left - 8.0, y,
-                              cut(rung.rung, 46) + (rung.isDefault ? " (default)" : ""), "right", 11.5);
+                script += labelAt(paper_, 20.0, y, cut(configuration.ablation, 16), "tc rgb '#0072b2'", 12.0);
+            script +=
+                labelAt(paper_, paper_.area.left - 8.0, y,
+                        cut(configuration.configuration, 46) + (configuration.isDefault ? " (default)" : ""),
+                        "right", 11.5);
         });
         return script;
     }
@@ -142,28 +145,28 @@ class StagePlot {
     [[nodiscard]] std::string data() const {
         std::string text =
             "# row, mean of the whole step, its 95 % interval, ends of the stages one on another (ns)\n";
-        eachRow([&](const RungResult& rung, double row, bool) {
+        eachRow([&](const ConfigurationResult& configuration, double row, bool) {
             std::array<char, 64> cell{};
             const auto put = [&](double value) {
                 std::snprintf(cell.data(), cell.size(), "%.9g ", value);
                 text += cell.data();
             };
             put(row);
-            put(rung.stepMean.value);
-            put(rung.stepMean.low);
-            put(rung.stepMean.high);
+            put(configuration.stepMean.value);
+            put(configuration.stepMean.low);
+            put(configuration.stepMean.high);
             double end = 0.0;
             put(end);
-            for (const Estimate& stage : rung.stages)
+            for (const Estimate& stage : configuration.stages)
                 put(end += std::max(0.0, stage.value));
-            text += "# " + slug(rung.ladder + " " + rung.rung) + "\n";
+            text += "# " + slug(configuration.ablation + " " + configuration.configuration) + "\n";
         });
         return text;
     }
 
     const SceneRungs& scene_;
     const StudyResult& result_;
-    std::vector<const RungResult*> rungs_;
+    std::vector<const ConfigurationResult*> configurations_;
     Paper paper_;
 };
 

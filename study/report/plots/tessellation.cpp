@@ -36,16 +36,16 @@ std::vector<Figure> errorOverTessellation(const StudyResult& result) {
     plot.yWords = "error of the force's direction, degrees (99 % of ticks are nearer)";
     plot.colourTitle = "rung";
     plot.markTitle = "shape";
-    plot.leastY = 1e-5;
+    plot.minY = 1e-5;
     plot.leastText = "below 0.00001°";
     std::map<std::pair<std::string, std::string>, size_t> at;
     std::set<double> angles;
-    for (const RungResult& r : result.rungs) {
-        if (r.ladder != kTessellationLadder || !(r.facetAngle > 0.0) || r.errors.compared == 0)
+    for (const ConfigurationResult& r : result.configurations) {
+        if (r.ablation != kTessellationAblation || !(r.facetAngle > 0.0) || r.errors.compared == 0)
             continue;
-        const auto [place, fresh] = at.try_emplace({r.shape, r.rung}, plot.series.size());
+        const auto [place, fresh] = at.try_emplace({r.shape, r.configuration}, plot.series.size());
         if (fresh)
-            plot.series.push_back({r.rung, r.shape, {}});
+            plot.series.push_back({r.configuration, r.shape, {}});
         const double error = kDegrees * r.errors.forceDirection.p99;
         plot.series[place->second].points.push_back({kDegrees * r.facetAngle, error, error, error});
         angles.insert(r.facetAngle);

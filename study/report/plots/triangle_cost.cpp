@@ -13,14 +13,14 @@ constexpr const char* kRayFloor = "one Embree ray, the floor";
 constexpr const char* kTriangles = "triangles";
 constexpr const char* kTime = "time per tick in contact, µs (median; bar: 95 % interval)";
 
-SeriesPoint timeOf(const RungResult& r) {
+SeriesPoint timeOf(const ConfigurationResult& r) {
     return {static_cast<double>(r.triangles), 1e-3 * r.step.value, 1e-3 * r.step.low, 1e-3 * r.step.high};
 }
 
-/// The middle of the floors that the rungs of a scene found.
-void addFloors(SeriesPlot& plot, const std::vector<const RungResult*>& rungs) {
+/// The middle of the floors that the configurations of a scene found.
+void addFloors(SeriesPlot& plot, const std::vector<const ConfigurationResult*>& configurations) {
     std::map<std::pair<std::string, size_t>, std::vector<double>> floors;
-    for (const RungResult* r : rungs)
+    for (const ConfigurationResult* r : configurations)
         if (r->rayFloor > 0.0)
             floors[{r->shape, r->triangles}].push_back(1e-3 * r->rayFloor);
     std::map<std::string, Series> byShape;
@@ -37,21 +37,21 @@ void addFloors(SeriesPlot& plot, const std::vector<const RungResult*>& rungs) {
         plot.series.push_back(std::move(series));
 }
 
-/// Rungs of the tessellation ladder, of shapes that have more than one.
-std::vector<const RungResult*> tessellated(const StudyResult& result) {
+/// Configurations of the tessellation ablation, of shapes that have more than one.
+std::vector<const ConfigurationResult*> tessellated(const StudyResult& result) {
     std::map<std::string, std::set<size_t>> sizes;
-    for (const RungResult& r : result.rungs)
-        if (r.ladder == kTessellationLadder)
+    for (const ConfigurationResult& r : result.configurations)
+        if (r.ablation == kTessellationAblation)
             sizes[r.shape].insert(r.triangles);
-    std::vector<const RungResult*> rungs;
-    for (const RungResult& r : result.rungs)
-        if (r.ladder == kTessellationLadder && sizes[r.shape].size() > 1 && r.step.value > 0.0)
-            rungs.push_back(&r);
-    return rungs;
+    std::vector<const ConfigurationResult*> configurations;
+    for (const ConfigurationResult& r : result.configurations)
+        if (r.ablation == kTessellationAblation && sizes[r.shape].size() > 1 && r.step.value > 0.0)
+            configurations.push_back(&r);
+    return configurations;
 }
 
 Figure ofShapes(const StudyResult& result) {
-    const std::vector<const RungResult*> rungs = tessellated(result);
+    const std::vector<const ConfigurationResult*> configurations = tessellated(result);
     SeriesPlot plot;
     plot.name = "cost_over_triangles";
     plot.paper.title = "Time per tick over the number of triangles";
@@ -61,36 +61,37 @@ Figure ofShapes(const StudyResult& result) {
     plot.colourTitle = "rung";
     plot.markTitle = "shape";
     std::map<std::pair<std::string, std::string>, size_t> at;
-    for (const RungResult* r : rungs) {
-        const auto [place, fresh] = at.try_emplace({r->shape, r->rung}, plot.series.size());
+    for (const ConfigurationResult* r : configurations) {
+        const auto [place, fresh] = at.try_emplace({r->shape, r->configuration}, plot.series.size());
         if (fresh)
-            plot.series.push_back({r->rung, r->shape, {}});
+            plot.series.push_back({r->configuration, r->shape, {}});
         plot.series[place->second].points.push_back(timeOf(*r));
     }
-    addFloors(plot, rungs);
+    addFloors(plot, configurations);
     return figureOf(std::move(plot), result.provenance);
 }
 
-/// Of the ladder with the most rungs, the one that the program climbs by itself; null where there is none.
-const RungResult* defaultOf(const SceneRungs& scene) {
+/// Of the ablation with the most configurations, the one that the program takes by itself; null where there
+/// is none.
+const ConfigurationResult* defaultOf(const SceneRungs& scene) {
     std::map<std::string, size_t> sizes;
-    for (const RungResult* r : scene.rungs)
-        ++sizes[r->ladder];
-    const RungResult* found = nullptr;
-    for (const RungResult* r : scene.rungs)
+    for (const ConfigurationResult* r : scene.configurations)
+        ++sizes[r->ablation];
+    const ConfigurationResult* found = nullptr;
+    for (const ConfigurationResult* r : scene.configurations)
         if (r->isDefault && r->step.value > 0.0 && r->triangles > 0 &&
-            (found == nullptr || sizes[r->ladder] > sizes[found->ladder]))
+            (found == nullptr || sizes[r->ablation] > sizes[found->ablation]))
             found = r;
     return found;
 }
 
 /// What the program does by itself on each scene, a point a scene.
 Figure ofScenes(const StudyResult& result) {
-    std::vector<const RungResult*> rungs;
+    std::vector<const ConfigurationResult*> configurations;
     for (const SceneRungs& scene : byScene(result, false))
-        if (const RungResult* r = defaultOf(scene))
-            rungs.push_back(r);
-    if (rungs.size() < 2)
+        if (const ConfigurationResult* r = defaultOf(scene))
+            configurations.push_back(r);
+    if (configurations.size() < 2)
         return {};
     SeriesPlot plot;
     plot.name = "cost_of_scenes";
@@ -99,13 +100,13 @@ Figure ofScenes(const StudyResult& result) {
     plot.xWords = kTriangles;
     plot.yWords = kTime;
     plot.colourTitle = "scene";
-    constexpr size_t kMostNames = 24;
-    for (const RungResult* r : rungs)
-        plot.series.push_back({rungs.size() <= kMostNames ? r->scene : "a scene",
-                               rungs.size() <= kMostNames ? r->scene : "a scene",
+    constexpr size_t kMaxNames = 24;
+    for (const ConfigurationResult* r : configurations)
+        plot.series.push_back({configurations.size() <= kMaxNames ? r->scene : "a scene",
+                               configurations.size() <= kMaxNames ? r->scene : "a scene",
                                {timeOf(*r)}});
     Series floor{kRayFloor, kRayFloor, {}, true};
-    for (const RungResult* r : rungs)
+    for (const ConfigurationResult* r : configurations)
         if (r->rayFloor > 0.0)
             floor.points.push_back({static_cast<double>(r->triangles), 1e-3 * r->rayFloor, 1e-3 * r->rayFloor,
                                     1e-3 * r->rayFloor});

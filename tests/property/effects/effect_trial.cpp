@@ -110,7 +110,7 @@ class EffectTrial {
     void checkPlace() {
         ++figures.ticks;
         const bool cut = has(output_.flags, TickFlag::BudgetReached);
-        if (has(output_.flags, TickFlag::CandidatesFull) || has(output_.flags, TickFlag::Pinched)) {
+        if (has(output_.flags, TickFlag::CandidatesFull) || has(output_.flags, TickFlag::Jammed)) {
             figures.contact += output_.contacts > 0 ? 1 : 0;
             ++figures.exempt;
             return;
@@ -126,11 +126,12 @@ class EffectTrial {
         figures.moves += output_.iterations;
         figures.budget += cut ? 1 : 0;
         figures.notConverged += has(output_.flags, TickFlag::ShadingNotConverged) ? 1 : 0;
-        const double r = radius(*scene_.objects[static_cast<size_t>(state_[0].anchor)]);
+        const double r = radius(*scene_.objects[static_cast<size_t>(state_[0].reference)]);
         const EffectWorld::Place place =
             world_.measure(output_.proxy, case_.moving ? ObjectMotions(motions_) : scene_.restMotions, r,
                            case_.oneSided && r > 0.0);
-        // What is one-sided may be half passed, from behind. The radius may be that of the last anchor.
+        // What is one-sided may be half passed, from behind. The radius may be that of the last reference
+        // object.
         if (!case_.oneSided) {
             double least = r;
             for (const auto& object : scene_.objects)

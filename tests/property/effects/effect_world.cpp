@@ -79,7 +79,7 @@ Scene room() {
 }
 
 /// Waves of a tenth of the body, 0.3 mm high, laid on along z; where the file has coordinates, along those.
-void addRelief(Scene& scene, double workspacePerScene) {
+void addBump(Scene& scene, double workspacePerScene) {
     scene.images.push_back(image("waves", 64, 64, 1, [](double u, double v) {
         return glm::vec4(
             static_cast<float>(0.5 + 0.25 * std::sin(3.0 * kTurn * u) + 0.25 * std::cos(2.0 * kTurn * v)));
@@ -102,7 +102,7 @@ void addRelief(Scene& scene, double workspacePerScene) {
 std::unique_ptr<EffectWorld> build(Scene scene, Fit fit, double bodyRadius) {
     auto world = std::make_unique<EffectWorld>();
     const Similarity workspaceFromScene = touchstone::workspaceFromScene(scene, fit);
-    addRelief(scene, workspaceFromScene.scale);
+    addBump(scene, workspaceFromScene.scale);
     world->bodyRadius = bodyRadius;
     DeviceLimits limits;
     limits.maxForceRate = 2000.0; // that the slew limit is met, too

@@ -19,11 +19,11 @@ namespace {
 
 /// What a run amounts to. J and N.
 struct Account {
-    double given = 0.0;       ///< by the motors, in all: negative where touch took energy
-    double mostNet = 0.0;     ///< highest at any time of that less what the device's Coulomb friction took
-    double mostBalance = 0.0; ///< highest that the observer saw
-    double mostInATick = 0.0; ///< largest work of one tick
-    double mostForce = 0.0;
+    double given = 0.0;      ///< by the motors, in all: negative where touch took energy
+    double maxNet = 0.0;     ///< highest at any time of that less what the device's Coulomb friction took
+    double maxBalance = 0.0; ///< highest that the observer saw
+    double maxInATick = 0.0; ///< largest work of one tick
+    double maxForce = 0.0;
     double lateSpeed = 0.0; ///< m/s, root mean square over the last fifth
     uint64_t contacts = 0, damped = 0, flagged = 0;
 };
@@ -52,15 +52,15 @@ Account run(Case c, PassivityMode passivity) {
     for (int tick = 0; tick < ticks; ++tick) {
         const HapticOutput& output = loop.tick();
         account.given = loop.plant().motorWork();
-        account.mostNet = std::max(account.mostNet, account.given - loop.plant().coulombLoss());
-        account.mostInATick = std::max(account.mostInATick, account.given - before);
+        account.maxNet = std::max(account.maxNet, account.given - loop.plant().coulombLoss());
+        account.maxInATick = std::max(account.maxInATick, account.given - before);
         before = account.given;
-        account.mostBalance = std::max(account.mostBalance, output.energyBalance);
+        account.maxBalance = std::max(account.maxBalance, output.energyBalance);
         account.contacts += output.contacts > 0;
         account.damped += has(output.flags, TickFlag::EnergyDamped);
         account.flagged += has(output.flags, TickFlag::EnergyGiven);
         const glm::dvec3 command = output.command.force();
-        account.mostForce = std::max(account.mostForce, glm::length(command));
+        account.maxForce = std::max(account.maxForce, glm::length(command));
         EXPECT_LE(glm::length(command), DeviceLimits{}.maxForce);
         EXPECT_LE(glm::distance(command, lastCommand), DeviceLimits{}.maxForceRate / c.rate * (1.0 + 1e-12));
         lastCommand = command;
@@ -78,9 +78,9 @@ void print(const std::string& name, const char* mode, const Account& a) {
         "  %-44s %-8s given %+9.3f mJ, net at most %8.4f mJ, balance at most %8.4f mJ, in a tick %7.4f "
         "mJ, force %5.2f N, "
         "late %6.4f m/s, damped %llu, flagged %llu of %llu\n",
-        name.c_str(), mode, 1e3 * a.given, 1e3 * a.mostNet, 1e3 * a.mostBalance, 1e3 * a.mostInATick,
-        a.mostForce, a.lateSpeed, static_cast<unsigned long long>(a.damped),
-        static_cast<unsigned long long>(a.flagged), static_cast<unsigned long long>(a.contacts));
+        name.c_str(), mode, 1e3 * a.given, 1e3 * a.maxNet, 1e3 * a.maxBalance, 1e3 * a.maxInATick, a.maxForce,
+        a.lateSpeed, static_cast<unsigned long long>(a.damped), static_cast<unsigned long long>(a.flagged),
+        static_cast<unsigned long long>(a.contacts));
 }
 
 std::function<glm::dvec3(double)> strokes(const Scene& scene, double speed, double depth) {
@@ -101,8 +101,8 @@ HapticSettings with(const char* name, const char* value, HapticSettings settings
 /// gave beyond the device's friction exceeds where the force has yielded altogether, but for the ticks in
 /// which it is told.
 void expectBounded(const std::string& name, const Account& a) {
-    EXPECT_LE(a.mostBalance, kMostEnergy + 2.0 * a.mostInATick) << name;
-    EXPECT_LE(a.mostNet, kMostEnergy + 2.0 * a.mostInATick) << name;
+    EXPECT_LE(a.maxBalance, kMaxEnergy + 2.0 * a.maxInATick) << name;
+    EXPECT_LE(a.maxNet, kMaxEnergy + 2.0 * a.maxInATick) << name;
 }
 
 /// What every scene must show in both modes; ordinary touch is nowhere near the bound.
@@ -111,8 +111,8 @@ void expectOrdinary(const Case& c) {
         const Account a = run(c, mode);
         print(c.name, mode == PassivityMode::Control ? "control" : "observe", a);
         EXPECT_GT(a.contacts, 500u) << c.name;
-        EXPECT_LT(a.mostBalance, 0.5 * kMostEnergy) << c.name;
-        EXPECT_LT(a.mostNet, 1e-3) << c.name;
+        EXPECT_LT(a.maxBalance, 0.5 * kMaxEnergy) << c.name;
+        EXPECT_LT(a.maxNet, 1e-3) << c.name;
         if (mode == PassivityMode::Control)
             expectBounded(c.name, a);
         else
@@ -208,10 +208,10 @@ TEST(EffectsInClosedLoop, TheControllerKeepsAWallBeyondTheLimitBounded) {
                 print(c.name, "observe", wild);
                 print(c.name, "control", tame);
                 expectBounded(c.name, tame);
-                if (wild.mostNet < 0.02)
+                if (wild.maxNet < 0.02)
                     continue;
                 ++beyond;
-                EXPECT_GT(wild.mostNet, 10.0 * tame.mostNet) << c.name;
+                EXPECT_GT(wild.maxNet, 10.0 * tame.maxNet) << c.name;
                 EXPECT_GT(wild.lateSpeed, 0.03) << c.name;
                 EXPECT_LT(tame.lateSpeed, 1e-3) << c.name << ": it comes to rest";
             }

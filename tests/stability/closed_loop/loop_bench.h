@@ -1,9 +1,9 @@
 #pragma once
 // A device in a hand against the whole haptic step, offline.
 
-#include "devices/plant/yielding_hand.h"
+#include "devices/plant/hand_impedance.h"
 #include "study/rate/closed_loop.h"
-#include "study/rate/rate_ladder.h"
+#include "study/rate/rate_ablation.h"
 #include "tests/support/touch_bench.h"
 
 #include <functional>
@@ -39,9 +39,9 @@ class LoopBench {
     TouchBench bench;
 
   private:
-    class Wish final : public Device {
+    class Target final : public Device {
       public:
-        explicit Wish(LoopBench& bench) : bench_(bench) {}
+        explicit Target(LoopBench& bench) : bench_(bench) {}
         [[nodiscard]] std::string name() const override { return "wish"; }
         [[nodiscard]] DeviceLimits limits() const override { return {}; }
         [[nodiscard]] DeviceSample sample(double time) noexcept override {
@@ -54,8 +54,8 @@ class LoopBench {
     };
 
     double rate_;
-    Wish wish_;
-    YieldingHand hand_;
+    Target target_;
+    HandImpedance hand_;
     uint64_t ticks_ = 0;
 };
 

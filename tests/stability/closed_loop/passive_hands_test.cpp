@@ -21,7 +21,7 @@ struct Wall {
 };
 
 /// The least viscosity that makes a device passive against a wall of this loop.
-double leastViscosity(const LinearLoop& loop, const Wall& wall) {
+double minViscosity(const LinearLoop& loop, const Wall& wall) {
     return passiveViscosity(
         [&](std::complex<double> z) { return wallOf(loop, wall.stiffness, wall.damping, z); }, loop.period);
 }
@@ -62,7 +62,7 @@ TEST(PassiveHands, ColgatesConditionIsTheFrequencyDomainsForEveryWall) {
     for (const double period : {1e-3, 2.5e-4})
         for (const Wall& wall : {Wall{1000, 0}, Wall{500, 2}, Wall{2000, 0.7}, Wall{300, -0.4}, Wall{0, 5}}) {
             const LinearLoop loop{.period = period};
-            EXPECT_NEAR(leastViscosity(loop, wall) / (0.5 * wall.stiffness * period + std::abs(wall.damping)),
+            EXPECT_NEAR(minViscosity(loop, wall) / (0.5 * wall.stiffness * period + std::abs(wall.damping)),
                         1.0, 1e-6)
                 << wall.stiffness << " N/m, " << wall.damping << " N s/m";
         }
@@ -70,7 +70,7 @@ TEST(PassiveHands, ColgatesConditionIsTheFrequencyDomainsForEveryWall) {
 
 TEST(PassiveHands, ATickOfDelayTriplesWhatASpringDemands) {
     // Re{(1 - 1/z) K / z} T / (2 (1 - cos)) = K T / 2 (2 cos wT + 1), largest at low frequency.
-    EXPECT_NEAR(leastViscosity({.delay = 1}, {1000, 0}), 1.5, 1e-6);
+    EXPECT_NEAR(minViscosity({.delay = 1}, {1000, 0}), 1.5, 1e-6);
 }
 
 TEST(PassiveHands, AFilteredVelocityDemandsLess) {
@@ -78,7 +78,7 @@ TEST(PassiveHands, AFilteredVelocityDemandsLess) {
     const double share = -std::expm1(-2.0 * std::numbers::pi * kVelocityCutoff * 1e-3);
     const LinearLoop loop{.velocityCutoff = kVelocityCutoff};
     const double damping = 3.0;
-    const double top = damping * share / (2.0 - share), least = leastViscosity(loop, {0, damping});
+    const double top = damping * share / (2.0 - share), least = minViscosity(loop, {0, damping});
     EXPECT_GE(least, top * (1.0 - 1e-9));
     EXPECT_LT(least, damping);
     std::cout << "  B " << damping << " through " << kVelocityCutoff << " Hz demands b " << least
@@ -91,7 +91,7 @@ TEST(PassiveHands, NoneGoesUnstableAboveTheConditionAndSomeDoBelowIt) {
             for (const double mass : {0.01, 0.075})
                 for (const Wall& wall : {Wall{1000, 0}, Wall{1000, 0.5}, Wall{200, 2}, Wall{3000, 1}}) {
                     LinearLoop device{.mass = mass, .delay = delay, .velocityCutoff = cutoff};
-                    const double least = leastViscosity(device, wall);
+                    const double least = minViscosity(device, wall);
                     LinearLoop worst;
                     device.viscous = 1.001 * least;
                     EXPECT_LT(worstRadius(device, wall, worst), 1.0)
@@ -116,7 +116,7 @@ TEST(PassiveHands, TheWholeStepIsStableInThemToo) {
     // these.
     for (const Wall& wall : {Wall{1000, 0}, Wall{1000, 0.5}, Wall{200, 2}, Wall{3000, 1}}) {
         const LinearLoop device{.mass = 0.075, .velocityCutoff = kVelocityCutoff};
-        const double viscous = 1.02 * leastViscosity(device, wall);
+        const double viscous = 1.02 * minViscosity(device, wall);
         int hands = 0;
         for (const double mass : {0.0, 0.02, 0.5})
             for (const double damping : {0.0, 0.3, 10.0})

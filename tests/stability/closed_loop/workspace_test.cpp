@@ -29,7 +29,7 @@ struct MappedLoop {
                         PassivityMode passivity = PassivityMode::Observe)
         : limits(limitsOf(plant)),
           loop(floorScene(), wall(stiffness, passivity), plant, 1000.0, limitsOf(plant)) {
-        loop.map = [this](DeviceSample& sample) { map.apply(sample, wish(loop.time()), 1e-3); };
+        loop.map = [this](DeviceSample& sample) { map.apply(sample, target(loop.time()), 1e-3); };
     }
     static HapticSettings wall(double stiffness, PassivityMode passivity) {
         HapticSettings settings = plainWall(stiffness);
@@ -53,12 +53,12 @@ struct MappedLoop {
                           1.005 * output.zoom * glm::distance(loop.plant().measured(), before) + 1e-12);
             }
             started = true;
-            mostJump = std::max(mostJump, glm::distance(now, command));
-            mostBalance = std::max(mostBalance, output.energyBalance);
-            mostNet = std::max(mostNet, net());
-            mostForce = std::max(mostForce, glm::length(now));
+            maxJump = std::max(maxJump, glm::distance(now, command));
+            maxBalance = std::max(maxBalance, output.energyBalance);
+            maxNet = std::max(maxNet, net());
+            maxForce = std::max(maxForce, glm::length(now));
             const double work = loop.plant().motorWork();
-            mostInATick = std::max(mostInATick, work - lastWork);
+            maxInATick = std::max(maxInATick, work - lastWork);
             lastWork = work;
         }
     }
@@ -67,11 +67,10 @@ struct MappedLoop {
 
     DeviceLimits limits;
     WorkspaceMap map;
-    std::function<WorkspaceWish(double)> wish = [](double) { return WorkspaceWish{}; };
+    std::function<WorkspaceWish(double)> target = [](double) { return WorkspaceWish{}; };
     LoopBench loop;
     bool started = false;
-    double mostJump = 0.0, mostBalance = 0.0, mostNet = 0.0, mostForce = 0.0, mostInATick = 0.0,
-           lastWork = 0.0;
+    double maxJump = 0.0, maxBalance = 0.0, maxNet = 0.0, maxForce = 0.0, maxInATick = 0.0, lastWork = 0.0;
 };
 
 /// Above the floor, down, and pressed with `force` by the hand's spring.
@@ -138,14 +137,14 @@ TEST(WorkspaceInClosedLoop, AClutchInContactFadesAndComesBackWithoutAJump) {
     MappedLoop run(800.0, plant);
     const auto press = pressing(1.2, plant);
     bool held = false;
-    run.wish = [&](double) { return WorkspaceWish{.clutch = held}; };
+    run.target = [&](double) { return WorkspaceWish{.clutch = held}; };
     double aside = 0.0, deeper = 0.0;
     run.loop.intention = [&](double t) { return press(t) + glm::dvec3(aside, aside - deeper, 0.0); };
     run.loop.release(press(0.0), glm::dvec3(0.0));
     run.go(2.0);
     const double pressed = run.loop.bench.output.command.force().y;
     EXPECT_NEAR(pressed, 1.2 * 800.0 / (800.0 + plant.handStiffness), 0.05);
-    run.mostJump = 0.0;
+    run.maxJump = 0.0;
     for (int turn = 0; turn < 10; ++turn) {
         const double before = run.loop.bench.output.command.force().y;
         const glm::dvec3 hip = run.loop.bench.output.hip;
@@ -170,11 +169,11 @@ TEST(WorkspaceInClosedLoop, AClutchInContactFadesAndComesBackWithoutAJump) {
         EXPECT_NEAR(run.loop.bench.output.command.force().y, before, 0.1 * pressed);
     }
     // Full force in 50 ms is what the clutch takes away; the device's own motion in the wall comes on top.
-    EXPECT_LT(run.mostJump, 1.3 * pressed / 50.0 + 800.0 * 0.1 * 1e-3);
-    std::printf("  clutch: jump at most %.4f N, balance at most %.4f mJ, net at most %.4f mJ\n", run.mostJump,
-                1e3 * run.mostBalance, 1e3 * run.mostNet);
-    EXPECT_LT(run.mostBalance, kNoticedEnergy) << "what comes back was put in before";
-    EXPECT_LT(run.mostNet, kNoticedEnergy);
+    EXPECT_LT(run.maxJump, 1.3 * pressed / 50.0 + 800.0 * 0.1 * 1e-3);
+    std::printf("  clutch: jump at most %.4f N, balance at most %.4f mJ, net at most %.4f mJ\n", run.maxJump,
+                1e3 * run.maxBalance, 1e3 * run.maxNet);
+    EXPECT_LT(run.maxBalance, kNoticedEnergy) << "what comes back was put in before";
+    EXPECT_LT(run.maxNet, kNoticedEnergy);
 }
 
 TEST(WorkspaceInClosedLoop, LettingGoOfAClutchGivesBackWhatWasPutIn) {
@@ -186,7 +185,7 @@ TEST(WorkspaceInClosedLoop, LettingGoOfAClutchGivesBackWhatWasPutIn) {
         const auto press = pressing(1.2, plant);
         bool held = false;
         double up = 0.0;
-        run.wish = [&](double) { return WorkspaceWish{.zoom = zoom, .clutch = held}; };
+        run.target = [&](double) { return WorkspaceWish{.zoom = zoom, .clutch = held}; };
         run.map.begin({.zoom = zoom});
         run.loop.intention = [&](double t) { return press(t) + glm::dvec3(0.0, up, 0.0); };
         run.loop.release(press(0.0), glm::dvec3(0.0));
@@ -200,9 +199,9 @@ TEST(WorkspaceInClosedLoop, LettingGoOfAClutchGivesBackWhatWasPutIn) {
         }
         EXPECT_EQ(run.loop.bench.output.contacts, 0u);
         std::printf("  let go at zoom %.1f: balance at most %.4f mJ, net at most %.4f mJ\n", zoom,
-                    1e3 * run.mostBalance, 1e3 * run.mostNet);
-        EXPECT_LT(run.mostBalance, kNoticedEnergy);
-        EXPECT_LT(run.mostNet, kNoticedEnergy);
+                    1e3 * run.maxBalance, 1e3 * run.maxNet);
+        EXPECT_LT(run.maxBalance, kNoticedEnergy);
+        EXPECT_LT(run.maxNet, kNoticedEnergy);
     }
 }
 
@@ -214,18 +213,18 @@ TEST(WorkspaceInClosedLoop, ZoomInContactGivesWhatIsDerivedAndNoMore) {
             MappedLoop run(stiffness, plant, passivity);
             const auto press = pressing(force, plant);
             double zoom = 1.0, up = 0.0;
-            run.wish = [&](double) { return WorkspaceWish{.zoom = zoom}; };
+            run.target = [&](double) { return WorkspaceWish{.zoom = zoom}; };
             run.loop.intention = [&](double t) { return press(t) + glm::dvec3(0.0, up, 0.0); };
             run.loop.release(press(0.0), glm::dvec3(0.0));
             run.go(2.0);
             const double pressed = run.loop.bench.output.command.force().y;
-            run.mostJump = 0.0;
+            run.maxJump = 0.0;
             for (int turn = 0; turn < 4; ++turn)
                 for (const double wanted : {other, 1.0}) {
                     zoom = wanted;
                     run.go(1.5);
                 }
-            const double jump = run.mostJump;
+            const double jump = run.maxJump;
             zoom = other;
             run.go(1.0);
             for (int i = 0; i <= 1000; ++i) { // and out, at the new zoom, by 30 mm
@@ -233,24 +232,24 @@ TEST(WorkspaceInClosedLoop, ZoomInContactGivesWhatIsDerivedAndNoMore) {
                 run.go(1e-3);
             }
             // What the wall holds in device terms, F l / (2 zoom), grows where the zoom falls.
-            const double depth = pressed / stiffness, most = std::max(run.mostForce, pressed);
+            const double depth = pressed / stiffness, most = std::max(run.maxForce, pressed);
             const double derived = 0.5 * most * most / stiffness * std::max(0.0, 1.0 / other - 1.0);
             std::printf(
                 "  zoom %4.1f %-8s jump at most %.4f N, balance at most %7.4f mJ, net at most %7.4f mJ, "
                 "derived %7.4f mJ, depth %.2f mm\n",
                 other, passivity == PassivityMode::Control ? "control" : "observe", jump,
-                1e3 * run.mostBalance, 1e3 * run.mostNet, 1e3 * derived, 1e3 * depth);
+                1e3 * run.maxBalance, 1e3 * run.maxNet, 1e3 * derived, 1e3 * depth);
             // The loop itself gives less than half of the controller's most, as without zoom.
-            EXPECT_LT(run.mostBalance, derived + 0.5 * kMostEnergy);
-            EXPECT_LT(run.mostNet, derived + 0.5 * kMostEnergy);
+            EXPECT_LT(run.maxBalance, derived + 0.5 * kMaxEnergy);
+            EXPECT_LT(run.maxNet, derived + 0.5 * kMaxEnergy);
             if (passivity == PassivityMode::Observe) {
-                EXPECT_GE(run.mostBalance, 0.7 * derived) << "the observer sees it";
+                EXPECT_GE(run.maxBalance, 0.7 * derived) << "the observer sees it";
                 // A step of the sensor in the stiffest wall is the largest that there is.
                 EXPECT_LT(jump, 0.01 + 3500.0 * plant.resolution) << "N in a tick";
             }
             if (passivity == PassivityMode::Control) {
-                EXPECT_LE(run.mostBalance, kMostEnergy + 2.0 * run.mostInATick);
-                EXPECT_LE(run.mostNet, kMostEnergy + 2.0 * run.mostInATick);
+                EXPECT_LE(run.maxBalance, kMaxEnergy + 2.0 * run.maxInATick);
+                EXPECT_LE(run.maxNet, kMaxEnergy + 2.0 * run.maxInATick);
             }
         }
 }

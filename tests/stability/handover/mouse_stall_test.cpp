@@ -23,15 +23,15 @@ constexpr double kTick = 1e-3;
 constexpr int kFrame = 33;
 
 /// A line of sight.
-struct Sight {
+struct Picker {
     glm::dvec3 eye, along;
 };
 
 /// The window's mouse without a window: what it points at, a button and a press.
 class StalledWindow {
   public:
-    StalledWindow(const std::string& file, const HapticSettings& settings, const Sight& sight)
-        : scene_(touchedScene(file)), sight_(sight), servo_(mouse_), seen_(scene_.source, *scene_.haptic) {
+    StalledWindow(const std::string& file, const HapticSettings& settings, const Picker& picker)
+        : scene_(touchedScene(file)), picker_(picker), servo_(mouse_), seen_(scene_.source, *scene_.haptic) {
         servo_.loop.setSettings(settings);
         (void)servo_.loop.offerScene(scene_.haptic, scene_.source);
         stiffness_ = settings.stiffness;
@@ -41,7 +41,7 @@ class StalledWindow {
     void frame(double press) {
         const double time = servo_.record.time;
         const ObjectMotions motions = seen_.at(time);
-        const auto hit = pickSurface(*scene_.haptic, motions, sight_.eye, sight_.along);
+        const auto hit = pickSurface(*scene_.haptic, motions, picker_.eye, picker_.along);
         if (!hit)
             return mouse_.release();
         MouseHand hand(hit->point);
@@ -74,7 +74,7 @@ class StalledWindow {
     void tick() {
         const TickRecord before = servo_.record;
         const TickRecord& now = servo_.step();
-        double& most = press_ > 0.0 ? mostForce : mostHovering;
+        double& most = press_ > 0.0 ? maxForce : maxHovering;
         most = std::max(most, glm::length(now.output.force) / (press_ > 0.0 ? press_ : 1.0));
         const ObjectMotions motions = moved_.at(now.time);
         glm::dvec3 way = now.output.hip - before.output.hip;
@@ -84,8 +84,8 @@ class StalledWindow {
                   motion.workspaceFromObject.point(motion.before.inversePoint(before.output.hip));
         }
         work_ += glm::dot(before.output.command.force(), way);
-        mostEnergy = std::max(mostEnergy, work_ + stored() - storedBefore_);
-        mostBalance = std::max(mostBalance, now.output.energyBalance);
+        maxEnergy = std::max(maxEnergy, work_ + stored() - storedBefore_);
+        maxBalance = std::max(maxBalance, now.output.energyBalance);
         if (const std::optional<Fault> fault = watch_.add(recordedTick(now)))
             faults += fault->name + " ";
     }
@@ -100,23 +100,23 @@ class StalledWindow {
     [[nodiscard]] bool touching() const { return servo_.record.output.contacts > 0; }
 
     void countEnergy() {
-        work_ = mostEnergy = 0.0;
+        work_ = maxEnergy = 0.0;
         storedBefore_ = stored();
     }
 
-    double mostForce = 0.0;    ///< while it presses, of what was asked for
-    double mostHovering = 0.0; ///< N, while it does not
+    double maxForce = 0.0;    ///< while it presses, of what was asked for
+    double maxHovering = 0.0; ///< N, while it does not
     /// J since countEnergy: given to the hand beyond what the objects' own motion did, and more in the
     /// springs than then.
-    double mostEnergy = 0.0;
-    double mostBalance = 0.0; ///< J
+    double maxEnergy = 0.0;
+    double maxBalance = 0.0; ///< J
     std::string faults;
 
   private:
     [[nodiscard]] double stored() const { return 0.5 * force() * servo_.record.output.penetration; }
 
     TouchedScene scene_;
-    Sight sight_;
+    Picker picker_;
     MouseDevice mouse_;
     SteppedServo servo_;
     MovingObjects seen_, moved_{scene_.source, *scene_.haptic};
@@ -125,14 +125,14 @@ class StalledWindow {
     double work_ = 0.0, storedBefore_ = 0.0;
 };
 
-const Sight kFromAbove{{0.01, 0.5, 0.02}, {0.0, -1.0, 0.0}};
-Sight fromTheFront(double x, double y) {
+const Picker kFromAbove{{0.01, 0.5, 0.02}, {0.0, -1.0, 0.0}};
+Picker fromTheFront(double x, double y) {
     return {{x, y, 0.5}, {0.0, 0.0, -1.0}};
 }
 
 struct Place {
     const char* file;
-    Sight sight;
+    Picker picker;
 };
 const Place kPlaces[]{{"plane.glb", kFromAbove},
                       {"doughnut.glb", fromTheFront(0.0529, 0.0)},
@@ -152,7 +152,7 @@ TEST(MouseStall, NeverPressesHarderThanAsked) {
         for (const double stiffness : {600.0, 3500.0})
             for (const double press : {0.6, 3.0})
                 for (const int stall : {20, 200, 2000}) {
-                    StalledWindow window(place.file, settingsWith(stiffness), place.sight);
+                    StalledWindow window(place.file, settingsWith(stiffness), place.picker);
                     window.frames(6, 0.0);
                     window.frames(30, press);
                     if (!window.touching())
@@ -166,21 +166,21 @@ TEST(MouseStall, NeverPressesHarderThanAsked) {
                     EXPECT_TRUE(window.touching()) << what;
                     const bool moving = std::string(place.file) == "moving.glb";
                     // Where the hand still slides after what moves, a tick gives k (v T)^2 / 2 by sampling.
-                    EXPECT_LT(window.mostEnergy, moving ? 3e-6 : 1e-9) << what;
+                    EXPECT_LT(window.maxEnergy, moving ? 3e-6 : 1e-9) << what;
                     window.frames(10, press);
-                    EXPECT_LT(window.mostForce, 1.05) << what;
+                    EXPECT_LT(window.maxForce, 1.05) << what;
                     EXPECT_EQ(window.faults, "") << what;
                     if (!moving) {
                         EXPECT_NEAR(window.force(), press, 0.05 * press) << what;
-                        EXPECT_LT(window.mostEnergy, 1e-6) << what << ": nor when the picture goes on";
+                        EXPECT_LT(window.maxEnergy, 1e-6) << what << ": nor when the picture goes on";
                     }
                 }
     EXPECT_EQ(touched, 5 * 2 * 2 * 3);
 }
 
 /// A mouse on its way through the air, and a floor of 3500 N/m that it does not point at.
-struct StruckFloor {
-    StruckFloor() : servo(mouse) {
+struct HitFloor {
+    HitFloor() : servo(mouse) {
         const TouchedScene floor = floorScene(0.0f, {.recommendedStiffness = 3500.0});
         (void)servo.loop.offerScene(floor.haptic, floor.source);
         go({.position = {0.0, 0.02, 0.0}, .press = 0.0}, 300);
@@ -202,7 +202,7 @@ struct StruckFloor {
 
 /// Where it came down fast it was given up to 1.75 N for a tick.
 TEST(MouseStall, WhatDoesNotPressIsGivenNothing) {
-    StruckFloor strike;
+    HitFloor strike;
     strike.go({.position = {0.0, -0.1, 0.0}, .press = 0.0}, 300);
     EXPECT_GT(strike.touched, 100);
     EXPECT_GT(strike.felt, 0.5) << "it strikes";
@@ -220,7 +220,7 @@ TEST(MouseStall, WhatDoesNotPressIsGivenNothing) {
 }
 
 TEST(MouseStall, WhatStrikesAStifferSurfaceThanItPointsAtPressesAsAsked) {
-    StruckFloor strike;
+    HitFloor strike;
     strike.go({.position = {0.0, -0.1, 0.0}, .press = 0.6, .stiffness = 600.0, .stiffest = 3500.0}, 500);
     EXPECT_NEAR(glm::length(strike.servo.record.output.force), 0.6, 0.03);
     EXPECT_LT(strike.felt, 1.05 * 0.6);
@@ -230,7 +230,7 @@ TEST(MouseStall, WhatStrikesAStifferSurfaceThanItPointsAtPressesAsAsked) {
 TEST(MouseStall, NorWhenTheWholeProcessStoodStill) {
     for (const Place& place : kPlaces)
         for (const double stiffness : {600.0, 3500.0}) {
-            StalledWindow window(place.file, settingsWith(stiffness), place.sight);
+            StalledWindow window(place.file, settingsWith(stiffness), place.picker);
             window.frames(6, 0.0);
             window.frames(30, 0.6);
             if (!window.touching())
@@ -238,10 +238,10 @@ TEST(MouseStall, NorWhenTheWholeProcessStoodStill) {
             window.countEnergy();
             window.skip(2000);
             window.ticks(20);
-            EXPECT_LT(window.mostForce, 1.05) << place.file;
+            EXPECT_LT(window.maxForce, 1.05) << place.file;
             // What moves is elsewhere, two seconds on: the hand is there too, but for what sticks; and the
             // command fades in from nothing, while what moves goes on.
-            EXPECT_LT(window.mostEnergy, std::string(place.file) == "moving.glb" ? 3e-4 : 1e-9) << place.file;
+            EXPECT_LT(window.maxEnergy, std::string(place.file) == "moving.glb" ? 3e-4 : 1e-9) << place.file;
             EXPECT_EQ(window.faults, "");
         }
 }
@@ -260,8 +260,8 @@ TEST(MouseStall, AMovingModelIsPressedWithWhatWasAskedForAllTheTime) {
         window.frames(20, 0.6);
         touching += window.touching() ? 1 : 0;
         window.ticks(2000);
-        EXPECT_LT(window.mostForce, 1.05) << "from tick " << 300 * start;
-        EXPECT_LT(window.mostHovering, 0.15) << "what runs into it pushes it aside";
+        EXPECT_LT(window.maxForce, 1.05) << "from tick " << 300 * start;
+        EXPECT_LT(window.maxHovering, 0.15) << "what runs into it pushes it aside";
         EXPECT_EQ(window.faults, "");
     }
     EXPECT_GT(touching, 4);
@@ -281,8 +281,8 @@ TEST(MouseStall, AForceThatIsOffLetsTheHandStayWhereItPresses) {
         window.switchForce(true);
         window.frames(20, 0.6);
     }
-    EXPECT_LT(window.mostForce, 1.05);
-    EXPECT_LT(window.mostBalance, 1e-6);
+    EXPECT_LT(window.maxForce, 1.05);
+    EXPECT_LT(window.maxBalance, 1e-6);
 }
 
 } // namespace

@@ -12,7 +12,7 @@ namespace {
 
 TEST(TextureStability, ABorderBetweenMaterialsChangesTheForceByTheirDifference) {
     const double scale = 0.02, slope = scale / kSide;
-    for (const TextureMode mode : kRungs) {
+    for (const TextureMode mode : kConfigurations) {
         Scene scene = reliefPlane(slopeImage(256), scale);
         scene.materials[0].haptic.height.value->texture.wrapS =
             Wrap::ClampToEdge; // else the map has a cliff there
@@ -46,7 +46,7 @@ struct Border {
     const char* name;
     void (*differ)(Material& first, Material& second);
     bool shadedNormals = false; ///< vertex normals that lean: what shading makes of them is felt
-    double mostStiffness = kStiffness;
+    double maxStiffness = kStiffness;
 };
 
 HapticMaterial::Field<float> stated(double value) {
@@ -82,7 +82,7 @@ Scene bordered(const Border& border) {
     Scene scene;
     scene.materials.resize(2);
     for (Material& m : scene.materials)
-        m.haptic.stiffness = stated(border.mostStiffness);
+        m.haptic.stiffness = stated(border.maxStiffness);
     scene.images.push_back(image("lean", 2, 2, 3, [](double, double) {
         return glm::vec4(0.5 + 0.5 * glm::normalize(glm::dvec3(0.3, 0.1, 1.0)), 1.0);
     }));
@@ -125,7 +125,7 @@ TEST(MaterialBorders, TheForceChangesByTheDifferenceAndNotByMore) {
                     for (size_t i = 400; i < 1000; ++i) {
                         const double change = glm::distance(ticks[i].force, ticks[i - 1].force);
                         EXPECT_LE(change,
-                                  glm::distance(before, after) + border.mostStiffness * (step + sinking))
+                                  glm::distance(before, after) + border.maxStiffness * (step + sinking))
                             << "at x " << ticks[i].hip.x;
                     }
                     if (sink > 0.0 || std::string_view(border.name) != "damping") {

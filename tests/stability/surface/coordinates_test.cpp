@@ -86,7 +86,7 @@ void strokeOverSeam(SeamMap kind, const HapticSettings& settings, bool along) {
 
 TEST(TextureStability, ASeamOfTheCoordinatesIsNotFelt) {
     for (const bool along : {true, false}) {
-        for (const TextureMode mode : kRungs)
+        for (const TextureMode mode : kConfigurations)
             strokeOverSeam(SeamMap::Heights, felt(mode), along);
         for (const SeamMap kind : {SeamMap::Normals, SeamMap::NormalsWithoutTangents, SeamMap::Stiffness})
             strokeOverSeam(kind, felt(TextureMode::Law), along);
@@ -99,7 +99,7 @@ TEST(TextureStability, ASeamOfTheCoordinatesIsNotFelt) {
 TEST(TextureStability, MirroredCoordinatesTurnTheSlopeAtTheirLineAndNowhereElse) {
     // u = |x|: on both sides of x = 0 the ground rises outwards by the same slope.
     const double scale = 0.02, slope = scale / kSide;
-    for (const TextureMode mode : kRungs) {
+    for (const TextureMode mode : kConfigurations) {
         Scene scene = reliefPlane(slopeImage(256), scale, 8);
         for (size_t v = 0; v < scene.meshes[0].uv0.size(); ++v)
             scene.meshes[0].uv0[v].x =
@@ -126,7 +126,7 @@ TEST(TextureStability, MirroredCoordinatesTurnTheSlopeAtTheirLineAndNowhereElse)
 
 TEST(TextureStability, CollapsedCoordinatesHaveTheSlopeThatIsLeft) {
     const double scale = 0.02;
-    for (const TextureMode mode : kRungs)
+    for (const TextureMode mode : kConfigurations)
         for (const double width : {0.0, 1e-9, 1.0}) { // of v; u is whole or nothing
             for (const bool anyU : {false, true}) {
                 Scene scene = reliefPlane(slopeImage(256), scale, 3);
@@ -190,7 +190,7 @@ TEST(TextureStability, ANodeThatMirrorsAndStretchesIsTheSameSurfaceAsItsVertices
     for (const glm::dvec3& by :
          {glm::dvec3(-1, 1, 1), glm::dvec3(1, -0.5, 1), glm::dvec3(-2, 0.5, 1.5), glm::dvec3(-1, -1, -1)})
         for (const bool normalMap : {false, true})
-            for (const TextureMode mode : kRungs) {
+            for (const TextureMode mode : kConfigurations) {
                 const bool mirrored = by.x * by.y * by.z < 0.0;
                 const Scene plain = normalMap ? leaning() : reliefPlane(slopeImage(64), 0.01, 5);
                 Scene byNode, byVertices;

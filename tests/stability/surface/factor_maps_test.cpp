@@ -42,13 +42,13 @@ double factorChange(double step, double least, double most) {
 }
 
 TEST(FactorMaps, CliffsInStiffnessAreFeltAsTheLawHasThem) {
-    constexpr double kLeast = 0.3, kMost = 1.0;
+    constexpr double kMin = 0.3, kMax = 1.0;
     for (const double radius : {0.0, 0.5e-3})
         for (const double speed : {0.005, 0.02, 0.1, 0.38, 1.0})
             for (const double depth : {2e-4, 1e-3}) {
                 SCOPED_TRACE("r " + std::to_string(radius) + " at " + std::to_string(speed) + " m/s, depth " +
                              std::to_string(depth));
-                TouchBench bench(factorPlane(&HapticMaterial::stiffnessMap, kLeast, kMost),
+                TouchBench bench(factorPlane(&HapticMaterial::stiffnessMap, kMin, kMax),
                                  felt(TextureMode::Law, radius));
                 const double s = speed * bench.dt;
                 bench.step({-0.045, 0.003, 0.01});
@@ -57,17 +57,17 @@ TEST(FactorMaps, CliffsInStiffnessAreFeltAsTheLawHasThem) {
                 glm::dvec3 last = bench.output.force;
                 double largest = 0.0;
                 bench.moveTo({0.04, 0.02, -depth}, speed, [&](const HapticOutput& out) {
-                    const double d = out.penetration, share = s < kAliased ? factorAt(out.hip, kLeast, kMost)
-                                                                           : 0.5 * (kLeast + kMost);
+                    const double d = out.penetration,
+                                 share = s < kAliased ? factorAt(out.hip, kMin, kMax) : 0.5 * (kMin + kMax);
                     EXPECT_NEAR(out.force.z, kStiffness * share * d, 1e-4 * kStiffness * d) << out.hip.x;
                     const double change = glm::distance(out.force, last);
-                    EXPECT_LE(change, kStiffness * (s + d * factorChange(s, kLeast, kMost)));
+                    EXPECT_LE(change, kStiffness * (s + d * factorChange(s, kMin, kMax)));
                     largest = std::max(largest, change);
                     last = out.force;
                 });
                 EXPECT_EQ(held(bench), 0.0);
                 if (s < kAliased) {
-                    EXPECT_GT(largest, 0.3 * kStiffness * depth * factorChange(s, kLeast, kMost));
+                    EXPECT_GT(largest, 0.3 * kStiffness * depth * factorChange(s, kMin, kMax));
                 } else {
                     EXPECT_LT(largest, 1e-3 * kStiffness * depth) << "what would alias is left out";
                 }
@@ -75,9 +75,9 @@ TEST(FactorMaps, CliffsInStiffnessAreFeltAsTheLawHasThem) {
 }
 
 TEST(FactorMaps, CliffsInDampingAreFeltAsTheLawHasThem) {
-    constexpr double kLeast = 0.0, kMost = 2.0, kDamping = 1.5; // N·s/m
+    constexpr double kMin = 0.0, kMax = 2.0, kDamping = 1.5; // N·s/m
     for (const double speed : {0.005, 0.1, 1.0}) {
-        Scene scene = factorPlane(&HapticMaterial::dampingMap, kLeast, kMost);
+        Scene scene = factorPlane(&HapticMaterial::dampingMap, kMin, kMax);
         scene.materials[0].haptic.damping = {static_cast<float>(kDamping), HapticSource::Touchstone};
         TouchBench bench(scene, felt(TextureMode::Law));
         const double s = speed * bench.dt;
@@ -90,13 +90,13 @@ TEST(FactorMaps, CliffsInDampingAreFeltAsTheLawHasThem) {
             bench.step({-0.045 + s * i, 0.003, -1e-3 - 4e-4 * std::sin(0.2 * i)});
             const HapticOutput& out = bench.output;
             const double v = out.hipVelocity.z, d = out.penetration;
-            const double share = s < kAliased ? factorAt(out.hip, kLeast, kMost) : 0.5 * (kLeast + kMost);
+            const double share = s < kAliased ? factorAt(out.hip, kMin, kMax) : 0.5 * (kMin + kMax);
             const double expected = std::max(kStiffness * d - kDamping * share * v, 0.0);
             if (i > 30) { // the filtered speed has settled, and with it the level
                 EXPECT_NEAR(out.force.z, expected, 1e-4) << out.hip.x;
                 const double allowed = kStiffness * glm::distance(out.hip, last.hip) +
-                                       kDamping * (kMost * std::abs(v - last.hipVelocity.z) +
-                                                   std::abs(v) * factorChange(s, kLeast, kMost));
+                                       kDamping * (kMax * std::abs(v - last.hipVelocity.z) +
+                                                   std::abs(v) * factorChange(s, kMin, kMax));
                 EXPECT_LE(glm::distance(out.force, last.force), allowed * (1.0 + 1e-6) + 1e-9);
                 damped += std::abs(out.force.z - kStiffness * d) > 0.05 ? 1 : 0;
             }

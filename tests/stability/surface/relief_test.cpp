@@ -14,7 +14,7 @@ TEST(TextureStability, CliffsOfOneTexel) {
     constexpr int kTexels = 128;
     const double scale = 5e-4, texel = kSide / kTexels;
     const Image cliffs = cliffImage(kTexels);
-    for (const TextureMode mode : kRungs)
+    for (const TextureMode mode : kConfigurations)
         for (const double radius : {0.0, 0.5e-3})
             for (const double speed : {0.005, 0.02, 0.1, 0.38, 1.0})
                 for (const double depth : {2e-4, 1e-3}) {
@@ -144,7 +144,7 @@ TEST(TextureStability, MapsOfAnyNumbersStayHarmless) {
                 const auto* bytes = reinterpret_cast<const std::byte*>(&value);
                 broken.pixels.bytes.insert(broken.pixels.bytes.end(), bytes, bytes + sizeof value);
             }
-            for (const TextureMode mode : kRungs) {
+            for (const TextureMode mode : kConfigurations) {
                 Scene scene = reliefPlane(broken, 0.01);
                 if (normalMap)
                     scene.materials[0].normalTexture = texture(0);

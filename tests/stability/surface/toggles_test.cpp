@@ -101,7 +101,7 @@ void toggle(HapticSettings& s, uint_fast32_t dice) {
 }
 
 TEST(Toggles, EveryEffectInEveryTickUnderAHandStaysFiniteAndWithinTheLaw) {
-    constexpr double kMostStiffness = 800.0, kMostDamping = 2.0, kMostViscous = 1.0;
+    constexpr double kMaxStiffness = 800.0, kMaxDamping = 2.0, kMaxViscous = 1.0;
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {
         std::mt19937 random(seed);
         HapticSettings s;
@@ -120,7 +120,7 @@ TEST(Toggles, EveryEffectInEveryTickUnderAHandStaysFiniteAndWithinTheLaw) {
             const double d = out.penetration, v = glm::length(out.hipVelocity);
             const double longest = 1.0 / std::cos(0.5236) * (1.0 + 10.0);
             EXPECT_LE(glm::length(out.force),
-                      kMostStiffness * d * longest + (kMostDamping + kMostViscous) * v + 1e-9)
+                      kMaxStiffness * d * longest + (kMaxDamping + kMaxViscous) * v + 1e-9)
                 << i;
             most = std::max(most, glm::length(out.force));
             step = std::max(step, glm::distance(out.commandInWorkspace, command));

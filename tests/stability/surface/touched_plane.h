@@ -14,7 +14,7 @@ namespace touchstone::test {
 
 inline constexpr double kPi = 3.141592653589793;
 inline constexpr double kStiffness = 1000.0, kSide = 0.1; // N/m, m
-inline constexpr TextureMode kRungs[] = {TextureMode::Law, TextureMode::Blinn, TextureMode::Minsky};
+inline constexpr TextureMode kConfigurations[] = {TextureMode::Law, TextureMode::Blinn, TextureMode::Minsky};
 
 /// Shaded, without friction, kStiffness.
 [[nodiscard]] HapticSettings felt(TextureMode mode, double radius = 0.0);

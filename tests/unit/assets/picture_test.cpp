@@ -69,12 +69,12 @@ void expectNormalsAreSlopes(const Decoded& heights, const Decoded& normals, doub
 
 TEST(Pictures, ANormalMapIsTheSlopeOfItsHeightMap) {
     // Not symmetric in any way, so that a swapped axis or sign shows.
-    const HeightFunction relief = [](double u, double v) {
+    const HeightFunction bump = [](double u, double v) {
         const double turn = 2.0 * std::numbers::pi;
         return 0.5 + 0.2 * std::sin(turn * u) + 0.2 * std::cos(turn * (2.0 * v + u));
     };
-    expectNormalsAreSlopes(decoded(png(heightMap(relief, 128))),
-                           decoded(png(normalMap(relief, 128, 0.03, 0.002))), 0.03, 0.002);
+    expectNormalsAreSlopes(decoded(png(heightMap(bump, 128))),
+                           decoded(png(normalMap(bump, 128, 0.03, 0.002))), 0.03, 0.002);
 }
 
 TEST(Pictures, TheDoughnutsMapsAgreeAndTile) {

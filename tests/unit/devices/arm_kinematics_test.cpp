@@ -30,7 +30,7 @@ TEST(ArmKinematics, TheWoodenArmIsWhereItsClosedFormSays) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> counts(-8000.0, 8000.0);
     for (int i = 0; i < 1000; ++i) {
-        const std::array<double, kMostMotors> at{counts(random), counts(random), counts(random)};
+        const std::array<double, kMaxMotors> at{counts(random), counts(random), counts(random)};
         const auto body = [&](size_t m) { return wooden.motors[m].ratio * 2.0 * kPi * at[m] / 2000.0; };
         const glm::dvec3 expected = woodenByHand(body(0), body(1), body(2));
         EXPECT_NEAR(glm::length(poseOf(wooden, at).position - expected), 0.0, 1e-12);
@@ -43,7 +43,7 @@ TEST(ArmKinematics, TheJacobianIsTheDerivativeOfThePlace) {
     for (const char* name : {"woodenhaptics.json", "diy_gantry.json"}) {
         const ArmKinematics chain = arm(name);
         for (int i = 0; i < 200; ++i) {
-            const std::array<double, kMostMotors> at{counts(random), counts(random), counts(random)};
+            const std::array<double, kMaxMotors> at{counts(random), counts(random), counts(random)};
             const ArmPose pose = poseOf(chain, at);
             for (size_t m = 0; m < 3; ++m) {
                 auto before = at, after = at;

@@ -166,7 +166,7 @@ void storm(HidProtocol& protocol, std::mt19937_64& random, const std::vector<Byt
            const std::function<void(std::span<const uint8_t>)>& checkCommand) {
     DeviceReading reading;
     protocol.restart(reading);
-    std::array<uint8_t, kMostReportSize> command{};
+    std::array<uint8_t, kMaxReportSize> command{};
     uint64_t lost = 0;
     int readings = 0;
     for (int i = 0; i < 100000; ++i) {
@@ -243,7 +243,7 @@ TEST(RawProtocol, GoesOnCountingWhereAnotherProcessLeftOff) {
     DeviceReading reading;
     protocol->restart(reading);
     uint64_t lost = 0;
-    std::array<uint8_t, kMostReportSize> bytes{};
+    std::array<uint8_t, kMaxReportSize> bytes{};
     const auto next = [&](uint32_t sequence, uint32_t answered) {
         EXPECT_EQ(protocol->take(rawState({.flags = kRawHomed, .sequence = sequence, .answered = answered}),
                                  reading, lost),
@@ -262,7 +262,7 @@ TEST(RawProtocol, NamesPlacesAnswersAndKeepsStillUntilItKnowsThePlace) {
     DeviceReading reading;
     protocol->restart(reading);
     EXPECT_FALSE(reading.valid);
-    std::array<uint8_t, kMostReportSize> bytes{};
+    std::array<uint8_t, kMaxReportSize> bytes{};
     const ForceOrder order{.force = {1.5, -2.0, 0.25}};
     ASSERT_EQ(protocol->command(order, bytes), 65u);
     EXPECT_EQ(parseRawCommand(std::span(bytes).subspan(1))->values[0], 0)

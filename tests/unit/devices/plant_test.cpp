@@ -1,4 +1,4 @@
-#include "devices/plant/yielding_hand.h"
+#include "devices/plant/hand_impedance.h"
 #include "engine/core/error.h"
 #include "tests/support/allocation_counter.h"
 
@@ -190,12 +190,12 @@ TEST(Plant, RefusesWhatIsOutOfRange) {
     EXPECT_THROW(Plant{p}, Error);
 }
 
-TEST(YieldingHand, HoldsAForceFromTickToTick) {
+TEST(HandImpedance, HoldsAForceFromTickToTick) {
     for (const int delay : {0, 1}) {
         PlantParameters p = bare(0.1);
         p.delay = delay;
         Intention still;
-        YieldingHand hand(still, p);
+        HandImpedance hand(still, p);
         (void)hand.sample(0.0);
         hand.push({2.0, 0, 0});
         const double first = hand.sample(0.001).position.x;
@@ -207,12 +207,12 @@ TEST(YieldingHand, HoldsAForceFromTickToTick) {
     }
 }
 
-TEST(YieldingHand, IsSeenInTheStepsOfItsSensor) {
+TEST(HandImpedance, IsSeenInTheStepsOfItsSensor) {
     PlantParameters p = bare(0.1);
     p.resolution = 3e-5;
     Intention still;
     still.next.position = {1.04e-4, -1.04e-4, 1e-5};
-    YieldingHand hand(still, p);
+    HandImpedance hand(still, p);
     const glm::dvec3 seen = hand.sample(0.0).position;
     EXPECT_NEAR(seen.x, 9e-5, 1e-18);
     EXPECT_NEAR(seen.y, -9e-5, 1e-18);
@@ -220,10 +220,10 @@ TEST(YieldingHand, IsSeenInTheStepsOfItsSensor) {
     EXPECT_EQ(hand.plant().position(), still.next.position);
 }
 
-TEST(YieldingHand, StartsAtRestWhereItIntendsToBe) {
+TEST(HandImpedance, StartsAtRestWhereItIntendsToBe) {
     Intention still;
     still.next.position = {0.01, 0.02, 0.03};
-    YieldingHand hand(still);
+    HandImpedance hand(still);
     EXPECT_LT(glm::distance(hand.sample(5.0).position, still.next.position), 2.7e-5);
     hand.push({1, 0, 0});
     still.next.valid = false;
@@ -235,9 +235,9 @@ TEST(YieldingHand, StartsAtRestWhereItIntendsToBe) {
     EXPECT_NEAR(hand.sample(5.003).position.x, 0.1, 1.6e-5) << "time stands still";
 }
 
-TEST(YieldingHand, AllocatesNothing) {
+TEST(HandImpedance, AllocatesNothing) {
     Intention still;
-    YieldingHand hand(still);
+    HandImpedance hand(still);
     const uint64_t before = test::allocationsOnThisThread();
     double moved = 0.0;
     for (int tick = 0; tick < 1000; ++tick) {

@@ -25,10 +25,10 @@ glm::dvec3 wandering(double t) {
     return {0.05 * std::sin(3.0 * t), 0.04 * std::cos(2.3 * t), 0.03 * std::sin(1.7 * t + 1.0)};
 }
 
-DeviceSample mapped(WorkspaceMap& map, const glm::dvec3& position, const WorkspaceWish& wish,
+DeviceSample mapped(WorkspaceMap& map, const glm::dvec3& position, const WorkspaceWish& target,
                     double dt = kTick) {
     DeviceSample sample = at(position);
-    map.apply(sample, wish, dt);
+    map.apply(sample, target, dt);
     return sample;
 }
 
@@ -160,9 +160,9 @@ TEST(WorkspaceMap, BearsAnything) {
             (void)mapped(map, glm::dvec3(0.01), {.zoom = zoom}, 10.0);
     };
     goOn(kInfinity);
-    EXPECT_EQ(map.mapping().workspaceFromDevice.scale, kMostZoom);
+    EXPECT_EQ(map.mapping().workspaceFromDevice.scale, kMaxZoom);
     goOn(1e-9);
-    EXPECT_EQ(map.mapping().workspaceFromDevice.scale, kLeastZoom);
+    EXPECT_EQ(map.mapping().workspaceFromDevice.scale, kMinZoom);
     // No sample: nothing is learned from it, and what was held is still held.
     const glm::dvec3 hip = mapped(map, glm::dvec3(0.01), {.zoom = 0.1}).inWorkspace();
     DeviceSample gone;

@@ -423,7 +423,7 @@ TEST(GltfHaptics, PrecedenceIsPerField) {
     EXPECT_EQ(haptic.stiffness.source, HapticSource::Touchstone);
     EXPECT_EQ(haptic.stiffnessMap.source, HapticSource::Mpeg);
     EXPECT_FALSE(haptic.friction.value);
-    // The rest of the ladder, field by field: ours, MPEG's, physics, the roughness that the file states.
+    // The rest of the ablation, field by field: ours, MPEG's, physics, the roughness that the file states.
     maker.json["materials"][0]["extensions"]["TOUCHSTONE_materials_haptic"] = {
         {"stiffnessTexture", {{"index", 0}, {"min", 0.7}}}};
     const HapticMaterial mixed = hapticOf(maker);

@@ -28,7 +28,7 @@ std::vector<Wall> randomWalls(std::mt19937& random, size_t count) {
             wall.dynamicFriction = wall.staticFriction * unit(random);
             normals.push_back(wall.normal);
         }
-        if (leastSingularValue(normals) >= 0.11)
+        if (minSingularValue(normals) >= 0.11)
             return walls;
     }
 }
@@ -75,7 +75,7 @@ TEST(CornerLoads, InRandomCornersTheElasticForceIsTheClosedFormContinuousAndPull
         for (const Wall& wall : walls)
             hardest = std::max(hardest, static_cast<double>(wall.stiffness));
         const double lipschitz =
-            hardest * std::sqrt(static_cast<double>(walls.size())) / leastSingularValue(normals);
+            hardest * std::sqrt(static_cast<double>(walls.size())) / minSingularValue(normals);
         const Wander path(random);
         bench.step(inTheOpen(normals, 0.02));
         bench.moveTo(path.at(0.0), 0.1);

@@ -92,7 +92,7 @@ TEST(EffectPlan, APlainSceneHasNoneAndHoldsNothing) {
         EXPECT_EQ(planned(*scene, effect).memoryBytes, 0u) << effectName(effect);
         EXPECT_FALSE(planned(*scene, effect).reason.empty());
     }
-    EXPECT_TRUE(scene->plan.plainFeel);
+    EXPECT_TRUE(scene->plan.plainSample);
     EXPECT_EQ(scene->objects[0]->attributeBytes().all(), 0u)
         << "coordinates, tangents and normals that nothing reads";
 }
@@ -183,7 +183,7 @@ TEST(EffectPlan, WhatIsOffLeavesThePlainTick) {
     haptic.friction = haptic.dampingMap = {factor, HapticSource::Touchstone};
     source.meshes[0].friction.assign(source.meshes[0].positions.size(), 0.0f);
     source.meshes[0].damping = source.meshes[0].friction;
-    const auto plain = [](const Scene& scene) { return compiled(scene)->plan.plainFeel; };
+    const auto plain = [](const Scene& scene) { return compiled(scene)->plan.plainSample; };
     EXPECT_TRUE(plain(source));
     EXPECT_FALSE(planned(*compiled(source), Effect::Friction).on);
     EXPECT_FALSE(planned(*compiled(source), Effect::Damping).on);

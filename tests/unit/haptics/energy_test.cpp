@@ -158,7 +158,7 @@ TEST(Energy, ShadingGivesWhatTheShapeOfThePrismSays) {
     EXPECT_LE(hand.work.given() - hand.work.law(), 1.01 * kStiffness * hand.work.samplingBound());
 }
 
-/// A relief of waves along x on the plane, and what each law makes of it, evaluated here.
+/// A bump height of waves along x on the plane, and what each law makes of it, evaluated here.
 struct Waves {
     static constexpr double kScale = 4e-4; // m
     static constexpr int kCount = 5;
@@ -254,15 +254,15 @@ TEST(Energy, ADampingMapTakesWhatItsCoefficientsSay) {
     //  - on the way out what the velocity's filter leaves out while it rises, (1 + q) / (2 (1 - q)) ticks,
     //  - near the surface what a wall would have to pull for: (b v)² / 2k.
     // The surface is met in the middle of a tick, as the trapezium rule has it.
-    constexpr double kDepth = 1.01e-3, kAbove = 0.99e-3, kSpeed = 0.02, kMost = 3.0, kTick = 1e-3;
+    constexpr double kDepth = 1.01e-3, kAbove = 0.99e-3, kSpeed = 0.02, kMax = 3.0, kTick = 1e-3;
     Scene scene = planeWithMap([](double u) { return u; });
     FactorMap map;
     map.texture.image = 0;
     map.min = 0.0f;
     map.max = 2.0f;
     scene.materials[0].haptic.dampingMap = {map, HapticSource::Touchstone};
-    scene.materials[0].haptic.damping = {static_cast<float>(0.5 * kMost), HapticSource::Touchstone};
-    const auto damping = [](double x) { return kMost * (x / 0.2 + 0.5); };
+    scene.materials[0].haptic.damping = {static_cast<float>(0.5 * kMax), HapticSource::Touchstone};
+    const auto damping = [](double x) { return kMax * (x / 0.2 + 0.5); };
     constexpr double kFrom = -0.08, kTo = 0.08;
     for (const double side : {1.0, -1.0}) {
         MeteredBench hand(scene, nothingOn());

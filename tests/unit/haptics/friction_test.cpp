@@ -223,8 +223,9 @@ void expectOnSurfaceAndInCone(const TouchBench& bench, double muS, double& clear
     if (out.contacts == 0)
         return;
     const DeviceState& state = bench.state[0];
-    const Similarity& pose = bench.scene->restMotions[static_cast<size_t>(state.anchor)].workspaceFromObject;
-    const HapticObject& object = *bench.scene->objects[static_cast<size_t>(state.anchor)];
+    const Similarity& pose =
+        bench.scene->restMotions[static_cast<size_t>(state.reference)].workspaceFromObject;
+    const HapticObject& object = *bench.scene->objects[static_cast<size_t>(state.reference)];
     const double radius =
         std::max(bench.settings.proxyRadius / pose.scale, 0.5 * kWeldTolerance * object.diagonal);
     const auto nearest = static_cast<double>(bruteNearest(object, LVec3(state.proxy)).distance);

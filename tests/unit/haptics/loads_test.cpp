@@ -101,7 +101,7 @@ TEST(Loads, EachContactInAPipeIsTurnedToItsOwnNormal) {
             const glm::dvec3 out(std::cos(a), 0.0, std::sin(a));
             const glm::dvec3 force = bench.step((radius + depth) * out + glm::dvec3(0, 0.003, 0)).force;
             const DeviceState& state = bench.state[0];
-            several += (state.shaded ? state.rest.shadedHold : state.rest.hold).count > 1;
+            several += (state.shaded ? state.rest.shadedActiveSet : state.rest.activeSet).count > 1;
             worst = std::max(worst, std::acos(std::min(glm::dot(-out, glm::normalize(force)), 1.0)));
             jump = std::max(jump, glm::distance(force, last));
             last = force;
@@ -184,8 +184,8 @@ TEST(Loads, AlmostParallelWallsShareOneDamperAndOneViscousTerm) {
     EXPECT_GT(both, 500);
 }
 
-/// Two walls with relief, whose loads for the HIP `hip` are those of the closed form.
-ContactLoads relievedGroove(double angle, const std::array<SurfaceFeel, 2>& feels, const glm::dvec3& hip) {
+/// Two walls with bump height, whose loads for the HIP `hip` are those of the closed form.
+ContactLoads relievedGroove(double angle, const std::array<SurfaceSample, 2>& feels, const glm::dvec3& hip) {
     const Corner corner{{{std::cos(0.5 * angle), std::sin(0.5 * angle), 0.0},
                          {-std::cos(0.5 * angle), std::sin(0.5 * angle), 0.0}},
                         {0.0, 0.0}};
@@ -215,7 +215,7 @@ TEST(Loads, ReliefOfSeveralWallsIsContinuousAndThatOfOneWallWhereOneIsLeft) {
         for (const double height : {0.0, 5e-5, 4e-4, 5e-3})
             for (const bool law : {true, false}) {
                 SCOPED_TRACE(std::to_string(angle) + " rad, H " + std::to_string(height));
-                std::array<SurfaceFeel, 2> feels;
+                std::array<SurfaceSample, 2> feels;
                 for (size_t i = 0; i < 2; ++i) {
                     const double side = i == 0 ? 1.0 : -1.0, lean = 0.5 * angle + side * 0.35;
                     feels[i].touching = true;
@@ -233,7 +233,7 @@ TEST(Loads, ReliefOfSeveralWallsIsContinuousAndThatOfOneWallWhereOneIsLeft) {
                     const ContactLoads loads = relievedGroove(angle, feels, hip);
                     glm::dvec3 force = elasticForce(loads);
                     if (loads.count == 1) {
-                        SurfaceFeel one = loads.contacts[0].feel;
+                        SurfaceSample one = loads.contacts[0].feel;
                         one.depth = glm::length(loads.offset);
                         const glm::dvec3 alone =
                             springDamperForce(one, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0));
@@ -273,7 +273,7 @@ TEST(Loads, InACrackTheLoadsAreBounded) {
         const double resultant = glm::distance(solve.place, out.hip);
         const double sum = solve.load[0] + solve.load[1];
         EXPECT_GT(sum, 50.0 * resultant);
-        const double beta = kMostLoad * resultant / sum;
+        const double beta = kMaxLoad * resultant / sum;
         glm::dvec3 elastic(0.0);
         double stiffness = 0.0, most = 0.0;
         for (size_t i = 0; i < 2; ++i)

@@ -257,7 +257,8 @@ TEST_P(RayProxyIn, ABoxThatRisesIntoAStillHipHoldsItAndCarriesIt) {
     Scene scene = sceneOf(assets::box(glm::dvec3(0.04)));
     glm::dmat4 aside(1.0);
     aside[3] = glm::dvec4(0.0, 0.5, 0.0, 1.0);
-    addShape(scene, assets::box(glm::dvec3(0.04)), aside); // nearer at first: the anchor is another one
+    addShape(scene, assets::box(glm::dvec3(0.04)),
+             aside); // nearer at first: the reference object is another one
     TouchBench bench(scene, rays());
     bench.motions = bench.scene->restMotions;
     const Similarity rest = bench.motions[0].workspaceFromObject;
@@ -476,7 +477,7 @@ TEST(RayProxyLimits, BetweenTwoThatCloseItStaysWithOne) {
     TouchBench bench(scene, bare(ContactMethod::Rays));
     bench.motions = bench.scene->restMotions;
     bench.step({0.003, 0.01, 0.002});
-    bool pinched = false;
+    bool jammed = false;
     for (int i = 0; i < 250; ++i) {
         for (const size_t k : {size_t{0}, size_t{1}}) {
             ObjectMotion& plate = bench.motions[k];
@@ -484,11 +485,11 @@ TEST(RayProxyLimits, BetweenTwoThatCloseItStaysWithOne) {
             plate.workspaceFromObject.translation.y += k == 0 ? 5e-5 : -5e-5;
         }
         bench.step({0.003, 0.01, 0.002});
-        pinched |= has(bench.output.flags, TickFlag::Pinched);
+        jammed |= has(bench.output.flags, TickFlag::Jammed);
         ASSERT_TRUE(std::isfinite(glm::length(bench.output.force)));
         ASSERT_LT(bench.output.penetration, 0.005);
     }
-    EXPECT_TRUE(pinched);
+    EXPECT_TRUE(jammed);
 }
 
 TEST(RayProxyLimits, ARadiusAndAPrecisionAreNotPretended) {

@@ -1,5 +1,5 @@
-// The rungs of textureFilter and textureGradient: against kernels written here as their papers have them,
-// against a relief in closed form, and in the hand.
+// The configurations of textureFilter and textureGradient: against kernels written here as their papers have
+// them, against a bump height in closed form, and in the hand.
 
 #include "haptics/texture/haptic_map.h"
 #include "tests/support/allocation_counter.h"
@@ -234,28 +234,28 @@ TEST(TextureFilter, AStepIsACliffARampOrARampThatSwings) {
     EXPECT_NEAR(high, 1.0 + 2.0 / 27.0, 1e-6);
 }
 
-/// One wave of a relief that repeats.
-Read relief(const glm::dvec2& uv) {
+/// One wave of a bump height that repeats.
+Read bump(const glm::dvec2& uv) {
     const Real a = kTau * uv.x + 0.3L, b = kTau * uv.y - 0.8L, c = kTau * (uv.x + uv.y);
     return {0.5L + 0.2L * std::sin(a) * std::cos(b) + 0.1L * std::sin(c),
             kTau * (0.2L * std::cos(a) * std::cos(b) + 0.1L * std::cos(c)),
             kTau * (-0.2L * std::sin(a) * std::sin(b) + 0.1L * std::cos(c))};
 }
-/// Worst over the texture; the slope as a share of the relief's steepest.
+/// Worst over the texture; the slope as a share of the bump height's steepest.
 struct WorstError {
     double value = 0.0, slope = 0.0;
 };
 WorstError errorOn(int texels, Filter filter, Gradient gradient) {
     const HapticMap map(pixelsOf(texels, texels,
                                  [](double u, double v) {
-                                     return relief({u, v}).value;
+                                     return bump({u, v}).value;
                                  }),
                         {}, 1);
     WorstError worst;
     for (int i = 0; i < 41; ++i)
         for (int j = 0; j < 43; ++j) {
             const glm::dvec2 uv((i + 0.31) / 41.0, (j + 0.17) / 43.0);
-            const Read now = read(map, filter, gradient, uv), wanted = relief(uv);
+            const Read now = read(map, filter, gradient, uv), wanted = bump(uv);
             worst.value = std::max(worst.value, std::abs(now.value - wanted.value));
             worst.slope = std::max(worst.slope, std::hypot(now.du - wanted.du, now.dv - wanted.dv));
         }
@@ -264,29 +264,33 @@ WorstError errorOn(int texels, Filter filter, Gradient gradient) {
 }
 
 TEST(TextureFilter, ConvergesInTheOrderOfItsRung) {
-    struct Rung {
+    struct TimedConfiguration {
         Filter filter;
         Gradient gradient;
         double value, slope; ///< orders
     };
-    for (const Rung& rung :
-         {Rung{Filter::Nearest, Gradient::Central, 1, 1}, Rung{Filter::Nearest, Gradient::Precomputed, 1, 1},
-          Rung{Filter::Bilinear, Gradient::Central, 2, 2},
-          Rung{Filter::Bilinear, Gradient::Precomputed, 2, 2},
-          Rung{Filter::Bilinear, Gradient::Analytic, 2, 1}, Rung{Filter::Bicubic, Gradient::Central, 3, 2},
-          Rung{Filter::Bicubic, Gradient::Precomputed, 3, 2}, Rung{Filter::Bicubic, Gradient::Analytic, 3, 2},
-          Rung{Filter::Mip, Gradient::Central, 2, 2}, Rung{Filter::Mip, Gradient::Precomputed, 2, 2},
-          Rung{Filter::Mip, Gradient::Analytic, 2, 1}}) {
-        const WorstError coarse = errorOn(16, rung.filter, rung.gradient),
-                         fine = errorOn(64, rung.filter, rung.gradient);
+    for (const TimedConfiguration& configuration :
+         {TimedConfiguration{Filter::Nearest, Gradient::Central, 1, 1},
+          TimedConfiguration{Filter::Nearest, Gradient::Precomputed, 1, 1},
+          TimedConfiguration{Filter::Bilinear, Gradient::Central, 2, 2},
+          TimedConfiguration{Filter::Bilinear, Gradient::Precomputed, 2, 2},
+          TimedConfiguration{Filter::Bilinear, Gradient::Analytic, 2, 1},
+          TimedConfiguration{Filter::Bicubic, Gradient::Central, 3, 2},
+          TimedConfiguration{Filter::Bicubic, Gradient::Precomputed, 3, 2},
+          TimedConfiguration{Filter::Bicubic, Gradient::Analytic, 3, 2},
+          TimedConfiguration{Filter::Mip, Gradient::Central, 2, 2},
+          TimedConfiguration{Filter::Mip, Gradient::Precomputed, 2, 2},
+          TimedConfiguration{Filter::Mip, Gradient::Analytic, 2, 1}}) {
+        const WorstError coarse = errorOn(16, configuration.filter, configuration.gradient),
+                         fine = errorOn(64, configuration.filter, configuration.gradient);
         const double value = 0.5 * std::log2(coarse.value / fine.value),
                      slope = 0.5 * std::log2(coarse.slope / fine.slope);
-        EXPECT_NEAR(value, rung.value, 0.25) << nameOf(rung.filter, rung.gradient);
-        EXPECT_NEAR(slope, rung.slope, 0.25) << nameOf(rung.filter, rung.gradient);
+        EXPECT_NEAR(value, configuration.value, 0.25) << nameOf(configuration.filter, configuration.gradient);
+        EXPECT_NEAR(slope, configuration.slope, 0.25) << nameOf(configuration.filter, configuration.gradient);
         if (std::getenv("TEXTURE_FIGURES") != nullptr)
             std::printf("%s: 16 texels a wave %.1e and slope %.1e, 64 texels %.1e and %.1e\n",
-                        nameOf(rung.filter, rung.gradient).c_str(), coarse.value, coarse.slope, fine.value,
-                        fine.slope);
+                        nameOf(configuration.filter, configuration.gradient).c_str(), coarse.value,
+                        coarse.slope, fine.value, fine.slope);
     }
     EXPECT_NEAR(errorOn(64, Filter::Nearest, Gradient::Analytic).slope, 1.0, 0.05)
         << "a staircase has no slope";

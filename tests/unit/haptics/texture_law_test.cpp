@@ -1,5 +1,5 @@
-// The sine relief on a plane, a sphere and a torus: against the formulas evaluated here in long double on the
-// same mesh, and against the smooth shapes.
+// The sine bump height on a plane, a sphere and a torus: against the formulas evaluated here in long double
+// on the same mesh, and against the smooth shapes.
 
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
@@ -23,7 +23,7 @@ constexpr Real kTau = 6.283185307179586476925L;
 constexpr double kStiffness = 1000.0;
 constexpr int kWavesU = 6, kWavesV = 4, kTexels = 2048;
 
-/// Height of the relief and its derivatives, in parts of `scale` and of the texture.
+/// Height of the bump height and its derivatives, in parts of `scale` and of the texture.
 struct Sine {
     Real value, du, dv;
 };
@@ -323,10 +323,10 @@ TEST(TextureLawByRung, EveryFilterAndGradientComesToTheSameLaw) {
     }
 }
 
-std::string nameOf(const ::testing::TestParamInfo<TextureMode>& rung) {
-    return settingValue(settingsFor(rung.param), "texture");
+std::string nameOf(const ::testing::TestParamInfo<TextureMode>& configuration) {
+    return settingValue(settingsFor(configuration.param), "texture");
 }
-INSTANTIATE_TEST_SUITE_P(Rungs, TextureLaw,
+INSTANTIATE_TEST_SUITE_P(Configurations, TextureLaw,
                          ::testing::Values(TextureMode::Law, TextureMode::Blinn, TextureMode::Minsky),
                          nameOf);
 

@@ -104,7 +104,7 @@ TEST(VertexHeights, GiveTheNormalOfThe3DGradientWithoutTextureCoordinates) {
             for (int i = 0; i <= 110; ++i)
                 bench.step(at + glm::dvec3(0, 0, side * (0.01 - 2e-4 * i)));
             const double d = bench.output.penetration;
-            // From behind the relief is the same surface: its highest place is the lowest there.
+            // From behind the bump height is the same surface: its highest place is the lowest there.
             const double above = glm::dot(slope, at) - lowest;
             const double h = side > 0.0 ? above : -2.0 * lowest - above;
             const glm::dvec3 m = side * glm::normalize(n - slope);

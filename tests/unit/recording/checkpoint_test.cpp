@@ -139,7 +139,7 @@ TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(PinchedObjects), 232u);
     EXPECT_EQ(sizeof(WatchState), 8u);
     // What a tick writes before it reads, and what can be found again, may be of any size.
-    EXPECT_EQ(sizeof(DeviceState) - sizeof(ProxyRest) - 2 * sizeof(CandidateCache), 752u);
+    EXPECT_EQ(sizeof(DeviceState) - sizeof(SolveResult) - 2 * sizeof(CandidateCache), 752u);
     EXPECT_LE(checkpointSize(), TouchCheckpoint::kCapacity);
 }
 
@@ -151,10 +151,10 @@ TEST(TouchCheckpoint, RefusesWhatIsNoStateOfTheScene) {
     ASSERT_TRUE(restoreCheckpoint(checkpoint.state(), scene.haptic.get(), state));
     ASSERT_TRUE(restoreCheckpoint(checkpoint.state(), nullptr, state));
     EXPECT_FALSE(restoreCheckpoint(checkpoint.state().first(checkpoint.size - 1), scene.haptic.get(), state));
-    state.anchor = 1; // there is one object
+    state.reference = 1; // there is one object
     takeCheckpoint(state, checkpoint);
     EXPECT_FALSE(restoreCheckpoint(checkpoint.state(), scene.haptic.get(), state));
-    state.anchor = 0;
+    state.reference = 0;
     takeCheckpoint(state, checkpoint);
     EXPECT_FALSE(restoreCheckpoint(checkpoint.state(), nullptr, state));
     state.watch = {.side = 4, .touching = true}; // of two triangles

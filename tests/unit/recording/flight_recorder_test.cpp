@@ -131,7 +131,7 @@ TEST_F(FlightRecorderTest, AFaultAtTheEndIsKeptWithoutWaiting) {
 
 TEST_F(FlightRecorderTest, AStormOfFaultsMakesFewFilesAndTheOldestGo) {
     FlightConfig limited = config();
-    limited.mostFiles = 3;
+    limited.maxFiles = 3;
     FlightRecorder recorder(limited);
     size_t kept = 0;
     for (int i = 0; i < 60; ++i) { // a fault every 0.2 s for twelve seconds
@@ -149,7 +149,7 @@ TEST_F(FlightRecorderTest, AStormOfFaultsMakesFewFilesAndTheOldestGo) {
 
 TEST_F(FlightRecorderTest, KeepsWithinItsBytesButAlwaysTheNewest) {
     FlightConfig limited = config();
-    limited.mostBytes = 1;
+    limited.maxBytes = 1;
     FlightRecorder recorder(limited);
     for (int i = 0; i < 3; ++i) {
         feed(recorder, 1500);

@@ -301,7 +301,7 @@ TEST(StageHashes, EachStageTellsOfItsOwnOutputsOnly) {
     EXPECT_EQ(changed([](auto&, auto& o) { o.hip.x = 1e-300; }), "sample ");
     EXPECT_EQ(changed([](auto&, auto& o) { o.hipVelocity.z = -0.0; }), "sample ");
     EXPECT_EQ(changed([](auto& t, auto&) { t.proxy[0].y = 1.0; }), "contact ");
-    EXPECT_EQ(changed([](auto& t, auto&) { t.anchor = 0; }), "contact ");
+    EXPECT_EQ(changed([](auto& t, auto&) { t.reference = 0; }), "contact ");
     EXPECT_EQ(changed([](auto& t, auto&) { t.proxy[1].y = 1.0; }), "proxy ");
     EXPECT_EQ(changed([](auto& t, auto&) { t.proxy[2].y = 1.0; }), "shading ");
     EXPECT_EQ(changed([](auto&, auto& o) { o.normal.y = 1.0; }), "texture ");

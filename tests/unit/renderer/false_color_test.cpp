@@ -101,7 +101,7 @@ TEST(DihedralAngles, GrowWithTheCoarsenessOfASphere) {
 TEST(FalseColorScale, TiltHasTheRangeThatShadingKeeps) {
     const FalseColorScale scale = falseColorScale(plate({}), ViewMode::Tilt);
     EXPECT_TRUE(scale.meaningful);
-    EXPECT_EQ(scale.high, kMostTilt);
+    EXPECT_EQ(scale.high, kMaxTilt);
     EXPECT_EQ(scale.unit, "°");
 }
 

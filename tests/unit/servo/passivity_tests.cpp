@@ -142,9 +142,9 @@ TEST(PassivityController, TakesTheBalanceBackInOneTickAtTheSameSpeed) {
 
 TEST(PassivityController, DampsNoMoreThanAMassBearsAndThePushAlongTheMotion) {
     PassivityState state;
-    state.balance = 0.25 * kMostEnergy;
+    state.balance = 0.25 * kMaxEnergy;
     state.way = {1e-4, 0, 0};
-    const double most = 0.075 * kMostDampingRate * 0.1; // N at 0.1 m/s
+    const double most = 0.075 * kMaxDampingRate * 0.1; // N at 0.1 m/s
     const auto passive = [&](const glm::dvec3& force, double dt = kTick, double ramp = 1.0) {
         return passiveForce(force, dt, exactDevice(), state, ramp);
     };
@@ -159,7 +159,7 @@ TEST(PassivityController, DampsNoMoreThanAMassBearsAndThePushAlongTheMotion) {
     EXPECT_EQ(passive({}, kTick, 0.0), glm::dvec3(0.0));
     state.way = {};
     EXPECT_EQ(passive({2, 0, 0}), glm::dvec3(1.5, 0, 0));
-    state.balance = kMostEnergy;
+    state.balance = kMaxEnergy;
     EXPECT_EQ(passive({2, 0, 0}), glm::dvec3(0.0)) << "no force is left";
 }
 

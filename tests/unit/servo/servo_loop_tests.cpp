@@ -202,14 +202,14 @@ TEST(ServoLoop, CommandsNeverJumpWhateverIsSwappedMeanwhile) {
     EXPECT_LE(living, 2u) << "old scenes are freed while the loop lives";
 
     const DeviceLimits limits;
-    const double mostStep = limits.maxForceRate / kQuick.rateHz;
+    const double maxStep = limits.maxForceRate / kQuick.rateHz;
     glm::dvec3 previous{0.0};
     double most = 0.0;
     for (size_t i = 0; i + 1 < hand.next; ++i) { // the last is the zero at the stop
         const glm::dvec3 force = hand.commands[i].force();
         // A skipped deadline lengthens the tick, so only ticks in their turn obey the bound of one period.
         if (loop.counters().skipped == 0) {
-            EXPECT_LE(glm::length(force - previous), mostStep * (1.0 + 1e-9));
+            EXPECT_LE(glm::length(force - previous), maxStep * (1.0 + 1e-9));
         }
         most = std::max(most, glm::length(force));
         previous = force;

@@ -8,11 +8,11 @@ namespace {
 StudyResult studyOf(std::vector<Estimate> steps) {
     StudyResult study;
     for (const Estimate& step : steps) {
-        RungResult& rung = study.rungs.emplace_back();
-        rung.scene = "torus";
-        rung.ladder = "contact";
-        rung.rung = std::to_string(study.rungs.size());
-        rung.step = step;
+        ConfigurationResult& configuration = study.configurations.emplace_back();
+        configuration.scene = "torus";
+        configuration.ablation = "contact";
+        configuration.configuration = std::to_string(study.configurations.size());
+        configuration.step = step;
     }
     return study;
 }
@@ -36,8 +36,8 @@ TEST(CompareStudies, CountsPairsThatChangedPlaces) {
 
 TEST(CompareStudies, MatchesRungsByWhatTheyAre) {
     StudyResult second = studyOf({{100, 98, 102}, {90, 88, 92}});
-    second.rungs[1].scene = "sphere";
-    second.rungs[0].errors.position.max = 1.0;
+    second.configurations[1].scene = "sphere";
+    second.configurations[0].errors.position.max = 1.0;
     const OrderKept kept = compareOrder(studyOf({{100, 98, 102}, {110, 108, 112}}), second);
     EXPECT_EQ(kept.matched, 1u);
     EXPECT_EQ(kept.onlyInOne, 2u);

@@ -5,21 +5,22 @@
 namespace touchstone::study {
 namespace {
 
-RungResult point(double ns, double error, const char* ladder = "combination", const char* scene = "torus") {
-    RungResult rung;
-    rung.scene = scene;
-    rung.ladder = ladder;
-    rung.step = {ns, 0.95 * ns, 1.05 * ns};
-    rung.errors.force.p99 = error;
-    rung.errors.compared = 1;
-    return rung;
+ConfigurationResult point(double ns, double error, const char* ablation = "combination",
+                          const char* scene = "torus") {
+    ConfigurationResult configuration;
+    configuration.scene = scene;
+    configuration.ablation = ablation;
+    configuration.step = {ns, 0.95 * ns, 1.05 * ns};
+    configuration.errors.force.p99 = error;
+    configuration.errors.compared = 1;
+    return configuration;
 }
 
-std::vector<bool> front(std::vector<RungResult> rungs) {
-    markPareto(rungs);
+std::vector<bool> front(std::vector<ConfigurationResult> configurations) {
+    markPareto(configurations);
     std::vector<bool> on;
-    for (const RungResult& rung : rungs)
-        on.push_back(rung.pareto);
+    for (const ConfigurationResult& configuration : configurations)
+        on.push_back(configuration.pareto);
     return on;
 }
 
@@ -39,15 +40,15 @@ TEST(Pareto, KeepsBothOfTwoThatAreAlike) {
     EXPECT_EQ(front({point(100, 5), point(100, 5), point(100, 6)}), (std::vector{true, true, false}));
 }
 
-TEST(Pareto, ComparesWithinSceneAndLadder) {
+TEST(Pareto, ComparesWithinSceneAndAblation) {
     EXPECT_EQ(front({point(100, 5), point(200, 9, "friction"), point(200, 9, "combination", "sphere")}),
               (std::vector{true, true, true}));
 }
 
 TEST(Pareto, NeedsSomethingToCompare) {
-    std::vector<RungResult> rungs{point(100, 0), point(200, 3), point(0, 1)};
-    rungs[0].errors.compared = 0;
-    EXPECT_EQ(front(rungs), (std::vector{false, true, false}));
+    std::vector<ConfigurationResult> configurations{point(100, 0), point(200, 3), point(0, 1)};
+    configurations[0].errors.compared = 0;
+    EXPECT_EQ(front(configurations), (std::vector{false, true, false}));
 }
 
 } // namespace

@@ -17,8 +17,8 @@ using truth::SmoothShapePtr;
 
 /// Least distance of `p` from a surface of two parameters: a grid around `middle` that closes in on its best
 /// place.
-long double leastDistance(const std::function<LVec3(long double, long double)>& at, const LVec3& p,
-                          glm::dvec2 middle, glm::dvec2 half) {
+long double minDistance(const std::function<LVec3(long double, long double)>& at, const LVec3& p,
+                        glm::dvec2 middle, glm::dvec2 half) {
     constexpr int kCells = 40;
     long double least = INFINITY;
     for (int round = 0; round < 60; ++round) {
@@ -79,11 +79,11 @@ TEST(SmoothShape, RestsWhereASearchFindsTheNearestPlace) {
             EXPECT_NEAR(static_cast<double>(glm::length(rest.normal)), 1.0, 1e-17) << p.name;
             // The centre is `radius` beyond the nearest place of the surface, straight away from the HIP.
             const long double depth = glm::length(rest.proxy - p.hip) - radius;
-            const long double least = leastDistance(p.at, p.hip, p.middle, p.half);
+            const long double least = minDistance(p.at, p.hip, p.middle, p.half);
             EXPECT_NEAR(static_cast<double>(depth), static_cast<double>(least), 1e-13) << p.name;
             const LVec3 way = (rest.proxy - p.hip) / glm::length(rest.proxy - p.hip);
             EXPECT_LT(static_cast<double>(glm::length(way - rest.normal)), 1e-13) << p.name;
-            const long double clear = leastDistance(p.at, rest.proxy, p.middle, p.half);
+            const long double clear = minDistance(p.at, rest.proxy, p.middle, p.half);
             EXPECT_NEAR(static_cast<double>(clear), static_cast<double>(radius), 1e-13) << p.name;
         }
 }
@@ -193,14 +193,14 @@ TEST(SpringForces, PullToTheProxyAndRubAgainstItsWay) {
     EXPECT_NEAR(truth::springForces(rests, hips, 600.0, 0.0)[5].force.x, 0.0, 1e-18);
 }
 
-TEST(ReliefForces, PushAsALiftedSurfaceWould) {
+TEST(BumpForces, PushAsALiftedSurfaceWould) {
     const SmoothShapePtr plane = truth::smoothPlane();
     std::vector<glm::dvec3> hips{{0.0, 1e-3, 0.0}, {0.0, -1e-3, 0.0}, {0.0, -1e-4, 0.0}};
     const truth::RestPath rests = truth::smoothPath(*plane, hips, 0.0);
-    const auto slope = [](const glm::dvec3&) { return truth::ReliefAt{2e-4, glm::dvec3(0.75, 0.0, 0.0)}; };
+    const auto slope = [](const glm::dvec3&) { return truth::BumpAt{2e-4, glm::dvec3(0.75, 0.0, 0.0)}; };
     const std::vector<truth::FeltTick> ticks = truth::reliefForces(rests, hips, 0.0, 1000.0, slope);
     EXPECT_EQ(ticks[0].force, glm::dvec3(0.0));
-    // m is (-0.6, 0.8, 0): 0.8 N along n and 0.2 N along m; above the relief all of it along m.
+    // m is (-0.6, 0.8, 0): 0.8 N along n and 0.2 N along m; above the bump height all of it along m.
     EXPECT_NEAR(glm::length(ticks[1].force - glm::dvec3(-0.12, 0.96, 0.0)), 0.0, 1e-15);
     EXPECT_NEAR(glm::length(ticks[2].force - glm::dvec3(-0.06, 0.08, 0.0)), 0.0, 1e-15);
 }

@@ -35,32 +35,39 @@ StudyResult studyShape(std::string_view name, size_t triangles = 0) {
     return result;
 }
 
-const RungResult& rungOf(const StudyResult& study, std::string_view ladder, std::string_view rung) {
-    const auto found = std::find_if(study.rungs.begin(), study.rungs.end(), [&](const RungResult& r) {
-        return r.ladder == ladder && r.rung == rung;
-    });
-    if (found == study.rungs.end())
-        throw std::runtime_error("no rung " + std::string(ladder) + ", " + std::string(rung));
+const ConfigurationResult& rungOf(const StudyResult& study, std::string_view ablation,
+                                  std::string_view configuration) {
+    const auto found = std::find_if(study.configurations.begin(), study.configurations.end(),
+                                    [&](const ConfigurationResult& r) {
+                                        return r.ablation == ablation && r.configuration == configuration;
+                                    });
+    if (found == study.configurations.end())
+        throw std::runtime_error("no rung " + std::string(ablation) + ", " + std::string(configuration));
     return *found;
 }
 
 TEST(Study, OnThePlaneEverythingThatMovesFreelyIsExact) {
     const StudyResult study = studyShape("plane");
     EXPECT_TRUE(study.problems.empty());
-    for (const RungResult& rung : study.rungs) {
-        EXPECT_EQ(rung.truth, rung.ladder == "friction" ? Truth::Coulomb : Truth::Analytic);
-        EXPECT_EQ(rung.errors.ticks, 800u);
-        EXPECT_GT(rung.errors.compared, 500u) << rung.rung;
-        EXPECT_EQ(rung.errors.truthFailed, 0u);
-        if (rung.ladder == "friction")
+    for (const ConfigurationResult& configuration : study.configurations) {
+        EXPECT_EQ(configuration.truth,
+                  configuration.ablation == "friction" ? Truth::Coulomb : Truth::Analytic);
+        EXPECT_EQ(configuration.errors.ticks, 800u);
+        EXPECT_GT(configuration.errors.compared, 500u) << configuration.configuration;
+        EXPECT_EQ(configuration.errors.truthFailed, 0u);
+        if (configuration.ablation == "friction")
             continue;
         // A point is as thick as half of what was welded: 0.14 µm on a sheet of 0.2 m. Floats are good to
         // less.
-        const double finest = rung.rung.find("single") != std::string::npos ? 1e-6 : 2.1e-7;
-        EXPECT_LT(rung.errors.position.max, finest) << rung.ladder << ", " << rung.rung;
-        EXPECT_LT(rung.errors.force.max, 600.0 * finest) << rung.ladder << ", " << rung.rung;
-        EXPECT_LT(rung.errors.forceDirection.p99, 10.0 * finest) << rung.ladder << ", " << rung.rung;
-        EXPECT_NEAR(rung.errors.largestJump, rung.errors.truthJump, 5e-4) << rung.ladder << ", " << rung.rung;
+        const double finest = configuration.configuration.find("single") != std::string::npos ? 1e-6 : 2.1e-7;
+        EXPECT_LT(configuration.errors.position.max, finest)
+            << configuration.ablation << ", " << configuration.configuration;
+        EXPECT_LT(configuration.errors.force.max, 600.0 * finest)
+            << configuration.ablation << ", " << configuration.configuration;
+        EXPECT_LT(configuration.errors.forceDirection.p99, 10.0 * finest)
+            << configuration.ablation << ", " << configuration.configuration;
+        EXPECT_NEAR(configuration.errors.largestJump, configuration.errors.truthJump, 5e-4)
+            << configuration.ablation << ", " << configuration.configuration;
     }
     // Ideal friction is 0.3 of 0.6 N; without any that is missing, and every law but the sawtooth comes near
     // it.
@@ -109,44 +116,45 @@ TEST(Study, FinerMeshesAreNearerTheShape) {
     StudyResult study;
     studyTessellation(kindNamed("torus"), small(), study, quietly);
     std::vector<double> angles, errors;
-    for (const RungResult& rung : study.rungs)
-        if (rung.rung == "flat") {
-            angles.push_back(rung.facetAngle);
-            errors.push_back(rung.errors.forceDirection.median);
+    for (const ConfigurationResult& configuration : study.configurations)
+        if (configuration.configuration == "flat") {
+            angles.push_back(configuration.facetAngle);
+            errors.push_back(configuration.errors.forceDirection.median);
         }
     ASSERT_EQ(angles.size(), 4u); // 512 to 4096 triangles
     EXPECT_NEAR(angles[1] / angles[3], 2.0, 0.3);
     EXPECT_NEAR(errors[1] / errors[3], 2.0, 0.5);
     for (size_t i = 1; i < angles.size(); ++i)
         EXPECT_LT(angles[i], angles[i - 1]);
-    EXPECT_EQ(study.rungs[0].shape, "torus");
-    EXPECT_NE(study.rungs[0].scene, study.rungs.back().scene);
+    EXPECT_EQ(study.configurations[0].shape, "torus");
+    EXPECT_NE(study.configurations[0].scene, study.configurations.back().scene);
 }
 
 TEST(Study, TellsTimesOfEveryRung) {
     const StudyResult study = studyShape("torus", 2000);
-    EXPECT_GE(study.rungs.size(), 30u);
+    EXPECT_GE(study.configurations.size(), 30u);
     bool front = false;
-    for (const RungResult& rung : study.rungs) {
-        EXPECT_GT(rung.step.value, 0.0) << rung.rung;
-        EXPECT_LE(rung.step.low, rung.step.high) << rung.rung;
-        EXPECT_GT(rung.stepMean.value, 0.0) << rung.rung;
-        EXPECT_GE(rung.stepP99, rung.step.value) << rung.rung;
-        EXPECT_GT(rung.rayFloor, 0.0) << rung.rung;
+    for (const ConfigurationResult& configuration : study.configurations) {
+        EXPECT_GT(configuration.step.value, 0.0) << configuration.configuration;
+        EXPECT_LE(configuration.step.low, configuration.step.high) << configuration.configuration;
+        EXPECT_GT(configuration.stepMean.value, 0.0) << configuration.configuration;
+        EXPECT_GE(configuration.stepP99, configuration.step.value) << configuration.configuration;
+        EXPECT_GT(configuration.rayFloor, 0.0) << configuration.configuration;
         double sum = 0.0;
-        for (const Estimate& stage : rung.stages)
+        for (const Estimate& stage : configuration.stages)
             sum += stage.value;
-        EXPECT_GT(sum, 0.0) << rung.rung;
-        front |= rung.pareto;
+        EXPECT_GT(sum, 0.0) << configuration.configuration;
+        front |= configuration.pareto;
     }
     EXPECT_TRUE(front);
 }
 
 TEST(Study, FindsTheSameErrorsAgain) {
     const StudyResult first = studyShape("waves", 3200), second = studyShape("waves", 3200);
-    ASSERT_EQ(first.rungs.size(), second.rungs.size());
-    for (size_t i = 0; i < first.rungs.size(); ++i)
-        EXPECT_EQ(first.rungs[i].errors, second.rungs[i].errors) << first.rungs[i].rung;
+    ASSERT_EQ(first.configurations.size(), second.configurations.size());
+    for (size_t i = 0; i < first.configurations.size(); ++i)
+        EXPECT_EQ(first.configurations[i].errors, second.configurations[i].errors)
+            << first.configurations[i].configuration;
 }
 
 TEST(Study, AFileIsComparedWithTheOracle) {
@@ -154,17 +162,17 @@ TEST(Study, AFileIsComparedWithTheOracle) {
     const Subject subject = loadSubject(std::string(TOUCHSTONE_ASSETS) + "/prism_smooth.glb");
     EXPECT_EQ(subject.shape, "prism_smooth.glb");
     studySubject(subject, small(), study, quietly);
-    const RungResult& exact = rungOf(study, "contact", "sweep r = 0");
+    const ConfigurationResult& exact = rungOf(study, "contact", "sweep r = 0");
     EXPECT_EQ(exact.truth, Truth::Oracle);
     EXPECT_GT(exact.errors.compared, 200u);
     EXPECT_LT(exact.errors.position.p99, 1e-9);
-    const RungResult& shaded = rungOf(study, "shading", "two-pass");
+    const ConfigurationResult& shaded = rungOf(study, "shading", "two-pass");
     EXPECT_EQ(shaded.truth, Truth::Reference);
     EXPECT_LT(shaded.errors.force.p99, 1e-9) << "the most exact rung is its own reference";
     EXPECT_GT(rungOf(study, "shading", "off").errors.force.p99, 0.02);
 }
 
-TEST(Study, TextureIsComparedWithTheLadder) {
+TEST(Study, TextureIsComparedWithTheAblation) {
     StudyResult study;
     studySubject(loadSubject(std::string(TOUCHSTONE_ASSETS) + "/doughnut.glb"), small(), study, quietly);
     EXPECT_EQ(rungOf(study, "texture", "law").truth, Truth::Reference);

@@ -1,5 +1,5 @@
 // The window around the picture: what is folded, opened, saved and kept, and figures that move with the
-// rungs.
+// configurations.
 
 #include "tests/unit/workbench/window_test.h"
 

@@ -1,4 +1,4 @@
-// `touchstone touch --sound`: what a known relief sounds like, in the file.
+// `touchstone touch --sound`: what a known bump height sounds like, in the file.
 
 #include "tests/support/program.h"
 #include "tests/unit/sound/tone.h"

@@ -28,7 +28,7 @@ class StudyCommand : public testing::Test {
     ~StudyCommand() override { fs::remove_all(folder_); }
 
     [[nodiscard]] std::string in(const std::string& name) const { return (folder_ / name).string(); }
-    /// The contact ladder alone, as few ticks as there can be.
+    /// The contact ablation alone, as few ticks as there can be.
     [[nodiscard]] ProgramResult study(std::vector<std::string> arguments, const std::string& out) const {
         arguments.insert(arguments.begin(), {kProgram, "study"});
         arguments.insert(arguments.end(),
@@ -40,8 +40,8 @@ class StudyCommand : public testing::Test {
     }
     static std::set<std::string> scenes(const Json& study) {
         std::set<std::string> names;
-        for (const Json& rung : study["rungs"])
-            names.insert(rung["scene"]);
+        for (const Json& configuration : study["rungs"])
+            names.insert(configuration["scene"]);
         return names;
     }
 
@@ -52,7 +52,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-TEST_F(StudyCommand, ListsItsLadders) {
+TEST_F(StudyCommand, ListsItsAblations) {
     const ProgramResult result = runProgram({kProgram, "study", "--list"});
     EXPECT_EQ(result.status, 0) << result.err;
     for (const char* word :
@@ -73,10 +73,10 @@ TEST_F(StudyCommand, RefusesWhatItDoesNotUnderstand) {
         EXPECT_EQ(result.status, 2) << result.err;
         EXPECT_TRUE(contains(result.err, "remedy")) << result.err;
     }
-    const ProgramResult ladder =
+    const ProgramResult ablation =
         runProgram({kProgram, "study", "plane", "--out", in("a"), "--ladder", "jacob"});
-    EXPECT_EQ(ladder.status, 1);
-    EXPECT_TRUE(contains(ladder.err, "jacob")) << ladder.err;
+    EXPECT_EQ(ablation.status, 1);
+    EXPECT_TRUE(contains(ablation.err, "jacob")) << ablation.err;
     EXPECT_FALSE(fs::exists(in("a")));
 }
 
@@ -135,8 +135,8 @@ TEST_F(StudyCommand, ComparesTheOrderOfTwoStudies) {
     Json first = json("one"), second = first;
     for (Json* study : {&first, &second}) {
         double ns = 100.0;
-        for (Json& rung : (*study)["rungs"]) {
-            rung["step_median_ns"] = {{"value", ns}, {"low", ns - 1.0}, {"high", ns + 1.0}};
+        for (Json& configuration : (*study)["rungs"]) {
+            configuration["step_median_ns"] = {{"value", ns}, {"low", ns - 1.0}, {"high", ns + 1.0}};
             ns += study == &first ? 10.0 : -10.0;
         }
     }

@@ -72,7 +72,7 @@ TEST_F(WindowMemoryTest, NamesEachFileOnceNewestFirst) {
     for (int i = 0; i < 20; ++i)
         memory.opened("/m" + std::to_string(i));
     memory.opened("/m15");
-    ASSERT_EQ(memory.recent.size(), WindowMemory::kMostRecent);
+    ASSERT_EQ(memory.recent.size(), WindowMemory::kMaxRecent);
     EXPECT_EQ(memory.recent[0], "/m15");
     EXPECT_EQ(memory.recent[1], "/m19");
     EXPECT_EQ(std::ranges::count(memory.recent, std::filesystem::path("/m15")), 1);

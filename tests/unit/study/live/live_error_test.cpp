@@ -1,5 +1,5 @@
-// What the panel says about accuracy: none where the rungs are the reference's, the known one where one is
-// put in, some where a rung is cheaper.
+// What the panel says about accuracy: none where the configurations are the reference's, the known one where
+// one is put in, some where a configuration is cheaper.
 
 #include "devices/stroke/stroke_path.h"
 #include "study/live/live_error.h"
@@ -25,7 +25,7 @@ HapticSettings settingsWith(const std::vector<std::pair<std::string, std::string
     return settings;
 }
 
-/// The reference's own rungs: the defaults but for the texture filter.
+/// The reference's own configurations: the defaults but for the texture filter.
 const HapticSettings kExact = settingsWith({{"textureFilter", "bicubic"}});
 
 /// What a servo would have recorded of a simulated hand that strokes the scene.

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// A field that is added to a result must be added to study/report/fields.h, and here.
 TEST(StudyFiles, KnowTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(Errors), 20 * 8u);
-    EXPECT_EQ(sizeof(RungResult), 6 * sizeof(std::string) + 36 * 8u + sizeof(Errors) + 8u);
+    EXPECT_EQ(sizeof(ConfigurationResult), 6 * sizeof(std::string) + 36 * 8u + sizeof(Errors) + 8u);
     EXPECT_EQ(sizeof(RateResult), 7 * 8u);
     EXPECT_EQ(sizeof(Provenance), 8 * sizeof(std::string) + 8u);
     EXPECT_EQ(sizeof(StudyResult), sizeof(Provenance) + 5 * sizeof(std::vector<int>));
@@ -28,8 +28,8 @@ TEST(StudyFiles, KnowTheStructuresAsTheyAre) {
 TEST(StudyFiles, JsonComesBackToTheBit) {
     const ScratchFolder folder;
     const StudyResult result = everyField();
-    ASSERT_EQ(result.rungs.size(), 2u);
-    EXPECT_NE(result.rungs[0], result.rungs[1]);
+    ASSERT_EQ(result.configurations.size(), 2u);
+    EXPECT_NE(result.configurations[0], result.configurations[1]);
     writeStudyJson(result, folder.path() / "study.json");
     EXPECT_EQ(readStudyJson(folder.path() / "study.json"), result);
 }
@@ -37,14 +37,14 @@ TEST(StudyFiles, JsonComesBackToTheBit) {
 TEST(StudyFiles, JsonKeepsWhatIsNoNumber) {
     const ScratchFolder folder;
     StudyResult result = everyField();
-    result.rungs[0].errors.position.max = std::numeric_limits<double>::infinity();
-    result.rungs[0].step.low = -std::numeric_limits<double>::infinity();
-    result.rungs[0].step.high = std::numeric_limits<double>::denorm_min();
+    result.configurations[0].errors.position.max = std::numeric_limits<double>::infinity();
+    result.configurations[0].step.low = -std::numeric_limits<double>::infinity();
+    result.configurations[0].step.high = std::numeric_limits<double>::denorm_min();
     writeStudyJson(result, folder.path() / "study.json");
     EXPECT_EQ(readStudyJson(folder.path() / "study.json"), result);
-    result.rungs[1].rayFloor = std::numeric_limits<double>::quiet_NaN();
+    result.configurations[1].rayFloor = std::numeric_limits<double>::quiet_NaN();
     writeStudyJson(result, folder.path() / "study.json");
-    EXPECT_TRUE(std::isnan(readStudyJson(folder.path() / "study.json").rungs[1].rayFloor));
+    EXPECT_TRUE(std::isnan(readStudyJson(folder.path() / "study.json").configurations[1].rayFloor));
 }
 
 /// Splits a table as RFC 4180 has it.
@@ -73,16 +73,16 @@ TEST(StudyFiles, CsvHasARowForARungAndItsUnitsInTheHeader) {
     const StudyResult result = everyField();
     writeStudyCsv(result, folder.path() / "study.csv");
     const auto rows = table(readFile(folder.path() / "study.csv"));
-    ASSERT_EQ(rows.size(), 1 + result.rungs.size());
-    const auto value = [&](size_t rung, const std::string& column) {
+    ASSERT_EQ(rows.size(), 1 + result.configurations.size());
+    const auto value = [&](size_t configuration, const std::string& column) {
         for (size_t i = 0; i < rows[0].size(); ++i)
             if (rows[0][i] == column)
-                return rows[1 + rung].at(i);
+                return rows[1 + configuration].at(i);
         ADD_FAILURE() << column;
         return std::string();
     };
     for (size_t i = 0; i < 2; ++i) {
-        const RungResult& r = result.rungs[i];
+        const ConfigurationResult& r = result.configurations[i];
         EXPECT_EQ(rows[1 + i].size(), rows[0].size());
         EXPECT_EQ(value(i, "scene"), r.scene);
         EXPECT_EQ(value(i, "triangles"), std::to_string(r.triangles));

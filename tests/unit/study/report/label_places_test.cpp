@@ -28,16 +28,16 @@ TEST(LabelPlaces, KeepApartWhereverThePointsAre) {
     for (int trial = 0; trial < 50; ++trial) {
         std::uniform_real_distribution<double> spread(0.0, 1.0);
         const double size = trial % 2 == 0 ? 1.0 : 0.05; // crowded in a corner, too
-        std::vector<Obstacle> anchors;
+        std::vector<Obstacle> references;
         for (int i = 0; i < 34; ++i)
-            anchors.push_back({kWidth * size * spread(random), kHeight * size * spread(random)});
-        expectApart(placeLabels(anchors, anchors, kHalfWidth, kHalfHeight, kWidth, kHeight));
+            references.push_back({kWidth * size * spread(random), kHeight * size * spread(random)});
+        expectApart(placeLabels(references, references, kHalfWidth, kHalfHeight, kWidth, kHeight));
     }
 }
 
 TEST(LabelPlaces, OfOnePointGoAroundIt) {
-    const std::vector<Obstacle> anchors(20, Obstacle{300.0, 200.0});
-    const auto labels = placeLabels(anchors, anchors, kHalfWidth, kHalfHeight, kWidth, kHeight);
+    const std::vector<Obstacle> references(20, Obstacle{300.0, 200.0});
+    const auto labels = placeLabels(references, references, kHalfWidth, kHalfHeight, kWidth, kHeight);
     expectApart(labels);
     EXPECT_FALSE(labels.front().leader);
     EXPECT_TRUE(labels.back().leader);

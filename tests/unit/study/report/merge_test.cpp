@@ -10,17 +10,17 @@ StudyResult shardOf(const std::string& scene) {
     StudyResult shard = everyField();
     shard.rates.clear();
     shard.problems.clear();
-    for (RungResult& rung : shard.rungs)
-        rung.scene = scene;
+    for (ConfigurationResult& configuration : shard.configurations)
+        configuration.scene = scene;
     return shard;
 }
 
 TEST(MergeStudies, TakesTheRungsOfAllAndWhatTheyShareOnce) {
     const std::vector<StudyResult> shards{shardOf("a.glb"), shardOf("b.glb")};
     const StudyResult all = mergeStudies(shards);
-    ASSERT_EQ(all.rungs.size(), 4u);
+    ASSERT_EQ(all.configurations.size(), 4u);
     for (size_t i = 0; i < 4; ++i)
-        EXPECT_EQ(all.rungs[i], shards[i / 2].rungs[i % 2]);
+        EXPECT_EQ(all.configurations[i], shards[i / 2].configurations[i % 2]);
     EXPECT_EQ(all.provenance, shards[0].provenance);
     EXPECT_EQ(all.noticeable, shards[0].noticeable);
     EXPECT_EQ(all.problems, std::vector<std::string>{});
@@ -34,11 +34,11 @@ TEST(MergeStudies, IsTheSameForOne) {
 
 TEST(MergeStudies, TellsWhatCameTwiceAndWhatWasMeasuredElsewhere) {
     std::vector<StudyResult> shards{shardOf("a.glb"), shardOf("a.glb")};
-    shards[1].rungs[0].step.value = 5.0;
+    shards[1].configurations[0].step.value = 5.0;
     shards[1].provenance.commit = "another";
     shards[1].problems = {"c.glb: is not there"};
     const StudyResult all = mergeStudies(shards);
-    EXPECT_EQ(all.rungs, shards[0].rungs);
+    EXPECT_EQ(all.configurations, shards[0].configurations);
     ASSERT_EQ(all.problems.size(), 4u);
     EXPECT_NE(all.problems[0].find("another"), std::string::npos);
     EXPECT_NE(all.problems[1].find("twice"), std::string::npos);

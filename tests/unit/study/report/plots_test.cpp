@@ -68,23 +68,25 @@ TEST(StudyPlots, NameTheirUnitsAndSeries) {
     }
 }
 
-/// The lines of a ladder's block that are marked as on the front.
+/// The lines of an ablation's block that are marked as on the front.
 TEST(StudyPlots, DrawTheFrontThatThereIs) {
     StudyResult result;
     const StudyResult all = likeMeasured();
-    for (const RungResult& r : all.rungs)
-        if (r.scene == "torus 64,800" && r.ladder == "combination")
-            result.rungs.push_back(r);
+    for (const ConfigurationResult& r : all.configurations)
+        if (r.scene == "torus 64,800" && r.ablation == "combination")
+            result.configurations.push_back(r);
     size_t front = 0;
-    for (const RungResult& r : result.rungs)
-        front += std::none_of(result.rungs.begin(), result.rungs.end(), [&](const RungResult& other) {
-            return other.step.value < r.step.value && other.errors.force.p99 < r.errors.force.p99;
-        });
+    for (const ConfigurationResult& r : result.configurations)
+        front += std::none_of(result.configurations.begin(), result.configurations.end(),
+                              [&](const ConfigurationResult& other) {
+                                  return other.step.value < r.step.value &&
+                                         other.errors.force.p99 < r.errors.force.p99;
+                              });
     ASSERT_GT(front, 2u);
     const std::vector<Figure> figures = errorOverTime(result);
     ASSERT_EQ(figures.size(), 3u);
     EXPECT_EQ(count(figures[0].data, " 1 0 # "), front);
-    EXPECT_EQ(count(figures[0].data, " 0 0 # "), result.rungs.size() - front);
+    EXPECT_EQ(count(figures[0].data, " 0 0 # "), result.configurations.size() - front);
 }
 
 TEST(StudyPlots, FindAPlaceForWhatALogarithmHasNoneFor) {
@@ -93,12 +95,12 @@ TEST(StudyPlots, FindAPlaceForWhatALogarithmHasNoneFor) {
     result.noticeable.clear();
     result.rates.clear();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    result.rungs.resize(3);
-    for (RungResult& r : result.rungs)
+    result.configurations.resize(3);
+    for (ConfigurationResult& r : result.configurations)
         r.errors.force = r.errors.position = r.errors.forceDirection = {};
-    result.rungs[1].errors.force.p99 = kInfinity;
-    result.rungs[2].errors.position.p99 = std::nan("");
-    result.rungs[2].step.high = kInfinity;
+    result.configurations[1].errors.force.p99 = kInfinity;
+    result.configurations[2].errors.position.p99 = std::nan("");
+    result.configurations[2].step.high = kInfinity;
     const PlotsWritten written = writeStudyPlots(result, folder.path());
     for (const std::string& problem : written.problems)
         ADD_FAILURE() << problem;
@@ -122,10 +124,10 @@ TEST(StudyPlots, AreMissedWithARemedyWhereGnuplotIs) {
 
 TEST(StudyPlots, OfScenesWithLikeNamesKeepApart) {
     StudyResult result = likeMeasured();
-    const size_t before = result.rungs.size();
+    const size_t before = result.configurations.size();
     for (size_t i = 0; i < before; ++i) {
-        result.rungs.push_back(result.rungs[i]);
-        result.rungs.back().scene += "!";
+        result.configurations.push_back(result.configurations[i]);
+        result.configurations.back().scene += "!";
     }
     std::set<std::string> names;
     for (const auto& kind : {errorOverTime, costByStage})
@@ -137,12 +139,12 @@ TEST(StudyPlots, OfScenesWithLikeNamesKeepApart) {
 /// However much there is to say.
 TEST(StudyPlots, KeepAllTheirWordsOnThePage) {
     StudyResult result = likeMeasured();
-    const RungResult rung = result.rungs.front();
+    const ConfigurationResult configuration = result.configurations.front();
     for (int i = 0; i < 63; ++i) {
-        result.rungs.push_back(rung);
-        result.rungs.back().ladder = "ladder " + std::to_string(i / 7);
-        result.rungs.back().rung = "rung " + std::to_string(i);
-        result.rungs.back().step.value += 10.0 * i;
+        result.configurations.push_back(configuration);
+        result.configurations.back().ablation = "ladder " + std::to_string(i / 7);
+        result.configurations.back().configuration = "rung " + std::to_string(i);
+        result.configurations.back().step.value += 10.0 * i;
     }
     static const std::regex kPlace(R"(set label .* at screen (-?[0-9.e-]+),(-?[0-9.e-]+))");
     size_t labels = 0;

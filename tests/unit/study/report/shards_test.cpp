@@ -27,9 +27,9 @@ std::vector<std::string> what(const ScratchFolder& folder) {
 /// All that a run finds again, whatever the times: what was measured and how far it was from the truth.
 std::multiset<std::string> configurations(const StudyResult& result) {
     std::multiset<std::string> all;
-    for (const RungResult& r : result.rungs)
-        all.insert(r.scene + "; " + r.path + "; " + r.ladder + "; " + r.rung + "; " + r.settings + "; " +
-                   std::to_string(r.triangles) + "; " + std::to_string(r.errors.compared) + "; " +
+    for (const ConfigurationResult& r : result.configurations)
+        all.insert(r.scene + "; " + r.path + "; " + r.ablation + "; " + r.configuration + "; " + r.settings +
+                   "; " + std::to_string(r.triangles) + "; " + std::to_string(r.errors.compared) + "; " +
                    std::to_string(1e12 * r.errors.force.p99));
     return all;
 }
@@ -65,7 +65,7 @@ TEST(StudyShards, UnderGnuParallelMergeToTheWhole) {
 
     const StudyResult expected = readStudyJson(folder / "whole" / "study.json"),
                       found = readStudyJson(folder / "merged" / "study.json");
-    EXPECT_GE(expected.rungs.size(), 12u);
+    EXPECT_GE(expected.configurations.size(), 12u);
     EXPECT_EQ(configurations(found), configurations(expected));
     ASSERT_EQ(expected.problems.size(), 1u);
     EXPECT_EQ(found.problems, expected.problems)
@@ -73,7 +73,7 @@ TEST(StudyShards, UnderGnuParallelMergeToTheWhole) {
     size_t lines = 0;
     for (const char c : touchstone::test::readFile(folder / "merged" / "study.csv"))
         lines += c == '\n' ? 1 : 0;
-    EXPECT_EQ(lines, 1 + expected.rungs.size());
+    EXPECT_EQ(lines, 1 + expected.configurations.size());
     EXPECT_TRUE(std::filesystem::exists(folder / "merged" / "plots"));
 }
 

@@ -52,14 +52,14 @@ StudyResult everyField() {
 
 namespace {
 
-RungResult rungOf(const std::string& scene, const std::string& ladder, const std::string& rung, double ns,
-                  double error) {
-    RungResult r;
+ConfigurationResult rungOf(const std::string& scene, const std::string& ablation,
+                           const std::string& configuration, double ns, double error) {
+    ConfigurationResult r;
     r.scene = r.shape = scene;
     r.triangles = 64'800;
     r.path = "stroke 1 mm deep, 0.1 m/s";
-    r.ladder = ladder;
-    r.rung = rung;
+    r.ablation = ablation;
+    r.configuration = configuration;
     r.settings = "contact=sweep";
     r.step = {ns, 0.97 * ns, 1.03 * ns};
     r.stepMean = {1.1 * ns, 1.08 * ns, 1.12 * ns};
@@ -74,22 +74,23 @@ RungResult rungOf(const std::string& scene, const std::string& ladder, const std
 
 void addScene(StudyResult& result, const std::string& scene) {
     for (const double error : {0.0, 1e-13, 2e-3})
-        result.rungs.push_back(
+        result.configurations.push_back(
             rungOf(scene, "contact", "e " + std::to_string(error), 400.0 + 1e4 * error, error));
-    result.rungs.back().isDefault = true;
-    result.rungs.push_back(rungOf(scene, "friction `touch gotcha`", "Coulomb's \"law\" <&>", 700.0, 1e-2));
+    result.configurations.back().isDefault = true;
+    result.configurations.push_back(
+        rungOf(scene, "friction `touch gotcha`", "Coulomb's \"law\" <&>", 700.0, 1e-2));
     for (int i = 0; i < 24; ++i)
-        result.rungs.push_back(rungOf(scene, "combination", "rung " + std::to_string(i),
-                                      300.0 + 37.0 * ((7 * i) % 24),
-                                      1e-5 * std::pow(1.7, (13 + 11 * i) % 24)));
+        result.configurations.push_back(rungOf(scene, "combination", "rung " + std::to_string(i),
+                                               300.0 + 37.0 * ((7 * i) % 24),
+                                               1e-5 * std::pow(1.7, (13 + 11 * i) % 24)));
     for (const size_t triangles : {1'024, 16'384, 262'144})
         for (const double share : {1.0, 0.03}) {
-            result.rungs.push_back(rungOf(scene + " " + std::to_string(triangles), "tessellation",
-                                          share == 1.0 ? "flat" : "two-pass", 500.0,
-                                          share / std::sqrt(triangles)));
-            result.rungs.back().shape = scene;
-            result.rungs.back().triangles = triangles;
-            result.rungs.back().facetAngle = 4.0 / std::sqrt(static_cast<double>(triangles));
+            result.configurations.push_back(rungOf(scene + " " + std::to_string(triangles), "tessellation",
+                                                   share == 1.0 ? "flat" : "two-pass", 500.0,
+                                                   share / std::sqrt(triangles)));
+            result.configurations.back().shape = scene;
+            result.configurations.back().triangles = triangles;
+            result.configurations.back().facetAngle = 4.0 / std::sqrt(static_cast<double>(triangles));
         }
 }
 

@@ -9,8 +9,9 @@ namespace touchstone::study::test {
 /// One of each, no two figures alike, with figures that print badly.
 [[nodiscard]] StudyResult everyField();
 
-/// As a study of two shapes and a servo would look: five ladders, one of them of 24 rungs, an exact rung,
-/// tessellations, rates, what people notice. Names hold what a shell, gnuplot and SVG read something into.
+/// As a study of two shapes and a servo would look: five ablations, one of them of 24 configurations, an
+/// exact configuration, tessellations, rates, what people notice. Names hold what a shell, gnuplot and SVG
+/// read something into.
 [[nodiscard]] StudyResult likeMeasured();
 
 using touchstone::test::readFile;

@@ -3,9 +3,9 @@
 #include "tests/support/gltf_maker.h"
 #include "tests/support/shared_files.h"
 #include "workbench/editor/haptic_fields.h"
-#include "workbench/editor/material_desk.h"
+#include "workbench/editor/material_controller.h"
 #include "workbench/editor/presets.h"
-#include "workbench/window/leaving.h"
+#include "workbench/window/unsaved_changes_prompt.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ void expectSamePlan(const EffectPlan& a, const EffectPlan& b, const std::string&
         EXPECT_EQ(a.effects[i].reason, b.effects[i].reason) << name << " " << i;
         EXPECT_EQ(a.effects[i].memoryBytes, b.effects[i].memoryBytes) << name << " " << i;
     }
-    EXPECT_EQ(a.plainFeel, b.plainFeel) << name;
+    EXPECT_EQ(a.plainSample, b.plainSample) << name;
     EXPECT_EQ(a.anyShading, b.anyShading) << name;
     EXPECT_EQ(a.dampingMap, b.dampingMap) << name;
 }
@@ -177,23 +177,23 @@ TEST(LiveMaterials, ChangesOnTopOfChangesShareWhatTheyMay) {
 }
 
 /// The desk as the window uses it.
-class Desk : public testing::Test {
+class Controller : public testing::Test {
   protected:
-    Desk() {
+    Controller() {
         std::filesystem::copy_file(TOUCHSTONE_ASSETS "/doughnut.glb", path_);
         model_ = modelOf(path_);
-        desk_.open(model_, false);
+        controller_.open(model_, false);
     }
     /// Until nothing is left to do.
     void settle() {
         for (int i = 0; i < 20'000; ++i) {
-            if (auto made = desk_.update(model_)) {
+            if (auto made = controller_.update(model_)) {
                 model_.haptic = made->haptic;
                 if (made->scene != nullptr)
                     model_.scene = made->scene;
                 ++made_;
                 last_ = std::move(made);
-            } else if (!desk_.working() && !desk_.saving()) {
+            } else if (!controller_.working() && !controller_.saving()) {
                 return;
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -201,42 +201,42 @@ class Desk : public testing::Test {
         FAIL() << "the desk does not come to rest";
     }
     void setFriction(float value) {
-        HapticStatement next = desk_.edits().now(0);
+        HapticStatement next = controller_.edits().now(0);
         next.staticFriction = value;
-        desk_.edits().change(0, next, "static friction");
+        controller_.edits().change(0, next, "static friction");
     }
 
     test::TemporaryFolder folder_;
     std::filesystem::path path_ = folder_.path() / "doughnut.glb";
     Model model_;
-    MaterialDesk desk_;
+    MaterialController controller_;
     std::optional<MadeMaterials> last_;
     int made_ = 0;
 };
 
-TEST_F(Desk, AChangeIsTouchableAndSaved) {
+TEST_F(Controller, AChangeIsTouchableAndSaved) {
     settle();
     EXPECT_EQ(made_, 0);
     setFriction(0.77f);
     settle();
     EXPECT_EQ(model_.haptic->materials[0].staticFriction, static_cast<double>(0.77f));
     EXPECT_TRUE(last_->touchGoesOn);
-    desk_.edits().endGesture();
+    controller_.edits().endGesture();
     settle();
     EXPECT_EQ(model_.scene->materials[0].haptic.staticFriction.value, 0.77f) << "the eye has it too";
-    desk_.save();
+    controller_.save();
     settle();
-    EXPECT_FALSE(desk_.failed()) << desk_.notice();
-    EXPECT_FALSE(desk_.edits().edited());
-    ASSERT_TRUE(desk_.takeSaved());
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
+    EXPECT_FALSE(controller_.edits().edited());
+    ASSERT_TRUE(controller_.takeSaved());
     EXPECT_EQ(loadScene(path_)->materials[0].haptic.staticFriction.value, 0.77f);
 
-    desk_.edits().undo();
+    controller_.edits().undo();
     settle();
-    EXPECT_TRUE(desk_.edits().edited());
-    desk_.save();
+    EXPECT_TRUE(controller_.edits().edited());
+    controller_.save();
     settle();
-    EXPECT_FALSE(desk_.failed()) << desk_.notice();
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
     const auto bytesOf = [](const std::filesystem::path& path) {
         std::ifstream stream(path, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
@@ -246,82 +246,83 @@ TEST_F(Desk, AChangeIsTouchableAndSaved) {
     EXPECT_EQ(bytesOf(path_).size(), bytesOf(TOUCHSTONE_ASSETS "/doughnut.glb").size());
 }
 
-TEST_F(Desk, SavedUnderAnotherNameItGoesOnThere) {
+TEST_F(Controller, SavedUnderAnotherNameItGoesOnThere) {
     setFriction(0.5f);
     const auto other = folder_.path() / "other.glb";
-    desk_.saveAs(other);
+    controller_.saveAs(other);
     settle();
-    EXPECT_FALSE(desk_.failed()) << desk_.notice();
-    EXPECT_EQ(desk_.path(), other);
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
+    EXPECT_EQ(controller_.path(), other);
     EXPECT_EQ(loadScene(other)->materials[0].haptic.staticFriction.value, 0.5f);
     EXPECT_NE(loadScene(path_)->materials[0].haptic.staticFriction.value, 0.5f);
     // Another map makes it read the file anew: the one that was saved.
-    HapticStatement next = desk_.edits().now(0);
+    HapticStatement next = controller_.edits().now(0);
     ASSERT_EQ(setHapticField(next, *model_.scene, "dampingTexture", "0"), "");
-    desk_.edits().change(0, next, "damping map");
+    controller_.edits().change(0, next, "damping map");
     settle();
-    EXPECT_FALSE(desk_.failed()) << desk_.notice();
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
     EXPECT_TRUE(last_->read);
     EXPECT_EQ(model_.haptic->materials[0].staticFriction, static_cast<double>(0.5f));
     EXPECT_FALSE(model_.haptic->materials[0].dampingMap.map.empty());
 }
 
-TEST_F(Desk, AFileThatSomebodyElseChangedIsNotWrittenOver) {
+TEST_F(Controller, AFileThatSomebodyElseChangedIsNotWrittenOver) {
     std::ofstream(path_, std::ios::app) << "x";
     setFriction(0.5f);
-    desk_.save();
+    controller_.save();
     settle();
-    EXPECT_TRUE(desk_.failed());
-    EXPECT_NE(desk_.notice().find("has changed since"), std::string::npos) << desk_.notice();
-    EXPECT_TRUE(desk_.edits().edited());
+    EXPECT_TRUE(controller_.failed());
+    EXPECT_NE(controller_.notice().find("has changed since"), std::string::npos) << controller_.notice();
+    EXPECT_TRUE(controller_.edits().edited());
 }
 
 /// The question before unsaved materials are lost.
-class LeavingTest : public Desk {
+class LeavingTest : public Controller {
   protected:
-    std::optional<Leaving::Answer> answer(PanelState::Leave what) {
+    std::optional<UnsavedChangesPrompt::Answer> answer(PanelState::Leave what) {
         state_.leave = what;
-        const std::optional<Leaving::Answer> at_once = leaving_.update(desk_, state_, problem_);
+        const std::optional<UnsavedChangesPrompt::Answer> at_once =
+            unsavedChanges_.update(controller_, state_, problem_);
         if (at_once)
             return at_once;
         settle();
-        return leaving_.update(desk_, state_, problem_);
+        return unsavedChanges_.update(controller_, state_, problem_);
     }
 
     const std::filesystem::path next_ = "another.glb";
-    Leaving leaving_;
+    UnsavedChangesPrompt unsavedChanges_;
     PanelState state_;
     std::string problem_;
 };
 
 TEST_F(LeavingTest, WhatIsDiscardedMayGoAndWhatIsChangedLaterIsAskedForAnew) {
-    EXPECT_TRUE(leaving_.mayLeave(next_, desk_, state_)) << "nothing is changed";
+    EXPECT_TRUE(unsavedChanges_.mayLeave(next_, controller_, state_)) << "nothing is changed";
     setFriction(0.5f);
     state_.gallery = state_.help = true;
-    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_));
+    EXPECT_FALSE(unsavedChanges_.mayLeave(next_, controller_, state_));
     EXPECT_FALSE(state_.gallery || state_.help) << "the question is seen";
-    EXPECT_FALSE(leaving_.update(desk_, state_, problem_)) << "nobody has answered";
+    EXPECT_FALSE(unsavedChanges_.update(controller_, state_, problem_)) << "nobody has answered";
     const auto stays = answer(PanelState::Leave::Stay);
     ASSERT_TRUE(stays);
     EXPECT_FALSE(stays->go);
-    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_));
+    EXPECT_FALSE(unsavedChanges_.mayLeave(next_, controller_, state_));
     const auto goes = answer(PanelState::Leave::Discard);
     ASSERT_TRUE(goes);
     EXPECT_TRUE(goes->go);
     EXPECT_EQ(goes->target, next_);
-    EXPECT_TRUE(leaving_.mayLeave(next_, desk_, state_)) << "while the other model is read";
+    EXPECT_TRUE(unsavedChanges_.mayLeave(next_, controller_, state_)) << "while the other model is read";
     setFriction(0.6f);
-    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_)) << "nobody has given this away";
+    EXPECT_FALSE(unsavedChanges_.mayLeave(next_, controller_, state_)) << "nobody has given this away";
 }
 
 TEST_F(LeavingTest, ASaveTakesWhatWasChangedWhileAnotherOneRan) {
     setFriction(0.5f);
     settle();
-    desk_.save();
-    (void)desk_.update(model_); // it begins
-    ASSERT_TRUE(desk_.saving());
+    controller_.save();
+    (void)controller_.update(model_); // it begins
+    ASSERT_TRUE(controller_.saving());
     setFriction(0.9f);
-    EXPECT_FALSE(leaving_.mayLeave(next_, desk_, state_));
+    EXPECT_FALSE(unsavedChanges_.mayLeave(next_, controller_, state_));
     const auto goes = answer(PanelState::Leave::Save);
     ASSERT_TRUE(goes);
     EXPECT_TRUE(goes->go);
@@ -330,17 +331,17 @@ TEST_F(LeavingTest, ASaveTakesWhatWasChangedWhileAnotherOneRan) {
 
 TEST_F(LeavingTest, StayHoldsAlsoWhileItIsSavedAndAFailedSaveStays) {
     setFriction(0.5f);
-    EXPECT_FALSE(leaving_.mayLeave({}, desk_, state_));
+    EXPECT_FALSE(unsavedChanges_.mayLeave({}, controller_, state_));
     state_.leave = PanelState::Leave::Save;
-    EXPECT_FALSE(leaving_.update(desk_, state_, problem_)) << "it is being saved";
+    EXPECT_FALSE(unsavedChanges_.update(controller_, state_, problem_)) << "it is being saved";
     const auto stays = answer(PanelState::Leave::Stay);
     ASSERT_TRUE(stays);
     EXPECT_FALSE(stays->go);
     settle();
-    EXPECT_FALSE(leaving_.update(desk_, state_, problem_)) << "and that holds when it is saved";
+    EXPECT_FALSE(unsavedChanges_.update(controller_, state_, problem_)) << "and that holds when it is saved";
     std::ofstream(path_, std::ios::app) << "x";
     setFriction(0.7f);
-    EXPECT_FALSE(leaving_.mayLeave({}, desk_, state_));
+    EXPECT_FALSE(unsavedChanges_.mayLeave({}, controller_, state_));
     const auto failed = answer(PanelState::Leave::Save);
     ASSERT_TRUE(failed);
     EXPECT_FALSE(failed->go);

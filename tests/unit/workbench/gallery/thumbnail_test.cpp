@@ -67,14 +67,14 @@ TEST_F(Thumbnails, AreFoundAgainUntilTheFileChanges) {
 TEST_F(Thumbnails, AreAtMostSoMany) {
     ASSERT_TRUE(cache_.makeRoom());
     const auto begin = fs::file_time_type::clock::now() - std::chrono::hours(1);
-    for (size_t i = 0; i < ThumbnailCache::kMost + 20; ++i) {
+    for (size_t i = 0; i < ThumbnailCache::kMax + 20; ++i) {
         const fs::path picture = scratch_ / "cache" / (std::to_string(i) + ".png");
         std::ofstream(picture) << i;
         fs::last_write_time(picture, begin + std::chrono::seconds(i));
     }
     ASSERT_TRUE(cache_.makeRoom());
     EXPECT_EQ(static_cast<size_t>(std::distance(fs::directory_iterator(scratch_ / "cache"), {})),
-              ThumbnailCache::kMost - 1)
+              ThumbnailCache::kMax - 1)
         << "room for one more";
     EXPECT_FALSE(fs::exists(scratch_ / "cache/0.png")) << "the oldest go";
     EXPECT_TRUE(fs::exists(scratch_ / "cache/219.png"));

@@ -2,7 +2,7 @@
 
 #include "haptics/tick/haptic_step.h"
 #include "tests/support/recorded_servo.h"
-#include "workbench/hand/hand_switch.h"
+#include "workbench/hand/device_multiplexer.h"
 
 #include <gtest/gtest.h>
 
@@ -99,10 +99,10 @@ class HandSwitchTest : public testing::Test {
     }
 
     static constexpr double kTick = 1e-3;
-    static constexpr int kGlide = static_cast<int>(HandSwitch::kGlideTime / kTick);
+    static constexpr int kGlide = static_cast<int>(DeviceMultiplexer::kGlideTime / kTick);
     DeviceLimits limits_;
     TouchedScene scene_;
-    HandSwitch hand_;
+    DeviceMultiplexer hand_;
     std::shared_ptr<ToldDevice> device_ = std::make_shared<ToldDevice>(at({0.01, -0.006, 0.02}));
     WorldState world_;
     DeviceState state_;

@@ -2,8 +2,8 @@
 
 #include "haptics/query/surface_pick.h"
 #include "tests/support/recorded_servo.h"
-#include "workbench/hand/sight.h"
-#include "workbench/hand/stroke_desk.h"
+#include "workbench/hand/picker.h"
+#include "workbench/hand/stroke_controller.h"
 
 #include <gtest/gtest.h>
 
@@ -16,42 +16,42 @@
 namespace touchstone::test {
 namespace {
 
-TEST(StrokeDesk, IsAroundTheTouchedPointWheneverTheHandIsChosen) {
+TEST(StrokeController, IsAroundTheTouchedPointWheneverTheHandIsChosen) {
     const TouchedScene scene = touchedScene("doughnut.glb");
     const Similarity& fit = scene.haptic->workspaceFromScene;
-    StrokeDesk desk;
-    desk.show(scene.source, fit,
-              std::make_shared<const StrokePath>(layStroke(*scene.source, fit, StrokeRequest{})));
+    StrokeController controller;
+    controller.show(scene.source, fit,
+                    std::make_shared<const StrokePath>(layStroke(*scene.source, fit, StrokeRequest{})));
     const StrokeRequest press{.name = "press"};
     const glm::dvec3 front(0.0, 0.0, 1.0);
     for (const double side : {1.0, -1.0, 1.0}) {
-        EXPECT_EQ(desk.update(press, front, false), nullptr) << "the mouse";
+        EXPECT_EQ(controller.update(press, front, false), nullptr) << "the mouse";
         const auto hit = pickSurface(*scene.haptic, {}, {0.04 * side, 0.03, 1.0}, {0.0, 0.0, -1.0});
         ASSERT_TRUE(hit);
-        desk.touched({hit->point, hit->normal});
+        controller.touched({hit->point, hit->normal});
         std::shared_ptr<const StrokePath> path;
         for (int i = 0; i < 2000 && path == nullptr; ++i) {
-            path = desk.update(press, front, true);
+            path = controller.update(press, front, true);
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
-        ASSERT_NE(path, nullptr) << side << " " << desk.notice();
+        ASSERT_NE(path, nullptr) << side << " " << controller.notice();
         EXPECT_LT(glm::distance(path->place(), hit->point), 2e-3);
-        EXPECT_EQ(desk.update(press, front, true), nullptr) << "it is laid once";
+        EXPECT_EQ(controller.update(press, front, true), nullptr) << "it is laid once";
     }
 }
 
-TEST(Sight, KnowsWhereWhatMovesIsAtRest) {
+TEST(Picker, KnowsWhereWhatMovesIsAtRest) {
     const TouchedScene scene = touchedScene("moving.glb");
     MovingObjects moving(scene.source, *scene.haptic);
-    Sight sight;
-    sight.show(scene.haptic, scene.source);
+    Picker picker;
+    picker.show(scene.haptic, scene.source);
     int carried = 0;
     for (double x = -0.1; x <= 0.1; x += 0.01)
         for (const double time : {0.3, 0.8, 1.7}) {
             const auto hit = pickSurface(*scene.haptic, moving.at(time), {x, 0.011, 1.0}, {0.0, 0.0, -1.0});
             if (!hit)
                 continue;
-            const Similarity rest = sight.restFromNow(hit->object, time);
+            const Similarity rest = picker.restFromNow(hit->object, time);
             const glm::dvec3 point = rest.point(hit->point), normal = rest.direction(hit->normal);
             const auto there = pickSurface(*scene.haptic, {}, point + 1e-4 * normal, -normal);
             ASSERT_TRUE(there) << x << ", " << time;
@@ -59,14 +59,14 @@ TEST(Sight, KnowsWhereWhatMovesIsAtRest) {
             carried += glm::distance(point, hit->point) > 1e-3 ? 1 : 0;
         }
     EXPECT_GT(carried, 3) << "they have moved";
-    EXPECT_EQ(sight.restFromNow(-1, 0.3).point({1.0, 2.0, 3.0}), glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(picker.restFromNow(-1, 0.3).point({1.0, 2.0, 3.0}), glm::dvec3(1.0, 2.0, 3.0));
 }
 
 /// What a press is bounded by in the air, where it may meet any of them.
-TEST(Sight, KnowsTheStiffestAndTheRoughest) {
+TEST(Picker, KnowsTheStiffestAndTheRoughest) {
     const TouchedScene scene = touchedScene("swatches.glb");
-    Sight sight;
-    sight.show(scene.haptic, scene.source);
+    Picker picker;
+    picker.show(scene.haptic, scene.source);
     double stiffest = 0.0, roughest = 0.0;
     for (const auto& object : scene.haptic->objects) {
         const HapticMaterialData& material = scene.haptic->materials[static_cast<size_t>(object->material)];
@@ -76,7 +76,7 @@ TEST(Sight, KnowsTheStiffestAndTheRoughest) {
         roughest = std::max(roughest, material.staticFriction);
     }
     const Ray ray{{0.01, 0.02, 1.0}, {0.0, 0.0, -1.0}};
-    const auto seen = sight.look(ray, 0.0, {});
+    const auto seen = picker.look(ray, 0.0, {});
     ASSERT_TRUE(seen);
     EXPECT_GT(roughest, 0.0);
     EXPECT_GE(seen->stiffest, stiffest);
@@ -86,17 +86,17 @@ TEST(Sight, KnowsTheStiffestAndTheRoughest) {
     HapticSettings settings;
     settings.stiffness = 5000.0;
     settings.staticFriction = 3.0;
-    EXPECT_GE(sight.look(ray, 0.0, settings)->stiffest, 5000.0) << "what is asked for is not cut";
-    EXPECT_GE(sight.look(ray, 0.0, settings)->friction, 3.0);
-    EXPECT_EQ(sight.look(ray, 0.0, settings)->grip, 1.0);
+    EXPECT_GE(picker.look(ray, 0.0, settings)->stiffest, 5000.0) << "what is asked for is not cut";
+    EXPECT_GE(picker.look(ray, 0.0, settings)->friction, 3.0);
+    EXPECT_EQ(picker.look(ray, 0.0, settings)->grip, 1.0);
     settings.friction = FrictionMode::Ho;
     settings.dynamicFriction = 1.0;
-    EXPECT_EQ(sight.look(ray, 0.0, settings)->grip, 3.0);
+    EXPECT_EQ(picker.look(ray, 0.0, settings)->grip, 3.0);
     settings.dynamicFriction = 0.0;
-    EXPECT_GE(sight.look(ray, 0.0, settings)->grip, 100.0);
-    EXPECT_TRUE(std::isfinite(sight.look(ray, 0.0, settings)->grip));
+    EXPECT_GE(picker.look(ray, 0.0, settings)->grip, 100.0);
+    EXPECT_TRUE(std::isfinite(picker.look(ray, 0.0, settings)->grip));
     settings.friction = FrictionMode::Off;
-    EXPECT_EQ(sight.look(ray, 0.0, settings)->friction, 0.0);
+    EXPECT_EQ(picker.look(ray, 0.0, settings)->friction, 0.0);
 }
 
 } // namespace

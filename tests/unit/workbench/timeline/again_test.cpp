@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "tests/unit/workbench/timeline/recordings.h"
 #include "workbench/hand/device_port.h"
-#include "workbench/timeline/lens.h"
+#include "workbench/timeline/replay_cache.h"
 #include "workbench/timeline/touch_again.h"
 #include "workbench/timeline/verification.h"
 
@@ -59,16 +59,16 @@ TEST_F(AgainTest, TheLensShowsAllThatTheServoKnew) {
     const std::vector<TickRecord> lived = record();
     const auto timeline = timelineOf(file_);
     ASSERT_EQ(timeline->size(), lived.size());
-    Lens lens(timeline, std::make_shared<RecordedSceneShelf>(file_));
+    ReplayCache replayCache(timeline, std::make_shared<RecordedSceneShelf>(file_));
     size_t touched = 0;
     for (const size_t index : {0u, 3000u, 4001u, 8500u, 100u, 8999u}) {
-        while (!lens.complete(index) && lens.problem().empty()) {
-            lens.look(index);
+        while (!replayCache.complete(index) && replayCache.problem().empty()) {
+            replayCache.look(index);
             pause();
         }
-        ASSERT_EQ(lens.problem(), "");
+        ASSERT_EQ(replayCache.problem(), "");
         TickRecord shown;
-        ASSERT_TRUE(lens.show(index, shown));
+        ASSERT_TRUE(replayCache.show(index, shown));
         const TickRecord& was = lived[index];
         EXPECT_EQ(shown.tick, was.tick);
         EXPECT_EQ(shown.time, was.time);
@@ -92,14 +92,14 @@ TEST_F(AgainTest, WithoutItsModelTheLensShowsWhatWasRecorded) {
         if (auto* scene = std::get_if<RecordedScene>(&item))
             scene->identity.path = scene->identity.absolutePath = "/nowhere/gone.glb";
     writeItems(file_, items);
-    Lens lens(timelineOf(file_), std::make_shared<RecordedSceneShelf>(file_));
+    ReplayCache replayCache(timelineOf(file_), std::make_shared<RecordedSceneShelf>(file_));
     TickRecord shown;
-    while (lens.problem().empty() || !lens.show(5000, shown)) {
-        lens.look(5000);
+    while (replayCache.problem().empty() || !replayCache.show(5000, shown)) {
+        replayCache.look(5000);
         pause();
     }
-    EXPECT_NE(lens.problem().find("gone.glb"), std::string::npos) << lens.problem();
-    EXPECT_FALSE(lens.complete(5000));
+    EXPECT_NE(replayCache.problem().find("gone.glb"), std::string::npos) << replayCache.problem();
+    EXPECT_FALSE(replayCache.complete(5000));
     EXPECT_EQ(shown.output.proxy, lived[5000].output.proxy);
     EXPECT_EQ(shown.output.force, lived[5000].output.force);
     EXPECT_EQ(shown.output.planeCount, 0u);
@@ -111,12 +111,12 @@ TEST_F(AgainTest, OneDamagedSegmentLeavesTheOthersToBeSeen) {
     ASSERT_GE(timeline->segments().size(), 2u);
     std::filesystem::resize_file(file_, timeline->segments()[1].offset + 100);
     const size_t damaged = timeline->segments()[1].first, sound = timeline->segments()[0].first;
-    Lens lens(timeline, std::make_shared<RecordedSceneShelf>(file_));
+    ReplayCache replayCache(timeline, std::make_shared<RecordedSceneShelf>(file_));
     TickRecord shown;
     int problems = 0;
     const auto look = [&](size_t index) {
         try {
-            lens.look(index);
+            replayCache.look(index);
         } catch (const Error&) {
             ++problems;
         }
@@ -125,14 +125,14 @@ TEST_F(AgainTest, OneDamagedSegmentLeavesTheOthersToBeSeen) {
     for (int i = 0; i < 5000 && problems == 0; ++i)
         look(damaged);
     ASSERT_EQ(problems, 1);
-    for (int i = 0; i < 5000 && !lens.complete(sound); ++i)
+    for (int i = 0; i < 5000 && !replayCache.complete(sound); ++i)
         look(sound);
-    EXPECT_EQ(lens.problem(), "");
-    ASSERT_TRUE(lens.show(sound, shown));
+    EXPECT_EQ(replayCache.problem(), "");
+    ASSERT_TRUE(replayCache.show(sound, shown));
     EXPECT_EQ(shown.output.proxy, lived[sound].output.proxy);
     for (int i = 0; i < 20; ++i)
         look(damaged);
-    EXPECT_FALSE(lens.show(damaged, shown));
+    EXPECT_FALSE(replayCache.show(damaged, shown));
     EXPECT_LT(problems, static_cast<int>(timeline->segments().size())) << "each is tried once";
 }
 
@@ -165,7 +165,7 @@ TEST_F(AgainTest, VerifyingNamesTheTickThatDiffersAndItsStage) {
 
 TEST_F(AgainTest, TheHandGlidesInAndOut) {
     StillHand own;
-    AgainHand hand(own);
+    PlaybackDevice hand(own);
     const auto sampleAt = [&](double time) {
         const DeviceSample sample = hand.sample(time);
         hand.apply({});
@@ -195,13 +195,13 @@ TEST_F(AgainTest, TheHandGlidesInAndOut) {
         }
     }
     EXPECT_EQ(last, own.place);
-    EXPECT_LT(fastest, 1.5 * 0.3 / AgainHand::kGlideTime) << "no jump";
+    EXPECT_LT(fastest, 1.5 * 0.3 / PlaybackDevice::kGlideTime) << "no jump";
 }
 
 TEST_F(AgainTest, ADeviceThatIsHeldFeelsNothingOfWhatIsTouchedAgain) {
     const TouchedScene scene = touchedScene("doughnut.glb");
     StillHand own; // in the air, with the force on
-    AgainHand hand(own);
+    PlaybackDevice hand(own);
     ServoLoop servo(portOf(hand), {.rateHz = 1000.0, .wantRealtime = false});
     servo.offerScene(scene.haptic, scene.source);
     std::vector<RecordedPath::Sample> samples;
@@ -230,7 +230,7 @@ TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
     haptic->limits.maxForceRate = 20.0; // N/s
     constexpr double kTick = 1e-3;
     StillHand own;
-    AgainHand hand(own);
+    PlaybackDevice hand(own);
     WorldState world;
     DeviceState state;
     NoStopwatch stopwatch;
@@ -278,7 +278,7 @@ TEST_F(AgainTest, GoingOverFromAZoomedHandBooksNoEnergy) {
     constexpr double kTick = 1e-3;
     StillHand own;
     MappedDevice zoomed(own, 4.0, glm::dvec3(0.0, 0.0, -0.4));
-    AgainHand hand(zoomed);
+    PlaybackDevice hand(zoomed);
     WorldState world;
     DeviceState state;
     HapticOutput output;
@@ -338,14 +338,14 @@ TEST(RecordedPathTest, BeginsWhereWhatMovesWasAndGoesRound) {
     EXPECT_NEAR(path.secondsAt(11.25), 0.25, 1e-12);
     EXPECT_NEAR(path.at(15.5).position.x, 0.005, 1e-12);
     EXPECT_EQ(path.at(10.0).position, glm::dvec3(0.0)) << "rests where it begins";
-    const glm::dvec3 back = path.at(8.0 + 0.5 * AgainHand::kGlideTime).position;
+    const glm::dvec3 back = path.at(8.0 + 0.5 * PlaybackDevice::kGlideTime).position;
     EXPECT_NEAR(back.x, 0.005, 1e-12) << "half of the way back";
     const auto lap = [](double seconds, double period) {
         return RecordedPath({{0.0, glm::dvec3(0.0), true}, {seconds, glm::dvec3(0.01), true}},
                             {.repeats = true, .period = period})
             .lap();
     };
-    EXPECT_NEAR(lap(1.0, 0.0), 1.0 + AgainHand::kGlideTime, 1e-12) << "nothing moves";
+    EXPECT_NEAR(lap(1.0, 0.0), 1.0 + PlaybackDevice::kGlideTime, 1e-12) << "nothing moves";
     EXPECT_NEAR(lap(1.0, 0.5), 1.5, 1e-12);
     EXPECT_NEAR(lap(1.6, 0.5), 2.0, 1e-12) << "a multiple already";
     EXPECT_NEAR(lap(1.7, 0.5), 2.5, 1e-12);
@@ -379,7 +379,7 @@ class AgainServo {
 
   private:
     StillHand own_;
-    AgainHand hand_{own_};
+    PlaybackDevice hand_{own_};
     ForceHistory history_{10000};
     RecordedServo rig_;
 };

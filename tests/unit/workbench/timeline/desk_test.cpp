@@ -3,7 +3,7 @@
 #include "devices/mouse/mouse_device.h"
 #include "engine/load/scene_loader.h"
 #include "tests/unit/workbench/timeline/recordings.h"
-#include "workbench/timeline/timeline_desk.h"
+#include "workbench/timeline/timeline_controller.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace touchstone::test {
 namespace {
 
-class DeskTest : public testing::Test {
+class ControllerTest : public testing::Test {
   protected:
     /// A stroke over a copy of the doughnut, in a workspace that it was fitted to or not.
     void record(Fit fit) {
@@ -37,10 +37,10 @@ class DeskTest : public testing::Test {
     }
     void turn() {
         now_ += 0.03;
-        desk_.update({.now = now_,
-                      .model = opened_.scene != nullptr ? &opened_ : nullptr,
-                      .open = opened_.scene != nullptr ? &identity_ : nullptr,
-                      .live = &live_});
+        controller_.update({.now = now_,
+                            .model = opened_.scene != nullptr ? &opened_ : nullptr,
+                            .open = opened_.scene != nullptr ? &identity_ : nullptr,
+                            .live = &live_});
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     void turnUntil(const std::function<bool()>& holds) {
@@ -50,133 +50,135 @@ class DeskTest : public testing::Test {
         ASSERT_TRUE(held);
     }
     [[nodiscard]] bool notes(const std::string& text) const {
-        return std::ranges::any_of(
-            desk_.notes(), [&](const std::string& note) { return note.find(text) != std::string::npos; });
+        return std::ranges::any_of(controller_.notes(), [&](const std::string& note) {
+            return note.find(text) != std::string::npos;
+        });
     }
 
     ScratchFolder scratch_;
     std::filesystem::path file_ = scratch_ / "r.tsrec", model_ = scratch_ / "mine.glb";
     std::vector<TickRecord> lived_;
     MouseDevice hand_;
-    AgainHand again_{hand_};
-    TimelineDesk desk_{again_, {scratch_.path()}};
+    PlaybackDevice again_{hand_};
+    TimelineController controller_{again_, {scratch_.path()}};
     Model opened_;
     SceneIdentity identity_;
     ForceHistory live_{100};
     double now_ = 0.0;
 };
 
-TEST_F(DeskTest, AsksForTheModelAndShowsTheTickUnderTheCursor) {
+TEST_F(ControllerTest, AsksForTheModelAndShowsTheTickUnderTheCursor) {
     record(Fit::Workspace);
-    desk_.open(file_);
-    EXPECT_TRUE(desk_.opening());
-    turnUntil([&] { return desk_.looking(); });
-    EXPECT_FALSE(desk_.opening());
-    EXPECT_EQ(desk_.takeModelWanted(), std::filesystem::canonical(model_));
-    EXPECT_EQ(desk_.takeModelWanted(), std::nullopt) << "told once";
-    EXPECT_FALSE(desk_.modelIsOpen());
+    controller_.open(file_);
+    EXPECT_TRUE(controller_.opening());
+    turnUntil([&] { return controller_.looking(); });
+    EXPECT_FALSE(controller_.opening());
+    EXPECT_EQ(controller_.takeModelWanted(), std::filesystem::canonical(model_));
+    EXPECT_EQ(controller_.takeModelWanted(), std::nullopt) << "told once";
+    EXPECT_FALSE(controller_.modelIsOpen());
     turn();
     EXPECT_TRUE(notes("mine.glb was touched and is not open"));
     openModel(model_);
     turn();
-    EXPECT_TRUE(desk_.modelIsOpen());
-    EXPECT_TRUE(desk_.notes().empty());
-    desk_.playback().step(3000);
-    turnUntil([&] { return desk_.tickComplete(); });
-    EXPECT_EQ(desk_.tick().output.proxy, lived_[3000].output.proxy);
-    EXPECT_EQ(desk_.tick().output.planeCount, lived_[3000].output.planeCount);
-    EXPECT_EQ(desk_.settings(), HapticSettings{});
-    desk_.leave();
-    EXPECT_FALSE(desk_.looking());
+    EXPECT_TRUE(controller_.modelIsOpen());
+    EXPECT_TRUE(controller_.notes().empty());
+    controller_.playback().step(3000);
+    turnUntil([&] { return controller_.tickComplete(); });
+    EXPECT_EQ(controller_.tick().output.proxy, lived_[3000].output.proxy);
+    EXPECT_EQ(controller_.tick().output.planeCount, lived_[3000].output.planeCount);
+    EXPECT_EQ(controller_.settings(), HapticSettings{});
+    controller_.leave();
+    EXPECT_FALSE(controller_.looking());
     turn();
-    EXPECT_FALSE(desk_.looking());
+    EXPECT_FALSE(controller_.looking());
 }
 
-TEST_F(DeskTest, WhatIsOpenAlreadyIsNotAskedFor) {
+TEST_F(ControllerTest, WhatIsOpenAlreadyIsNotAskedFor) {
     record(Fit::Workspace);
     openModel(model_);
-    desk_.open(file_);
-    turnUntil([&] { return desk_.looking(); });
-    EXPECT_EQ(desk_.takeModelWanted(), std::nullopt);
-    EXPECT_TRUE(desk_.modelIsOpen());
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
+    EXPECT_EQ(controller_.takeModelWanted(), std::nullopt);
+    EXPECT_TRUE(controller_.modelIsOpen());
 }
 
-TEST_F(DeskTest, AModelThatIsFittedOtherwiseIsTouchedWhereItWasTouched) {
+TEST_F(ControllerTest, AModelThatIsFittedOtherwiseIsTouchedWhereItWasTouched) {
     record(Fit::None);
     openModel(model_);
-    desk_.open(file_);
-    turnUntil([&] { return desk_.looking(); });
-    desk_.playback().step(3000);
-    turnUntil([&] { return desk_.tickComplete(); });
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
+    controller_.playback().step(3000);
+    turnUntil([&] { return controller_.tickComplete(); });
     const Similarity openFromRecorded =
         opened_.workspaceFromScene * workspaceFromScene(*opened_.scene, Fit::None).inverse();
-    const glm::dvec3 recorded = lived_[3000].output.proxy, shown = desk_.tick().output.proxy;
+    const glm::dvec3 recorded = lived_[3000].output.proxy, shown = controller_.tick().output.proxy;
     EXPECT_LT(glm::distance(shown, openFromRecorded.point(recorded)), 1e-12);
     EXPECT_GT(glm::distance(shown, recorded), 1e-3) << "the two are not the same place";
     EXPECT_LT(glm::distance(shown, overTheDoughnut(lived_[3000].time)), 3e-3) << "on the glaze";
 }
 
-TEST_F(DeskTest, AModelThatIsGoneOrOtherwiseSaysSo) {
+TEST_F(ControllerTest, AModelThatIsGoneOrOtherwiseSaysSo) {
     record(Fit::Workspace);
     std::filesystem::rename(model_, scratch_ / "elsewhere");
     openModel(TOUCHSTONE_ASSETS "/box.glb");
-    desk_.open(file_);
-    turnUntil([&] { return desk_.looking(); });
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
     turn();
-    EXPECT_EQ(desk_.takeModelWanted(), std::nullopt);
-    EXPECT_FALSE(desk_.modelIsOpen());
+    EXPECT_EQ(controller_.takeModelWanted(), std::nullopt);
+    EXPECT_FALSE(controller_.modelIsOpen());
     EXPECT_TRUE(notes("is not there: only the curves are shown"));
-    EXPECT_GT(desk_.timeline().force().over(0, desk_.timeline().size()).most, 0.1f);
+    EXPECT_GT(controller_.timeline().force().over(0, controller_.timeline().size()).most, 0.1f);
 
     std::filesystem::copy_file(TOUCHSTONE_ASSETS "/torus_64800.glb", model_);
-    desk_.open(file_);
-    turnUntil([&] { return desk_.takeModelWanted().has_value(); });
+    controller_.open(file_);
+    turnUntil([&] { return controller_.takeModelWanted().has_value(); });
     openModel(model_);
     turn();
-    EXPECT_TRUE(desk_.modelIsOpen());
+    EXPECT_TRUE(controller_.modelIsOpen());
     EXPECT_TRUE(notes("mine.glb has changed since it was touched"));
-    desk_.verify();
-    turnUntil([&] { return !desk_.verdict().empty(); });
-    EXPECT_FALSE(desk_.verdictEqual());
-    EXPECT_NE(desk_.verdict().find("differs first"), std::string::npos) << desk_.verdict();
-    EXPECT_NE(desk_.verdict().find("what is felt is not the same"), std::string::npos) << desk_.verdict();
+    controller_.verify();
+    turnUntil([&] { return !controller_.verdict().empty(); });
+    EXPECT_FALSE(controller_.verdictEqual());
+    EXPECT_NE(controller_.verdict().find("differs first"), std::string::npos) << controller_.verdict();
+    EXPECT_NE(controller_.verdict().find("what is felt is not the same"), std::string::npos)
+        << controller_.verdict();
 }
 
-TEST_F(DeskTest, WhatCannotBeOpenedLeavesWhatIsLookedAt) {
+TEST_F(ControllerTest, WhatCannotBeOpenedLeavesWhatIsLookedAt) {
     record(Fit::Workspace);
-    desk_.open(file_);
-    turnUntil([&] { return desk_.looking(); });
-    desk_.playback().step(1234);
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
+    controller_.playback().step(1234);
     writeTextFile(scratch_ / "bad.tsrec", "hm");
-    desk_.open(scratch_ / "bad.tsrec");
+    controller_.open(scratch_ / "bad.tsrec");
     std::optional<Error> problem;
-    turnUntil([&] { return (problem = desk_.takeProblem()).has_value(); });
+    turnUntil([&] { return (problem = controller_.takeProblem()).has_value(); });
     EXPECT_EQ(problem->problem(), "is no recording of Touchstone");
-    EXPECT_TRUE(desk_.looking());
-    EXPECT_EQ(desk_.playback().cursor(), 1234u);
-    desk_.open(file_);
-    desk_.cancelOpening();
+    EXPECT_TRUE(controller_.looking());
+    EXPECT_EQ(controller_.playback().cursor(), 1234u);
+    controller_.open(file_);
+    controller_.cancelOpening();
     for (int i = 0; i < 50; ++i)
         turn();
-    EXPECT_FALSE(desk_.opening());
-    EXPECT_EQ(desk_.playback().cursor(), 1234u) << "it was given up";
+    EXPECT_FALSE(controller_.opening());
+    EXPECT_EQ(controller_.playback().cursor(), 1234u) << "it was given up";
 }
 
-TEST_F(DeskTest, MayBeLeftAtAnyMoment) {
+TEST_F(ControllerTest, MayBeLeftAtAnyMoment) {
     record(Fit::Workspace);
     for (int turns = 0; turns < 40; turns += 3) {
-        desk_.open(file_);
-        turnUntil([&] { return desk_.looking(); });
-        desk_.verify();
-        desk_.touchAgain();
-        desk_.playback().play(true);
+        controller_.open(file_);
+        turnUntil([&] { return controller_.looking(); });
+        controller_.verify();
+        controller_.touchAgain();
+        controller_.playback().play(true);
         for (int i = 0; i < turns; ++i)
             turn();
-        desk_.leave();
+        controller_.leave();
         turn();
-        ASSERT_FALSE(desk_.looking());
-        ASSERT_FALSE(desk_.again().running());
-        ASSERT_FALSE(desk_.verifying());
+        ASSERT_FALSE(controller_.looking());
+        ASSERT_FALSE(controller_.again().running());
+        ASSERT_FALSE(controller_.verifying());
     }
 }
 

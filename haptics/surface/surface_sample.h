@@ -1,0 +1,40 @@
+#pragma once
+// Stage 5: what the maps say at the contact.
+
+#include "haptics/proxy/proxy_solver.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
+
+#include <glm/glm.hpp>
+
+namespace touchstone {
+
+/// The surface under the proxy as the later stages need it. Directions in the reference object frame, lengths
+/// in m.
+struct SurfaceSample {
+    bool touching = false;
+    int object = -1;
+    uint32_t triangle = 0;
+    int material = 0;
+    glm::dvec3 normal{0.0};   ///< n: the felt shape's unit normal (true or shaded)
+    double depth = 0.0;       ///< d: distance of the HIP from the proxy, workspace m
+    glm::dvec3 textured{0.0}; ///< m: unit normal with the texture's tilt
+    double height = 0.0;      ///< H >= 0, workspace m
+    bool hasHeight = false;   ///< H shortens the way along n (texture=law); else m alone turns the force
+    double lengthening = 1.0; ///< of the force along m; texture=minsky: 1 / (n . m), which leaves k d along n
+    bool tiltCompressed = false;
+    double stiffness = 0.0; ///< N/m
+    double damping = 0.0;   ///< N·s/m
+    double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
+    bool coulomb = false; ///< coefficients are stated, though a map may make them zero here
+};
+
+/// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are what is felt there.
+/// With textureFilter=mip `speed` (m/s along the surface) and `dt` choose the level: what would alias at the
+/// servo rate is left out.
+[[nodiscard]] SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions,
+                                        const HapticSettings& settings, int reference, const Contact& contact,
+                                        const glm::dvec3& normal, double depth, double speed,
+                                        double dt) noexcept;
+
+} // namespace touchstone

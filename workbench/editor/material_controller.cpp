@@ -1,0 +1,100 @@
+#include "workbench/editor/material_controller.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace touchstone {
+
+void MaterialController::open(const Model& model, bool generated) {
+    live_.discard();
+    tell("", false);
+    if (saving_.valid())
+        finishSaving(); // what went wrong with it stays said
+    wanted_.clear();
+    edits_ = MaterialEdits(*model.scene);
+    materials_ = model.scene->materials;
+    touched_ = seen_ = edits_.revision();
+    path_ = model.scene->path;
+    stamp_ = model.scene->file;
+    generated_ = generated;
+    saved_.reset();
+}
+
+void MaterialController::tell(std::string notice, bool failed) {
+    notice_ = std::move(notice);
+    failed_ = failed;
+}
+
+void MaterialController::startWork(const Model& model) {
+    MaterialJob job;
+    job.model = model;
+    job.compiledFrom = materials_;
+    job.statements = edits_.all();
+    job.edits = textOf(edits_.patches());
+    job.path = path_;
+    job.stamp = stamp_;
+    job.revision = edits_.revision();
+    job.forTheEye = !edits_.inGesture();
+    live_.start(std::move(job));
+}
+
+std::optional<MadeMaterials> MaterialController::update(const Model& model) {
+    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        finishSaving();
+    std::optional<MadeMaterials> made;
+    try {
+        made = live_.take();
+    } catch (const std::exception& error) {
+        tell(error.what(), true);
+        touched_ = seen_ = edits_.revision(); // not again until something else is changed
+    }
+    if (made) {
+        materials_ = made->materials;
+        touched_ = made->revision;
+        if (made->scene != nullptr)
+            seen_ = made->revision;
+        seconds_ = made->seconds;
+        return made; // the caller's model is what the next job starts from
+    }
+    const bool behind = touched_ != edits_.revision() || (!edits_.inGesture() && seen_ != edits_.revision());
+    if (live_.busy() || saving_.valid())
+        return std::nullopt;
+    if (behind)
+        startWork(model);
+    else if (!wanted_.empty())
+        startSaving(std::exchange(wanted_, {}));
+    return std::nullopt;
+}
+
+void MaterialController::saveAs(const std::filesystem::path& target) {
+    edits_.endGesture();
+    wanted_ = target;
+}
+
+/// Only when the last change is felt: the worker may be reading the file, and a recording is told that the
+/// file holds what is touched.
+void MaterialController::startSaving(const std::filesystem::path& target) {
+    savingStatements_ = edits_.all();
+    target_ = target;
+    tell("", false);
+    saving_ =
+        std::async(std::launch::async, [source = path_, stamp = stamp_, patches = edits_.patches(), target] {
+            return saveMaterials(source, stamp, patches, target);
+        });
+}
+
+void MaterialController::finishSaving() {
+    try {
+        stamp_ = saving_.get();
+        path_ = target_;
+        generated_ = false;
+        edits_.saved(std::move(savingStatements_));
+        saved_ = stamp_;
+        tell("saved to " + path_.string(), false);
+    } catch (const std::exception& error) {
+        tell(error.what(), true);
+    }
+}
+
+} // namespace touchstone

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "devices/device/workspace_map.h"
+#include "devices/link/linked_device.h"
+#include "devices/mouse/mouse_device.h"
+#include "devices/stroke/stroke_path.h"
+#include "engine/exchange/handover.h"
+#include "workbench/hand/glide.h"
+
+#include <atomic>
+#include <memory>
+
+namespace touchstone {
+
+/// The window's hand: the mouse, a simulated hand on a path that comes with the model, or a device. Changing
+/// over glides from where the hand is to where the other one is, so that nothing is hit at the speed of a
+/// jump. A device that is taken up gets no force until the hand is where it is. Device and simulated hand
+/// have clutch and zoom (WorkspaceMap), the mouse is where the pointer says.
+class DeviceMultiplexer final : public Device {
+  public:
+    /// s that changing over takes.
+    static constexpr double kGlideTime = kHandGlideTime;
+    /// s, then, from no force to all of it.
+    static constexpr double kCouplingTime = kHandCouplingTime;
+
+    /// Owner thread.
+    void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }
+    [[nodiscard]] bool simulated() const noexcept { return simulated_.load(std::memory_order_relaxed); }
+    void offerPath(std::shared_ptr<const StrokePath> path) { path_.offer(std::move(path)); }
+    /// Null: back to the mouse or the simulated hand. A device that is let go gets zero force
+    /// at once, before the servo knows.
+    void hold(std::shared_ptr<LinkedDevice> device);
+    /// How the user looks at the workspace: LinkedDevice::face.
+    void face(const glm::dquat& deviceFromView);
+    /// Besides the device's own button. No effect on the mouse.
+    void workspace(const WorkspaceWish& target) noexcept {
+        zoom_.store(target.zoom, std::memory_order_relaxed);
+        clutch_.store(target.clutch, std::memory_order_relaxed);
+    }
+    /// The device's origin becomes the workspace's again, at once and without touch.
+    void centre() noexcept { centres_.fetch_add(1, std::memory_order_relaxed); }
+    /// Another model, or the same built again, is where the hand is: the mouse is lifted off until its next
+    /// goal, a stroke begins again. Before that model is offered to the servo.
+    void leave() noexcept {
+        mouse_.release();
+        leaves_.fetch_add(1, std::memory_order_release);
+    }
+    /// Frees what the servo has let go.
+    void collect() { held_.collect(); }
+    [[nodiscard]] MouseDevice& mouse() { return mouse_; }
+
+    [[nodiscard]] std::string name() const override;
+    [[nodiscard]] DeviceLimits limits() const override;
+    void feel(const TouchFeedback& felt) noexcept override;
+    [[nodiscard]] DeviceSample sample(double time) noexcept override;
+    void apply(const DeviceCommand& command) noexcept override;
+
+  private:
+    struct Held {
+        std::shared_ptr<LinkedDevice> device; // null: none
+    };
+
+    [[nodiscard]] WorkspaceWish target() const noexcept {
+        return {zoom_.load(std::memory_order_relaxed), clutch_.load(std::memory_order_relaxed)};
+    }
+    void follow(const StrokePath* path, double time) noexcept;
+    void begin(DeviceSample& sample) noexcept;
+    void place(DeviceSample& sample, double time) noexcept;
+    void couple(DeviceSample& sample, double time) noexcept;
+
+    MouseDevice mouse_;
+    std::shared_ptr<LinkedDevice> device_; // owner thread
+    Handover<Held> held_;
+    std::atomic<bool> simulated_{false};
+    Handover<StrokePath> path_;
+    std::atomic<double> zoom_{1.0};
+    std::atomic<bool> clutch_{false};
+    std::atomic<uint32_t> centres_{0}, leaves_{0};
+    // Servo thread:
+    const void* followed_ = nullptr;           // the path or the device; null: the mouse
+    LinkedDevice* driven_ = nullptr;           // in this tick
+    glm::dvec3 lastHip_{0.0}, glideFrom_{0.0}; // workspace; device
+    double glideStart_ = 0.0;
+    WorkspaceMap map_;
+    glm::dvec3 centre_{0.0}; // of what is followed
+    double lastTime_ = 0.0;
+    uint32_t centred_ = 0, left_ = 0; // of centres_, leaves_
+    bool changed_ = false; // another hand, in another place of the workspace: nothing is known in this tick
+    bool started_ = false, gliding_ = false;
+    bool begins_ = false; // where the hand comes to be: touch begins there
+    bool away_ = false; // the device is not where the hand is, or what comes is left of another hand's force
+    double coupling_ = 1.0;
+};
+
+} // namespace touchstone
