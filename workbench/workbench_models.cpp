@@ -1,0 +1,129 @@
+#include "workbench/workbench_window.h"
+
+namespace touchstone {
+
+void WorkbenchWindow::open(const std::filesystem::path& path) {
+    problem_.clear();
+    state_.gallery = false;
+    if (isRecording(path))
+        return timeline_.open(path);
+    longestFrame_ = 0.0;
+    opening_.start(path, touch_.limits(), screen_.renderer());
+}
+
+void WorkbenchWindow::takeAnotherDevice(const DeviceLost& lost) {
+    problem_ = "The graphics device was lost (" + lost.problem() +
+               "). What is felt went on; the picture is made anew.";
+    drawn_.takeDevice();
+    picture_.takeDevice();
+    environment_.takeDevice();
+    for (std::optional<DeviceLost> why = lost; why;)
+        try {
+            screen_.renew(*std::exchange(why, std::nullopt), secondsNow());
+            quality_ = qualityOn(screen_.gpu());
+            opening_.takeDevice(screen_.renderer());
+        } catch (const DeviceLost& again) {
+            why = again;
+        }
+}
+
+void WorkbenchWindow::takeModel() {
+    // What was changed while it was read is asked for, too.
+    if (opening_.arriving() && hasModel() &&
+        (materials_.saving() || !unsavedChanges_.mayLeave(opening_.path(), materials_, state_)))
+        return;
+    try {
+        if (std::optional<LoadedModel> loaded = opening_.update(screen_.renderer()))
+            show(*std::move(loaded));
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        if (!hasModel())
+            throw;
+        problem_ = error.what();
+    } catch (const std::bad_alloc&) {
+        if (!hasModel())
+            throw;
+        problem_ = opening_.path().filename().string() + ": there is not enough memory for it";
+    }
+}
+
+void WorkbenchWindow::show(LoadedModel loaded) {
+    const ScenePtr scene = loaded.model.scene;
+    notice_.clear(); // of the model before
+    touch_.show(std::move(loaded), scene->path == defaultScene().string());
+    drawn_.shown(scene);
+    unsavedChanges_.begin();
+    materials_.open(touch_.shown().model, isSample(scene->path));
+    view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
+    memory_.opened(std::filesystem::absolute(scene->path));
+    remember();
+    window_.setTitle(scene->path + " – Touchstone");
+}
+
+void WorkbenchWindow::takeMaterials() {
+    if (!hasModel())
+        return;
+    if (const std::optional<FileStamp> saved = materials_.takeSaved())
+        touch_.saved(materials_.path(), *saved, textOf(materials_.edits().patches()));
+    const std::optional<MadeMaterials> made = materials_.update(touch_.shown().model);
+    if (!made)
+        return;
+    if (made->read)
+        drawn_.renew(); // it has other images
+    touch_.change(*made);
+}
+
+void WorkbenchWindow::leaveFor(const std::filesystem::path& path) {
+    if (isRecording(path) || unsavedChanges_.mayLeave(path, materials_, state_))
+        open(path);
+}
+
+void WorkbenchWindow::leave() {
+    const std::optional<UnsavedChangesPrompt::Answer> answer =
+        unsavedChanges_.update(materials_, state_, problem_);
+    if (!answer)
+        return;
+    const bool arriving = opening_.arriving() && answer->target == opening_.path();
+    if (arriving && !answer->go)
+        opening_.cancel(screen_.renderer());
+    if (arriving || !answer->go)
+        return;
+    if (!answer->target.empty())
+        return open(answer->target);
+    left_ = true;
+    window_.close();
+}
+
+void WorkbenchWindow::lookBack(double now) {
+    timeline_.update({.now = now,
+                      .model = hasModel() ? &touch_.shown().model : nullptr,
+                      .open = hasModel() ? &touch_.shown().identity : nullptr,
+                      .live = &touch_.forces(),
+                      .servoTime = touch_.tick().time,
+                      .listed = state_.timeline.shown});
+    // Off and on again clears a latch, which nobody must do unawares: the force then stays off.
+    if (timeline_.looking() && has(touch_.tick().output.flags, TickFlag::SafetyLatched))
+        state_.settings.forceEnabled = false;
+    if (const std::optional<Error> problem = timeline_.takeProblem()) {
+        if (!hasModel() && !opening_.busy())
+            throw *problem;
+        problem_ = problem->what();
+    }
+    if (const auto model = timeline_.takeModelWanted())
+        leaveFor(*model);
+}
+
+void WorkbenchWindow::showMaterials() {
+    if (opening_.uploading())
+        return drawn_.interrupt();
+    try {
+        drawn_.update(screen_.renderer(), touch_.shown().model.scene, state_.view.mode != ViewMode::Shaded);
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const std::exception& error) {
+        problem_ = std::string("the view could not be made anew: ") + error.what();
+    }
+}
+
+} // namespace touchstone

@@ -1,0 +1,182 @@
+#include "workbench/workbench_window.h"
+
+namespace touchstone {
+
+void WorkbenchWindow::draw() {
+    gallery_.update(state_.gallery, samples_, memory_.recent, screen_.target());
+    const PixelRect area = pictureArea();
+    const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
+    const PanelFolds folds = state_.folds;
+    auto widgets = drawPanels(input, state_);
+    widgets.merge(drawMaterials(input.scale));
+    const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
+    view_.update({.origin = glm::dvec2(area.x, area.y) / points,
+                  .area = glm::dvec2(area.width, area.height) / points,
+                  .probe = shownTick().output.proxy,
+                  .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
+                  .mouseIsHand = state_.device.empty() && !state_.simulatedHand && !timeline_.looking(),
+                  .looksBack = timeline_.looking(),
+                  .covered = state_.gallery || state_.leaving.has_value(),
+                  .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
+                 state_.view);
+    doWhatWasAsked(widgets);
+    sendSettings();
+    if (!(state_.folds == folds))
+        remember();
+
+    if (hasModel()) {
+        showMaterials();
+        poseAt(shownTick().time, *touch_.shown().model.scene, screen_.renderer());
+    }
+    const ModelPicture::Frame frame{.model = touch_.shown().model,
+                                    .tick = shownTick(),
+                                    .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
+                                    .settings = shownSettings(),
+                                    .camera = view_.camera(),
+                                    .options = state_.view,
+                                    .place = area,
+                                    .sceneSize = input.sceneSize,
+                                    .allowedError = quality_.allowedError(),
+                                    .pixelsPerPoint = static_cast<float>(points),
+                                    .scale = window_.layoutScale(),
+                                    .software = screen_.gpu().isSoftware()};
+    screen_.target().endFrame(&screen_.renderer(), picture_.draw(frame, screen_.renderer()));
+    if (picture_.save(screen_.target(), frame))
+        notice_ = picture_.message();
+    if (chartPictures_.update(screen_.target()))
+        notice_ = chartPictures_.message();
+    status_.update(secondsNow(), input, state_, widgets, screen_.validationMessages());
+}
+
+std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    MaterialPanelInput input;
+    if (hasModel()) {
+        const Model& model = touch_.shown().model;
+        input.scene = model.scene.get();
+        input.deviceStiffness = model.haptic->limits.recommendedStiffness;
+        const int object = touch_.tick().output.object;
+        const auto& objects = model.haptic->objects;
+        if (object >= 0 && static_cast<size_t>(object) < objects.size())
+            input.probed = objects[static_cast<size_t>(object)]->material;
+    }
+    Widgets widgets(scale);
+    const PictureRect picture = pictureRect(state_.folds, {display.x, display.y}, scale);
+    drawMaterialWindow(input, {picture.x, picture.y, picture.width, picture.height}, state_.editMaterials,
+                       materials_, materialState_, widgets);
+    return widgets.take();
+}
+
+PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
+    PanelInput input;
+    if (hasModel()) {
+        const Scene& scene = *touch_.shown().model.scene;
+        input.scene = &scene;
+        input.haptic = touch_.shown().model.haptic.get();
+        input.modelName = std::filesystem::path(scene.path).filename().string();
+        input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
+                           (scene.touchable() ? "" : ": nothing to touch");
+        for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
+            for (const Warning& warning : *warnings)
+                input.warnings.push_back(warning.place + ": " + warning.message);
+        for (std::string& warning : settingWarnings(state_.settings))
+            input.warnings.push_back(std::move(warning));
+        if (has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
+            input.warnings.emplace_back("the contact method is being prepared: swept until then");
+    }
+    input.problem = problem_;
+    input.gallery = gallery_.entries();
+    input.showPicture = [this](size_t place, const glm::vec2& from, const glm::vec2& to) {
+        screen_.target().showPicture(place, from, to);
+    };
+    input.recent = memory_.recent;
+    input.samples = samples_;
+    input.sampleNotes = sampleNotes_;
+    input.materialNotice = materials_.notice();
+    input.canSaveMaterials = materials_.canSaveInPlace();
+    input.materialsEdited = materials_.edits().edited();
+    input.materialsWorking = materials_.working();
+    input.loading = loading();
+    input.longestFrame = longestFrame_;
+    const bool recording = timeline_.opening();
+    input.loadName = (recording ? timeline_.openingFile() : opening_.path()).filename().string();
+    input.loadFraction = recording ? timeline_.openingFraction() : opening_.fraction();
+    input.loadActivity = recording ? "reading the recording" : opening_.activity();
+    input.notice = notice_;
+    const ServoRecorder& recorder = touch_.recording().recorder();
+    input.recording = recorder.recording();
+    input.recordingFile = recorder.file().string();
+    input.recordedSeconds = static_cast<double>(recorder.ticks()) / touch_.rateHz();
+    input.canSimulate = touch_.shown().path != nullptr;
+    input.strokeNotice = touch_.strokeNotice();
+    input.devices = touch_.devices().offers();
+    input.deviceStatus = touch_.devices().status();
+    input.sound = touch_.sound().status();
+    input.servo = &touch_.figures();
+    input.servoStart = touch_.startedAt();
+    input.forcePresses = touch_.forceSwitch().state().presses();
+    input.typing = ImGui::GetIO().WantTextInput;
+    input.timeline = &timeline_;
+    input.tick = timeline_.looking() ? &shownTick() : &touch_.figures().last;
+    input.forces = &touch_.forces();
+    input.frames = screen_.target().statistics().framesPresented;
+    input.framesPerSecond = pace_.rate();
+    input.camera = view_.camera();
+    input.picture = picture_.message();
+    input.sceneSize = sceneSize;
+    input.gpuName = screen_.gpu().name();
+    input.scale = window_.layoutScale();
+    return input;
+}
+
+void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {
+    if (std::exchange(state_.recordPressed, false))
+        touch_.recording().toggle();
+    if (std::exchange(state_.cancelPressed, false))
+        opening_.cancel(screen_.renderer()), timeline_.cancelOpening();
+    if (std::exchange(state_.dismissPressed, false))
+        problem_.clear();
+    if (std::exchange(state_.noticeDismissed, false))
+        notice_.clear();
+    if (std::exchange(state_.quitPressed, false))
+        window_.close();
+    if (const auto gone = std::exchange(state_.forget, std::nullopt)) {
+        memory_.forget(*gone);
+        remember();
+    }
+    for (auto* asked : {&state_.open, &state_.timeline.open})
+        if (const auto path = std::exchange(*asked, std::nullopt))
+            leaveFor(*path);
+    if (const auto wanted = std::exchange(state_.chartWanted, std::nullopt)) {
+        if (*wanted == ChartFile::Picture)
+            chartPictures_.request(screen_.target(), pixelsOf(widgets.at("charts")), "charts");
+        else
+            saveChart();
+    }
+}
+
+void WorkbenchWindow::saveChart() {
+    try {
+        const std::filesystem::path file = savedFile("charts", ".csv");
+        writeChart(file, state_.stopped ? *state_.stopped : touch_.forces());
+        notice_ = "saved " + file.string();
+    } catch (const std::exception& error) {
+        problem_ = error.what();
+    }
+}
+
+PixelRect WorkbenchWindow::pixelsOf(const WidgetRect& rect) {
+    const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
+    return {static_cast<int>(rect.x * pixels), static_cast<int>(rect.y * pixels),
+            static_cast<int>(rect.width * pixels), static_cast<int>(rect.height * pixels)};
+}
+
+PixelRect WorkbenchWindow::pictureArea() const {
+    const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
+    const glm::vec2 size(screen_.target().size());
+    const PictureRect rect = pictureRect(state_.folds, size, window_.layoutScale() * pixels);
+    return {static_cast<int>(rect.x), static_cast<int>(rect.y), std::max(16, static_cast<int>(rect.width)),
+            std::max(16, static_cast<int>(rect.height))};
+}
+
+} // namespace touchstone
