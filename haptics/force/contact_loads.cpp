@@ -36,20 +36,20 @@ bool alike(const ContactLoads& loads) {
 } // namespace
 
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
-               const SolveResult& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
+               const SolveResult& rest, const SubGoal& activeSet, bool twoPass, const glm::dvec3& offset,
                double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
                ContactLoads& loads) noexcept {
-    loads.count = hold.count;
+    loads.count = activeSet.count;
     loads.offset = workspacePerReference * offset;
     loads.loaded = 0;
     double sum = 0.0, weighted = 0.0, most = -1.0;
-    for (size_t i = 0; i < static_cast<size_t>(hold.count); ++i) {
-        const auto at = static_cast<size_t>(hold.active[i]);
+    for (size_t i = 0; i < static_cast<size_t>(activeSet.count); ++i) {
+        const auto at = static_cast<size_t>(activeSet.active[i]);
         const Contact& contact = rest.contacts[at];
         ContactLoad& load = loads.contacts[i];
         load.surface = contact.normal;
         load.plane = twoPass ? rest.shadedPlanes[at].normal : contact.normal;
-        load.length = workspacePerReference * hold.multiplier[i];
+        load.length = workspacePerReference * activeSet.multiplier[i];
         const TurnedNormal turned = turnedNormal(scene, motions, settings, reference, contact, load.plane);
         load.depth = glm::dot(load.plane, loads.offset) / turned.cosine;
         const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);

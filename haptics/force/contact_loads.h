@@ -57,7 +57,7 @@ inline constexpr double kMaxLoad = 20.0;
 /// frame. `zoom` as in bearableShare, to which each contact's stiffness is cut by itself: a stiffer plane
 /// that joins without load changes nothing.
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
-               const SolveResult& rest, const SubGoal& hold, bool twoPass, const glm::dvec3& offset,
+               const SolveResult& rest, const SubGoal& activeSet, bool twoPass, const glm::dvec3& offset,
                double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
                ContactLoads& loads) noexcept;
 

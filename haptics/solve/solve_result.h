@@ -17,7 +17,7 @@ struct SolveResult {
     std::array<ConstraintPlane, kMaxContacts> planes;       ///< of the contacts, relative to the proxy
     std::array<ConstraintPlane, kMaxContacts> shadedPlanes; ///< the same with interpolated normals
     uint32_t contactCount = 0;
-    SubGoal hold;            ///< which planes hold the proxy from its goal; indices into contacts
+    SubGoal activeSet;       ///< which planes hold the proxy from its goal; indices into contacts
     SubGoal shadedActiveSet; ///< the same of the shaded planes, where two-pass shading came to rest
                              ///< (DeviceState::shaded)
     uint32_t iterations = 0;

@@ -10,13 +10,14 @@
 namespace touchstone {
 
 /// The contact that carries most of the load; the first one where no plane holds.
-[[nodiscard]] inline const Contact& loadedContact(const SolveResult& rest, const SubGoal& hold) noexcept {
+[[nodiscard]] inline const Contact& loadedContact(const SolveResult& rest,
+                                                  const SubGoal& activeSet) noexcept {
     size_t loaded = 0;
     double most = -1.0;
-    for (size_t i = 0; i < static_cast<size_t>(hold.count); ++i)
-        if (hold.multiplier[i] > most) {
-            most = hold.multiplier[i];
-            loaded = static_cast<size_t>(hold.active[i]);
+    for (size_t i = 0; i < static_cast<size_t>(activeSet.count); ++i)
+        if (activeSet.multiplier[i] > most) {
+            most = activeSet.multiplier[i];
+            loaded = static_cast<size_t>(activeSet.active[i]);
         }
     return rest.contacts[loaded];
 }

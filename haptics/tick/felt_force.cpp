@@ -20,11 +20,11 @@ void feelTexture(const HapticScene& scene, ObjectMotions motions, const HapticSe
 }
 
 void feelSeveral(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                 const DeviceState& state, const SubGoal& hold, const glm::dvec3& offset,
+                 const DeviceState& state, const SubGoal& activeSet, const glm::dvec3& offset,
                  double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
                  SurfaceSample& feel, SeveralContacts& several) {
     ContactLoads loads;
-    readLoads(scene, motions, settings, state.reference, state.rest, hold, state.shaded, offset,
+    readLoads(scene, motions, settings, state.reference, state.rest, activeSet, state.shaded, offset,
               workspacePerReference, velocity, zoom, dt, loads);
     const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(zoom, 1.0);
     several.force = elastic + dampingForce(loads, felt);
@@ -38,18 +38,18 @@ void feelSeveral(const HapticScene& scene, ObjectMotions motions, const HapticSe
 }
 
 bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet,
-               const SolveResult& rest, const SubGoal& hold) {
-    if (kPlainTick || !(hold.multiplier[0] + hold.multiplier[1] + hold.multiplier[2] > 0.0))
+               const SolveResult& rest, const SubGoal& activeSet) {
+    if (kPlainTick || !(activeSet.multiplier[0] + activeSet.multiplier[1] + activeSet.multiplier[2] > 0.0))
         return true;
     if (oneFacet)
         return false;
     const auto contactAt = [&](size_t i) -> const Contact& {
-        return rest.contacts[static_cast<size_t>(hold.active[i])];
+        return rest.contacts[static_cast<size_t>(activeSet.active[i])];
     };
     const HapticMaterialData& material = materialOf(scene, contactAt(0));
     if (!feelsPlain(material, settings) || specifiedDamping(material, settings) > 0.0)
         return false;
-    for (size_t i = 1; i < static_cast<size_t>(hold.count); ++i)
+    for (size_t i = 1; i < static_cast<size_t>(activeSet.count); ++i)
         if (&materialOf(scene, contactAt(i)) != &material)
             return false;
     return true;

@@ -6,6 +6,8 @@
 #include "haptics/force/contact_loads.h"
 #include "haptics/force/spring_damper.h"
 #include "haptics/friction/friction.h"
+#include "haptics/scene/haptic_scene.h"
+#include "haptics/shading/force_shading.h"
 #include "haptics/shading/turned_normal.h"
 #include "haptics/surface/plain_sample.h"
 #include "haptics/surface/surface_sample.h"
@@ -31,12 +33,13 @@ struct FeltShape {
 [[gnu::always_inline]] inline FeltShape feltShape(const HapticScene& scene, ObjectMotions motions,
                                                   const HapticSettings& settings, bool oneFacet,
                                                   const glm::dvec3& hip, const DeviceState& state,
-                                                  const SubGoal& hold) {
+                                                  const SubGoal& activeSet) {
     const glm::dvec3 offset = state.proxy - hip;
     const double depth = glm::length(offset);
-    const Contact& holder = state.rest.contacts[hold.count > 0 ? static_cast<size_t>(hold.active[0]) : 0];
+    const Contact& holder =
+        state.rest.contacts[activeSet.count > 0 ? static_cast<size_t>(activeSet.active[0]) : 0];
     const FeltShape shape{depth > 100.0 * kContactGap ? offset / depth : holder.normal, depth};
-    if (oneFacet && hold.count == 1)
+    if (oneFacet && activeSet.count == 1)
         return turnedShape(scene, motions, settings, state.reference, holder, offset, shape);
     return shape;
 }
@@ -67,7 +70,7 @@ struct SeveralContacts {
 /// `velocity` of the HIP against the surface; the force has `zoom` taken out, and is what the device bears.
 [[gnu::noinline]] void feelSeveral(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
-                                   const SubGoal& hold, const glm::dvec3& offset,
+                                   const SubGoal& activeSet, const glm::dvec3& offset,
                                    double workspacePerReference, const glm::dvec3& velocity, double zoom,
                                    double dt, SurfaceSample& feel, SeveralContacts& several);
 
@@ -75,7 +78,7 @@ struct SeveralContacts {
 /// nothing turns, which gives K (p - h) whichever of them carries it; or none of them carries anything
 /// (RayProxy between planes that leave it no room).
 bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet,
-               const SolveResult& rest, const SubGoal& hold);
+               const SolveResult& rest, const SubGoal& activeSet);
 
 /// What holds the hand, before friction moves the proxy away from there.
 inline void publishContact(const Similarity& workspaceFromReference, const SolveResult& rest,
@@ -105,16 +108,17 @@ struct Felt {
 /// stiffness and damping, or several contacts are felt apart.
 template <bool Effects, class Solver, class Stopwatch>
 Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-               ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& hold,
+               ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& activeSet,
                Solver& proxy, DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     SolveResult& rest = state.rest;
     const Similarity& workspaceFromReference =
         motions[static_cast<size_t>(state.reference)].workspaceFromObject;
     const bool oneFacet = Effects && anyOneFacet(scene.plan, settings);
-    const bool asOne = !Effects || hold.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, hold);
+    const bool asOne =
+        !Effects || activeSet.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, activeSet);
     FeltShape shape;
     if (rest.contactCount > 0 && asOne)
-        shape = feltShape(scene, motions, settings, oneFacet, hip, state, hold);
+        shape = feltShape(scene, motions, settings, oneFacet, hip, state, activeSet);
     stopwatch.lap(Stage::Shading);
 
     // 5. Surface: what material, attributes and maps are under each contact.
@@ -123,7 +127,7 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
     [[maybe_unused]] std::conditional_t<Effects, SeveralContacts, std::monostate> several;
     bool plain = true;
     if (rest.contactCount > 0) {
-        const Contact& contact = loadedContact(rest, hold);
+        const Contact& contact = loadedContact(rest, activeSet);
         const double depth = shape.depth * workspaceFromReference.scale;
         plain = !Effects || (asOne && feelsPlain(materialOf(scene, contact), settings));
         if (plain)
@@ -132,7 +136,7 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
             feelTexture(scene, motions, settings, state, contact, shape.normal, depth, velocity, input.dt,
                         feel);
         else if constexpr (Effects)
-            feelSeveral(scene, motions, settings, state, hold, state.proxy - hip,
+            feelSeveral(scene, motions, settings, state, activeSet, state.proxy - hip,
                         workspaceFromReference.scale, velocity, output.zoom, input.dt, feel, several);
     }
     if (feel.tiltCompressed)

@@ -89,13 +89,14 @@ template <class Solver, class Stopwatch>
         proxy.moveTowards(hip);
         stopwatch.lap(Stage::Proxy);
     }
-    const SubGoal& hold = state.shaded ? rest.shadedActiveSet : rest.activeSet;
+    const SubGoal& activeSet = state.shaded ? rest.shadedActiveSet : rest.activeSet;
 
     // 5. to 7. Surface, friction, force.
-    const bool varied = effects || (hold.count > 1 && !feltAsOne(scene, settings, false, rest, hold));
-    const Felt felt = varied ? feelEffects(scene, settings, input, motions, hip, held, hold, proxy, state,
-                                           output, stopwatch)
-                             : feltForce<false>(scene, settings, input, motions, hip, held, hold, proxy,
+    const bool varied =
+        effects || (activeSet.count > 1 && !feltAsOne(scene, settings, false, rest, activeSet));
+    const Felt felt = varied ? feelEffects(scene, settings, input, motions, hip, held, activeSet, proxy,
+                                           state, output, stopwatch)
+                             : feltForce<false>(scene, settings, input, motions, hip, held, activeSet, proxy,
                                                 state, output, stopwatch);
     output.force = workspaceFromReference.direction(felt.force);
     if (output.zoom > 1.0)
