@@ -139,7 +139,7 @@ int GlbWriter::addPositions(const std::vector<glm::vec3>& positions) {
 }
 
 int GlbWriter::addIndices(const std::vector<uint32_t>& indices, size_t vertexCount) {
-    // 65535 is glTF's primitive restart value in 16 bits, so it may not be an index.
+    // 65535 is glTF's primitive restart value in 16 bits, so it must not be an index.
     if (vertexCount > 65535)
         return addAccessor(indices.data(), {indices.size(), sizeof(uint32_t), kIndexTarget}, kUint32,
                            "SCALAR");

@@ -14,23 +14,23 @@ namespace touchstone::assets {
 using Json = nlohmann::ordered_json;
 
 enum class Packing {
-    Plain,  ///< vertex arrays as core glTF has them: any viewer opens the file
+    Plain,  ///< vertex arrays as in core glTF: any viewer opens the file
     Meshopt ///< EXT_meshopt_compression, lossless (codecs without filters), no fallback data: half the size
 };
 
-/// Collects a scene and lays it out as one GLB (glTF 2.0 §4, binary container). The same calls give the same
-/// bytes. Every `add` returns the index that glTF uses. Not for several threads.
+/// Builds a scene as one GLB file (glTF 2.0 §4, binary container). The same calls give the same bytes. Every
+/// `add` returns the glTF index. One thread.
 class GlbWriter {
   public:
     explicit GlbWriter(std::string sceneName, Packing packing = Packing::Plain);
 
-    /// A texture of its own on a PNG file image in memory, with a repeating, trilinear sampler.
+    /// A texture from a PNG file image in memory, with a repeating, trilinear sampler.
     int addTexture(const std::string& name, const std::vector<std::byte>& png);
     int addMaterial(Json material);
     int addMesh(const std::string& name, const Shape& shape, int material);
     /// One mesh of several primitives, each with its own material.
     int addMesh(const std::string& name, const std::vector<std::pair<Shape, int>>& parts);
-    /// The same vertices and indices again with another material, of a mesh of one primitive.
+    /// The same vertices and indices as a mesh of one primitive, with another material.
     int addMeshLike(const std::string& name, int mesh, int material);
     /// Points (mode 0), line segments (1), a loop (2) or a strip (3) in these colours, linear. Only with
     /// Packing::Plain.
@@ -38,16 +38,16 @@ class GlbWriter {
                    const std::vector<glm::vec3>& colors, int material);
     /// A node at the root of the scene, m.
     int addNode(const std::string& name, int mesh, const glm::dvec3& translation = glm::dvec3(0.0));
-    /// How a node moves: one channel of the scene's only animation. Only with Packing::Plain.
+    /// Animation of a node: one channel of the scene's only animation. Only with Packing::Plain.
     struct Track {
         int node;
         const char* path;          ///< "translation" (m) or "rotation" (x, y, z, w)
-        const char* interpolation; ///< "LINEAR", or "CUBICSPLINE" with in-tangent, value, out-tangent a key
+        const char* interpolation; ///< "LINEAR", or "CUBICSPLINE" with in-tangent, value, out-tangent per key
         std::vector<float> times;  ///< s, ascending
         std::vector<float> values;
     };
     void animate(const Track& track);
-    /// A line about the file, as asset.extras.description.
+    /// A line of description, as asset.extras.description.
     void describe(const std::string& line) { gltf_["asset"]["extras"]["description"] = line; }
     void useExtension(const std::string& extension);
 
@@ -72,7 +72,7 @@ class GlbWriter {
     size_t unpackedSize_ = 0; ///< of the fallback buffer that Packing::Meshopt leaves out
 };
 
-/// Writes the file beside itself and renames it, so that nothing is half written. Throws std::runtime_error.
+/// Writes the file atomically, through a temporary file beside it. Throws std::runtime_error.
 void writeFile(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
 
 } // namespace touchstone::assets

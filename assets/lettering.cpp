@@ -44,7 +44,7 @@ constexpr std::array<Glyph, 26> kLetters{{
 } // namespace
 
 bool inked(std::string_view text, double u, double v) {
-    // One dot between letters. Eight letters take 80 % of the square's width; longer texts are set smaller.
+    // One dot between letters. Eight letters take 80 % of the square's width; longer texts are smaller.
     const double dots = static_cast<double>(text.size()) * (kColumns + 1) - 1;
     const double dot = 0.8 / std::max(dots, 8.0 * (kColumns + 1) - 1);
     const double x = (u - 0.5) / dot + 0.5 * dots, y = (v - 0.5) / dot + 0.5 * kRows;

@@ -4,8 +4,8 @@
 
 namespace touchstone::assets {
 
-/// True where ink is, at u, v in 0..1 (origin upper left) of a square that holds `text` in capitals of our
-/// own 5 x 7 dots, centred. Knows A..Z; all else is blank.
+/// True for ink at u, v in 0..1 (origin upper left) of a square with `text` in capitals of a 5 x 7 dot font,
+/// centred. Supports A..Z; other characters are blank.
 [[nodiscard]] bool inked(std::string_view text, double u, double v);
 
 } // namespace touchstone::assets

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kRing = 0.060, kTube = 0.025; // m
 // The maps repeat 12 times along the ring and 5 times around the tube: 12 : 5 = 60 : 25, so a tile is a
-// square of 31.4 mm where the tube is as long as its centre line, and the waves are not stretched there.
+// square of 31.4 mm along the tube's centre line, where the waves are undistorted.
 constexpr TextureRepeats kRepeats{12, 5};
 constexpr double kTileWidth = 2.0 * std::numbers::pi * kRing / 12;
 // Per tile 3 waves along the ring and 2 around the tube: crests 8.7 mm apart that wind around the doughnut,
-// so they are felt whichever way one strokes. 0.5 mm high they tilt the normal by at most 10 degrees.
+// so every stroke direction crosses them. With a height of 0.5 mm they tilt the normal by at most 10 degrees.
 constexpr double kWavesU = 3.0, kWavesV = 2.0;
 constexpr double kWaveHeight = 0.0005; // m, trough to crest
 constexpr int kMapSize = 256;          // 0.12 mm a texel, 71 texels a wave

@@ -1,4 +1,4 @@
-// Every look that is drawn, on spheres in rows: what a renderer's change does to them is seen at a glance.
+// All supported appearances on spheres in rows, as a visual test of the renderer.
 
 #include "assets/glb_writer.h"
 #include "assets/scenes.h"
@@ -37,7 +37,7 @@ Json glass(const char* name, double red, double green, double blue, double rough
                 {{"transmissionFactor", 1.0}});
 }
 
-/// Clear glass that takes its colour from its depth.
+/// Clear glass whose colour comes from absorption.
 Json tinted(const char* name, const Json& color) {
     return with(
         glass(name, 1.0, 1.0, 1.0, 0.0), "KHR_materials_volume",
@@ -94,7 +94,7 @@ struct Strokes {
     }
 };
 
-/// A helix that runs through the colours.
+/// A helix with changing colours.
 Strokes helix() {
     Strokes strokes;
     for (int i = 0; i <= 120; ++i) {

@@ -9,7 +9,7 @@ namespace {
 
 const glm::dvec3 kPlate{0.15, 0.008, 0.15}, kBox{0.06, 0.03, 0.04}; // m
 constexpr double kPlateY = -0.034, kLowY = -0.010, kHighY = 0.030;  // m, centres
-constexpr float kHalfTurn = 2.0f;                                   // s; a whole one is the loop
+constexpr float kHalfTurn = 2.0f;                                   // s; the loop is a full turn
 
 Json paint(const char* name, std::array<double, 3> color, double roughness) {
     return {{"name", name},
@@ -30,14 +30,14 @@ SceneFile moving() {
         glb.addMesh("box", box(kBox, 2), glb.addMaterial(paint("brick", {0.65, 0.30, 0.20}, 0.8)));
     glb.addNode("plate", plate, {0.0, kPlateY, 0.0});
     const int node = glb.addNode("box", lift, {0.0, kLowY, 0.0});
-    // Up and down, at rest at both ends: with tangents of zero a cubic spline is 3 t^2 - 2 t^3.
+    // Up and down, at rest at both ends: with zero tangents a cubic spline is 3 t^2 - 2 t^3.
     const auto low = static_cast<float>(kLowY), high = static_cast<float>(kHighY);
     std::vector<float> heights;
     for (const float y : {low, high, low})
         heights.insert(heights.end(), {0, 0, 0, 0, y, 0, 0, 0, 0});
     glb.animate({node, "translation", "CUBICSPLINE", {0.0f, kHalfTurn, 2.0f * kHalfTurn}, heights});
-    // About the y axis at constant speed. The last key is the first one's negative, the same pose: so every
-    // stretch is the short way.
+    // About the y axis at constant speed. The last key is the negative of the first one, the same pose, so
+    // every interval takes the short way.
     const float half = 0.70710678f;
     glb.animate({node,
                  "rotation",

@@ -46,8 +46,9 @@ struct Swatch {
     Json haptic;
     HeightFunction bump = {};        ///< empty: flat
     double reliefHeight = 0.0;       ///< m
-    bool reliefAsHeight = false;     ///< felt through a height map; else through the normal map alone
-    const char* factorMap = nullptr; ///< the haptic field that the stripes drive
+    bool reliefAsHeight = false;     ///< tangible through a height map; otherwise through the normal map
+                                     ///< alone
+    const char* factorMap = nullptr; ///< the haptic field modulated by the stripes
     double factorMin = 0.0, factorMax = 0.0;
 };
 
@@ -145,7 +146,7 @@ std::vector<double> cuts(size_t tiles) {
 
 SceneFile swatches() {
     // One closed box whose front (+z) is cut into tiles and the frame between them, each tile a primitive
-    // with its own material: a stroke from tile to tile meets no edge, only another material.
+    // with its own material: a stroke between tiles meets no edge, only a change of material.
     GlbWriter glb("swatches");
     glb.describe("ten materials side by side");
     const std::vector<double> x = cuts(kColumns), y = cuts(kRows), z{-0.5 * kThickness, 0.5 * kThickness};

@@ -26,7 +26,7 @@ SceneFile virtualBump() {
     GlbWriter glb("virtual bump");
     glb.describe("flat, and feels curved");
     const int height = glb.addTexture("bump, heights", png(heightMap(bump, kMapSize)));
-    // No roughness is stated, so that no friction is derived: what pushes sideways is the bump alone.
+    // No roughness is stated, so that no friction is derived: the lateral force comes from the bump alone.
     const int material = glb.addMaterial(
         {{"name", "a plane that feels curved"},
          {"doubleSided", true},

@@ -1,5 +1,5 @@
 #pragma once
-// Every scene that is committed in assets/scenes/: its file name and how it is made. One file per family.
+// The generators of all scenes in assets/scenes/. One file per family.
 
 #include <cstddef>
 #include <string>
@@ -19,12 +19,12 @@ struct SceneFile {
 /// Bare shapes for closed forms and benchmarks: torus_64800, prism_flat, prism_smooth [000 Fig. 6], plane,
 /// box.
 [[nodiscard]] std::vector<SceneFile> plainShapes();
-/// A board of tiles that look alike in shape and feel different.
+/// A board of tiles of equal shape and different haptic materials.
 [[nodiscard]] SceneFile swatches();
-/// A box that rises over a plate, turns about the vertical once and sinks again, in a loop of 4 s.
+/// A box that rises over a plate, turns once about the vertical and sinks again, in a loop of 4 s.
 [[nodiscard]] SceneFile moving();
 
-/// Spheres, lines and points before a plate: every look that is drawn.
+/// Spheres, lines and points before a plate: all supported appearances.
 [[nodiscard]] SceneFile materials();
 
 /// The virtual bump of [000]: a flat plane that feels curved.
@@ -33,9 +33,9 @@ struct SceneFile {
 /// All of them.
 [[nodiscard]] std::vector<SceneFile> allScenes();
 
-/// A bare mesh of about `triangles` triangles (the nearest the shape allows), for benchmarks.
-/// `shape`: torus, sphere, box, plane or prism. Throws std::invalid_argument on another name or a count that
-/// the shape cannot have or that exceeds 20 million.
+/// A bare mesh of about `triangles` triangles (the nearest possible number), for benchmarks. `shape`: torus,
+/// sphere, box, plane or prism. Throws std::invalid_argument for another name, or a count that is impossible
+/// for the shape or exceeds 20 million.
 [[nodiscard]] SceneFile bareShape(const std::string& shape, size_t triangles);
 
 } // namespace touchstone::assets

@@ -14,7 +14,7 @@ struct Turn {
 };
 
 /// Cosine and sine of each step of a full turn. The quarter turns are exact, so a closed shape is symmetric
-/// and a seam that comes back to step 0 finds the same bits.
+/// and a seam that returns to step 0 has identical bits.
 std::vector<Turn> turns(uint32_t steps) {
     std::vector<Turn> result(steps);
     for (uint32_t i = 0; i < steps; ++i) {
@@ -58,8 +58,8 @@ Shape torus(double ring, double tube, uint32_t aroundRing, uint32_t aroundTube, 
     for (uint32_t i = 0; i < columns; ++i) {
         const Turn r = ringTurns[i % aroundRing];
         for (uint32_t j = 0; j < rows; ++j) {
-            // The tube is walked against the sense of u cross n, so that v grows downwards where u grows to
-            // the right for somebody who looks at the surface: the image is not mirrored and w is +1.
+            // The tube is traversed against the sense of u cross n, so that v grows downwards where u grows
+            // to the right for an observer of the surface: the image is not mirrored and w is +1.
             const Turn t = tubeTurns[(aroundTube - j % aroundTube) % aroundTube];
             const double reach = ring + tube * t.cosine;
             shape.positions.emplace_back(reach * r.cosine, reach * r.sine, tube * t.sine);

@@ -1,6 +1,6 @@
 #pragma once
-// The closed forms of which our own scenes are made, at any tessellation. Shared by the asset program, the
-// tests and the benchmarks, so that all of them touch the same meshes.
+// The closed-form shapes of our scenes, at any tessellation. Shared by the asset program, the tests and the
+// benchmarks, so that all use the same meshes.
 
 #include <glm/glm.hpp>
 
@@ -12,18 +12,18 @@ namespace touchstone::assets {
 
 /// An indexed triangle mesh in metres, centred on the origin, counter-clockwise seen from outside. Evaluated
 /// in double and rounded once to float. Every array but `positions` and `indices` may be empty. A closed
-/// shape is closed exactly: vertices that repeat a place along a seam repeat its bits.
+/// shape is exactly closed: duplicated vertices along a seam are bitwise equal.
 struct Shape {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< unit
-    std::vector<glm::vec2> uv;       ///< origin upper left, as glTF has it
+    std::vector<glm::vec2> uv;       ///< origin upper left, as in glTF
     std::vector<glm::vec4> tangents; ///< along growing u; bitangent cross(n, t) * w points to the image's top
     std::vector<uint32_t> indices;
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
 };
 
-/// Repeats of the texture around a shape; zero leaves UVs and tangents out (and with them the seam).
+/// Repeats of the texture around a shape; zero omits UVs and tangents (and with them the seam).
 struct TextureRepeats {
     int u = 0, v = 0;
 };
@@ -43,8 +43,8 @@ struct TextureRepeats {
 /// Box of the given side lengths, m, with flat normals and each face cut into cells * cells squares.
 [[nodiscard]] Shape box(const glm::dvec3& sides, uint32_t cells = 1);
 
-/// One face of a gridded box: the rectangles between neighbouring cuts, on the side of the axis that `sign`
-/// (+1 or -1) tells; `at` is where the face lies on that axis. Cuts ascend.
+/// One face of a gridded box: the rectangles between neighbouring cuts, on the side of the axis given by
+/// `sign` (+1 or -1); `at` is the face's coordinate on that axis. Cuts ascend.
 struct Face {
     int axis = 2;
     double sign = 1.0;
@@ -57,8 +57,8 @@ void appendFace(Shape& shape, const Face& face, Keep keep);
 void appendCell(Shape& shape, const Face& face, size_t a, size_t b);
 
 /// Prism with a regular base about the y axis: `sides` lateral faces, corners at `circumradius`, m, caps
-/// flat. `smooth` gives the lateral vertices radial normals (what the normals of [000 Fig. 6] say: a
-/// cylinder); otherwise each lateral face has its own. `rows` cuts the lateral faces along the axis.
+/// flat. `smooth` gives the lateral vertices radial normals (those of [000 Fig. 6]: a cylinder); otherwise
+/// each lateral face has its own. `rows` cuts the lateral faces along the axis.
 [[nodiscard]] Shape prism(uint32_t sides, double circumradius, double length, bool smooth, uint32_t rows = 1);
 
 /// Rectangle in the plane y = 0 facing +y, `width` along x and `depth` along z, m, of columns * rows cells,

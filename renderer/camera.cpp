@@ -10,7 +10,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kFrameMargin = 1.05; ///< air around a framed box
+constexpr double kFrameMargin = 1.05; ///< margin around a framed box
 
 /// Direction from the target to the eye. Yaw turns +z towards +x, pitch lifts towards +y.
 glm::dvec3 back(const OrbitCamera& camera) {

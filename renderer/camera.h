@@ -1,5 +1,5 @@
 #pragma once
-// The eye: pure arithmetic, no Vulkan. Everything is in the workspace frame, metres, right-handed, y up.
+// The camera: pure arithmetic, no Vulkan. Everything is in the workspace frame, metres, right-handed, y up.
 
 #include "engine/math/similarity.h"
 
@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-/// A half-line in the workspace; `direction` is unit.
+/// A ray in the workspace; `direction` is unit.
 struct Ray {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0, 0.0, -1.0};
@@ -21,13 +21,13 @@ struct OrbitCamera {
     double distance = 0.4;            ///< m, > 0
     double yaw = 0.0;                 ///< rad, positive moves the eye to the right
     double pitch = 0.0;               ///< rad, positive moves the eye up; kept within ±kMaxPitch
-    double fovY = 0.6108652381980153; ///< rad, full vertical angle: 35°, the look of a short tele lens
-    double sceneRadius = 0.13;        ///< m, what near and far planes must hold around `target`
+    double fovY = 0.6108652381980153; ///< rad, full vertical angle: 35°, a short telephoto lens
+    double sceneRadius = 0.13;        ///< m, radius around `target` that near and far planes enclose
 
     static constexpr double kMaxPitch =
-        1.5707963267948966; ///< rad, 90°: straight from above, where yaw says what is right
+        1.5707963267948966; ///< rad, 90°: straight from above, where yaw determines the right axis
 
-    /// The first view of a model: from the front right and above, so that flat things are not seen edge-on.
+    /// The first view of a model: from the front right and above, so that flat models are not seen edge-on.
     [[nodiscard]] static OrbitCamera threeQuarter(const Bounds& bounds, double aspect);
 
     [[nodiscard]] glm::dvec3 eye() const;
@@ -44,19 +44,19 @@ struct OrbitCamera {
 
     /// Turns by angles in rad.
     void orbit(double deltaYaw, double deltaPitch);
-    /// Moves target and eye together by a displacement in pixels (x right, y down) of an image `heightPixels`
-    /// high, such that what lies at the target's depth follows the pointer.
+    /// Translates target and eye by a displacement in pixels (x right, y down) of an image `heightPixels`
+    /// high, such that a point at the target's depth follows the pointer.
     void pan(const glm::dvec2& pixels, double heightPixels);
-    /// Multiplies the distance; factor < 1 goes nearer. Bounded to 1e-2..1e3 scene radii.
+    /// Multiplies the distance; factor < 1 moves closer. Bounded to 1e-2..1e3 scene radii.
     void zoom(double factor);
-    /// Looks at the whole box from the present direction, in an image of this aspect (width / height).
-    /// An empty or pointlike box keeps the camera usable.
+    /// Shows the whole box from the current direction, in an image of this aspect (width / height). An empty
+    /// or degenerate box keeps the camera usable.
     void frame(const Bounds& bounds, double aspect = 16.0 / 9.0);
 
     /// The ray through a pixel position (x right, y down from the upper left corner of the image, in pixels).
     [[nodiscard]] Ray rayThroughPixel(const glm::dvec2& pixel, const glm::dvec2& imageSize) const;
-    /// What a pointer movement in pixels (x right, y down) means in the plane parallel to the image that
-    /// holds `at`: metres in the workspace. Points behind the eye are taken at the near plane.
+    /// A pointer movement in pixels (x right, y down) as a displacement in the plane parallel to the image
+    /// through `at`: metres in the workspace. Points behind the eye are moved to the near plane.
     [[nodiscard]] glm::dvec3 viewPlaneDisplacement(const glm::dvec2& pixels, double heightPixels,
                                                    const glm::dvec3& at) const;
     /// Pixel position of a workspace point; z is the depth along the view axis in m (negative: behind the

@@ -6,10 +6,10 @@
 namespace touchstone {
 
 namespace {
-constexpr int kFirstRiseWait = 30;    ///< frames at one quality before a rise: one second at 30 Hz
+constexpr int kFirstRiseWait = 30;    ///< frames at constant quality before a rise: one second at 30 Hz
 constexpr int kLongestRiseWait = 960; ///< frames; half a minute
-constexpr int kSettling = 4;          ///< frames after a change whose time still belongs to what was before
-constexpr double kRise = 0.15;        ///< of the quality, at once
+constexpr int kSettling = 4;          ///< frames after a change whose times still reflect the old quality
+constexpr double kRise = 0.15;        ///< increment of the quality
 constexpr double kMinFall = 0.05;
 } // namespace
 
@@ -34,8 +34,8 @@ void DrawQuality::fall(double excess) {
         framesToWait_ = std::min(2 * framesToWait_, kLongestRiseWait);
         quality_ = beforeRise_;
     } else {
-        // As if all cost went with the area, which asks for too much, for simpler meshes help, too; never
-        // more than a third of the size at once, for a hiccup is not a load.
+        // Assumes that all cost is proportional to the area, which overcorrects, since simpler meshes help,
+        // too. Limited to a third of the size at once, since a single late frame is not a trend.
         const double wanted = scale() * std::max(std::sqrt(1.0 / excess), 0.67);
         const double range = 1.0 - limits_.smallestScale;
         const double least = quality_ - kMinFall;
@@ -52,7 +52,7 @@ void DrawQuality::rise(double allowed) {
     if (smoothed_ * growth * growth > 0.9 * allowed)
         return;
     if (lastChangeWasRise_)
-        framesToWait_ = kFirstRiseWait; // the last rise held
+        framesToWait_ = kFirstRiseWait; // the last rise was successful
     beforeRise_ = quality_;
     quality_ = next;
     framesAtQuality_ = 0;

@@ -17,7 +17,7 @@ glm::dvec3 directionAt(double u, double v) {
     return {std::sin(fall) * std::sin(turn), std::cos(fall), -std::sin(fall) * std::cos(turn)};
 }
 
-/// The panorama and its halvings.
+/// The panorama and its mip levels.
 class Pyramid {
   public:
     explicit Pyramid(Panorama base) {
@@ -26,7 +26,7 @@ class Pyramid {
             levels_.push_back(halved(levels_.back()));
     }
 
-    /// Radiance around a unit direction, trilinear. `level` may lie outside.
+    /// Radiance around a unit direction, trilinear. `level` may be out of range.
     [[nodiscard]] glm::vec3 at(const glm::dvec3& direction, double level) const {
         const auto last = static_cast<double>(levels_.size() - 1);
         const double inside = std::clamp(level, 0.0, last);
@@ -76,7 +76,7 @@ class Pyramid {
     std::vector<Panorama> levels_;
 };
 
-/// The factors of the nine real spherical harmonics, projected, and the mean luminance.
+/// Projection on the nine real spherical harmonics, and the mean luminance.
 struct Harmonics {
     std::array<glm::dvec3, 9> c{};
     double mean = 0.0;
@@ -85,7 +85,7 @@ struct Harmonics {
 Harmonics project(const Panorama& map) {
     Harmonics sum;
     for (int j = 0; j < map.height; ++j) {
-        // The solid angle of a texel of this row, exactly.
+        // The exact solid angle of a texel of this row.
         const double top = std::cos(glm::pi<double>() * j / map.height),
                      bottom = std::cos(glm::pi<double>() * (j + 1) / map.height);
         const double weight = glm::two_pi<double>() / map.width * (top - bottom);
@@ -111,7 +111,7 @@ Harmonics project(const Panorama& map) {
     return sum;
 }
 
-/// Irradiance / pi: the cosine lobe takes degree 0, 1, 2 by 1, 2/3, 1/4; z² is 1 - x² - y².
+/// Irradiance / pi: the cosine lobe scales degrees 0, 1, 2 by 1, 2/3, 1/4; z² is 1 - x² - y².
 std::array<glm::dvec3, 9> polynomial(const Harmonics& h) {
     const double one = 2.0 / 3.0 * 0.488603, two = 0.25 * 1.092548;
     const glm::dvec3 across = 0.25 * 0.546274 * h.c[7], along = 0.25 * 0.315392 * h.c[8];
@@ -126,8 +126,7 @@ std::array<glm::dvec3, 9> polynomial(const Harmonics& h) {
             -across - 3.0 * along};
 }
 
-/// One direction of the lobe about the z axis, with the level of the pyramid that is as wide as its share of
-/// the sphere.
+/// One direction of the lobe about the z axis, with the pyramid level that matches its solid angle.
 struct LobeSample {
     glm::dvec3 direction;
     double level = 0.0;
@@ -141,7 +140,7 @@ std::vector<LobeSample> lobeSamples(double roughness, uint32_t count, double tex
     std::vector<LobeSample> samples;
     const double a2 = std::pow(roughness, 4.0);
     for (uint32_t i = 0; i < count; ++i) {
-        uint32_t bits = i; // reversed: van der Corput's sequence
+        uint32_t bits = i; // bit reversal: van der Corput's sequence
         bits = (bits << 16) | (bits >> 16);
         bits = ((bits & 0x55555555u) << 1) | ((bits & 0xAAAAAAAAu) >> 1);
         bits = ((bits & 0x33333333u) << 2) | ((bits & 0xCCCCCCCCu) >> 2);
@@ -157,7 +156,7 @@ std::vector<LobeSample> lobeSamples(double roughness, uint32_t count, double tex
         const double density = a2 / (glm::pi<double>() * d * d) / 4.0;
         const double level = 0.5 * std::log2(0.5 / (count * density * texelSolidAngle)) + 1.0;
         samples.push_back({l, level});
-        samples.push_back({{-l.x, -l.y, l.z}, level}); // in pairs the lobe leans to no side
+        samples.push_back({{-l.x, -l.y, l.z}, level}); // in pairs the samples are symmetric
     }
     return samples;
 }
@@ -205,7 +204,7 @@ std::shared_ptr<const Environment> prefilter(const Panorama& panorama, const std
                                      8u << std::min(level, 5), pyramid.texelSolidAngle());
         std::vector<uint16_t>& texels = environment->levels[static_cast<size_t>(level)];
         texels.reserve(size_t{24} * static_cast<size_t>(side) * static_cast<size_t>(side));
-        // A texel of the cube is about as wide as so many of the panorama's.
+        // A texel of the cube is about as wide as this many texels of the panorama.
         const double sharpest = std::log2(std::max(1.0, panorama.width / (4.0 * side)));
         for (int face = 0; face < 6; ++face)
             for (int y = 0; y < side; ++y) {

@@ -1,4 +1,4 @@
-// Panoramas out of files.
+// Reads panoramas from files.
 
 #include "engine/core/error.h"
 #include "renderer/environment.h"
@@ -22,7 +22,7 @@ constexpr int kReducedWidth = 1024;
                 "give an OpenEXR or Radiance panorama, twice as wide as high, of up to 16384 x 8192 texels");
 }
 
-/// OpenEXR or Radiance by its first bytes: no other reader of OpenImageIO is let near the file.
+/// OpenEXR or Radiance by the first bytes: no other OpenImageIO reader opens the file.
 bool isPanoramaFormat(const std::filesystem::path& file) {
     std::array<unsigned char, 4> magic{};
     std::FILE* stream = std::fopen(file.c_str(), "rb");
@@ -45,7 +45,7 @@ void checkSize(const std::filesystem::path& file, const OIIO::ImageSpec& spec) {
         fail(file, "the environment has " + std::to_string(spec.nchannels) + " channels");
 }
 
-/// Adds rows, each `factor` of which and of whose texels make one.
+/// Averages blocks of `factor` x `factor` texels, row by row.
 class Reducer {
   public:
     Reducer(int width, int height, int channels)
@@ -60,7 +60,7 @@ class Reducer {
     void add(int row, const float* texels) {
         const int to = row / factor_;
         if (to >= rows_)
-            return; // what is left over when the size is no multiple
+            return; // remainder of a size that is no multiple
         const float share = 1.0f / static_cast<float>(factor_ * factor_);
         for (int x = 0; x < panorama_.width * factor_; ++x) {
             const float* texel = texels + static_cast<size_t>(x) * static_cast<size_t>(channels_);
@@ -68,7 +68,7 @@ class Reducer {
                                               static_cast<size_t>(x / factor_)];
             for (int c = 0; c < 3; ++c) {
                 const float value = texel[channels_ >= 3 ? c : 0];
-                // Beyond what a sun needs a float's sum would lose the rest.
+                // Above the radiance of a sun, a float sum would lose the other values.
                 sum[c] += std::isfinite(value) && value > 0.0f ? share * std::min(value, 1e6f) : 0.0f;
             }
         }

@@ -50,7 +50,7 @@ HapticQuantity hapticQuantity(const Material& material, ViewMode mode) {
         }
         break;
     case ViewMode::Tilt:
-        // What the hand is told by: the normal map, else the height map.
+        // The haptic texture: the normal map, else the height map.
         quantity.offset = material.normalScale * haptic.normalTextureInfluence.value.value_or(1.0f);
         if (material.normalTexture && quantity.offset > 0.0f) {
             quantity.texture = material.normalTexture;
@@ -74,7 +74,7 @@ std::vector<float> dihedralAngles(const Mesh& mesh) {
     std::vector<float> angles(mesh.positions.size(), 0.0f);
     if (corners == 0)
         return angles;
-    // Three corners, and after each the vertex across the edge to the next one; a border names the corner
+    // Three corners, and after each the vertex across the edge to the next one; on a border the corner
     // itself.
     std::vector<uint32_t> around(2 * corners);
     meshopt_generateAdjacencyIndexBuffer(around.data(), mesh.indices.data(), corners, &mesh.positions[0].x,
@@ -97,7 +97,7 @@ std::vector<float> dihedralAngles(const Mesh& mesh) {
             angles[b] = std::max(angles[b], angle);
         }
     }
-    // Vertices at one place were told apart by normals or texture coordinates; an edge knows its own ones
+    // Vertices at one position may differ by normals or texture coordinates; an edge connects its own ones
     // only.
     std::vector<uint32_t> place(mesh.positions.size());
     const size_t places =
@@ -160,7 +160,7 @@ FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
     if (low > high)
         return scale;
     scale.meaningful = true;
-    // One value everywhere still wants a scale with two ends; it starts at nothing.
+    // A constant quantity still needs a scale with two ends; it starts at zero.
     if (low == high)
         low = std::min(0.0, low);
     if (low == high)

@@ -14,7 +14,7 @@ void FramePace::begin(double now) {
     }
     const double interval = std::max(now - begun_, 0.0);
     begun_ = now;
-    // Weighed by time: the mean of 1 / interval is then frames over seconds.
+    // Time-weighted: the mean of 1 / interval is then frames over seconds.
     constexpr double kMemory = 1.0; // s
     if (interval > 0.0)
         rate_ +=

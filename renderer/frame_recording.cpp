@@ -1,4 +1,4 @@
-// One frame's commands: the scene, and the overlay over it.
+// The commands of one frame: scene and overlay.
 
 #include "renderer/scene_renderer_impl.h"
 
@@ -15,7 +15,7 @@ constexpr vk::ImageAspectFlags kColor = vk::ImageAspectFlagBits::eColor;
 constexpr vk::ImageAspectFlags kDepth = vk::ImageAspectFlagBits::eDepth;
 
 void setViewport(const vk::raii::CommandBuffer& commands, vk::Extent2D extent) {
-    // Negative height: clip space has y up, as the camera does. Core since Vulkan 1.1.
+    // Negative height: clip space has y up, as in the camera. Core since Vulkan 1.1.
     const auto width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
     commands.setViewport(
         0, vk::Viewport{.x = 0.0f, .y = height, .width = width, .height = -height, .maxDepth = 1.0f});
@@ -66,7 +66,7 @@ void SceneRenderer::Impl::drawOverlay(const vk::raii::CommandBuffer& commands, c
         commands.draw(4, static_cast<uint32_t>(draw.lines.size()), 0, 0);
         ++statistics.drawCalls;
     };
-    // First what the scene hides, against the scene's depth alone; then the items among themselves.
+    // First the hidden parts, against the scene's depth alone; then the items among themselves.
     if (showHidden) {
         drawBatches(OverlayPass::Hidden);
         drawLines(OverlayPass::Hidden);

@@ -58,7 +58,7 @@ void setEnvironment(const Gpu::Impl& gpu, const GpuEnvironment& environment, Fra
 }
 
 void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot) {
-    // The window may still be reading the old image in a submission of its own.
+    // A submission of the window may still read the old image.
     gpu.device.waitIdle();
     using Usage = vk::ImageUsageFlagBits;
     slot.colorBytes = nullptr;

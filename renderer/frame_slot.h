@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// Everything that the device may still be reading or writing.
+/// Resources that the device may still be using.
 struct FrameSlot {
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence done{nullptr};
@@ -22,20 +22,20 @@ struct FrameSlot {
     bool timed = false;
 };
 
-/// The frames in flight of one picture.
+/// The frames in flight of one eye.
 struct FrameRing {
     std::array<FrameSlot, 2> slots;
     size_t next = 0;
     FrameSlot* last = nullptr;
 };
 
-/// `layout`: of the set that holds the frame's uniforms and its environment, which setEnvironment sets.
+/// `layout`: of the descriptor set for the frame's uniforms and its environment, which setEnvironment sets.
 void createSlot(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, FrameSlot& slot);
 /// No frame of this slot may be in flight.
 void setEnvironment(const Gpu::Impl& gpu, const GpuEnvironment& environment, FrameSlot& slot);
-/// Makes the images anew; waits for the device.
+/// Recreates the images; waits for the device.
 void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot);
-/// Waits until the slot's last frame is finished and notes how long that and the frame took.
+/// Waits until the slot's last frame is finished and records the times of waiting and of the frame.
 void waitFor(const Gpu::Impl& gpu, FrameSlot& slot, SceneRenderer::Statistics& statistics);
 
 } // namespace touchstone

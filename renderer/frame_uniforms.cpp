@@ -1,4 +1,4 @@
-// What the shaders are told once a frame.
+// The per-frame uniforms.
 
 #include "renderer/scene_renderer_impl.h"
 
@@ -37,7 +37,7 @@ void setSurroundings(const Surroundings& from, float exposure, shared::FrameUnif
     }
 }
 
-/// In place of the closed form's light; its key light stays, so that the probe has a shadow.
+/// Replaces the closed form's light; its key light stays, so that the probe has a shadow.
 void setEnvironmentLight(const Environment& from, float exposure, shared::FrameUniforms& to) {
     const auto exposed = [exposure](const glm::dvec3& light) {
         return glm::vec4(exposure * glm::vec3(light), 0.0f);

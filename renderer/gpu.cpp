@@ -19,7 +19,7 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kDriverRemedy =
     "install a driver for your graphics card, or the software one: apt install mesa-vulkan-drivers";
 
-/// Mesa pins the thread that creates a screen to one cache's cores; the caller wants its own mask back.
+/// Mesa pins the thread that creates a screen to one cache's cores; this restores the caller's mask.
 class AffinityGuard {
   public:
     AffinityGuard() { known_ = sched_getaffinity(0, sizeof mask_, &mask_) == 0; }
@@ -131,7 +131,8 @@ DeviceKind kindOf(vk::PhysicalDeviceType type) {
     return DeviceKind::Other;
 }
 
-/// A queue that draws, copies and (with a surface) presents; all queues if there is none.
+/// A queue family for graphics, transfer and (with a surface) presentation; VK_QUEUE_FAMILY_IGNORED if there
+/// is none.
 uint32_t queueFamilyOf(const vk::raii::PhysicalDevice& device, const vk::raii::SurfaceKHR& surface) {
     const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
     for (uint32_t i = 0; i < families.size(); ++i) {
@@ -182,7 +183,7 @@ std::vector<DeviceCandidate> candidatesOf(const vk::raii::PhysicalDevices& devic
     return candidates;
 }
 
-/// An instance without any device reports an error from here, not an empty list.
+/// An instance without any device throws here instead of returning an empty list.
 vk::raii::PhysicalDevices physicalDevices(const vk::raii::Instance& instance) {
     try {
         return vk::raii::PhysicalDevices(instance);
@@ -206,7 +207,7 @@ void createDevice(Gpu::Impl& gpu, const GpuOptions& options) {
     vk::PhysicalDeviceVulkan13Features features;
     features.dynamicRendering = true;
     features.synchronization2 = true;
-    features.shaderTerminateInvocation = true; // `discard`; every Vulkan 1.3 device has it
+    features.shaderTerminateInvocation = true; // for `discard`; every Vulkan 1.3 device has it
     gpu.dualSourceBlending = gpu.physical.getFeatures().dualSrcBlend;
     const vk::PhysicalDeviceFeatures core{.dualSrcBlend = gpu.dualSourceBlending};
     std::vector<const char*> extensions;
@@ -247,7 +248,7 @@ void describe(Gpu::Impl& gpu) {
                       driver.driverName.data() + " " + driver.driverInfo.data();
 }
 
-/// lavapipe reads its thread count from the environment when the instance is made.
+/// lavapipe reads its thread count from the environment when the instance is created.
 void limitSoftwareThreads(int threads) {
     if (threads < 0)
         threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
@@ -297,7 +298,7 @@ std::unique_ptr<Gpu> Gpu::headless(const GpuOptions& options) {
 
 Gpu::Gpu(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Gpu::~Gpu() {
-    // A lost device cannot be waited for, and there is nothing left to protect then.
+    // Waiting for a lost device fails, and it no longer uses any resource.
     try {
         waitIdle();
     } catch (const std::exception&) {

@@ -8,7 +8,7 @@ namespace touchstone {
 
 struct GpuEnvironment {
     std::shared_ptr<const Environment>
-        source; ///< null: the cube is one black texel a face, which nobody reads
+        source; ///< null: the cube is one black texel per face, which no shader reads
     GpuImage cube;
     vk::raii::Sampler sampler{nullptr};
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What is behind Gpu; for renderer/ only.
+// Implementation of Gpu; for renderer/ only.
 
 #include "renderer/gpu.h"
 #include "renderer/vulkan.h"
@@ -13,7 +13,7 @@
 namespace touchstone {
 
 struct Gpu::Impl {
-    // Destroyed from the last to the first: the device before the surface, the instance last.
+    // Destroyed in reverse order: the device before the surface, the instance last.
     std::shared_ptr<ValidationLog> log;
     vk::raii::Context context;
     vk::raii::Instance instance{nullptr};
@@ -22,7 +22,7 @@ struct Gpu::Impl {
     vk::raii::PhysicalDevice physical{nullptr};
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
-    vk::raii::CommandPool commandPool{nullptr}; ///< buffers may be reset one by one
+    vk::raii::CommandPool commandPool{nullptr}; ///< command buffers can be reset individually
 
     uint32_t queueFamily = 0;
     vk::PhysicalDeviceMemoryProperties memory;
@@ -33,7 +33,7 @@ struct Gpu::Impl {
     bool validation = false;
     std::string name, description, validationNote;
 
-    /// Waits until nothing is drawn any more; a lost device draws nothing and cannot be waited for.
+    /// Waits until the device is idle; a lost device is idle and cannot be waited for.
     void settle() const {
         try {
             device.waitIdle();
@@ -48,10 +48,10 @@ struct SurfaceRequest {
     std::function<VkSurfaceKHR(VkInstance)> create;
 };
 
-/// Makes instance, surface (if requested) and device. Throws Error.
+/// Creates instance, surface (if requested) and device. Throws Error.
 [[nodiscard]] std::unique_ptr<Gpu> createGpu(const GpuOptions& options, const SurfaceRequest* surface);
 
-/// Turns what vulkan.hpp throws inside `work` into Error: DeviceLost, out of memory.
+/// Converts exceptions of vulkan.hpp to Error: DeviceLost, out of memory.
 [[noreturn]] void throwVulkanError(const vk::SystemError& error, const char* whileDoing);
 
 template <class Work>

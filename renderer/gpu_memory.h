@@ -1,5 +1,5 @@
 #pragma once
-// Buffers, images and the way from host memory into them. Main thread only, private to renderer/.
+// Buffers, images and uploads. Main thread only, private to renderer/.
 
 #include "renderer/gpu_impl.h"
 
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-enum class MemoryUse { Device, Upload, Readback }; ///< the last two are mapped for the buffer's life
+enum class MemoryUse { Device, Upload, Readback }; ///< the last two stay mapped
 
 struct GpuBuffer {
     vk::raii::DeviceMemory memory{nullptr};
@@ -26,7 +26,7 @@ struct GpuImage {
     vk::DeviceSize size = 0; ///< bytes of device memory
 };
 
-/// Size 0 is taken as 16 bytes, for Vulkan has no empty buffers.
+/// Size 0 is rounded up to 16 bytes, since Vulkan has no empty buffers.
 [[nodiscard]] GpuBuffer createBuffer(const Gpu::Impl& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage,
                                      MemoryUse use);
 
@@ -35,7 +35,7 @@ struct ImageRequest {
     vk::Extent2D extent;
     uint32_t levels = 1;
     vk::ImageUsageFlags usage;
-    vk::Format otherFormat = vk::Format::eUndefined; ///< a second format that views may have
+    vk::Format otherFormat = vk::Format::eUndefined; ///< a second format for views
     bool cube = false;                               ///< six square faces
 };
 [[nodiscard]] GpuImage createImage(const Gpu::Impl& gpu, const ImageRequest& request);
@@ -48,11 +48,11 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
                 vk::AccessFlags2 accessBefore, vk::PipelineStageFlags2 stagesAfter,
                 vk::AccessFlags2 accessAfter);
 
-/// Between the two timestamps of a pool that were written last; nothing before they are there.
+/// Between the two timestamps of a pool that were written last; nullopt until they are available.
 [[nodiscard]] std::optional<double> secondsBetween(const Gpu::Impl& gpu,
                                                    const vk::raii::QueryPool& timestamps);
 
-/// Records into a fresh command buffer, submits it and waits.
+/// Records a new command buffer, submits it and waits.
 template <class Record>
 void runOnce(const Gpu::Impl& gpu, Record&& record) {
     vk::raii::CommandBuffers buffers(
@@ -68,7 +68,7 @@ void runOnce(const Gpu::Impl& gpu, Record&& record) {
     }
 }
 
-/// Copies through one staging buffer of fixed size, so that a large scene is not held twice.
+/// Copies through one staging buffer of fixed size, so that a large scene is not duplicated.
 class Uploader {
   public:
     explicit Uploader(const Gpu::Impl& gpu);

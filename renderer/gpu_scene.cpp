@@ -14,7 +14,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kSlice = 2u << 20; ///< bytes that are copied in one step
+constexpr size_t kSlice = 2u << 20; ///< bytes copied in one step
 
 template <class T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) {
@@ -25,7 +25,7 @@ vk::DeviceSize alignedTo(vk::DeviceSize size, vk::DeviceSize alignment) {
     return (size + alignment - 1) / alignment * alignment;
 }
 
-/// The affine map of TextureRef::transform, read off its images of three points.
+/// The affine map of TextureRef::transform, from its images of three points.
 void setUv(const TextureRef& reference, glm::vec4& linear, glm::vec4& offset) {
     const glm::vec2 origin = reference.transform(glm::vec2(0.0f));
     const glm::vec2 u = reference.transform(glm::vec2(1.0f, 0.0f)) - origin;
@@ -43,7 +43,7 @@ vk::raii::DescriptorPool makePool(const Gpu::Impl& gpu, size_t sets, size_t text
                             .maxSets = count, .poolSizeCount = sizes.size(), .pPoolSizes = sizes.data()}};
 }
 
-/// `count` sets of one layout; they live as long as the pool.
+/// `count` sets of one layout; valid as long as the pool.
 std::vector<vk::DescriptorSet> allocateSets(const Gpu::Impl& gpu, const vk::raii::DescriptorPool& pool,
                                             vk::DescriptorSetLayout layout, size_t count) {
     const std::vector<vk::DescriptorSetLayout> layouts(count, layout);
@@ -217,7 +217,7 @@ void GpuScene::planTexture(const TextureLevels& levels, GpuImage& image) {
 }
 
 void GpuScene::uploadNow(const TextureLevels& levels, GpuImage& image) {
-    // After the plan is done, or as a step of it: what was planned behind waits.
+    // At the end of the plan, or within a step: the steps already queued wait.
     std::deque<std::function<void()>> later = std::exchange(steps_, {});
     planTexture(levels, image);
     for (const std::function<void()>& step : steps_)
@@ -239,7 +239,7 @@ vk::ImageView GpuScene::texture(const TextureRef& reference, TextureRole role, N
 vk::ImageView GpuScene::neutralTexture(Neutral neutral) {
     const auto [entry, fresh] = neutrals_.try_emplace(neutral);
     if (fresh) {
-        // Grey is 0.5 as seen, FlatNormal is +z, 127.5 rounded up.
+        // Grey is 0.5 in sRGB, FlatNormal is +z, 127.5 rounded up.
         const std::array<std::array<int, 4>, 4> texels{
             {{255, 255, 255, 255}, {128, 128, 128, 255}, {0, 0, 0, 255}, {128, 128, 255, 255}}};
         TextureLevels levels;
@@ -256,7 +256,7 @@ vk::Sampler GpuScene::sampler(const TextureRef& reference) {
     const std::tuple key{reference.wrapS, reference.wrapT, reference.nearest};
     auto found = samplers_.find(key);
     if (found == samplers_.end()) {
-        // Trilinear doubles the texels read, which a software device feels; it takes the nearest level.
+        // Trilinear filtering doubles the texels read; a software device uses the nearest level.
         const vk::SamplerCreateInfo info{
             .magFilter = reference.nearest ? vk::Filter::eNearest : vk::Filter::eLinear,
             .minFilter = vk::Filter::eLinear,
@@ -279,7 +279,7 @@ void GpuScene::uploadScalars(FalseColor& target) {
     for (size_t m = 0; m < scene_->meshes.size(); ++m) {
         const Mesh& mesh = scene_->meshes[m];
         if (mesh.indices.empty())
-            continue; // lines and points: neither felt nor shown here
+            continue; // lines and points: no haptics, not shown here
         const vk::DeviceSize place = static_cast<vk::DeviceSize>(meshes_[m].mesh.firstVertex) * sizeof(float);
         if (target.mode == ViewMode::Dihedral) {
             uploader_.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));
@@ -289,7 +289,7 @@ void GpuScene::uploadScalars(FalseColor& target) {
             uploader_.buffer(target.scalars, place, bytesOf(*values));
             continue;
         }
-        // A negative scalar is drawn grey: nobody states the quantity.
+        // A negative scalar is drawn grey: the quantity is not stated.
         const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
         const std::vector<float> same(mesh.positions.size(),
                                       hapticQuantity(material, target.mode).base.value_or(-1.0f));

@@ -14,15 +14,15 @@
 
 namespace touchstone {
 
-/// Uploads what the shaded view needs in steps of a few milliseconds; what a false-colour view needs, when it
-/// is asked for.
+/// Uploads the data of the shaded view in steps of a few milliseconds, and those of a false-colour view on
+/// request.
 class GpuScene {
   public:
     GpuScene(const Gpu::Impl& gpu, const Pipelines& pipelines, std::shared_ptr<const PreparedScene> prepared);
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
-    /// Makes the next step of the upload. True when all are made; before, nothing of it may be drawn.
+    /// Executes the next step of the upload. True when complete; nothing of it may be drawn before.
     bool uploadNext();
 
     struct DrawnMesh {
@@ -39,8 +39,7 @@ class GpuScene {
     [[nodiscard]] vk::Buffer indices() const { return *indices_.buffer; }
     [[nodiscard]] uint64_t deviceBytes() const { return deviceBytes_; }
 
-    /// Makes `falseColorMaterial` and `scalars` those of `mode`. The device must be idle when the mode
-    /// changes.
+    /// Sets `falseColorMaterial` and `scalars` for `mode`. The device must be idle when the mode changes.
     void prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& materialColors);
     void forgetFalseColor() { falseColor_.reset(); }
     [[nodiscard]] const FalseColorScale* scale() const { return falseColor_ ? &falseColor_->scale : nullptr; }
@@ -60,7 +59,7 @@ class GpuScene {
         vk::raii::DescriptorPool pool{nullptr};
         std::vector<vk::DescriptorSet> sets;
     };
-    /// Images that stand for what a material lacks.
+    /// Placeholders for missing textures.
     enum class Neutral : uint8_t { White, Grey, Black, FlatNormal };
 
     void planMeshes();

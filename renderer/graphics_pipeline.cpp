@@ -11,7 +11,7 @@ vk::raii::ShaderModule shaderModule(const Gpu::Impl& gpu, std::span<const uint32
 vk::PipelineColorBlendAttachmentState blendState(const PipelineRecipe& recipe) {
     using Mask = vk::ColorComponentFlagBits;
     using Factor = vk::BlendFactor;
-    // The image stays opaque whatever is blended into it.
+    // The image's alpha stays opaque under blending.
     return {.blendEnable = recipe.blend,
             .srcColorBlendFactor = recipe.twoSources ? Factor::eOne : Factor::eSrcAlpha,
             .dstColorBlendFactor = recipe.twoSources ? Factor::eSrc1Color : Factor::eOneMinusSrcAlpha,

@@ -1,5 +1,5 @@
 #pragma once
-// How a graphics pipeline is made here, whatever it draws. Main thread only, private to renderer/.
+// Creation of graphics pipelines. Main thread only, private to renderer/.
 
 #include "renderer/gpu_impl.h"
 
@@ -8,12 +8,13 @@
 
 namespace touchstone {
 
-inline constexpr vk::Format kSceneFormat = vk::Format::eR8G8B8A8Srgb; ///< what shaders write: linear, encoded
+inline constexpr vk::Format kSceneFormat = vk::Format::eR8G8B8A8Srgb; ///< encoding of the shaders' linear
+                                                                      ///< output
 inline constexpr vk::Format kSceneByteFormat =
     vk::Format::eR8G8B8A8Unorm; ///< the same bytes, for copies and the window
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 
-/// What differs between our pipelines.
+/// The variable parts of our pipelines.
 struct PipelineRecipe {
     std::span<const uint32_t> vertexCode, fragmentCode;
     std::vector<uint32_t> constants; ///< specialization constants 0, 1, ... of both stages
@@ -21,7 +22,8 @@ struct PipelineRecipe {
     std::vector<vk::VertexInputAttributeDescription> attributes;
     vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
     bool depthTest = true, depthWrite = true, blend = false;
-    bool twoSources = false; ///< with blend: color 1 of the fragment shader is the factor of what lies behind
+    bool twoSources = false; ///< with blend: output color 1 of the fragment shader is the factor of the
+                             ///< destination
     vk::CompareOp depthCompare = vk::CompareOp::eLessOrEqual;
     vk::PipelineLayout layout;
     vk::RenderPass renderPass; ///< null: dynamic rendering into kSceneFormat and kDepthFormat

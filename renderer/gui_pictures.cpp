@@ -27,7 +27,7 @@ void GuiPictures::takeDevice(WindowDevice& device) {
 }
 
 void GuiPictures::leaveDevice() {
-    set_ = nullptr; // with the pool
+    set_ = nullptr; // freed with the pool
     image_ = {};
     staging_ = {};
     device_ = nullptr;
@@ -50,7 +50,7 @@ void GuiPictures::show(size_t place, const glm::vec2& from, const glm::vec2& to)
     list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
 }
 
-/// The first time that anything is shown; windows without pictures have none of it.
+/// At first use; windows without pictures do not need it.
 void GuiPictures::createImage() {
     const Gpu::Impl& gpu = device_->gpu();
     image_ = touchstone::createImage(
@@ -98,9 +98,9 @@ void GuiPictures::drawCommand(const ImDrawList*, const ImDrawCmd* command) {
     shown.pictures->draw(shown, *command);
 }
 
-/// The whole image is laid out so that the place fills what it is shown in; the rest is cut away. Enlarged, a
-/// rim of less than half a texel is left out, which the filter would mix with the neighbour: the outermost
-/// pixels then show the middles of the outermost texels.
+/// The whole image is scaled so that the slot fills its rectangle; the rest is clipped. When magnified, a
+/// border of less than half a texel is cut off, which the filter would mix with the neighbour: the outermost
+/// pixels then show the centres of the outermost texels.
 void GuiPictures::draw(const Shown& shown, const ImDrawCmd& command) const {
     const ImDrawData& data = *ImGui::GetDrawData();
     const auto pixels = [&](const glm::vec2& at) {

@@ -14,9 +14,9 @@ namespace touchstone {
 
 class WindowDevice;
 
-/// Dear ImGui 1.86 draws with one texture, its font. So these are drawn in between, from a call within its
-/// list, by the pipeline that draws scene images. All of them are places of one image, so their memory is
-/// bounded. What was set is kept here, too, and goes to the next device.
+/// Dear ImGui 1.86 draws with one texture, its font. So these pictures are drawn from a callback within its
+/// draw list, by the pipeline for scene images. All of them are slots of one image, which bounds their
+/// memory. The pixels are also kept here for upload to the next device.
 class GuiPictures {
   public:
     void takeDevice(WindowDevice& device);
@@ -24,7 +24,7 @@ class GuiPictures {
     void leaveDevice();
 
     void set(size_t place, const PixelData& pixels);
-    /// Into the ImGui window that is being made, corners in its coordinates.
+    /// Into the current ImGui window, corners in its coordinates.
     void show(size_t place, const glm::vec2& from, const glm::vec2& to);
     /// Before the frame is recorded.
     void upload();
@@ -41,7 +41,7 @@ class GuiPictures {
         glm::vec2 from, to;
     };
     struct Place {
-        std::vector<std::byte> bytes; ///< RGBA; empty: nothing was set
+        std::vector<std::byte> bytes; ///< RGBA; empty: not set
         bool uploaded = false;
     };
 
@@ -50,7 +50,7 @@ class GuiPictures {
     void createImage();
 
     std::array<Place, WindowTarget::kPictures> places_;
-    std::deque<Shown> shown_; // in this frame; ImGui's list points to them
+    std::deque<Shown> shown_; // in this frame; ImGui's draw list points to them
     WindowDevice* device_ = nullptr;
     GpuImage image_;
     GpuBuffer staging_;

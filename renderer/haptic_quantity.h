@@ -1,5 +1,5 @@
 #pragma once
-// Where the number comes from that a false-colour view shows; private to renderer/.
+// The source of a false-colour view's quantity; private to renderer/.
 
 #include "engine/scene/scene.h"
 #include "renderer/view.h"
@@ -11,13 +11,13 @@ namespace touchstone {
 
 /// value = (vertex value, else `base`) * (offset + gain * R), R the red channel of `texture`, 0 without one.
 struct HapticQuantity {
-    std::optional<float> base; ///< empty: the material says nothing
+    std::optional<float> base; ///< empty: not stated by the material
     TextureRef texture;
     float offset = 1.0f, gain = 0.0f;
 };
 [[nodiscard]] HapticQuantity hapticQuantity(const Material& material, ViewMode mode);
 
-/// The mesh's own values of this quantity, one a vertex; null if it has none.
+/// The mesh's own values of this quantity, one per vertex; null if it has none.
 [[nodiscard]] const std::vector<float>* vertexValues(const Mesh& mesh, ViewMode mode);
 
 } // namespace touchstone

@@ -15,12 +15,12 @@ namespace touchstone {
 namespace {
 
 void checkResult(VkResult result) {
-    // Called from C callbacks of a foreign library, within our own call of it.
+    // Called from C callbacks of a library, within our own call of it.
     if (result < 0)
         vk::throwResultException(static_cast<vk::Result>(result), "Dear ImGui");
 }
 
-/// A key went down or up since the last frame.
+/// True if a key was pressed or released since the last frame.
 bool keysChanged(const ImGuiIO& io) {
     return !std::equal(std::begin(io.KeysDownDuration), std::end(io.KeysDownDuration),
                        std::begin(io.KeysDownDurationPrev),
@@ -32,7 +32,7 @@ bool keysChanged(const ImGuiIO& io) {
 ImGuiBackend::ImGuiBackend(GLFWwindow* window, const std::function<void()>& setUp) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // nothing is written behind the user's back
+    ImGui::GetIO().IniFilename = nullptr; // no automatic files
     ImGui_ImplGlfw_InitForVulkan(window, true);
     if (setUp)
         setUp();
@@ -54,7 +54,7 @@ void ImGuiBackend::takeDevice(const Gpu::Impl& gpu, vk::RenderPass pass, vk::Des
     info.Queue = *gpu.queue;
     info.DescriptorPool = descriptors;
     info.MinImageCount = 2;
-    info.ImageCount = framesInFlight + 1; // it cycles this many vertex buffers
+    info.ImageCount = framesInFlight + 1; // it cycles through this many vertex buffers
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.CheckVkResultFn = &checkResult;
     ImGui_ImplVulkan_Init(&info, pass);
@@ -64,7 +64,7 @@ void ImGuiBackend::takeDevice(const Gpu::Impl& gpu, vk::RenderPass pass, vk::Des
 }
 
 void ImGuiBackend::leaveDevice() {
-    // Its own word: it is also there where it was set up in part and an error flew.
+    // ImGui's own state: also set after a partial setup that threw.
     if (ImGui::GetIO().BackendRendererUserData != nullptr)
         ImGui_ImplVulkan_Shutdown();
 }

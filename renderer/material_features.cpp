@@ -22,7 +22,7 @@ bool sameLookup(const TextureRef& a, const TextureRef& b) {
            a.nearest == b.nearest;
 }
 
-/// From this reflectance on multiple scattering counts; dielectrics are at 0.04.
+/// Above this reflectance multiple scattering matters; dielectrics are at 0.04.
 constexpr float kMuch = 0.1f;
 
 float largest(const glm::vec3& c) {
@@ -117,8 +117,8 @@ float reflectance(float ior) {
     return root * root;
 }
 
-/// Of white light, halvings per metre: 2^(-result d) is attenuationColor at d = attenuationDistance. A
-/// channel of zero is taken as one of a hundred-thousandth, so that its absorption is finite.
+/// For white light, halvings per metre: 2^(-result d) is attenuationColor at d = attenuationDistance. A zero
+/// channel is replaced by 1e-5, so that its absorption is finite.
 glm::vec3 absorption(const Transmission& glass) {
     if (!(glass.attenuationDistance > 0.0f))
         return glm::vec3(0.0f);

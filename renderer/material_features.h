@@ -1,6 +1,5 @@
 #pragma once
-// What a material asks of the shaders: the bits that pipelines are specialised on, and its uniforms. Pure;
-// any thread.
+// Shader features and uniforms of a material; pipelines are specialised on the features. Pure; any thread.
 
 #include "engine/scene/scene.h"
 #include "renderer/texture_levels.h"
@@ -10,7 +9,7 @@
 
 namespace touchstone {
 
-/// What the texture in each slot holds (Material::lookTextures).
+/// The contents of the texture in each slot (Material::lookTextures).
 inline constexpr std::array<TextureRole, kLookTextures> kSlotRoles{
     TextureRole::Color, TextureRole::Data, TextureRole::Data,  TextureRole::Data, TextureRole::Color,
     TextureRole::Color, TextureRole::Data, TextureRole::Color, TextureRole::Data, TextureRole::Data,
@@ -18,7 +17,7 @@ inline constexpr std::array<TextureRole, kLookTextures> kSlotRoles{
 static_assert(kLookTextures == shared::kTextureSlots);
 
 /// kHas... and kIs... bits of a mesh with its material, without those of lights and surroundings. Textures
-/// whose image is broken count as absent, but for the base colour, which is drawn grey.
+/// with a broken image count as absent, except the base colour, which is drawn grey.
 [[nodiscard]] uint32_t drawFeatures(const Scene& scene, const Mesh& mesh, const Material& material);
 
 /// Without uvLinear and uvOffset.

@@ -1,6 +1,6 @@
 #pragma once
-// What is drawn over the scene: HIP, proxy, force, planes. Plain data in workspace metres; the renderer knows
-// nothing of what they mean.
+// Overlays drawn over the scene: HIP, proxy, force, planes. Plain data in workspace metres, as generic
+// shapes.
 
 #include <glm/glm.hpp>
 
@@ -9,14 +9,14 @@
 namespace touchstone {
 
 /// Colours are linear RGB with straight alpha, 0..1. Every item is drawn with the depth test and once more,
-/// faintly, where the scene hides it, so that a HIP inside an object can be seen.
+/// faintly, where the scene hides it, so that a HIP inside an object is visible.
 struct Overlay {
     struct Sphere {
         glm::dvec3 centre{0.0};
         double radius = 0.0; ///< m
         glm::vec4 color{1.0f};
     };
-    /// A shaft and a cone that ends at `to`. Shorter than its head: the head shrinks.
+    /// A shaft and a conical head that ends at `to`. If shorter than its head, the head shrinks.
     struct Arrow {
         glm::dvec3 from{0.0}, to{0.0};
         double radius = 0.0; ///< m, of the shaft
@@ -39,7 +39,7 @@ struct Overlay {
     std::vector<Arrow> arrows;
     std::vector<Line> lines;
     std::vector<Disc> discs;
-    /// Alpha factor of the pass that shows hidden items; 0 switches it off.
+    /// Alpha factor of the pass for hidden items; 0 disables it.
     float hiddenAlpha = 0.45f;
 
     void clear() {

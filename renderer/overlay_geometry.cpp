@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kSides = 24;          ///< of everything round
+constexpr int kSides = 24;          ///< of round shapes
 constexpr double kHeadLength = 5.0; ///< of an arrow, in shaft radii
 constexpr double kHeadRadius = 2.4;
 
@@ -33,7 +33,7 @@ class ShapeBuilder {
         for (const int i : {a, b, c})
             meshes_.indices.push_back(static_cast<uint16_t>(i));
     }
-    /// A grid of quads between two rings of kSides + 1 vertices; `lower` lies below seen from outside.
+    /// A band of quads between two rings of kSides + 1 vertices; `lower` is the lower one, seen from outside.
     void band(int lower, int upper) {
         for (int i = 0; i < kSides; ++i) {
             triangle(lower + i, lower + i + 1, upper + i + 1);
@@ -92,7 +92,7 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// One shape with how far from the eye it is.
+/// One shape with its distance from the eye.
 struct Item {
     Shape shape;
     ShapeInstance instance;

@@ -1,5 +1,5 @@
 #pragma once
-// From an Overlay to what the device draws: instances of four unit shapes, and lines. Pure; any thread.
+// Converts an Overlay to instances of four unit shapes, and lines. Pure; any thread.
 
 #include "renderer/overlay.h"
 
@@ -43,7 +43,7 @@ struct LineInstance {
 };
 
 /// `batches` are in drawing order: opaque ones first, then translucent ones from the farthest to the nearest.
-/// Items with a value that is not finite, or without size, are left out.
+/// Items with a non-finite value, or without size, are left out.
 struct OverlayDraw {
     struct Batch {
         Shape shape = Shape::Sphere;

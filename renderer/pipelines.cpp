@@ -52,7 +52,7 @@ void describeSceneVertices(PipelineRecipe& recipe) {
     recipe.attributes = sceneAttributes(0);
 }
 
-/// Lines and points: one instance each, of two vertices or one, spread to a quad by the shader.
+/// Lines and points: one instance each, of two vertices or one, expanded to a quad by the shader.
 void describeStrokes(PipelineRecipe& recipe, bool lines) {
     recipe.vertexCode = lines ? std::span<const uint32_t>(shaders::scene_lines_vert)
                               : std::span<const uint32_t>(shaders::scene_points_vert);
@@ -65,7 +65,7 @@ void describeStrokes(PipelineRecipe& recipe, bool lines) {
             end.offset += sizeof(SceneVertex);
             recipe.attributes.push_back(end);
         }
-    // No tangents: nothing reads them.
+    // No tangents: no shader reads them.
     std::erase_if(recipe.attributes, [](const auto& each) { return each.location % 6 == 2; });
 }
 
@@ -127,8 +127,8 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
                           : mode == ViewMode::Tilt    ? shared::kShowsTilt
                           : mode == ViewMode::Effects ? shared::kShowsFlat
                                                       : shared::kShowsMap;
-    // The UV transform stands for the second UV set here: the shader reads both.
-    features &= shared::kHasNormalTexture | shared::kHasTangents; // false colour needs no more
+    // The UV transform here implies the second UV set: the shader reads both.
+    features &= shared::kHasNormalTexture | shared::kHasTangents; // sufficient for false colour
     features |= shared::kHasUvTransform;
     return cached({Kind::FalseColor, features, view}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::false_color_vert;

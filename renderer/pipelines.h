@@ -1,5 +1,5 @@
 #pragma once
-// Descriptor layouts and the pipelines, made on first use and kept. Main thread only, private to renderer/.
+// Descriptor layouts and pipelines, created at first use and cached. Main thread only, private to renderer/.
 
 #include "renderer/graphics_pipeline.h"
 #include "renderer/scene_vertex.h"
@@ -14,7 +14,7 @@ namespace touchstone {
 inline constexpr vk::ShaderStageFlags kObjectStages =
     vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
-/// Which of the overlay's three passes.
+/// The three passes of the overlay.
 enum class OverlayPass : uint8_t { Hidden, Opaque, Translucent };
 
 class Pipelines {

@@ -12,14 +12,14 @@ namespace touchstone {
 void writePng(const std::filesystem::path& file, const PixelData& pixels) {
     if (pixels.width <= 0 || pixels.height <= 0 || pixels.type == ComponentType::F32)
         throw Error(file.string(), "", "there is no 8 or 16 bit picture to write", "");
-    // The format is chosen by the name's end, so the temporary name keeps ".png".
+    // The file extension selects the format, so the temporary name keeps ".png".
     std::filesystem::path temporary = file;
     temporary.replace_filename(file.stem().string() + ".part-" + std::to_string(::getpid()) + ".png");
     const OIIO::TypeDesc type =
         pixels.type == ComponentType::U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
     OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, type);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    // Alpha is straight here; without this the writer would divide by it.
+    // Alpha is straight; without this attribute the writer would divide by it.
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("png:compressionLevel", 6);
     const auto failed = [&](const std::string& why) {

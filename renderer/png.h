@@ -6,8 +6,8 @@
 
 namespace touchstone {
 
-/// Writes 8 or 16 bit pixels as PNG, under a temporary name beside it first, so that no half-written file is
-/// ever seen. Any thread. Throws Error when the folder is missing or not writable.
+/// Writes 8 or 16 bit pixels as PNG, atomically, through a temporary file beside it. Any thread. Throws Error
+/// when the folder is missing or not writable.
 void writePng(const std::filesystem::path& file, const PixelData& pixels);
 
 } // namespace touchstone

@@ -13,7 +13,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kLargestTexture = 16384; // of any device; smaller ones leave out the largest levels
+constexpr int kLargestTexture = 16384; // of any device; smaller ones omit the largest levels
 
 SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
     SceneVertex vertex{};
@@ -30,8 +30,8 @@ SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
     return vertex;
 }
 
-/// Halves the triangles again and again. Errors are of each step against the one before and go as often in as
-/// out: their squares add up.
+/// Repeatedly halves the number of triangles. The error of a step is relative to the previous level and as
+/// often inwards as outwards: the squares add up.
 void simplify(const Mesh& mesh, const PrepareOptions& options, const Progress& progress,
               std::vector<uint32_t>& indices, PreparedMesh& out) {
     constexpr double kTimePerTriangle = 1e-6; // s, of one halving
@@ -39,7 +39,7 @@ void simplify(const Mesh& mesh, const PrepareOptions& options, const Progress& p
     const auto scale =
         static_cast<double>(meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(glm::vec3)));
     std::vector<uint32_t> current = mesh.indices, coarser(mesh.indices.size());
-    double squared = 0.0, done = 0.0; // each halving takes half of the time of the one before
+    double squared = 0.0, done = 0.0; // each halving takes half of the time of the previous one
     while (options.coarsest > 0 && current.size() / 3 > 2 * options.coarsest) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
             return;
@@ -53,8 +53,8 @@ void simplify(const Mesh& mesh, const PrepareOptions& options, const Progress& p
             meshopt_simplify(coarser.data(), current.data(), current.size(), positions, mesh.positions.size(),
                              sizeof(glm::vec3), target, std::numeric_limits<float>::max(), 0, &step);
         if (count == 0 || count > current.size() / 10 * 9)
-            return; // seams and borders hold the rest
-        // In an order that transforms few vertices twice: software devices feel that.
+            return; // seams and borders prevent further simplification
+        // Order for the vertex cache, which matters to software devices.
         current.resize(count);
         meshopt_optimizeVertexCache(current.data(), coarser.data(), count, mesh.positions.size());
         squared += scale * scale * static_cast<double>(step) * static_cast<double>(step);
@@ -90,7 +90,7 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, const Progress
     out.meshes.push_back(std::move(prepared));
 }
 
-/// Behind the vertices of all triangles, which false-colour views count through.
+/// After the vertices of all triangles, over which false-colour views index.
 void prepareStrokes(const Mesh& mesh, PreparedMesh& prepared, std::vector<SceneVertex>& vertices) {
     prepared.strokeVertex = static_cast<uint32_t>(vertices.size());
     prepared.strokes = static_cast<uint32_t>(mesh.lineCount() + mesh.pointCount());
@@ -149,7 +149,7 @@ std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene, const PrepareO
     for (const Mesh& mesh : prepared->scene->meshes) {
         const size_t after = done + mesh.indices.size();
         const Progress part = options.progress.part(share(done, indices), share(after, indices));
-        // A thread for the estimates of each small mesh would take longer than the mesh.
+        // A progress thread would take longer than a small mesh.
         constexpr size_t kWorthReporting = 300'000; // indices
         prepareMesh(mesh, options, mesh.indices.size() < kWorthReporting ? part.silent() : part, *prepared);
         part.report(1.0, "packing what is drawn");

@@ -1,5 +1,5 @@
 #pragma once
-// A scene as the device wants it, made by a worker so that the window need only copy it: packed vertices,
+// A scene in the device's format, prepared by a worker so that the window only copies it: packed vertices,
 // simplified meshes, texture levels. Pure; any thread.
 
 #include "engine/core/progress.h"
@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-/// Triangles of a mesh of which 99 of 100 places are within about `error` of the full ones, in the mesh's
+/// Triangles of a mesh of which 99 of 100 points are within about `error` of the full ones, in the mesh's
 /// units (measured on tori and ToyCar: 0.9 to 1.6 times that).
 struct DrawLevel {
     uint32_t firstIndex = 0, indexCount = 0;
@@ -24,9 +24,9 @@ struct DrawLevel {
 struct PreparedMesh {
     int32_t firstVertex = 0;
     glm::dvec3 centre{0.0};        ///< mesh frame; the packed positions are relative to it
-    double radius = 0.0;           ///< of a ball about the centre that holds all vertices
+    double radius = 0.0;           ///< of a ball about the centre that contains all vertices
     glm::dvec3 halfSize{0.0};      ///< of the box about the centre, mesh axes
-    std::vector<DrawLevel> levels; ///< the full mesh, and from there each coarser than the one before
+    std::vector<DrawLevel> levels; ///< the full mesh, then successively coarser ones
     /// Line segments or points: two vertices or one each, from strokeVertex on, without indices.
     uint32_t strokeVertex = 0, strokes = 0;
 
@@ -38,16 +38,17 @@ struct PreparedScene {
     std::vector<PreparedMesh> meshes; ///< as Scene::meshes
     std::vector<SceneVertex> vertices;
     std::vector<uint32_t> indices; ///< relative to the mesh's first vertex
-    /// Of the images that the look needs: (index of the image, role). Broken images have none.
+    /// Of the images used for rendering: (index of the image, role). Broken images have none.
     std::map<std::pair<int, TextureRole>, TextureLevels> textures;
 };
 
 struct PrepareOptions {
-    /// Meshes of more triangles than twice this are simplified by halves down to about this many; 0: none is.
+    /// Meshes of more than twice this many triangles are simplified by halves down to about this many; 0:
+    /// none is.
     size_t coarsest = 2000;
-    /// Set it to stop: then the scene may lack levels and textures. May be null.
+    /// Set it to stop: the scene may then lack levels and textures. May be null.
     const std::atomic<bool>* cancel = nullptr;
-    Progress progress = {}; ///< only reports: what cancels is `cancel`
+    Progress progress = {}; ///< for reporting only; `cancel` cancels
 };
 
 /// `scene` must not be null. A million triangles take about two seconds with simplification, and 60 MB until
@@ -58,7 +59,7 @@ struct PrepareOptions {
 /// The coarsest level whose error stays within `allowed`, mesh units.
 [[nodiscard]] const DrawLevel& levelWithin(const PreparedMesh& mesh, double allowed);
 
-/// There is an image behind the reference and it was decoded.
+/// True if the reference has an image and it was decoded.
 [[nodiscard]] bool usableTexture(const Scene& scene, const TextureRef& reference);
 
 } // namespace touchstone

@@ -1,4 +1,4 @@
-// Which instances are drawn in which order, and how.
+// Selects and orders the instances to draw.
 
 #include "renderer/scene_renderer_impl.h"
 
@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// Rows of the affine map and of its cofactor matrix, which takes normals also where the map is singular.
+/// Rows of the affine map and of its cofactor matrix, which transforms normals even if the map is singular.
 bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item) {
     // Columns of the cofactor matrix; det = dot of a column with its cofactor.
     glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
@@ -34,8 +34,8 @@ bool setConstants(const glm::dmat3& linear, const glm::dvec3& t, DrawItem& item)
     return true;
 }
 
-/// At least the largest singular value, and just that where axes stay at right angles: the root of the
-/// largest row sum of linear' linear, whose eigenvalues are the squares of the singular values.
+/// An upper bound of the largest singular value, and equal to it where axes stay orthogonal: the root of the
+/// largest row sum of linear' linear, whose eigenvalues are the squared singular values.
 double largestStretch(const glm::dmat3& linear) {
     double largest = 0.0;
     for (int row = 0; row < 3; ++row) {
@@ -60,7 +60,8 @@ double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm
 
 } // namespace
 
-/// Each side is as far as it lies, so that what is within a glass comes between its far and its near side.
+/// Each side is sorted by its own depth, so that the contents of a glass are drawn between its far and its
+/// near side.
 void SceneRenderer::Impl::addBlended(DrawItem item, const glm::dvec3& origin, double halfDepth) {
     const Scene& scene = scene_->scene();
     const Mesh& mesh =
@@ -89,7 +90,7 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         const GpuScene::DrawnMesh& drawn = scene_->mesh(scene.instances[i].mesh);
         const PreparedMesh& mesh = drawn.mesh;
         const bool strokes = mesh.strokes > 0;
-        if (mesh.empty() || (strokes && view.mode != ViewMode::Shaded)) // lines and points are not felt
+        if (mesh.empty() || (strokes && view.mode != ViewMode::Shaded)) // lines and points have no haptics
             continue;
         const glm::dmat3 linear = view.workspaceFromScene.scale *
                                   (glm::mat3_cast(view.workspaceFromScene.rotation) * glm::dmat3(poses[i]));
@@ -104,7 +105,7 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));
         const double stretch = largestStretch(linear);
-        // The nearest that the mesh can be to the eye: there an error of one metre is so many pixels.
+        // The mesh's minimum distance from the eye: there an error of one metre is this many pixels.
         const double nearest = distance - stretch * mesh.radius;
         const double allowed = view.allowedError > 0.0 && nearest > 0.0 && stretch > 0.0
                                    ? view.allowedError * nearest / (pixelsAtUnitDepth * stretch)
@@ -117,7 +118,7 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         else
             draws_.push_back(item);
     }
-    // Few state changes for what is opaque; what is blended comes last, from the farthest.
+    // Opaque items with few state changes; blended ones last, from the farthest.
     std::stable_sort(draws_.begin(), draws_.end(), [](const DrawItem& a, const DrawItem& b) {
         const bool blendedA = (a.features & shared::kIsBlended) != 0,
                    blendedB = (b.features & shared::kIsBlended) != 0;
@@ -174,7 +175,7 @@ void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk:
             mode == ViewMode::Shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
         for (const DrawItem& item : draws_) {
-            // Behind everything opaque, but before what lets it shine through.
+            // After everything opaque, but before transmissive items.
             if (mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0 && !backgroundDrawn) {
                 drawBackground(commands, frameSet);
                 commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});

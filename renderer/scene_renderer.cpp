@@ -67,7 +67,7 @@ void SceneRenderer::Impl::warmUp(int instance) {
         coming_->mesh(coming_->scene().instances[static_cast<size_t>(instance)].mesh);
     if (drawn.mesh.empty())
         return;
-    DrawItem item; // its constants are zero: all vertices fall onto the eye and no pixel is drawn
+    DrawItem item; // its constants are zero: all vertices map to the eye and no pixel is drawn
     item.instance = instance;
     item.features =
         drawn.features | shared::kHasProbeShadow | (environment_.source ? shared::kHasEnvironment : 0u);
@@ -76,12 +76,12 @@ void SceneRenderer::Impl::warmUp(int instance) {
     draws_.assign(1, item);
     if (warm_.color.extent.width == 0)
         resizeSlot(gpu, {16, 16}, warm_);
-    // A frame as any other, of the scene that is coming.
+    // An ordinary frame of the new scene.
     std::swap(scene_, coming_);
     try {
         writeUniforms(warm_, View{}, glm::dvec3(0.0), Overlay{}, warm_.color.extent);
         record(warm_, View{}, Overlay{}, OverlayDraw{});
-    } catch (...) { // what is shown stays shown
+    } catch (...) { // the current scene stays
         std::swap(scene_, coming_);
         throw;
     }
@@ -102,7 +102,7 @@ bool SceneRenderer::Impl::continueScene(double seconds) {
     while (!coming_->uploadNext())
         if (Clock::now() >= end)
             return false;
-    // A driver compiles shaders when they first draw; one at a time does not hold up a frame for long.
+    // Drivers compile shaders at their first draw; one at a time does not delay a frame for long.
     while (!cold_.empty()) {
         warmUp(cold_.back());
         cold_.pop_back();

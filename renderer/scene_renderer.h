@@ -1,5 +1,5 @@
 #pragma once
-// Draws a Scene and an Overlay into an image of its own. Headless and window share it.
+// Draws a Scene and an Overlay into its own image. Shared by headless rendering and the window.
 
 #include "engine/scene/scene.h"
 #include "renderer/environment.h"
@@ -16,14 +16,14 @@
 
 namespace touchstone {
 
-/// Two pictures of the same scene, each with its own size: the window's, and a small one over it.
+/// Two pictures of the same scene, each with its own size: the window's, and a small inset.
 enum class Eye : uint8_t { Main, Magnifier };
 
-/// Main thread only. Two frames of each eye are in flight; `render` waits only when the one before the last
-/// is unfinished.
+/// Main thread only. Two frames of each eye are in flight; `render` waits only when the last but one is
+/// unfinished.
 class SceneRenderer {
   public:
-    /// Compiles nothing that the scene does not call for: pipelines are made on first use.
+    /// Compiles nothing in advance: pipelines are created at first use.
     explicit SceneRenderer(Gpu& gpu);
     ~SceneRenderer();
     SceneRenderer(const SceneRenderer&) = delete;
@@ -34,27 +34,26 @@ class SceneRenderer {
     /// empty.
     void setScene(ScenePtr scene);
 
-    /// The same in steps, for a window that must not wait: the scene before is drawn until `continueScene`
-    /// says that the new one is there; it works for about `seconds`. A second beginScene replaces the first.
-    /// Errors as in setScene, but what was drawn before stays.
+    /// The same in steps, for a window that must not block: the current scene is drawn until `continueScene`
+    /// returns that the new one is complete; a step takes about `seconds`. A second beginScene replaces the
+    /// first. Errors as in setScene, but the current scene stays.
     void beginScene(std::shared_ptr<const PreparedScene> prepared);
     [[nodiscard]] bool continueScene(double seconds);
-    /// Forgets the scene that is being taken in; the one that is shown stays.
+    /// Cancels the upload of a scene; the current one stays.
     void abandonScene();
 
     [[nodiscard]] bool hasScene() const; ///< there is something to draw
 
-    /// Where the instances are now, one `sceneFromMesh` for each of Scene::instances; holds until the next
-    /// call. Throws std::invalid_argument on another count.
+    /// Current poses, one `sceneFromMesh` for each of Scene::instances; valid until the next call. Throws
+    /// std::invalid_argument for another count.
     void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
 
-    /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Holds
+    /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Valid
     /// until the next call.
     void setMaterialColors(std::vector<glm::vec3> colors);
 
-    /// Light of the surroundings from now on, in place of View::surroundings; null: theirs. Waits for the
-    /// frames in flight. Throws Error when the device memory does not hold it; then the light stays what it
-    /// was.
+    /// The surrounding light from now on, instead of View::surroundings; null: those. Waits for the frames in
+    /// flight. Throws Error when the device memory does not hold it; then the light is unchanged.
     void setEnvironment(std::shared_ptr<const Environment> environment);
 
     /// Records and submits one frame; returns without waiting for it. width, height: pixels, 1..16384
@@ -65,17 +64,17 @@ class SceneRenderer {
     /// Empty before the first.
     [[nodiscard]] PixelData readPixels();
 
-    /// Of the false-colour view that was drawn last: what its colours stand for.
+    /// The scale of the last false-colour view drawn.
     [[nodiscard]] FalseColorScale falseColorScale() const;
 
     struct Statistics {
         uint64_t triangles = 0;      ///< of the scene, over the instances
         uint64_t drawCalls = 0;      ///< of the last frame
-        uint64_t drawnTriangles = 0; ///< of the last frame, of what simplification left
+        uint64_t drawnTriangles = 0; ///< of the last frame, after simplification
         uint64_t pipelines = 0;      ///< compiled so far
         uint64_t deviceBytes = 0;    ///< device memory held for the scene
-        double gpuSeconds = 0.0;     ///< of the last finished frame as the device measured it; 0: it cannot
-        double waitSeconds = 0.0;    ///< that the last `render` waited for a frame in flight
+        double gpuSeconds = 0.0;     ///< device time of the last finished frame; 0: not measurable
+        double waitSeconds = 0.0;    ///< time that the last `render` waited for a frame in flight
     };
     [[nodiscard]] const Statistics& statistics() const;
 
@@ -86,8 +85,8 @@ class SceneRenderer {
     std::unique_ptr<Impl> impl_;
 };
 
-/// One finished picture, anti-aliased by drawing at `supersampling` times the size (1..4, less where the
-/// device's largest image demands it) and averaging in linear light.
+/// One finished picture, anti-aliased by rendering at `supersampling` times the size (1..4, less where the
+/// device's maximum image size requires it) and averaging in linear light.
 [[nodiscard]] PixelData renderStill(SceneRenderer& renderer, const View& view, const Overlay& overlay,
                                     int width, int height, int supersampling = 2);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is behind SceneRenderer; for renderer/ only.
+// Implementation of SceneRenderer; for renderer/ only.
 
 #include "renderer/frame_slot.h"
 #include "renderer/gpu_scene.h"
@@ -17,9 +17,9 @@ namespace touchstone {
 /// One instance in one frame.
 struct DrawItem {
     int instance = 0;
-    uint32_t firstIndex = 0, indexCount = 0; ///< of triangles; else the mesh's lines or points are drawn
+    uint32_t firstIndex = 0, indexCount = 0; ///< of triangles; otherwise the mesh's lines or points are drawn
     uint32_t features = 0;
-    /// Of what shines through: how far, and which of its sides. All: as the material says.
+    /// Of transmissive items: side to draw. All: as in the material.
     enum class Sides : uint8_t { All, Far, Near } sides = Sides::All;
     double distance = 0.0;
     bool mirrored = false;
@@ -37,7 +37,7 @@ struct SceneRenderer::Impl {
     void beginScene(std::shared_ptr<const PreparedScene> prepared);
     [[nodiscard]] bool continueScene(double seconds);
     void abandon() { coming_.reset(); }
-    void compileLater() { cold_.clear(); } ///< of the scene that is coming: when it is first drawn
+    void compileLater() { cold_.clear(); } ///< of the new scene: when it is first drawn
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye);
     void setMaterialColors(std::vector<glm::vec3> colors);
     void setEnvironment(std::shared_ptr<const Environment> environment);
@@ -72,10 +72,10 @@ struct SceneRenderer::Impl {
     GpuBuffer shapeVertices_, shapeIndices_;
     ShapeMeshes shapes_;
     std::array<FrameRing, 2> rings_; ///< of each Eye
-    FrameSlot warm_;                 ///< for pictures that nobody sees
-    std::vector<int> cold_;          ///< instances of `coming_` whose pipelines have not drawn yet
+    FrameSlot warm_;                 ///< for frames that compile pipelines and are not shown
+    std::vector<int> cold_;          ///< instances of `coming_` whose pipelines have not been used yet
     std::vector<glm::vec3> materialColors_;
-    std::vector<DrawItem> draws_; ///< kept between frames for its memory
+    std::vector<DrawItem> draws_; ///< a member, to reuse its memory between frames
 };
 
 } // namespace touchstone

@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-/// Vertex layout of scene meshes, binding 0; binding 1 holds one float a vertex in false-colour views.
+/// Vertex layout of scene meshes, binding 0; binding 1 holds one float per vertex in false-colour views.
 struct SceneVertex {
     glm::vec3 position; ///< mesh frame, relative to the mesh's centre
     glm::vec3 normal;

@@ -1,5 +1,5 @@
 #pragma once
-// The compiled shaders. Include in one .cpp per shader use: the arrays are constants of that file.
+// The compiled shaders. Include in one .cpp per shader: the arrays are constants of that file.
 
 #include <cstdint>
 

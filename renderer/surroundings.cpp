@@ -6,7 +6,7 @@ namespace touchstone {
 
 namespace {
 
-/// A function of the cosine x to an axis, as a0 + a1 P1(x) + a2 P2(x) in Legendre's polynomials.
+/// A function of the cosine x to an axis, a0 + a1 P1(x) + a2 P2(x) in Legendre polynomials.
 struct Zonal {
     glm::dvec3 a0, a1, a2;
 };
@@ -30,8 +30,8 @@ Zonal lampZonal(const Lamp& lamp) {
     return {0.5 * i0 * radiance, 1.5 * i1 * radiance, 1.25 * (3.0 * i2 - i0) * radiance};
 }
 
-/// Adds the irradiance / pi of a zonal radiance about unit `axis`: the cosine lobe takes degree 0, 1, 2 by 1,
-/// 2/3, 1/4.
+/// Adds the irradiance / pi of a zonal radiance about unit `axis`: the cosine lobe scales degrees 0, 1, 2 by
+/// 1, 2/3, 1/4.
 void add(const Zonal& zonal, const glm::dvec3& axis, std::array<glm::dvec3, 9>& k) {
     const glm::dvec3 linear = (2.0 / 3.0) * zonal.a1, square = 0.375 * zonal.a2; // P2 = (3 x² - 1) / 2
     // x², y², z² with weights: z² is 1 - x² - y² on the sphere.

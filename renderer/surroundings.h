@@ -1,7 +1,6 @@
 #pragma once
-// The light that comes from everywhere: a procedural sky, floor and lamps, of which both the irradiance and
-// the blurred reflection have a closed form, so that no picture of a sky is loaded and nothing is
-// precomputed. Pure; any thread.
+// Ambient light: a procedural sky, floor and lamps. Irradiance and prefiltered reflection both have a closed
+// form, so nothing is loaded or precomputed. Pure; any thread.
 
 #include <glm/glm.hpp>
 
@@ -9,16 +8,16 @@
 
 namespace touchstone {
 
-/// A soft lamp: radiance / (1 + sharpness (1 - cos))² around the direction towards it; the form of GGX's
-/// lobe, so that a reflection is cheap to blur.
+/// A soft lamp: radiance / (1 + sharpness (1 - cos))² around the direction towards it; the shape of the GGX
+/// lobe, so that its blurred reflection is cheap.
 struct Lamp {
     glm::dvec3 towards{0.0, 1.0, 0.0}; ///< workspace; need not be unit
-    glm::vec3 radiance{0.0f};          ///< linear RGB, at its middle
+    glm::vec3 radiance{0.0f};          ///< linear RGB, at its centre
     double sharpness = 8.0;            ///< > 0; falls to half within acos(1 - 0.414 / sharpness): 19° for 8
 };
 
 /// Linear RGB radiance by direction; y of the workspace is up. Between horizon and zenith, and between the
-/// floor's rim and its middle (straight below), it is linear in the sine of the height.
+/// floor's border and its centre (straight below), it is linear in the sine of the elevation.
 struct Surroundings {
     glm::vec3 zenith{0.44f, 0.47f, 0.52f};
     glm::vec3 horizon{0.60f, 0.61f, 0.63f};
@@ -36,8 +35,9 @@ struct Surroundings {
 
 /// Irradiance / pi at a unit normal n, as the polynomial k0 + k1 x + k2 y + k3 z + k4 xy + k5 yz + k6 zx + k7
 /// x² + k8 y²: its spherical harmonics up to the second degree (Ramamoorthi and Hanrahan, "An efficient
-/// representation for irradiance environment maps", 2001), each from the closed form of its integral. The
-/// renderer takes the mean of the channels from k4 on: a fifth of the light at most, and it halves the cost.
+/// representation for irradiance environment maps", 2001), each from the closed form of its integral. From k4
+/// on the renderer uses the mean of the channels: these terms are at most a fifth of the light, and this
+/// halves the cost.
 [[nodiscard]] std::array<glm::dvec3, 9> irradiancePolynomial(const Surroundings& surroundings);
 
 } // namespace touchstone

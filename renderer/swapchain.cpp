@@ -20,8 +20,8 @@ vk::raii::RenderPass makeWindowPass(const Gpu::Impl& gpu, const WindowPass& pass
     const vk::SubpassDescription subpass{.pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
                                          .colorAttachmentCount = 1,
                                          .pColorAttachments = &color};
-    // Before: the acquire semaphore, waited for at this stage, says that an image of the swapchain may be
-    // written; what keeps its content was written by the pass before and copied from. Behind: copies.
+    // Before: the acquire semaphore, waited for at this stage, makes an image of the swapchain writable; a
+    // preserved image was written by the previous pass and copied from. After: copies.
     const std::array dependencies{
         vk::SubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
                               .dstSubpass = 0,
@@ -50,7 +50,7 @@ Swapchain::Swapchain(const Gpu::Impl& gpu) : gpu_(gpu) {
 }
 
 void Swapchain::chooseFormat() {
-    // Bytes go out as they are (see window.frag), so the format must not encode sRGB once more.
+    // The shader writes encoded bytes (see window.frag), so the format must not encode sRGB again.
     for (const vk::SurfaceFormatKHR& candidate : gpu_.physical.getSurfaceFormatsKHR(*gpu_.surface))
         if (candidate.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear &&
             (candidate.format == vk::Format::eB8G8R8A8Unorm ||

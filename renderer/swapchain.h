@@ -1,5 +1,5 @@
 #pragma once
-// Swapchain with its classic render pass, which Dear ImGui 1.86 demands. Main thread only, private to
+// Swapchain with its classic render pass, which Dear ImGui 1.86 requires. Main thread only, private to
 // renderer/.
 
 #include "renderer/gpu_impl.h"
@@ -13,15 +13,15 @@ struct WindowPass {
     vk::AttachmentLoadOp load;
     vk::ImageLayout before, after;
 };
-/// A pass that draws what the window shows. All of one format are compatible: what was made for one draws in
-/// the others, too.
+/// A pass that draws the window's contents. All of one format are compatible: pipelines for one work with the
+/// others.
 [[nodiscard]] vk::raii::RenderPass makeWindowPass(const Gpu::Impl& gpu, const WindowPass& pass);
 
 class Swapchain {
   public:
     explicit Swapchain(const Gpu::Impl& gpu);
 
-    /// Made once: the format does not change with the size.
+    /// Created once: the format does not change with the size.
     [[nodiscard]] vk::RenderPass renderPass() const { return *renderPass_; }
     [[nodiscard]] vk::Extent2D extent() const { return extent_; }
     [[nodiscard]] bool usable() const { return *swapchain_ != vk::SwapchainKHR{}; }
@@ -32,10 +32,10 @@ class Swapchain {
     [[nodiscard]] vk::Image image(uint32_t index) const { return images_[index]; }
     [[nodiscard]] vk::Framebuffer framebuffer(uint32_t index) const { return *framebuffers_[index]; }
     [[nodiscard]] bool blueFirst() const { return format_.format == vk::Format::eB8G8R8A8Unorm; }
-    /// Waited for before presenting this image; one for each image, as presentation may hold it that long.
+    /// Waited for before presenting this image; one per image, as presentation may hold it that long.
     [[nodiscard]] vk::Semaphore drawn(uint32_t index) const { return *drawn_[index]; }
 
-    /// Makes it anew in this size; false while the surface has no area. The device must be idle.
+    /// Recreates it in this size; false while the surface has no area. The device must be idle.
     bool recreate(vk::Extent2D wanted);
     void destroy();
 

@@ -41,7 +41,7 @@ const SrgbTables& srgbTables() {
     return tables;
 }
 
-/// Channel of RGBA that a file with `channels` channels has at place c, or -1 for opaque.
+/// Channel of a file with `channels` channels for RGBA channel c, or -1 for opaque.
 int sourceChannel(int channels, int c) {
     if (channels <= 2)
         return c < 3 ? 0 : (channels == 2 ? 1 : -1);
@@ -111,7 +111,7 @@ struct HalfMean {
     }
 };
 
-/// Colours count by their alpha, so that what is transparent does not bleed into the edges of what is not.
+/// Colours are weighted by alpha, so that transparent texels do not bleed into opaque edges.
 struct SrgbMean {
     static constexpr size_t kTexel = 4;
     const SrgbTables& tables = srgbTables();

@@ -1,5 +1,5 @@
 #pragma once
-// An image of the scene as the device wants it: four channels, all mip levels. Pure; any thread.
+// An image of the scene in the device's format: four channels, all mip levels. Pure; any thread.
 
 #include "engine/scene/image.h"
 
@@ -20,7 +20,7 @@ struct TextureLevels {
         size_t offset = 0; ///< in `bytes`
     };
     TexelFormat format = TexelFormat::Unorm8;
-    std::vector<Level> levels; ///< from the largest, each half the one before, down to 1 x 1
+    std::vector<Level> levels; ///< from the largest, each half the previous one, down to 1 x 1
     std::vector<std::byte> bytes;
 };
 
@@ -29,8 +29,8 @@ struct TextureLevels {
 }
 
 /// One channel is grey, two are grey and alpha. Color becomes 8 bit sRGB; Data of 16 bits or float becomes
-/// half floats, which keep 11 bits. Where `pixels` is larger than `largestSide`, the largest levels are left
-/// out. Pixels must not be empty.
+/// half floats, with 11 bits of precision. Where `pixels` is larger than `largestSide`, the largest levels
+/// are omitted. Pixels must not be empty.
 [[nodiscard]] TextureLevels buildTextureLevels(const PixelData& pixels, TextureRole role, int largestSide);
 
 } // namespace touchstone

@@ -9,7 +9,7 @@ View viewOf(const OrbitCamera& camera, const Similarity& workspaceFromScene, dou
     view.workspaceFromScene = workspaceFromScene;
     const glm::dvec3 right = camera.right(), up = camera.up(), back = -camera.forward();
     view.lights[0] = {-0.55 * right + 0.75 * up + 0.8 * back, glm::vec3(1.35f, 1.3f, 1.23f)};
-    // A large one beside the key light, and a narrow one that draws the right edge of round things.
+    // A large lamp beside the key light, and a narrow one that outlines the right edge of round objects.
     view.surroundings.lamps[0] = {-0.75 * right + 0.55 * up + 0.55 * back, glm::vec3(4.2f, 4.1f, 3.95f),
                                   14.0};
     view.surroundings.lamps[1] = {1.0 * right + 0.25 * up + 0.1 * back, glm::vec3(1.8f, 1.95f, 2.2f), 14.0};

@@ -1,5 +1,5 @@
 #pragma once
-// How a scene is looked at: camera, light, and which quantity is shown. Plain data.
+// A view of a scene: camera, light, and displayed quantity. Plain data.
 
 #include "engine/math/similarity.h"
 #include "renderer/camera.h"
@@ -13,9 +13,9 @@
 
 namespace touchstone {
 
-/// Shaded is what the eye would see; the others are false-colour views of what the hand would feel. Tilt:
-/// between the facet and the normal that is felt, with its maps. Dihedral: the largest angle between the
-/// facets at an edge of the vertex. Effects: SceneRenderer::setMaterialColors.
+/// Shaded is the visual appearance; the others are false-colour views of haptic quantities. Tilt: between the
+/// facet and the felt normal, with its maps. Dihedral: the largest angle between the facets at an edge of the
+/// vertex. Effects: SceneRenderer::setMaterialColors.
 enum class ViewMode : uint8_t {
     Shaded,
     Height,
@@ -36,11 +36,11 @@ inline constexpr std::array<std::string_view, 10> kViewModeNames{
 
 struct DirectionalLight {
     glm::dvec3 toLight{0.0, 0.0, 1.0}; ///< workspace, towards the light; need not be unit
-    glm::vec3 irradiance{0.0f};        ///< linear RGB at normal incidence; zero is off
+    glm::vec3 irradiance{0.0f};        ///< linear RGB at normal incidence; zero: off
 };
 
-/// A ball that takes light from the surface near it, so that its height above the surface can be judged. It
-/// casts no shadow through the camera's other objects: only the first light and the surroundings count.
+/// A ball that shades the surface near it, which shows its height above the surface. It is the only occluder,
+/// and occludes only the first light and the surroundings.
 struct ProbeShadow {
     glm::dvec3 centre{0.0}; ///< workspace, m
     double radius = 0.0;    ///< m; 0: none
@@ -62,15 +62,15 @@ struct View {
     ProbeShadow probe;
     Background background;
     float exposure = 1.0f; ///< factor before tone mapping
-    /// Pixels of one nominal pixel: lines of the scene are 1.5 of them wide, its points 5.
+    /// Pixels per nominal pixel: lines of the scene are 1.5 of them wide, its points 5.
     float pixelScale = 1.0f;
-    /// Pixels by which a simplified mesh may differ from the full one; 0: the full one is drawn. Only of
-    /// scenes that were prepared with simplified meshes.
+    /// Error of simplified meshes, pixels; 0: the full mesh is drawn. Only for scenes prepared with
+    /// simplified meshes.
     double allowedError = 0.0;
 };
 
 /// The view of a camera with a key light over its left shoulder and soft lamps on both sides, which all move
-/// with the camera, so that the side one looks at is always lit and metal has something to reflect.
+/// with the camera, so that the visible side is always lit and metal has something to reflect.
 [[nodiscard]] View viewOf(const OrbitCamera& camera, const Similarity& workspaceFromScene, double aspect);
 
 } // namespace touchstone

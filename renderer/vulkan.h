@@ -1,6 +1,5 @@
 #pragma once
-// The one way to include Vulkan; for .cpp files and private headers of renderer/ only (it is precompiled
-// there).
+// The only include of Vulkan; for .cpp files and private headers of renderer/ only (it is precompiled there).
 
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
 #define VULKAN_HPP_NO_SETTERS

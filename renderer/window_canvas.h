@@ -5,23 +5,22 @@
 
 namespace touchstone {
 
-/// What a software device would pay for in every frame although it rarely changes, the panels, stays in an
-/// image of its own: a frame draws a part of it anew, and the whole is copied to the swapchain, which costs a
-/// tenth of drawing it.
+/// Caches the panels, which change rarely but are expensive on a software device: a frame redraws a part of
+/// the image, and the whole is copied to the swapchain, at a tenth of the cost of drawing it.
 class WindowCanvas {
   public:
     WindowCanvas(const Gpu::Impl& gpu, vk::Format format);
 
-    /// Another size, without content. The device must be idle.
+    /// Sets the size and discards the content. The device must be idle.
     void resize(vk::Extent2D extent);
     [[nodiscard]] bool painted() const { return painted_; }
 
-    /// Begins a render pass that clears it all, or one that draws over what it holds within `area`; commands
-    /// end the pass. It is then laid out to be copied from.
+    /// Begins a render pass that clears the image, or one that keeps it and draws within `area`; commands end
+    /// the pass. The image is then in the layout of a copy source.
     void begin(const vk::raii::CommandBuffer& commands, const vk::ClearValue& clear);
     void beginWithin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const;
 
-    /// Onto an image of the swapchain whose content does not matter, which is then ready to be presented.
+    /// Copies to an image of the swapchain, whose content is overwritten, and makes it ready to be presented.
     void copyTo(const vk::raii::CommandBuffer& commands, vk::Image target) const;
 
   private:

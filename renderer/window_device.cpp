@@ -17,9 +17,9 @@ namespace touchstone {
 
 namespace {
 
-constexpr uint64_t kAcquireTimeout = 1'000'000'000; ///< ns; a window system that is gone must not hang us
+constexpr uint64_t kAcquireTimeout = 1'000'000'000; ///< ns; a lost window system must not block us
 
-/// The part of a place that lies in the window.
+/// The part of a rectangle that lies in the window.
 vk::Rect2D within(const PixelRect& where, vk::Extent2D extent) {
     const auto width = static_cast<int>(extent.width), height = static_cast<int>(extent.height);
     const int left = std::clamp(where.x, 0, width), top = std::clamp(where.y, 0, height);
@@ -127,10 +127,10 @@ bool WindowDevice::followWindow(WindowTarget::Statistics& statistics) {
     if (!outdated_ && size == lastSize_)
         return true;
     gpu_.device.waitIdle();
-    // A semaphore of an acquire that was never submitted stays signalled; fresh ones cost nothing.
+    // The semaphore of an acquire that was never submitted stays signalled; new ones cost nothing.
     for (Frame& frame : frames_)
         frame.acquired = vk::raii::Semaphore(gpu_.device, vk::SemaphoreCreateInfo{});
-    outdated_ = true; // until there is one: it may fail, or find no area, and the size come back
+    outdated_ = true; // until one exists: creation may fail, or find no area, and the size may return
     if (!swapchain_.recreate(size))
         return false;
     if (drawsOnCanvas())
@@ -194,7 +194,7 @@ void WindowDevice::recordCapture(const Frame& frame, uint32_t image) {
 }
 
 void WindowDevice::begin(const Frame& frame, uint32_t image, const EyePlaces& where, bool whole) {
-    // What lies behind everything is as the windows are, which then need no background of their own.
+    // The background has the colour of ImGui's windows, which then need none of their own.
     const ImVec4 behind = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
     const vk::ClearValue clear{vk::ClearColorValue{std::array{behind.x, behind.y, behind.z, 1.0f}}};
     if (!whole)
@@ -250,7 +250,7 @@ void WindowDevice::waitFor(const Frame& frame, WindowTarget::Statistics& statist
 }
 
 std::optional<uint32_t> WindowDevice::acquire(const Frame& frame) {
-    // The C call: its error codes are ordinary news here, not exceptions.
+    // The C call: its error codes are expected here, not exceptional.
     uint32_t image = 0;
     const VkResult acquired = gpu_.device.getDispatcher()->vkAcquireNextImageKHR(
         *gpu_.device, swapchain_.handle(), kAcquireTimeout, *frame.acquired, VK_NULL_HANDLE, &image);
@@ -305,8 +305,7 @@ void WindowDevice::submit(const Frame& frame, uint32_t image) {
                                   .pImageIndices = &image};
     const VkResult presented = gpu_.device.getDispatcher()->vkQueuePresentKHR(
         *gpu_.queue, reinterpret_cast<const VkPresentInfoKHR*>(&info));
-    // Suboptimal is left alone: a change of size is seen by followWindow, and some drivers never stop saying
-    // it.
+    // Suboptimal is ignored: followWindow handles changes of size, and some drivers report it forever.
     if (presented == VK_ERROR_OUT_OF_DATE_KHR)
         outdated_ = true;
     else if (presented != VK_SUCCESS && presented != VK_SUBOPTIMAL_KHR)

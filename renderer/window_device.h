@@ -1,5 +1,5 @@
 #pragma once
-// What a window has on its device. Main thread only, private to renderer/.
+// A window's device objects. Main thread only, private to renderer/.
 
 #include "renderer/gpu_memory.h"
 #include "renderer/swapchain.h"
@@ -13,7 +13,7 @@ namespace touchstone {
 
 struct FrameSlot;
 
-/// Swapchain, frames in flight and the pipeline that puts scene images into the window.
+/// Swapchain, frames in flight and the pipeline that draws scene images into the window.
 class WindowDevice {
   public:
     static constexpr uint32_t kFramesInFlight = 2;
@@ -28,30 +28,30 @@ class WindowDevice {
     [[nodiscard]] vk::DescriptorPool descriptors() const { return *pool_; }
     [[nodiscard]] vk::Extent2D extent() const { return swapchain_.extent(); }
 
-    /// Whether a frame may draw a part only.
+    /// Whether a frame may redraw only a part.
     void keepPanels(bool may) {
-        outdated_ |= keepsPanels_ != may; // with a canvas or without
+        outdated_ |= keepsPanels_ != may; // with or without a canvas
         keepsPanels_ = may;
     }
-    /// Makes the swapchain follow the framebuffer's size. False while the window has no area.
+    /// Adapts the swapchain to the framebuffer size. False while the window has no area.
     bool followWindow(WindowTarget::Statistics& statistics);
-    /// A frame may draw a part only: there is a canvas, and it holds the rest.
+    /// A frame may redraw only a part: there is a canvas, and it holds the rest.
     [[nodiscard]] bool canKeep() const { return drawsOnCanvas() && canvas_.painted(); }
-    /// Draws the scene images (null: none) and ImGui's draw data, all or what lies within where.main, and
+    /// Draws the scene images (null: none) and ImGui's draw data, all or only within where.main, and
     /// presents. False where the window system took no frame.
     bool present(const SceneRenderer* scene, const EyePlaces& where, bool whole,
                  WindowTarget::Statistics& statistics);
 
-    /// A set of our own pipeline for an image in layout ShaderReadOnlyOptimal; it lasts as long as this.
+    /// A set of our own pipeline for an image in layout ShaderReadOnlyOptimal; valid as long as this object.
     [[nodiscard]] vk::DescriptorSet makeSet(vk::ImageView image) const;
-    /// While ImGui's draw data are recorded: the image over the viewport, of which `visible` is seen.
+    /// While ImGui's draw data are recorded: draws the image over the viewport, clipped to `visible`.
     void drawImage(vk::DescriptorSet image, const vk::Viewport& viewport, const PixelRect& visible) const;
 
     bool captureWanted = false;
     [[nodiscard]] std::optional<PixelData> takeCapture();
 
   private:
-    /// What a frame in flight needs of its own.
+    /// Resources of a frame in flight.
     struct Frame {
         vk::raii::CommandBuffer commands{nullptr};
         vk::raii::Fence done{nullptr};

@@ -23,8 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// That panels are drawn after the user was at them: what a key or a click changes they tell a frame later,
-/// and they find their size in one more.
+/// Number of frames with panels after user input: the effect of a key or click appears a frame later, and the
+/// layout one frame after that.
 constexpr int kWholeAfter = 3;
 
 bool same(const PixelRect& a, const PixelRect& b) {
@@ -65,16 +65,16 @@ struct WindowTarget::Impl {
 
     GLFWwindow* window;
     ImGuiBackend gui;
-    std::unique_ptr<WindowDevice> device; ///< before ImGui's half of it
+    std::unique_ptr<WindowDevice> device; ///< destroyed before ImGui's part of the device
     GuiPictures pictures;
     EyePlaces lastPlaces;
     Clock::time_point lastWhole;
-    /// Numbers are not read faster, and drawing panels costs the CPU a third of a frame.
+    /// A higher rate is not readable, and drawing panels takes a third of a frame on the CPU.
     std::chrono::duration<double> panelPeriod{WindowTarget::kPanelPeriod};
-    int wholeLeft = 0; ///< frames, as the user was at the panels
+    int wholeLeft = 0; ///< frames, after input in the panels
     bool frameBegun = false;
     bool captureWanted = false;
-    std::optional<bool> keepsPanels; ///< nothing: as suits the device
+    std::optional<bool> keepsPanels; ///< unset: depends on the device
     WindowTarget::Statistics statistics;
 };
 

@@ -6,8 +6,8 @@
 
 namespace touchstone {
 
-/// Second-order Butterworth high-pass by trapezoidal integration, whose poles stay where they belong when dt
-/// changes from tick to tick (Zavalishin, The Art of VA Filter Design, 4.1).
+/// Second-order Butterworth high-pass by trapezoidal integration, whose poles stay correct when dt changes
+/// from tick to tick (Zavalishin, The Art of VA Filter Design, 4.1).
 glm::dvec3 ForceChange::highPass(const glm::dvec3& force, double dt) noexcept {
     if (dt != filterDt_) {
         filterDt_ = dt;
@@ -25,7 +25,7 @@ glm::dvec3 ForceChange::highPass(const glm::dvec3& force, double dt) noexcept {
 ForceRates ForceChange::add(const SoundTick& tick) noexcept {
     if (!begun_) {
         begun_ = true;
-        low_ = meanForce_ = tick.force; // a force that was there before is no change
+        low_ = meanForce_ = tick.force; // a force present at the start is no change
         position_ = tick.position;
         handKnown_ = tick.handKnown;
     }
@@ -33,7 +33,7 @@ ForceRates ForceChange::add(const SoundTick& tick) noexcept {
     quick_ = highPass(tick.force, tick.dt);
     const glm::dvec3 rate = (quick_ - before) / tick.dt;
 
-    const bool moved = handKnown_ && tick.handKnown; // else it may have come back elsewhere
+    const bool moved = handKnown_ && tick.handKnown; // otherwise it may have reappeared elsewhere
     const glm::dvec3 velocity = moved ? (tick.position - position_) / tick.dt : glm::dvec3(0.0);
     position_ = tick.position;
     handKnown_ = tick.handKnown;

@@ -10,17 +10,17 @@ SoundPlayer::SoundPlayer(SoundFeed& feed, double rate)
       volumeShare_(static_cast<float>(-std::expm1(-1.0 / (kVolumeTime * rate)))) {}
 
 void SoundPlayer::collect() noexcept {
-    constexpr double kMeanShare = 0.05; // of the newest tick
+    constexpr double kMeanShare = 0.05; // weight of the latest tick
     SoundTick tick;
     while (feed_.pop(tick)) {
         dt_ += kMeanShare * (tick.dt - dt_);
-        (void)synthesizer_.push(tick); // room for more than the feed holds is made by leaving out below
+        (void)synthesizer_.push(tick); // on overflow the surplus is skipped below
     }
 }
 
-/// Begins and leaves off, and says how fast to play this block.
+/// Starts and stops, and returns the speed for this block.
 double SoundPlayer::speedFor(size_t frames) noexcept {
-    // Frames, since ticks may be late: one that took as long as ten is worth ten.
+    // Frames, since ticks may be late: one that took ten times as long counts ten times.
     const double rate = synthesizer_.rate(), ahead = synthesizer_.framesAhead();
     const double wanted = static_cast<double>(frames) + kCushion * rate;
     if (!playing_) {
@@ -36,13 +36,13 @@ double SoundPlayer::speedFor(size_t frames) noexcept {
     }
     if (interrupted_.exchange(false, std::memory_order_relaxed))
         silentFrames_ = static_cast<size_t>(kSwapSilence * rate);
-    constexpr double kShare = 0.05; // of the newest block: the servo's jitter is not to be heard
+    constexpr double kShare = 0.05; // weight of the latest block: averages out the servo's jitter
     bend_ += kShare * (std::clamp((ahead - wanted) / wanted, -1.0, 1.0) - bend_);
     latency_.store(ahead / rate + Synthesizer::delay(dt_), std::memory_order_relaxed);
     return 1.0 + kMaxBend * bend_;
 }
 
-/// One frame at full volume; where the ticks have run out, the last one, which fades.
+/// One frame at full volume; after the last tick, that tick, which fades out.
 SoundFrame SoundPlayer::next(double speed) noexcept {
     if (playing_ && synthesizer_.render({&last_, 1}, speed) == 0) {
         playing_ = false;

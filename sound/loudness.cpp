@@ -28,8 +28,8 @@ float Loudness::loudnessOf(float envelope) noexcept {
     return std::min(1.0f, std::log1p(envelope / kFaintest) / kWhole);
 }
 
-/// The envelope is the mean of the last delay_ + 1 peaks, and each of these is over a window that holds the
-/// frame which comes out now: so it is not below it.
+/// The envelope is the mean of the last delay_ + 1 peaks, each over a window that contains the current output
+/// frame: so it is not below that frame.
 SoundFrame Loudness::add(const SoundFrame& frame) noexcept {
     const float now = std::max(std::abs(frame.left), std::abs(frame.right));
     held_ = std::max(peak_.add(now), held_ * release_);
@@ -40,7 +40,7 @@ SoundFrame Loudness::add(const SoundFrame& frame) noexcept {
     const SoundFrame out = waiting_[next_];
 
     const float envelope = std::max({static_cast<float>(sum_ / static_cast<double>(peaks_.size())),
-                                     std::abs(out.left), std::abs(out.right)}); // the sum's rounding
+                                     std::abs(out.left), std::abs(out.right)}); // rounding of the sum
     constexpr float kNothing = 1e-6f;                                           // N/s
     if (envelope < kNothing)
         return {};

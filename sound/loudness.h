@@ -10,31 +10,31 @@ struct SoundFrame {
     float left = 0.0f, right = 0.0f;
 };
 
-/// From N/s to loudness, by its logarithm, as ears have it: from a tap to a whisper of texture there are
-/// three decades. The gain follows the envelope and not the wave, so a tone stays a tone. The envelope is
-/// never below the wave that it is for (it is known kLookAhead before), so |out| <= 1 without clipping. Any
-/// one thread; no allocation after construction.
+/// Logarithmic compression from N/s to loudness: a tap and faint texture differ by three decades. The gain
+/// follows the envelope and not the wave, so a tone stays a tone. The envelope is never below its wave (it is
+/// known kLookAhead before), so |out| <= 1 without clipping. Any one thread; no allocation after
+/// construction.
 class Loudness {
   public:
-    static constexpr float kFaintest = 1.0f;    ///< N/s: well below it loudness goes to zero in proportion
-    static constexpr float kLoudest = 1000.0f;  ///< N/s: from here on it is full
-    static constexpr double kLookAhead = 0.004; ///< s, the delay of all that is heard
+    static constexpr float kFaintest = 1.0f;    ///< N/s: well below it loudness is proportional
+    static constexpr float kLoudest = 1000.0f;  ///< N/s: full scale from here on
+    static constexpr double kLookAhead = 0.004; ///< s, delay of the output
     static constexpr double kHold =
         0.026; ///< s: with kLookAhead half a wave of 17 Hz, so that no tone is modulated
     static constexpr double kRelease = 0.15; ///< s, to 1/e
 
-    /// `rate`: frames a second.
+    /// `rate`: frames per second.
     explicit Loudness(double rate);
 
-    /// Takes a frame in N/s, gives the one of kLookAhead ago.
+    /// Takes a frame in N/s, returns the one kLookAhead earlier.
     [[nodiscard]] SoundFrame add(const SoundFrame& frame) noexcept;
     void reset() noexcept;
 
-    /// What an envelope in N/s is as a share of full scale, 0..1.
+    /// Loudness of an envelope in N/s as a fraction of full scale, 0..1.
     [[nodiscard]] static float loudnessOf(float envelope) noexcept;
 
   private:
-    /// The largest of the last `window` values: candidates in falling order (a monotone queue).
+    /// Maximum of the last `window` values, by a monotone queue.
     class SlidingMaximum {
       public:
         explicit SlidingMaximum(size_t window) : slots_(window + 1), window_(window) {}

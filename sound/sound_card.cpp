@@ -16,15 +16,15 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kUsualRate = 48000.0; // frames a second
+constexpr double kUsualRate = 48000.0; // frames per second
 constexpr const char* kNoCard = "there is no sound card";
 constexpr const char* kGone = "the sound card is gone";
 constexpr const char* kPlugIn = "plug in or switch on a sound card, then switch the sound on again";
-constexpr double kAskedLatency = 0.012; // s, of the card; it may take more
+constexpr double kAskedLatency = 0.012; // s, requested from the card, which may take more
 
 void sayNothing(const char*, int, const char*, int, const char*, ...) {}
 
-/// ALSA and JACK tell stderr of all that is not there; what matters comes back as an error code.
+/// ALSA and JACK print every missing item on stderr; relevant errors come as error codes.
 void hush() {
     snd_lib_error_set_handler(sayNothing);
     jack_set_error_function([](const char*) {});
@@ -47,7 +47,7 @@ bool ready(const auto& future) {
 
 } // namespace
 
-/// PortAudio, begun and ended, with one open stream.
+/// A PortAudio session with one open stream.
 class SoundCard::Stream {
   public:
     explicit Stream(SoundFeed& feed) {
@@ -159,11 +159,11 @@ void SoundCard::update(bool on, float volume) {
         state_ = State::Off;
     } else if (!on && state_ == State::Playing) {
         state_ = State::Off;
-        close(std::chrono::milliseconds(80)); // until it has faded
+        close(std::chrono::milliseconds(80)); // until it has faded out
     }
 }
 
-/// On a thread of its own: a card may take its time.
+/// On its own thread: a card may take long.
 void SoundCard::close(std::chrono::milliseconds after) {
     closing_ =
         std::async(std::launch::async, [this, after, stream = std::exchange(stream_, nullptr)]() mutable {

@@ -9,9 +9,9 @@
 
 namespace touchstone {
 
-/// The system's default output, by PortAudio. Looking for sound cards and opening one takes up to seconds, so
-/// a thread of its own does it; where there is none, or it is gone while it plays, `problem` says so and
-/// nothing else happens. Owner thread, all of it.
+/// The system's default output, by PortAudio. Enumerating sound cards and opening one takes up to seconds, so
+/// a separate thread does it. Without a card, or when it fails while playing, `problem` reports that and
+/// nothing else happens. Owner thread for all methods.
 class SoundCard {
   public:
     /// The feed outlives it.
@@ -20,7 +20,7 @@ class SoundCard {
     SoundCard(const SoundCard&) = delete;
     SoundCard& operator=(const SoundCard&) = delete;
 
-    /// Now and then (once a frame). `volume`: 0..1, share of full scale that is never exceeded.
+    /// Call regularly (once per frame). `volume`: 0..1, fraction of full scale that is never exceeded.
     void update(bool on, float volume);
     /// SoundPlayer::interrupt.
     void interrupt();
@@ -29,7 +29,7 @@ class SoundCard {
     [[nodiscard]] State state() const { return state_; }
     [[nodiscard]] const std::string& problem() const { return problem_; } ///< while Failed
     [[nodiscard]] const std::string& name() const { return name_; }       ///< while Playing
-    /// While Playing: with the delay of the card itself, s.
+    /// While Playing: includes the delay of the card, s.
     [[nodiscard]] SoundPlayer::Figures figures() const;
 
   private:

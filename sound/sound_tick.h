@@ -4,13 +4,13 @@
 
 namespace touchstone {
 
-/// What one tick of the servo is to the ear: what a device knows of it, turned and placed as the hand
-/// is in the workspace (clutch and zoom change where the hand is, not what it hears).
+/// A servo tick as input of the sound: the data of a device, mapped to the workspace (clutch and zoom change
+/// the hand's position, not the sound).
 struct SoundTick {
-    double dt = 1e-3;         ///< s since the tick before
+    double dt = 1e-3;         ///< s since the previous tick
     glm::dvec3 position{0.0}; ///< m, of the hand, workspace
-    glm::dvec3 force{0.0};    ///< N, workspace: the command, what a device would push with, after safety
-    bool handKnown = true;    ///< false: `position` says nothing
+    glm::dvec3 force{0.0};    ///< N, workspace: the commanded force, after safety
+    bool handKnown = true;    ///< false: `position` is invalid
 };
 
 } // namespace touchstone

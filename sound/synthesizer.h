@@ -1,5 +1,5 @@
 #pragma once
-// The sound of a touch, from end to end and without a sound card: ticks in, frames out (docs/sound.md).
+// The whole sound path without a sound card: ticks in, frames out (docs/sound.md).
 
 #include "sound/force_change.h"
 #include "sound/loudness.h"
@@ -9,17 +9,17 @@
 
 namespace touchstone {
 
-/// Pressing leans to the left ear and dragging to the right one, so that they never cancel in both.
-/// Any one thread; no allocation after construction. Deterministic.
+/// Pressing is panned to the left and dragging to the right, so that they never cancel in both channels. Any
+/// one thread; no allocation after construction. Deterministic.
 class Synthesizer {
   public:
-    /// `rate`: frames a second.
+    /// `rate`: frames per second.
     explicit Synthesizer(double rate) : rate_(rate), stretcher_(rate), loudness_(rate) {}
 
-    /// False where more ticks wait than there is room for (4000): this one is left out.
+    /// False if the queue (4000 ticks) is full: the tick is dropped.
     bool push(const SoundTick& tick) noexcept { return stretcher_.push(change_.add(tick), tick.dt); }
-    /// As many frames as the ticks are enough for, at most `frames`; |left|, |right| <= 1. `speed`: see
-    /// TickStretcher::pop. Returns how many.
+    /// Renders as many frames as the ticks allow, at most `frames`; |left|, |right| <= 1. `speed`: see
+    /// TickStretcher::pop. Returns their number.
     size_t render(std::span<SoundFrame> frames, double speed = 1.0) noexcept;
 
     [[nodiscard]] double rate() const noexcept { return rate_; }
@@ -27,7 +27,7 @@ class Synthesizer {
     void skip(double frames) noexcept { stretcher_.skip(frames); }
     void reset() noexcept;
 
-    /// s from a tick to its sound, besides what waits before and behind: `dt` of a tick.
+    /// s from a tick to its sound, without queues before and after: `dt` of a tick.
     [[nodiscard]] static double delay(double dt) noexcept {
         return static_cast<double>(TickStretcher::kReach) * dt + Loudness::kLookAhead;
     }

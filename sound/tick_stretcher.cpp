@@ -40,7 +40,7 @@ TickStretcher::TickStretcher(double rate) : rate_(rate) {
             taps[t] = sinc(distance) * kaiser(distance / kReach, kBeta);
             sum += taps[t];
         }
-        for (size_t t = 0; t < kTaps; ++t) // what is constant stays so, whatever the phase
+        for (size_t t = 0; t < kTaps; ++t) // constant input gives constant output, whatever the phase
             kernel_[p][t] = static_cast<float>(taps[t] / sum);
     }
 }
@@ -65,7 +65,7 @@ bool TickStretcher::pop(StretchedFrame& frame, double speed) noexcept {
         frame.press += weight * tick.press;
         frame.drag += weight * tick.drag;
     }
-    // A tick's value stands at its end: from the one to the next it is the next one's dt.
+    // A tick's value is at its end: the interval between two ticks has the dt of the second.
     phase_ += speed / static_cast<double>(at(begin_ + 1).frames);
     while (phase_ >= 1.0 && end_ - begin_ > kReach) {
         phase_ -= 1.0;

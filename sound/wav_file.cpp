@@ -19,7 +19,7 @@ struct WavFile::Stream {
         info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
         file = sf_open(path.c_str(), SFM_WRITE, &info);
         if (file != nullptr)
-            sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE); // of 1.0, which is one step too much
+            sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE); // of 1.0, which is one step too large
     }
     ~Stream() { close(); }
     Stream(const Stream&) = delete;

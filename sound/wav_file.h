@@ -8,11 +8,11 @@
 
 namespace touchstone {
 
-/// Stereo, 16 bit. There as a whole or not at all: written under a temporary name beside the target, renamed
-/// by `commit`. One thread; everything throws Error that names the target.
+/// Stereo, 16 bit. Written atomically: to a temporary file beside the target, which `commit` renames. One
+/// thread; everything throws Error with the target's name.
 class WavFile {
   public:
-    /// `rate`: frames a second. A file that is there is replaced.
+    /// `rate`: frames per second. Replaces an existing file.
     WavFile(std::filesystem::path target, int rate);
     ~WavFile();
     WavFile(const WavFile&) = delete;

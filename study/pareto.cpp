@@ -17,15 +17,14 @@ bool measured(const ConfigurationResult& configuration) {
     return configuration.errors.compared > 0 && configuration.step.value > 0.0;
 }
 
-/// Beyond doubt.
+/// Significantly: the intervals do not overlap.
 bool cheaper(const Estimate& a, const Estimate& b) {
     return a.value < b.value && apart(a, b);
 }
 
 } // namespace
 
-// No cycles: nearness would have to be the same all the way around, and who is cheaper beyond doubt is
-// ordered.
+// Acyclic: a cycle would need equal errors all the way around, and `cheaper` is a strict order.
 bool beats(const Estimate& cost, double error, const Estimate& otherCost, double otherError) {
     return error <= otherError && !cheaper(otherCost, cost) &&
            (error < otherError || cheaper(cost, otherCost));

@@ -18,24 +18,24 @@ namespace touchstone::study {
 namespace {
 
 constexpr double kTick = 1e-3; // s
-/// What kUntextured of the ablations says, and Coulomb's ablation of friction.
+/// As kUntextured of the ablations, and Coulomb's ablation of friction.
 constexpr double kStiffness = 600.0, kSliding = 0.3; // N/m, 1
 
-/// Settings as they are felt: configurations that say the same are measured once.
+/// Effective settings: equal ones are measured once.
 struct Configuration {
     HapticSettings settings; ///< in effect
     FeltPath felt;
     ConfigurationTimes times;
 };
 
-/// A configuration of the plan with where it is measured.
+/// A configuration of the plan and its measurement.
 struct Entry {
     PlannedConfiguration configuration;
     size_t configuration = 0;
     Truth truth = Truth::Oracle;
 };
 
-/// All that is known of one subject while it is studied.
+/// State of the study of one subject.
 class Run {
   public:
     Run(const Subject& subject, const StudyOptions& options, const StudyProgress& progress)
@@ -90,7 +90,7 @@ class Run {
     }
 
   private:
-    /// The scene without what would make the spring another one from place to place.
+    /// The scene without whatever varies the spring constant over the surface.
     static std::shared_ptr<const HapticScene> bareScene(const std::shared_ptr<const HapticScene>& scene) {
         std::shared_ptr<HapticScene> bare;
         for (const PlannedEffect& effect : scene->plan.effects)
@@ -125,7 +125,7 @@ class Run {
         return configurations_.size() - 1;
     }
 
-    /// One path of rests for each radius; those of the oracle side by side.
+    /// One path of solve results for each radius; the oracle's run in parallel.
     void findRests() {
         std::map<double, std::future<truth::RestPath>> pending;
         const int frame = bare_.haptic->objects.size() > 1 ? feel(*bare_.haptic, {}, hips_).object : 0;
@@ -148,8 +148,8 @@ class Run {
         compareTheSameTicks();
     }
 
-    /// Where the oracle gave up for one radius the others say nothing either: configurations of one ablation
-    /// are held to the same ticks.
+    /// Where the oracle failed for one radius, the others are not compared either: the configurations of one
+    /// ablation share the same ticks.
     void compareTheSameTicks() {
         for (const auto& [one, from] : rests_)
             for (auto& [other, to] : rests_)
@@ -171,7 +171,7 @@ class Run {
         return truth::springForces(rests_.at(radius), hips_, kStiffness, 0.0);
     }
 
-    /// What was felt without friction, as rests.
+    /// The frictionless result as solve results.
     static truth::RestPath restsOf(const std::vector<truth::FeltTick>& felt) {
         truth::RestPath path;
         for (const truth::FeltTick& tick : felt) {

@@ -11,8 +11,8 @@ using Command = std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOpti
                              RenderOptions, InspectOptions, BenchOptions, StudyCommandOptions,
                              StudyCompareOptions, StudyMergeOptions, DevicesOptions>;
 
-/// Reads the command line. Empty when the program is done: help or version was printed (then `status` is 0),
-/// or the usage was wrong and said so on stderr (`status` is 2).
+/// Parses the command line. Nullopt when the program is done: help or version was printed (then `status` is
+/// 0), or the usage was wrong and reported on stderr (`status` is 2).
 [[nodiscard]] std::optional<Command> parseCommandLine(int argc, char** argv, int& status);
 
 } // namespace touchstone

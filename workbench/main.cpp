@@ -16,7 +16,7 @@ struct Overloaded : Functions... {
 
 int main(int argc, char** argv) {
     using namespace touchstone;
-    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of the write, not the end of us
+    std::signal(SIGXFSZ, SIG_IGN); // a file size limit is a write error and must not end the process
     try {
         int status = 0;
         const std::optional<Command> command = parseCommandLine(argc, argv, status);

@@ -4,14 +4,14 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kSoftwarePixels = 800 * 450; // of the scene image where the CPU draws it
+constexpr int kSoftwarePixels = 800 * 450; // of the scene image on a software device
 constexpr int kHardwarePixels = 2560 * 1440;
-constexpr double kSmallestScale = 0.55; // of the picture's size; below it an edge is a staircase
-constexpr double kSoftwareError = 0.25; // pixels, by which simplified meshes differ where the CPU draws them
+constexpr double kSmallestScale = 0.55; // of the picture's size; below it edges show staircases
+constexpr double kSoftwareError = 0.25; // pixels, tolerance of simplified meshes on a software device
 
 constexpr const char* kMemoryFile = "window.json"; // in the state folder
 
-/// The size asked for on the command line, else that of the last run.
+/// The size given on the command line, else that of the last run.
 glm::ivec2 firstSize(const glm::ivec2& asked, const glm::ivec2& remembered) {
     return asked == WindowOptions{}.size && remembered.x > 0 ? remembered : asked;
 }
@@ -38,7 +38,7 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
       forceWatch_(window_.handle(), GLFW_KEY_SPACE, [this](bool plain) { forceKey_.press(plain); }),
       keys_(window_.handle(), [this](int key, int modifiers) { keyDown(key, modifiers); }),
       timeline_(touch_.again(), recordingFolders(options.recording)), status_(options.statusJson) {
-    // What the command line asks for goes before what the last run left.
+    // The command line takes precedence over the last run.
     state_.settings = memory_.settings;
     for (const auto& [name, value] : options.settings)
         (void)setSetting(state_.settings, name, value);
@@ -58,10 +58,10 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
 }
 
 WorkbenchWindow::~WorkbenchWindow() {
-    touch_.forceSwitch().takeAway(false); // what follows may wait for a worker: nobody is pushed meanwhile
+    touch_.forceSwitch().takeAway(false); // the rest may wait for a worker: no force meanwhile
     try {
         remember();
-    } catch (...) { // what the window remembers is worth no last order that is not sent
+    } catch (...) { // a failure to save the window's state must not skip the last order
     }
 }
 
@@ -79,7 +79,7 @@ void WorkbenchWindow::frame() {
         leaveFor(*dropped);
     leave();
     touch_.update(start);
-    // While a recording is looked at the force is off: then the key only takes it away for afterwards.
+    // While a recording is open the force is off: then the key only switches it off for afterwards.
     state_.settings.forceEnabled =
         forceKey_.settle(state_.settings.forceEnabled, !ImGui::GetIO().WantTextInput && !timeline_.looking(),
                          forceWatch_.presses());
@@ -89,7 +89,7 @@ void WorkbenchWindow::frame() {
         if (screen_.target().beginFrame())
             draw();
         else
-            view_.letGo(); // nobody sees what is pressed
+            view_.letGo(); // without a frame, input has no visible effect
     });
     moveHand();
     touch_.devices().renew(start);
@@ -162,7 +162,7 @@ void WorkbenchWindow::remember() {
     memory_.sound = state_.sound;
     memory_.folds = state_.folds;
     memory_.introduced = state_.introduced;
-    memory_.size = glm::ivec2(glm::vec2(window_.size()) / window_.layoutScale()); // as it was asked for
+    memory_.size = glm::ivec2(glm::vec2(window_.size()) / window_.layoutScale()); // the requested size
     writeMemory(stateFolder() / kMemoryFile, memory_);
 }
 

@@ -28,7 +28,7 @@ void WorkbenchWindow::takeAnotherDevice(const DeviceLost& lost) {
 }
 
 void WorkbenchWindow::takeModel() {
-    // What was changed while it was read is asked for, too.
+    // Edits made while it was loading prompt, too.
     if (opening_.arriving() && hasModel() &&
         (materials_.saving() || !unsavedChanges_.mayLeave(opening_.path(), materials_, state_)))
         return;
@@ -50,7 +50,7 @@ void WorkbenchWindow::takeModel() {
 
 void WorkbenchWindow::show(LoadedModel loaded) {
     const ScenePtr scene = loaded.model.scene;
-    notice_.clear(); // of the model before
+    notice_.clear(); // of the previous model
     touch_.show(std::move(loaded), scene->path == defaultScene().string());
     drawn_.shown(scene);
     unsavedChanges_.begin();
@@ -102,7 +102,7 @@ void WorkbenchWindow::lookBack(double now) {
                       .live = &touch_.forces(),
                       .servoTime = touch_.tick().time,
                       .listed = state_.timeline.shown});
-    // Off and on again clears a latch, which nobody must do unawares: the force then stays off.
+    // Switching off and on clears a latch, which must not happen unintentionally: the force then stays off.
     if (timeline_.looking() && has(touch_.tick().output.flags, TickFlag::SafetyLatched))
         state_.settings.forceEnabled = false;
     if (const std::optional<Error> problem = timeline_.takeProblem()) {

@@ -1,7 +1,7 @@
 #pragma once
-// The window: it loads models on a worker, lets the servo touch them, and draws thirty times a second what
-// was felt. workbench.cpp tells a frame's story; workbench_models.cpp has what opens, shows and leaves a
-// model, workbench_picture.cpp what a frame draws and what its buttons ask for.
+// The window: loads models on a worker, runs the servo on them, and draws thirty times a second.
+// workbench.cpp has the main loop; workbench_models.cpp opens, shows and leaves a model;
+// workbench_picture.cpp draws a frame and handles its buttons.
 
 #include "engine/core/error.h"
 #include "renderer/draw_quality.h"
@@ -51,28 +51,28 @@ namespace touchstone {
 [[nodiscard]] inline double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-/// How finely a device draws: coarser where the CPU does.
+/// Draw quality of a device: coarser for a software device.
 [[nodiscard]] DrawQuality qualityOn(const Gpu& gpu);
 
-/// All of it on the main thread.
+/// Main thread only.
 class WorkbenchWindow {
   public:
     /// Opens window and Vulkan, starts the servo. Throws Error.
     explicit WorkbenchWindow(const WindowOptions& options);
-    /// Begins to read a model, or a recording to look at.
+    /// Starts to load a model or a recording.
     void open(const std::filesystem::path& path);
     ~WorkbenchWindow();
     WorkbenchWindow(const WorkbenchWindow&) = delete;
     WorkbenchWindow& operator=(const WorkbenchWindow&) = delete;
-    /// One turn of the main loop.
+    /// One iteration of the main loop.
     void frame();
-    /// Asks before unsaved materials are lost, unless it is the system that wants an end.
+    /// Prompts before unsaved materials are lost, unless the system requests the end.
     [[nodiscard]] bool closed();
     [[nodiscard]] bool loading() const { return opening_.busy() || timeline_.opening(); }
     [[nodiscard]] bool hasModel() const { return touch_.hasModel(); }
 
   private:
-    /// Work that draws. Where its device is lost another is taken, and shows again what was shown.
+    /// Work that draws. If its device is lost, another is created and shows the same content.
     template <class Work>
     void onScreen(const Work& work) {
         try {
@@ -82,45 +82,44 @@ class WorkbenchWindow {
         }
     }
     void takeAnotherDevice(const DeviceLost& lost);
-    /// Shows the model that the worker has made, or says why there is none. Without any model, throws.
+    /// Shows the model from the worker, or reports why there is none. Without any model, throws.
     void takeModel();
     void show(LoadedModel loaded);
-    /// Touches what the material editor has made, and goes on touching where it may.
+    /// Touches the material editor's result; contact is kept where possible.
     void takeMaterials();
     void leaveFor(const std::filesystem::path& path);
-    /// Goes where the user wanted to go, once unsaved materials are seen to.
+    /// Continues to the user's target once unsaved materials are handled.
     void leave();
     [[nodiscard]] const HapticSettings& shownSettings() const {
         return timeline_.looking() && !timeline_.again().running() ? timeline_.settings() : state_.settings;
     }
-    /// Sees to the recording that is looked at, and opens the model that it touched. Without any model,
-    /// throws where it cannot be opened.
+    /// Updates the open recording and opens its model. Without any model, throws where that fails.
     void lookBack(double now);
-    /// What the picture and the panels show: the recording's tick while one is looked at.
+    /// The displayed tick: the recording's while one is open.
     [[nodiscard]] const TickRecord& shownTick() const;
-    /// The settings as they are chosen; but the force is off while a recording is looked at.
+    /// The chosen settings, but with the force off while a recording is open.
     void sendSettings();
-    /// When the event is handled, not in the frame that takes it.
+    /// Called when the event is handled, not in the frame that takes it.
     void keyDown(int key, int modifiers);
     void showMaterials();
     void prepareSettings();
-    /// Tells the hand where it is to be, whichever it is.
+    /// Sends its target to the current hand.
     void moveHand();
     void holdDevice();
     void draw();
     std::map<std::string, WidgetRect> drawMaterials(float scale);
     [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize);
-    /// What the buttons and menus of this frame asked for.
+    /// Handles the requests of this frame's buttons and menus.
     void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets);
     void saveChart();
-    /// Framebuffer pixels of a place in window coordinates.
+    /// Framebuffer pixels of a rectangle in window coordinates.
     [[nodiscard]] static PixelRect pixelsOf(const WidgetRect& rect);
-    /// For the next run.
+    /// Saves the window's state for the next run.
     void remember();
-    /// The part of the framebuffer that bar and panels leave, pixels.
+    /// The part of the framebuffer without bar and panels, pixels.
     [[nodiscard]] PixelRect pictureArea() const;
     [[nodiscard]] double aspect() const;
-    /// Adapts the picture to the time it took and waits for the next frame's turn, handling events meanwhile.
+    /// Adapts the resolution to the frame time and waits for the next frame, handling events meanwhile.
     void pace(double start);
     WindowMemory memory_;
     const std::vector<std::filesystem::path> samples_ = sampleScenes();
@@ -148,8 +147,8 @@ class WorkbenchWindow {
     StatusFile status_;
     std::string problem_;
     UnsavedChangesPrompt unsavedChanges_;
-    bool left_ = false;          // the user has said what becomes of unsaved materials
-    FramePace pace_{1.0 / 30.0}; // s, from frame to frame
+    bool left_ = false;          // the user has answered the prompt for unsaved materials
+    FramePace pace_{1.0 / 30.0}; // s, between frames
     double longestFrame_ = 0.0;  // s, since a model was last opened
 };
 

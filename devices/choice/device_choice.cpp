@@ -51,7 +51,7 @@ bool isSpaceMouse(const HidNode& node) {
     return node.known != nullptr && node.known->kind == HidKind::SpaceMouse;
 }
 
-/// Every Teensy with raw HID has the ids of a WoodenHaptics; its name has to say what it is.
+/// All Teensy boards with raw HID share the ids of a WoodenHaptics; only the name tells them apart.
 bool isDoubtful(const HidNode& node) {
     return node.known != nullptr && node.known->kind == HidKind::WoodenHaptics &&
            !contains(node.productName, "polhem") && !contains(node.productName, "wooden");
@@ -73,7 +73,7 @@ std::unique_ptr<LinkedDevice> openExternal(const std::string& choice) {
 std::unique_ptr<LinkedDevice> openNode(const HidNode& node, std::span<const DeviceFile> files) {
     if (isSpaceMouse(node)) {
         HidRecipe recipe = spaceMouseRecipe(node);
-        if (hasAxes(node)) // else it is another node of the same device that will be read
+        if (hasAxes(node)) // else another node of the same device carries the axes
             recipe.identity = identityOf(node);
         return std::make_unique<HidDevice>(std::move(recipe));
     }

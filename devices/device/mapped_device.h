@@ -5,10 +5,10 @@
 
 namespace touchstone {
 
-/// A device with a workspace of its own: its second button is the clutch.
+/// A device with a workspace map; its second button is the clutch.
 class MappedDevice final : public Device {
   public:
-    /// `device` outlives it. `place`: the workspace's point at which device and workspace agree at first.
+    /// `device` outlives it. `place`: the workspace point at which device and workspace initially coincide.
     MappedDevice(Device& device, double zoom, const glm::dvec3& place) : device_(device), zoom_(zoom) {
         map_.begin({.zoom = zoom}, place);
     }

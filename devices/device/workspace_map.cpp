@@ -7,10 +7,10 @@ namespace touchstone {
 
 namespace {
 
-/// One step of the zoom towards what is wanted.
+/// One step of the zoom towards the target zoom.
 double zoomed(double zoom, double wanted, double dt) {
     if (!(wanted > 0.0))
-        return zoom; // no number
+        return zoom; // not a number
     const double goal = std::clamp(wanted, kMinZoom, kMaxZoom);
     const double step = std::exp(WorkspaceMap::kZoomRate * dt);
     return std::clamp(goal, zoom / step, zoom * step);
@@ -28,7 +28,7 @@ void WorkspaceMap::begin(const WorkspaceWish& target, const glm::dvec3& place) n
 }
 
 void WorkspaceMap::apply(DeviceSample& sample, const WorkspaceWish& target, double seconds) noexcept {
-    const double dt = seconds > 0.0 ? std::min(seconds, kLongestStep) : 0.0; // also where it is no number
+    const double dt = seconds > 0.0 ? std::min(seconds, kLongestStep) : 0.0; // also maps NaN to 0
     Similarity& map = mapping_.workspaceFromDevice;
     const double fade = target.clutch ? -dt / kClutchOut : dt / kClutchIn;
     mapping_.coupling = std::clamp(mapping_.coupling + fade, 0.0, 1.0);

@@ -1,5 +1,5 @@
 #pragma once
-// Clutch and zoom: how a small device reaches all of a large workspace.
+// Clutch and zoom: access to a workspace larger than that of the device.
 
 #include "engine/device_io/device_io.h"
 
@@ -10,45 +10,48 @@ inline constexpr double kMinZoom = 0.1, kMaxZoom = 10.0;
 /// The device's second button, as a bit of DeviceSample::buttons.
 inline constexpr uint32_t kClutchButton = 1u << 1;
 
-/// What the user wants of the workspace.
+/// The target zoom and the state of the clutch.
 struct WorkspaceWish {
-    double zoom = 1.0;   ///< m in the workspace for one m of the device, kMinZoom..kMaxZoom
+    double zoom = 1.0;   ///< workspace metres for one device metre, kMinZoom..kMaxZoom
     bool clutch = false; ///< while true the device moves and the HIP does not
 };
 
-/// Takes the places of a device into the workspace, x -> zoom x + t, so that the haptic interface point (HIP)
+/// Maps device positions into the workspace, x -> zoom x + t, such that the haptic interface point (HIP)
 /// never jumps:
 ///
-/// - *Clutch*. While it is held the HIP stays where it was, t = HIP - zoom x, and the coupling of the force
-///   goes to zero; when it is let go the HIP goes on from there, and the coupling comes back. Also in
-///   contact: the point that is held keeps pressing, so the force that comes back is the one that was there.
-/// - *Zoom* goes about the HIP, t' = HIP - zoom' x, at no more than kZoomRate, so that a hand in motion is
-///   not thrown.
+/// - *Clutch*. While it is held, the HIP stays in place, t = HIP - zoom x, and the force coupling falls to
+///   zero. On release the HIP moves on from there and the coupling returns. This also holds in contact: the
+///   held HIP keeps its penetration, so the force that returns is the one from before.
+/// - *Zoom* is centred on the HIP, t' = HIP - zoom' x, and changes at no more than kZoomRate, so that a
+///   moving hand is not accelerated abruptly.
 ///
-/// The force is turned and not scaled, so that the device feels a stiffness of k times zoom, and the work
-/// that it does is the force times its own way: all limits and the energy balance are the device's
+/// The force is rotated but not scaled. The device therefore renders a stiffness of k times zoom, and its
+/// work is the force times its own displacement: all limits and the energy balance are the device's
 /// (docs/devices.md#workspace). Pure arithmetic on one thread: no clock, allocation, lock or throw.
 class WorkspaceMap {
   public:
-    /// 1/s, of the logarithm of the zoom: tenfold in 0.5 s. Faster feels like a jerk to a moving hand.
+    /// 1/s, of the logarithm of the zoom: tenfold in 0.5 s. A moving hand feels a faster change as a jerk.
     static constexpr double kZoomRate = 4.6;
-    /// s until the clutch has taken a full force away, and until it has come back: as the safety stage fades.
+    /// s in which the clutch fades out a full force, and in which the force returns; equal to the safety
+    /// stage's fade.
     static constexpr double kClutchOut = 0.05, kClutchIn = 0.1;
-    /// s without a sample at `centre`: longer than the safety stage takes to forget a touch.
+    /// s without a valid sample after `centre`; longer than the safety stage keeps a contact.
     static constexpr double kCentring = 0.06;
-    /// s that fades and glides go on in one sample, however long it was in coming.
+    /// s; the longest interval by which fades and zoom advance in one sample.
     static constexpr double kLongestStep = 0.010;
 
-    /// The device's `place` is the workspace's from now on, at the zoom that is wanted. The coupling goes on.
+    /// Maps the device's current position to workspace point `place` at the target zoom. The coupling
+    /// continues.
     void begin(const WorkspaceWish& target, const glm::dvec3& place = glm::dvec3(0.0)) noexcept;
-    /// The device's `place` becomes the workspace's again, wherever that takes the HIP: for kCentring there
-    /// is no sample, so that touch begins anew and is not dragged through the model.
+    /// Maps the device's `place` to its workspace point again, whatever displacement of the HIP that takes:
+    /// samples are invalid for kCentring, so that contact starts afresh and the HIP is not dragged through
+    /// the model.
     void centre(const glm::dvec3& place = glm::dvec3(0.0)) noexcept {
         centring_ = kCentring;
         centre_ = place;
     }
-    /// Writes the mapping of this tick into `sample`, `seconds` after the last one (0 to kLongestStep of them
-    /// count). A sample that is not valid gets the mapping as it is.
+    /// Writes this tick's mapping into `sample`, `seconds` after the last one (clamped to 0..kLongestStep).
+    /// An invalid sample gets the unchanged mapping.
     void apply(DeviceSample& sample, const WorkspaceWish& target, double seconds) noexcept;
 
     [[nodiscard]] const DeviceMapping& mapping() const { return mapping_; }

@@ -17,10 +17,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kPollMs = 1;                  // how long an order may wait while a client is there
-constexpr int kLonelyPollMs = 20;           // while none is
-constexpr int kMaxInOneTurn = 64;           // packets, before an order gets its turn
-constexpr int64_t kKeepAliveNs = 5'000'000; // a client hears from us at least this often
+constexpr int kPollMs = 1;                  // maximum delay of an order while a client is connected
+constexpr int kLonelyPollMs = 20;           // the same without a client
+constexpr int kMaxInOneTurn = 64;           // maximum packets per turn before the order is sent
+constexpr int64_t kKeepAliveNs = 5'000'000; // maximum interval between packets to a client
 
 sockaddr_in loopback(uint16_t port) {
     sockaddr_in address{};
@@ -77,12 +77,12 @@ void ExternalDevice::run() {
         send(ForceOrder{}, steadyNs());
 }
 
-/// Waits for a packet and takes all there are. One that was already waiting may have come any time since the
-/// socket was last empty, and is taken to be that old.
+/// Waits for a packet and takes all that are queued. A queued packet may have arrived at any time since the
+/// socket was last empty, and is dated to that time.
 void ExternalDevice::receive() {
     int64_t arrivedNs = emptyNs_;
     for (int n = 0; n < kMaxInOneTurn; ++n) {
-        std::array<uint8_t, 256> packet; // longer ones are cut, which makes them as malformed as they are
+        std::array<uint8_t, 256> packet; // longer packets are truncated and remain malformed
         sockaddr_in from{};
         socklen_t length = sizeof from;
         const ssize_t size =
@@ -92,7 +92,7 @@ void ExternalDevice::receive() {
                  arrivedNs);
             continue;
         }
-        if (errno == ECONNREFUSED) // a client that has gone cannot be told its force
+        if (errno == ECONNREFUSED) // a client that has exited receives no force
             continue;
         emptyNs_ = steadyNs();
         if (n > 0)

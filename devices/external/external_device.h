@@ -1,5 +1,6 @@
 #pragma once
-// A device that is another program: it sends places and hears forces over UDP, on this machine only.
+// A device implemented by another program: it sends positions and receives forces over UDP, on this machine
+// only.
 
 #include "devices/external/external_packet.h"
 #include "devices/link/linked_device.h"
@@ -11,16 +12,16 @@ namespace touchstone {
 
 inline constexpr uint16_t kExternalPort = 47470;
 
-/// Speaks with one client at a time: the first whose packet is well formed, until it has been silent for
-/// kClientSilence. What others send meanwhile is counted as ignored. The client hears zero force when the
-/// servo falls silent (kServoSilence), and as the last word.
+/// Serves one client at a time: the first one with a well-formed packet, until it has been silent for
+/// kClientSilence. Packets from others are counted as ignored. The client receives zero force when the servo
+/// is silent for kServoSilence, and as the last packet.
 class ExternalDevice final : public LinkedDevice {
   public:
-    /// s; then the sample is invalid and another client may come.
+    /// s; then the sample is invalid and another client may connect.
     static constexpr double kClientSilence = 1.0;
 
-    /// Binds to 127.0.0.1, which no other machine can reach, and starts the I/O thread. Port 0: any free one.
-    /// Throws Error when the port is taken.
+    /// Binds to 127.0.0.1, which is unreachable from other machines, and starts the I/O thread. Port 0: any
+    /// free port. Throws Error when the port is taken.
     explicit ExternalDevice(uint16_t port = kExternalPort);
     ~ExternalDevice() override;
     ExternalDevice(const ExternalDevice&) = delete;
@@ -28,7 +29,7 @@ class ExternalDevice final : public LinkedDevice {
 
     [[nodiscard]] uint16_t port() const { return port_; }
     [[nodiscard]] std::string name() const override { return "external device"; }
-    /// A program on a desktop stutters more than a microcontroller.
+    /// A desktop program has more timing jitter than a microcontroller.
     [[nodiscard]] DeviceLimits limits() const override {
         DeviceLimits limits;
         limits.staleAge = 0.05;
@@ -54,9 +55,9 @@ class ExternalDevice final : public LinkedDevice {
     int socket_ = -1;
     Client client_;
     uint32_t heard_ = 0, said_ = 0;
-    int64_t heardNs_ = 0; ///< the client's last well-formed packet
-    int64_t sentNs_ = 0;  ///< the last force to the client
-    int64_t emptyNs_ = 0; ///< when the socket was last seen empty
+    int64_t heardNs_ = 0; ///< time of the client's last well-formed packet
+    int64_t sentNs_ = 0;  ///< time of the last force sent
+    int64_t emptyNs_ = 0; ///< time when the socket was last empty
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// What a device that is another program sends and hears: two packets, little endian. docs/devices.md
-// describes them for those who write such programs. Pure; no transport.
+// The two packets of a device that is another program, little endian; docs/devices.md specifies them. Pure
+// functions, no transport.
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -14,31 +14,31 @@ namespace touchstone {
 
 inline constexpr size_t kPlacePacketSize = 72, kForcePacketSize = 64;
 
-/// Client to Touchstone: where the hand is, in the device frame (m; x right, y up, z towards the user).
+/// Client to Touchstone: position of the hand in the device frame (m; x right, y up, z towards the user).
 struct PlacePacket {
     uint32_t sequence = 0;
     uint32_t buttons = 0;
     glm::dvec3 position{0.0};
-    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; ///< unit; sent as w, x, y, z, four zeros stand for no turn
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; ///< unit; sent as w, x, y, z; four zeros: no rotation
 };
 
-/// Touchstone to client: what the hand shall feel.
+/// Touchstone to client: the force to render.
 struct ForcePacket {
     uint32_t sequence = 0;
-    uint32_t answers = 0;   ///< sequence of the newest place
+    uint32_t answers = 0;   ///< sequence of the latest position
     glm::dvec3 force{0.0};  ///< N
     glm::dvec3 torque{0.0}; ///< N·m
 };
 
-/// Exactly so many bytes, with the right head, and numbers that can be a place: finite, within
-/// kFarthestPlace, a turn of about unit length. Else nothing.
+/// Parses a packet of exactly the specified size with a valid header, finite positions within kFarthestPlace
+/// and an orientation of about unit length. Else nullopt.
 [[nodiscard]] std::optional<PlacePacket> parsePlacePacket(std::span<const uint8_t> bytes);
 [[nodiscard]] std::optional<ForcePacket> parseForcePacket(std::span<const uint8_t> bytes);
 
 [[nodiscard]] std::array<uint8_t, kPlacePacketSize> placePacket(const PlacePacket& packet);
 [[nodiscard]] std::array<uint8_t, kForcePacketSize> forcePacket(const ForcePacket& packet);
 
-/// m; no workspace is larger, and a client that means millimetres is found out.
+/// m; larger than any workspace. Positions beyond it reveal a client that sends millimetres.
 inline constexpr double kFarthestPlace = 10.0;
 
 } // namespace touchstone

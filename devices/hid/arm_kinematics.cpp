@@ -8,7 +8,7 @@ namespace touchstone {
 
 namespace {
 
-/// A joint as it stands, in the base frame.
+/// A joint in its current pose, base frame.
 struct StandingJoint {
     glm::dvec3 centre{0.0}, axis{0.0};
 };
@@ -48,7 +48,7 @@ ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMaxMotors>& c
     pose.position = arm.deviceFromBase * (at - arm.origin);
     const glm::dquat deviceFromBase = glm::quat_cast(arm.deviceFromBase);
     pose.orientation = glm::normalize(deviceFromBase * baseFromLink * glm::conjugate(deviceFromBase));
-    // A hinge carries the tip round its axis, a slide along it.
+    // A hinge rotates the tip about its axis, a slide translates the tip along it.
     for (size_t j = 0; j < joints; ++j) {
         const glm::dvec3 moved =
             arm.deviceFromBase *
@@ -61,7 +61,7 @@ ArmPose poseOf(const ArmKinematics& arm, const std::array<double, kMaxMotors>& c
 
 Currents currentsOf(const ArmKinematics& arm, const ArmPose& pose, const glm::dvec3& force) {
     Currents currents{};
-    double share = 1.0; // of the force that the weakest motor allows
+    double share = 1.0; // fraction of the force that the weakest motor permits
     for (size_t m = 0; m < std::min(arm.motors.size(), kMaxMotors); ++m) {
         const ArmMotor& motor = arm.motors[m];
         if (!(motor.torqueConstant > 0.0))

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 constexpr double kUnlimited = std::numeric_limits<double>::max();
 
-/// A value in the file that knows where it stands.
+/// A value in the file, with its path for errors.
 class Node {
   public:
     Node(const Json& json, const std::string& file, std::string place)
@@ -28,7 +28,7 @@ class Node {
         throw Error(file_, place_, problem, remedy);
     }
 
-    /// An object with no other keys than these: a misspelt key must not be lost in silence.
+    /// An object with no keys but these, so that a misspelt key is reported.
     const Node& object(std::initializer_list<const char*> keys) const {
         if (!json_.is_object())
             fail("must be an object", "write { … }");
@@ -150,7 +150,7 @@ ArmJoint readJoint(const Node& node, size_t motors) {
     return joint;
 }
 
-/// Rows: the device frame's axes as they point in the base frame.
+/// Rows: the axes of the device frame in the base frame.
 glm::dmat3 readFrame(const Node& node) {
     const glm::dvec3 right = node["right"].direction(), up = node["up"].direction();
     if (std::abs(glm::dot(right, up)) > 1e-6)
@@ -213,7 +213,7 @@ DeviceProtocol readProtocol(const Node& node) {
 DeviceFile parseDeviceFile(std::string_view text, const std::string& name) {
     Json json;
     try {
-        json = Json::parse(text, nullptr, true, true); // comments are welcome
+        json = Json::parse(text, nullptr, true, true); // comments are allowed
     } catch (const Json::parse_error& error) {
         throw Error(name, "byte " + std::to_string(error.byte), "is not JSON",
                     "check commas and quotes there");

@@ -1,6 +1,5 @@
 #pragma once
-// A device described by a file: what it speaks, how it is built, what it may be given. docs/devices.md
-// describes the format.
+// A device described by a file: protocol, kinematics and limits. docs/devices.md specifies the format.
 
 #include "devices/hid/arm_kinematics.h"
 #include "engine/device_io/device_io.h"
@@ -15,10 +14,10 @@ namespace touchstone {
 
 enum class DeviceProtocol : uint8_t { WoodenHaptics, RawHid };
 
-/// Which HID node it is.
+/// Identifies the HID node.
 struct UsbMatch {
     uint16_t vendor = 0, product = 0;
-    std::optional<int> interfaceNumber; ///< of a device with several
+    std::optional<int> interfaceNumber; ///< of a device with several interfaces
     std::string serial;                 ///< empty: any
 };
 
@@ -31,11 +30,10 @@ struct DeviceFile {
     DeviceLimits limits;
 };
 
-/// Reads and checks a device file. Throws Error that names the file, the place in it and the remedy: no JSON,
-/// an unknown or missing key, a wrong type, a number out of its range, an axis without length, a frame that
-/// is no rotation.
+/// Reads and checks a device file. Throws Error with file, place in the file and remedy for: invalid JSON, an
+/// unknown or missing key, a wrong type, a number out of range, a zero axis, a frame that is not a rotation.
 [[nodiscard]] DeviceFile readDeviceFile(const std::filesystem::path& file);
-/// The same from text; `name` is what errors call it.
+/// The same from text; errors call it `name`.
 [[nodiscard]] DeviceFile parseDeviceFile(std::string_view text, const std::string& name);
 
 } // namespace touchstone

@@ -8,11 +8,12 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kSearchInterval = 0.5;     // s between two looks for a device that is not there
-constexpr int kPollMs = 1;                  // of a driven device: how long an order may wait for a report
+constexpr double kSearchInterval = 0.5;     // s between two searches for a missing device
+constexpr int kPollMs = 1;                  // of a driven device: maximum time that an order waits for a
+                                            // report
 constexpr int kRestingPollMs = 8;           // of the others
-constexpr int64_t kKeepAliveNs = 5'000'000; // a device hears from us at least this often
-constexpr int kMaxQueued = 64;              // hidraw keeps as many
+constexpr int64_t kKeepAliveNs = 5'000'000; // maximum interval between commands
+constexpr int kMaxQueued = 64;              // queue length of hidraw
 constexpr int kFailedSendsToGiveUp = 20;
 constexpr int kTriesOfTheLastWord = 5;
 constexpr double kSpaceMouseStaleAge = 0.1; // s; some report every 16 ms
@@ -117,7 +118,7 @@ void HidDevice::run() {
     port_.close();
 }
 
-/// The last word; a bus that is busy just now gets it a little later.
+/// The last command, zero force; retried after a short delay when the bus is busy.
 void HidDevice::sayZero() {
     std::array<uint8_t, kMaxReportSize> report{};
     const size_t length = recipe_.protocol->command(ForceOrder{}, report);
@@ -156,8 +157,8 @@ void HidDevice::connect() {
     monitor_.connected(node->path);
 }
 
-/// One turn: what has come, then what is to be said. A report that was already waiting may have come any time
-/// since the queue was last empty, and is taken to be that old.
+/// One turn: take the reports, then send the order. A queued report may have arrived at any time since the
+/// queue was last empty, and is dated to that time.
 void HidDevice::exchange() {
     std::array<uint8_t, kMaxReportSize> buffer{};
     const bool driven = recipe_.protocol->driven();
@@ -183,7 +184,7 @@ void HidDevice::exchange() {
         send(steadyNs());
 }
 
-/// `length` of the first, which is in the buffer; then those that wait behind it.
+/// Takes the first report, `length` bytes in the buffer, and all that are queued after it.
 void HidDevice::takeReports(std::span<uint8_t> buffer, int length, int64_t arrivedNs) {
     for (int n = 1;; ++n) {
         takeReport(buffer.first(static_cast<size_t>(length)), arrivedNs);

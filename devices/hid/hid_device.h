@@ -1,5 +1,5 @@
 #pragma once
-// A HID device: hidapi on a thread of its own, a mailbox to the servo.
+// A HID device: hidapi on its own thread, a mailbox to the servo.
 
 #include "devices/hid/hid_list.h"
 #include "devices/hid/hid_port.h"
@@ -15,41 +15,41 @@
 
 namespace touchstone {
 
-/// By what a device that was connected once is known again, wherever it is plugged in.
+/// Identifies a device again after it was unplugged, at any port.
 struct HidIdentity {
     int interfaceNumber = -1;
     std::string serial, productName;
 };
 [[nodiscard]] HidIdentity identityOf(const HidNode& node);
 
-/// Everything that is known of a device before it is plugged in.
+/// All that is known of a device before it is plugged in.
 struct HidRecipe {
     std::string name;
     UsbMatch usb;
     std::string path; ///< preferred where several match; empty: any
-    /// Of the node that was chosen or connected first: from then on no other will do, least of all another
-    /// board with the same ids.
+    /// Of the node chosen or connected first. Once set, no other node matches, in particular no other board
+    /// with the same ids.
     std::optional<HidIdentity> identity;
     DeviceLimits limits;
     std::unique_ptr<HidProtocol> protocol;
-    std::optional<RateSettings> rate; ///< of devices that are pushed instead of moved
+    std::optional<RateSettings> rate; ///< for devices with rate control
 };
 
 /// A 3Dconnexion device at this node.
 [[nodiscard]] HidRecipe spaceMouseRecipe(const HidNode& node);
-/// A device that a file describes. `path`: the node, where it was named.
+/// A device described by a file. `path`: the node, if one was named.
 [[nodiscard]] HidRecipe recipeOf(const DeviceFile& file, const std::string& path = {});
 
-/// The node that a recipe means: by ids, interface, serial and identity, the preferred path first, none that
-/// is in use. Null if there is none. Of a SpaceMouse with several nodes the one that has axes.
+/// The node that a recipe matches: by ids, interface, serial and identity, the preferred path first, none
+/// that is in use. Null if there is none. Of a SpaceMouse with several nodes, the one with axes.
 [[nodiscard]] const HidNode* findNode(const HidRecipe& recipe, std::span<const HidNode> nodes,
                                       const std::set<std::string>& inUse);
 
-/// May be unplugged and plugged in again at any time: meanwhile samples are invalid. The device gets zero
-/// force when the servo stops, when it falls silent (kServoSilence) and at the end.
+/// The device may be unplugged and plugged in again at any time; samples are invalid meanwhile. It receives
+/// zero force when the servo stops, when the servo is silent for kServoSilence, and at the end.
 class HidDevice final : public LinkedDevice {
   public:
-    /// Starts the I/O thread; whether the device is there is in report().
+    /// Starts the I/O thread; report() tells whether the device is present.
     explicit HidDevice(HidRecipe recipe);
     ~HidDevice() override;
 
@@ -73,9 +73,9 @@ class HidDevice final : public LinkedDevice {
     HidRecipe recipe_;
     HidPort port_;
     DeviceReading reading_;
-    int64_t emptyNs_ = 0; ///< when the queue of reports was last seen empty
+    int64_t emptyNs_ = 0; ///< time when the queue of reports was last empty
     int64_t sentNs_ = 0;
-    int failedSends_ = 0; ///< in a row
+    int failedSends_ = 0; ///< consecutive
 
     std::mutex mutex_;
     std::condition_variable wake_;

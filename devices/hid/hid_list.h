@@ -1,6 +1,5 @@
 #pragma once
-// What is plugged in: the answer of `touchstone devices`. Reading the devices is not done here
-// (hid_device.h).
+// The plugged-in HID devices: `touchstone devices`. hid_device.h reads them.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +8,7 @@
 
 namespace touchstone {
 
-/// What a known device gives.
+/// The kind of data that a known device reports.
 enum class HidKind : uint8_t {
     SpaceMouse,   ///< 3Dconnexion six-axis input
     WoodenHaptics ///< Polhem and WoodenHaptics: encoders in, motor currents out
@@ -21,17 +20,17 @@ struct KnownHid {
     const char* model;
 };
 
-/// Every device that we know, by its USB ids.
+/// All known devices, by USB ids.
 [[nodiscard]] std::span<const KnownHid> knownHids();
 /// Null if unknown. 16c0:0486 is shared by all Teensy raw-HID boards: the ids alone do not prove a
 /// WoodenHaptics.
 [[nodiscard]] const KnownHid* knownHid(uint16_t vendor, uint16_t product);
 
-/// May this user talk to it?
+/// Access rights of this user.
 enum class HidAccess : uint8_t {
     ReadWrite,
     ReadOnly,
-    None,   ///< the node exists, but its permissions forbid it: a udev rule helps
+    None,   ///< the node exists without permission: a udev rule helps
     Missing ///< no node: unplugged meanwhile, or /dev is not mounted here
 };
 
@@ -39,30 +38,30 @@ struct HidNode {
     std::string path; ///< "/dev/hidraw0"
     uint16_t vendor = 0, product = 0;
     int interfaceNumber = -1;                      ///< of a USB device with several, else -1
-    uint16_t usagePage = 0, usage = 0;             ///< of its first collection; 0: not told
+    uint16_t usagePage = 0, usage = 0;             ///< of its first collection; 0: not given
     std::string manufacturer, productName, serial; ///< UTF-8, as the device gives them; may be empty
     const KnownHid* known = nullptr;
     HidAccess access = HidAccess::Missing;
 
-    /// What a person calls it: the known model, else its own name, else its ids.
+    /// Name for the user: the known model, else the device's own name, else its ids.
     [[nodiscard]] std::string name() const;
 };
 
-/// The order of the list: ours first, then by path, hidraw2 before hidraw10.
+/// The order of the list: known devices first, then by path, hidraw2 before hidraw10.
 [[nodiscard]] bool listedBefore(const HidNode& a, const HidNode& b);
 
-/// All raw HID nodes in that order, each once. Owner thread; opens nothing, so it disturbs
-/// nobody. An empty list is an answer: nothing is plugged in, or the machine has no hidraw (a container).
+/// All raw HID nodes in that order, each once. Owner thread; opens no node, so it disturbs no other reader.
+/// An empty list is valid: nothing is plugged in, or the machine has no hidraw (a container).
 [[nodiscard]] std::vector<HidNode> listHidNodes();
 
-/// The permissions of a node for this process.
+/// This process's permissions for a node.
 [[nodiscard]] HidAccess hidAccess(const std::string& path);
 
-/// Whether it may be the axes of a SpaceMouse: the large models are keyboards, too, and say so in their
-/// usage.
+/// Whether the node may carry the axes of a SpaceMouse: the large models are also keyboards and declare that
+/// in their usage.
 [[nodiscard]] bool hasAxes(const HidNode& node);
 
-/// What to do about `access`, or empty if nothing needs to be done.
+/// The remedy for `access`; empty if none is needed.
 [[nodiscard]] std::string hidRemedy(const HidNode& device);
 
 } // namespace touchstone

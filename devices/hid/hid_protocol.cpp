@@ -12,7 +12,7 @@ namespace touchstone {
 
 namespace {
 
-/// `value` in units of 1 / `scale`, cut to what T holds. What is not finite is zero.
+/// `value` in units of 1 / `scale`, clamped to the range of T. Non-finite values are zero.
 template <class T>
 T quantised(double value, double scale) {
     const double counts = std::trunc(value * scale);
@@ -27,7 +27,7 @@ class SpaceMouseProtocol final : public HidProtocol {
     void restart(DeviceReading& reading) override {
         state_ = {};
         reading = {};
-        reading.valid = true; // at rest it says nothing
+        reading.valid = true; // a SpaceMouse at rest sends no reports
     }
     ReportVerdict take(std::span<const uint8_t> report, DeviceReading& reading, uint64_t&) override {
         const ReportVerdict verdict = parseSpaceMouseReport(report, state_);
@@ -108,7 +108,7 @@ class RawProtocol final : public HidProtocol {
         }
         started_ = true;
         heard_ = state->sequence;
-        if (static_cast<int32_t>(state->answered - said_) > 0) // another process has spoken to it
+        if (static_cast<int32_t>(state->answered - said_) > 0) // another process has sent commands to it
             said_ = state->answered;
         known_ = (state->flags & kRawHomed) != 0 && (state->flags & kRawFault) == 0;
         reading.valid = known_;
@@ -138,7 +138,7 @@ class RawProtocol final : public HidProtocol {
             }
         }
         const auto bytes = rawCommand(command);
-        report[0] = 0; // the report's id: none
+        report[0] = 0; // report id 0: none
         std::copy(bytes.begin(), bytes.end(), report.begin() + 1);
         return 1 + bytes.size();
     }

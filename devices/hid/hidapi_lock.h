@@ -4,8 +4,8 @@
 
 namespace touchstone {
 
-/// hidapi keeps its last global error in a variable of its own: whatever is not about one open device must
-/// hold this. Never taken on the servo thread.
+/// hidapi keeps its last global error in a global variable: calls that do not concern one open device must
+/// hold this lock. Never taken on the servo thread.
 [[nodiscard]] std::mutex& hidapiMutex();
 
 } // namespace touchstone

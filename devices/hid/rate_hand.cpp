@@ -7,12 +7,12 @@ namespace touchstone {
 
 namespace {
 
-/// Squared beyond the dead zone: fine near the middle, fast at the rim, and without a step between.
+/// Quadratic beyond the dead zone: fine near the centre, fast at full deflection, without a step.
 glm::dvec3 shaped(const glm::dvec3& deflection, double deadZone) {
     glm::dvec3 result(0.0);
     for (int i = 0; i < 3; ++i) {
         const double size = std::abs(deflection[i]);
-        if (!(size > deadZone)) // nor is a NaN a deflection
+        if (!(size > deadZone)) // also excludes NaN
             continue;
         const double share = std::min(1.0, (size - deadZone) / (1.0 - deadZone));
         result[i] = std::copysign(share * share, deflection[i]);

@@ -4,7 +4,7 @@ namespace touchstone {
 
 namespace {
 
-// Where things are; docs/devices.md has the same table.
+// Byte offsets; docs/devices.md has the same table.
 constexpr size_t kKind = 2, kFlags = 3, kSequence = 4, kTime = 8, kAnswered = 12, kButtons = 16, kAxes = 20;
 constexpr size_t kAnswers = 8, kValues = 12, kWatchdogMs = 36;
 constexpr size_t kChecksum = 60;

@@ -1,6 +1,6 @@
 #pragma once
-// Touchstone's own raw-HID protocol for devices that people build themselves: 64 bytes each way, little
-// endian, described for firmware in docs/devices.md. Pure; no transport.
+// Touchstone's raw-HID protocol for self-built devices: 64 bytes each way, little endian, specified for
+// firmware in docs/devices.md. Pure functions, no transport.
 
 #include "devices/hid/report_bytes.h"
 
@@ -14,14 +14,14 @@ namespace touchstone {
 inline constexpr size_t kRawReportSize = 64;
 inline constexpr uint8_t kRawMagic = 0x54; ///< 'T'
 inline constexpr uint8_t kRawVersion = 1;
-inline constexpr uint8_t kRawState = 1, kRawForce = 2, kRawCurrent = 3; ///< byte 2: what the report is
+inline constexpr uint8_t kRawState = 1, kRawForce = 2, kRawCurrent = 3; ///< byte 2: kind of report
 
 /// Byte 3 of a state.
 enum RawStateFlag : uint8_t {
-    kRawCounts = 1 << 0,   ///< the axes are encoder counts, else the place in nm
-    kRawHomed = 1 << 1,    ///< the axes mean something; else the sample is invalid
+    kRawCounts = 1 << 0,   ///< the axes are encoder counts, else the position in nm
+    kRawHomed = 1 << 1,    ///< the axes are valid; else the sample is invalid
     kRawWatchdog = 1 << 2, ///< the firmware's watchdog has switched the motors off
-    kRawFault = 1 << 3     ///< the device has a fault of its own and gives no force
+    kRawFault = 1 << 3     ///< the device reports a fault and applies no force
 };
 
 /// Device to host.
@@ -29,7 +29,7 @@ struct RawState {
     uint8_t flags = 0;
     uint32_t sequence = 0;
     uint32_t deviceTimeUs = 0;
-    uint32_t answered = 0; ///< sequence of the last command that the device took
+    uint32_t answered = 0; ///< sequence of the last command that the device accepted
     uint32_t buttons = 0;
     std::array<int32_t, 6> axes{}; ///< counts, or x, y, z in nm in the device frame and three zeros
 };
@@ -43,15 +43,15 @@ struct RawCommand {
     std::array<int32_t, 6> values{};
 };
 
-/// Exactly 64 bytes with magic, version, kind and checksum as they must be, or nothing.
+/// Requires exactly 64 bytes with valid magic, version, kind and checksum; else nullopt.
 [[nodiscard]] std::optional<RawState> parseRawState(std::span<const uint8_t> report);
-/// The same for the other direction: what a firmware does, for simulators and tests.
+/// The firmware's direction, for simulators and tests.
 [[nodiscard]] std::optional<RawCommand> parseRawCommand(std::span<const uint8_t> report);
 
 [[nodiscard]] std::array<uint8_t, kRawReportSize> rawState(const RawState& state);
 [[nodiscard]] std::array<uint8_t, kRawReportSize> rawCommand(const RawCommand& command);
 
-/// CRC-32 as in Ethernet and zip (polynomial 0xEDB88320 reflected, begun and ended with all ones).
+/// CRC-32 as in Ethernet and zip (polynomial 0xEDB88320 reflected, initial value and final XOR all ones).
 [[nodiscard]] uint32_t crc32(std::span<const uint8_t> bytes);
 
 } // namespace touchstone

@@ -4,11 +4,11 @@
 
 namespace touchstone {
 
-/// What a parser makes of one report.
+/// Result of parsing one report.
 enum class ReportVerdict : uint8_t {
-    Reading,  ///< says where the hand is
-    Ignored,  ///< well formed, but says nothing of the hand
-    Repeated, ///< seen before, or overtaken
+    Reading,  ///< carries the position of the hand
+    Ignored,  ///< well formed, without a position
+    Repeated, ///< duplicate or out of order
     Malformed
 };
 

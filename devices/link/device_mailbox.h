@@ -1,5 +1,5 @@
 #pragma once
-// What a device's own I/O thread and the servo tell each other.
+// Data exchange between a device's I/O thread and the servo.
 
 #include "devices/link/steady_clock.h"
 #include "engine/device_io/device_io.h"
@@ -12,39 +12,39 @@
 
 namespace touchstone {
 
-/// The newest that is known of the hand, in the device frame.
+/// The latest state of the hand, device frame.
 struct DeviceReading {
     glm::dvec3 position{0.0}; ///< m
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
-    /// Of devices that are pushed instead of moved: -1..1 on each axis.
+    /// For rate-controlled devices: -1..1 on each axis.
     glm::dvec3 push{0.0}, turn{0.0};
     uint32_t buttons = 0;
-    int64_t takenNs = 0; ///< steadyNs when it was known to be so; never later than it arrived
-    bool valid = false;  ///< false: not plugged in, or the device itself does not know
+    int64_t takenNs = 0; ///< steadyNs of the measurement; never later than the arrival
+    bool valid = false;  ///< false: not plugged in, or the device has no valid position
 };
 
-/// What the servo wants the device to do, in the device frame.
+/// The force commanded by the servo, device frame.
 struct ForceOrder {
     glm::dvec3 force{0.0};  ///< N
     glm::dvec3 torque{0.0}; ///< N·m
     int64_t givenNs = 0;    ///< steadyNs; 0: never
 };
 
-/// Wait-free both ways: the servo never waits for a bus.
+/// Wait-free in both directions: the servo never waits for a bus.
 class DeviceMailbox {
   public:
     // I/O thread.
     void publish(const DeviceReading& reading) noexcept { readings_.write(reading); }
-    /// True if what is to be sent may have changed since the last call: the servo has given an order, or the
-    /// device was let go or taken up.
+    /// True if the order may have changed since the last call: the servo has given one, or letGo or takeUp
+    /// was called.
     bool updateOrder() noexcept {
         const int64_t until = voidNs_.load(std::memory_order_acquire);
         const bool changed = until != seenVoidNs_;
         seenVoidNs_ = until;
         return orders_.update() || changed;
     }
-    /// The order that holds at `nowNs`: none other than zero once the servo has been silent, and while nobody
-    /// holds the device.
+    /// The order in force at `nowNs`: zero once the servo has been silent for kServoSilence, and while the
+    /// device is not in use.
     [[nodiscard]] ForceOrder order(int64_t nowNs) const noexcept {
         const ForceOrder& newest = orders_.value();
         const bool alive =
@@ -53,16 +53,16 @@ class DeviceMailbox {
     }
 
     // Owner thread.
-    /// From now on the order is zero, whatever the servo gives or has given.
+    /// Orders are zero from now on, whatever the servo gives or has given.
     void letGo() noexcept { voidNs_.store(std::numeric_limits<int64_t>::max(), std::memory_order_release); }
-    /// What the servo gives from now on holds again.
+    /// Orders given from now on are valid again.
     void takeUp() noexcept { voidNs_.store(steadyNs(), std::memory_order_release); }
 
     // Servo thread.
     void give(const DeviceCommand& command) noexcept {
         orders_.write({command.force(), command.torque(), steadyNs()});
     }
-    /// The newest reading; valid until the next call.
+    /// The latest reading; valid until the next call.
     [[nodiscard]] const DeviceReading& reading() noexcept {
         readings_.update();
         return readings_.value();
@@ -71,11 +71,11 @@ class DeviceMailbox {
   private:
     TripleBuffer<DeviceReading> readings_;
     TripleBuffer<ForceOrder> orders_;
-    std::atomic<int64_t> voidNs_{0}; ///< steadyNs: what was given until then holds no more
+    std::atomic<int64_t> voidNs_{0}; ///< steadyNs: orders given until then are void
     int64_t seenVoidNs_ = 0;         ///< I/O thread
 };
 
-/// The sample that a reading is at `nowNs`. Servo thread.
+/// The sample of a reading at `nowNs`. Servo thread.
 [[nodiscard]] inline DeviceSample sampleOf(const DeviceReading& reading, int64_t nowNs) noexcept {
     DeviceSample sample;
     sample.position = reading.position;

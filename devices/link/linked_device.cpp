@@ -37,7 +37,7 @@ LinkReport LinkMonitor::report() const {
 }
 
 bool enterIoPriority() noexcept {
-    constexpr int kBelowServo = 70; // the servo asks for 80
+    constexpr int kBelowServo = 70; // the servo requests 80
     sched_param parameters{};
     parameters.sched_priority = kBelowServo;
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Devices at the other end of something that may block, break or lie: a bus or a socket.
+// Devices behind a link that may block, fail or deliver wrong data: a bus or a socket.
 
 #include "devices/device/device.h"
 #include "devices/link/device_mailbox.h"
@@ -11,28 +11,28 @@
 namespace touchstone {
 
 enum class LinkState : uint8_t {
-    Searching, ///< not there (yet, or no longer); looked for twice a second
-    Refused,   ///< there, but may not be used; `problem` says why and what to do
+    Searching, ///< absent (yet, or no longer); searched for twice a second
+    Refused,   ///< present without permission; `problem` gives reason and remedy
     Connected
 };
 
-/// What came over a link and what became of it, since the device was made.
+/// Packet counts and state of a link since the device was created.
 struct LinkReport {
     LinkState state = LinkState::Searching;
     std::string problem;    ///< with its remedy; empty while connected
     std::string where;      ///< "/dev/hidraw0", "127.0.0.1:40512"; empty until the first connection
-    uint64_t reports = 0;   ///< well formed ones that carry the hand's place
-    uint64_t ignored = 0;   ///< well formed, but of no use (battery, a second client, …)
-    uint64_t malformed = 0; ///< too short, too long, wrong checksum, numbers that are none
-    uint64_t repeated = 0;  ///< seen before, or overtaken by newer ones
-    uint64_t lost = 0;      ///< gaps in the sequence numbers, where there are such numbers
+    uint64_t reports = 0;   ///< well formed, with a position of the hand
+    uint64_t ignored = 0;   ///< well formed, without use (battery, a second client, …)
+    uint64_t malformed = 0; ///< too short, too long, wrong checksum, non-finite numbers
+    uint64_t repeated = 0;  ///< duplicate or out of order
+    uint64_t lost = 0;      ///< gaps in the sequence numbers, if the protocol has them
     uint64_t sent = 0;      ///< commands
     uint64_t sendFailures = 0;
     uint64_t connects = 0;
     bool realtime = false; ///< the I/O thread got SCHED_FIFO
 };
 
-/// Where an I/O thread keeps its report. Counters may be read by any thread.
+/// Report of an I/O thread. Counters may be read by any thread.
 class LinkMonitor {
   public:
     using Counter = std::atomic<uint64_t>;
@@ -43,7 +43,7 @@ class LinkMonitor {
         counter.fetch_add(by, std::memory_order_relaxed);
     }
 
-    /// I/O thread. The lock is shared with the owner thread alone, never with the servo.
+    /// I/O thread. The lock is shared with the owner thread only, never with the servo.
     void connected(const std::string& where);
     void disconnected(LinkState state, const std::string& problem);
 
@@ -65,14 +65,15 @@ class LinkedDevice : public Device {
     }
     void apply(const DeviceCommand& command) noexcept override { mailbox_.give(command); }
 
-    /// Owner thread: nobody drives it any more. What it is told next is zero force, without waiting for the
-    /// servo, whose last order would otherwise hold for kServoSilence. New ones are held.
+    /// Owner thread: the device is no longer in use. It receives zero force at once, without waiting for
+    /// kServoSilence after the servo's last order. New orders are held back.
     void letGo() noexcept { mailbox_.letGo(); }
-    /// Owner thread: it is driven again, by what the servo says from now on.
+    /// Owner thread: the device is in use again, with the orders that the servo gives from now on.
     void takeUp() noexcept { mailbox_.takeUp(); }
 
-    /// Owner thread: how the user looks at the workspace (view: x right, y up, z towards the viewer). What is
-    /// pushed goes where it is pushed on the screen; what is moved stands on the desk and does not care.
+    /// Owner thread: orientation of the user's view of the workspace (view: x right, y up, z towards the
+    /// viewer). A rate-controlled device moves the hand in the direction seen on the screen; a device that is
+    /// moved stands on the desk and ignores it.
     virtual void face(const glm::dquat& deviceFromView) { (void)deviceFromView; }
 
   protected:
@@ -80,7 +81,8 @@ class LinkedDevice : public Device {
     LinkMonitor monitor_;
 };
 
-/// Asks for SCHED_FIFO below the servo's, so that a waiting report is not left waiting. False where denied.
+/// Requests SCHED_FIFO below the servo's priority, so that queued reports are read at once. False where
+/// denied.
 bool enterIoPriority() noexcept;
 
 } // namespace touchstone

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers in packets, and what their sequence numbers say. The caller checks the length.
+// Little-endian numbers in packets, and sequence numbers. The caller checks the length.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,12 +29,12 @@ inline void writeU32(std::span<uint8_t> bytes, size_t at, uint32_t value) {
     writeU16(bytes, at + 2, static_cast<uint16_t>(value >> 16));
 }
 
-/// What a sequence number says. A counter that leaps far back has been restarted with its device.
+/// Interpretation of a sequence number. A counter that jumps far back belongs to a restarted device.
 struct SequenceStep {
     bool fresh = true;
-    uint32_t lost = 0; ///< numbers that were left out
+    uint32_t lost = 0; ///< missing numbers
 };
-/// Farther back than reports can be in flight, so not overtaken but begun anew.
+/// Farther back than reports can be in flight: a restart, not a packet out of order.
 inline constexpr uint32_t kSequenceRestart = 1000;
 
 [[nodiscard]] inline SequenceStep sequenceStep(uint32_t last, uint32_t now) {

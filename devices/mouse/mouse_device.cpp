@@ -11,10 +11,10 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The direction of what of `stretch` the planes hold off: without what friction adds along them. With one
-/// plane its normal; with three, or none, the direction of all of it.
+/// Direction of the part of `stretch` that the planes hold back, without the part that friction adds along
+/// them. With one plane, its normal; with three or none, the direction of `stretch`.
 glm::dvec3 normalPart(const glm::dvec3& stretch, std::span<const glm::dvec3> planes) {
-    constexpr double kMin = 1e-9; // of the stretch, and of a unit vector: planes that are nearly one
+    constexpr double kMin = 1e-9; // of the stretch, and of a unit vector: nearly parallel planes
     glm::dvec3 along(0.0);
     std::array<glm::dvec3, 3> basis{};
     size_t count = 0;
@@ -99,8 +99,8 @@ DeviceSample MouseDevice::sample(double time) noexcept {
     return sample;
 }
 
-/// A press that is let go of does not throw the hand out: what it may press with falls more slowly than the
-/// hand, which comes out by itself, (1 + w t) exp(-w t).
+/// Releasing a press does not throw the hand out: the permitted press falls more slowly than the free
+/// response of the hand, (1 + w t) exp(-w t).
 void MouseDevice::easePress(double dt) noexcept {
     constexpr double kSlower = 0.25;
     const double asked = told_.value().goal.press;
@@ -109,8 +109,8 @@ void MouseDevice::easePress(double dt) noexcept {
                                   : asked;
 }
 
-/// Hand and touch go along with the objects, so that the motion of these in a tick presses on nothing. What
-/// has been put elsewhere takes nothing along.
+/// Hand and contact move with the objects, so that their motion in a tick presses on nothing. An object that
+/// was teleported moves nothing.
 void MouseDevice::rideAlong() noexcept {
     if (const ObjectMotion* motion = motionOf(told_.value().goal.object);
         motion != nullptr && !motion->jumped) {
@@ -133,8 +133,8 @@ void MouseDevice::rideAlong() noexcept {
     }
 }
 
-/// The exact step of x'' = w^2 (target - x) - 2 w x' for a target that holds still over dt. With the error
-/// cut to E = 2 maxSpeed / w the velocity after the step is exp(-a) ((1 - a) v + a w e), a = w dt, so |v| <=
+/// The exact step of x'' = w^2 (target - x) - 2 w x' for a target at rest over dt. With the error clamped to
+/// E = 2 maxSpeed / w the velocity after the step is exp(-a) ((1 - a) v + a w e), a = w dt. So |v| <=
 /// maxSpeed before gives at most exp(-a) (|1 - a| + 2 a) maxSpeed <= maxSpeed after: the limit holds without
 /// a clamp, and the velocity has no steps.
 void MouseDevice::follow(const glm::dvec3& goal, double dt) noexcept {
@@ -149,14 +149,13 @@ void MouseDevice::follow(const glm::dvec3& goal, double dt) noexcept {
     velocity_ = (velocity_ - w * pull) * decay;
 }
 
-/// Keeps the force within the press that was asked for. With the last tick's force F, normal part N along n
-/// and tangential part T, a hand that goes deeper by e feels N + k e along n: so
-/// e <= (sqrt(press^2 - T^2) - N) / k. T grows by k times the way along the surface at most (and by
-/// MouseGoal::grip, of what friction holds), and friction holds no more than mu N, which beside N comes to
-/// the whole press where T = press mu / sqrt(1 + mu^2). The
-/// place of the last proxy, gone along with its object, is free: the proxy of this tick is no farther from
-/// the hand. In the air, where the next surface may be anywhere and the stiffest of all, a hand that presses
-/// goes press / k of that in a tick.
+/// Keeps the force within the given press. With the last tick's force F, normal part N along n and tangential
+/// part T, a hand that moves deeper by e feels N + k e along n: so e <= (sqrt(press^2 - T^2) - N) / k. T
+/// grows by at most k times the displacement along the surface (and by MouseGoal::grip, of what friction
+/// holds). Friction holds no more than mu N, and N with mu N reaches the whole press at T = press mu / sqrt(1
+/// + mu^2). The last proxy's position, moved with its object, is free: the proxy of this tick is no farther
+/// from the hand. In the air, where the next surface may be anywhere and have the maximum stiffness, a
+/// pressing hand moves by press / k for that stiffness in a tick.
 void MouseDevice::boundPress(const glm::dvec3& from) noexcept {
     const MouseGoal& goal = told_.value().goal;
     if (!std::isfinite(press_))

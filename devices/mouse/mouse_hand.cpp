@@ -38,7 +38,7 @@ void MouseHand::moveTo(const glm::dvec3& place) {
 }
 
 void MouseHand::moveBy(const glm::dvec3& displacement) {
-    // A view that looks along no direction (a camera inside its own target) moves nothing.
+    // A view without a direction (a camera inside its own target) moves nothing.
     const double length = glm::length(displacement);
     if (!std::isfinite(length))
         return;

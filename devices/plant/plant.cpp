@@ -54,9 +54,9 @@ void Plant::place(const glm::dvec3& position, const glm::dvec3& velocity) noexce
     motorWork_ = coulombLoss_ = 0.0;
 }
 
-/// With the force as a third, constant state, and velocities in m per sub-step so that the scales agree.
+/// The force is a third, constant state; velocities are in m per sub-step, so that the scales agree.
 void Plant::prepareFlow(double length) noexcept {
-    if (std::abs(flow_.length - length) <= 1e-9 * length) // differences of the same clock, rounded
+    if (std::abs(flow_.length - length) <= 1e-9 * length) // differences of one clock, up to rounding
         return;
     const double h = length;
     const double damping = parameters_.viscousFriction + parameters_.handDamping;
@@ -76,8 +76,8 @@ void Plant::brake(double impulse) noexcept {
     velocity_ = left > 0.0 ? velocity_ * (left / speed) : glm::dvec3(0.0);
 }
 
-/// Seen from the hand's point, which moves at a constant velocity w, the ground's friction pushes with b w
-/// more.
+/// In the frame of the hand's point, which moves at a constant velocity w, the ground's viscous friction adds
+/// the force b w.
 void Plant::flow(const glm::dvec3& force, const glm::dvec3& target,
                  const glm::dvec3& targetVelocity) noexcept {
     const glm::dvec3 f = force - parameters_.viscousFriction * targetVelocity;
@@ -101,8 +101,8 @@ void Plant::subStep(const glm::dvec3& force, const glm::dvec3& target,
         brake(half);
         return;
     }
-    // Slower than half a brake: it sticks, or is about to break away, where the direction of friction is
-    // known.
+    // Slower than half a brake impulse: the mass sticks, or is about to break away, and the direction of
+    // friction is known.
     const glm::dvec3 pull =
         force - parameters_.handStiffness * (position_ - target) + parameters_.handDamping * targetVelocity;
     const double strength = glm::length(pull);

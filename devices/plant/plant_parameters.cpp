@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-// A gram and up: a lighter device or a stiffer hand would move faster than any servo could answer.
+// A gram and up: a lighter device or a stiffer hand would move faster than any servo can follow.
 constexpr std::array kInfos{
     PlantInfo{"mass", "kg", 0.001, 10.0, "effective mass of the device at its tip"},
     PlantInfo{"viscousFriction", "N s/m", 0.0, 1000.0, "of the device"},

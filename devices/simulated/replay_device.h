@@ -9,23 +9,23 @@
 
 namespace touchstone {
 
-/// A path that somebody recorded or computed: HIP.csv of the command line.
+/// A recorded or computed path: HIP.csv of the command line.
 struct HipPath {
     std::vector<double> times;         ///< s, strictly increasing
     std::vector<glm::dvec3> positions; ///< m, one for each time
 };
 
 /// Reads a CSV file with a header line that names the columns t, x, y, z (any order, s and m; further columns
-/// are ignored) and one line a sample. Throws Error that names file, line and column when it is missing, has
-/// no sample, a number that is none or not finite, or times that do not increase.
+/// are ignored) and one sample per line. Throws Error with file, line and column if the file is missing, has
+/// no sample, a value that is not a finite number, or times that do not increase.
 [[nodiscard]] HipPath readHipPath(const std::filesystem::path& file);
-/// The same from a stream; `name` is what errors call it.
+/// The same from a stream; errors call it `name`.
 [[nodiscard]] HipPath readHipPath(std::istream& in, const std::string& name);
 
-/// Plays a path back, straight between its samples; before the first and after the last the hand rests there.
+/// Plays a path with linear interpolation; before the first and after the last sample the hand rests there.
 class ReplayDevice final : public Device {
   public:
-    /// `path` has at least one sample. The path starts at its first time: sample(0) is its first position.
+    /// `path` has at least one sample; sample(0) is its first position.
     explicit ReplayDevice(HipPath path);
 
     [[nodiscard]] std::string name() const override { return "replay"; }

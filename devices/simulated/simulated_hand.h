@@ -7,8 +7,8 @@
 
 namespace touchstone {
 
-/// A hand without a person: follows a path in time, whatever the force. (Its answer to force comes with the
-/// closed loop.) Deterministic: the place depends on the time alone.
+/// Follows a path in time, whatever the force (HandImpedance adds the response to force). Deterministic: the
+/// position depends on the time alone.
 class SimulatedHand final : public Device {
   public:
     explicit SimulatedHand(std::shared_ptr<const StrokePath> path) : path_(std::move(path)) {}

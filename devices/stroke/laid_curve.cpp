@@ -7,10 +7,11 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kStep = 0.2; ///< of the spacing: what neighbours may differ from their planes
+constexpr double kStep = 0.2; ///< of the spacing: tolerance of neighbours' heights to their planes
 constexpr double kLegSpacing = 2.5e-4, kFewestOfLeg = 16.0; ///< m between points beside an edge; points
 
-/// The mean of the values within `reach` m along the curve, twice, which is a tent: its slope does not jump.
+/// The mean of the values within `reach` m along the curve, applied twice: a tent filter, whose slope does
+/// not jump.
 std::vector<glm::dvec3> tentMeans(std::vector<glm::dvec3> values, std::span<const double> ways,
                                   double reach) {
     std::vector<glm::dvec3> sums(values.size() + 1);
@@ -30,13 +31,13 @@ std::vector<glm::dvec3> tentMeans(std::vector<glm::dvec3> values, std::span<cons
     return values;
 }
 
-/// The same for a curve that ends where it begins: three rounds, of which the middle one has neighbours.
+/// The same for a closed curve: three rounds, of which the middle one has neighbours.
 std::vector<glm::dvec3> tentMeansRound(const std::vector<glm::dvec3>& values, std::span<const double> ways,
                                        double reach) {
     std::vector<glm::dvec3> rounds;
     std::vector<double> roundWays;
     for (int round = 0; round < 3; ++round)
-        for (size_t i = round == 0 ? 0 : 1; i < values.size(); ++i) { // the last is the first again
+        for (size_t i = round == 0 ? 0 : 1; i < values.size(); ++i) { // the last repeats the first
             rounds.push_back(values[i]);
             roundWays.push_back(ways[i] + round * ways.back());
         }
@@ -51,7 +52,7 @@ std::vector<glm::dvec3> smoothedNormals(const std::vector<glm::dvec3>& normals, 
         closed ? tentMeansRound(normals, ways, reach) : tentMeans(normals, ways, reach);
     for (size_t i = 0; i < means.size(); ++i) {
         const double length = glm::length(means[i]);
-        // Normals that cancel are those of a fold: there the surface's own will do.
+        // Normals cancel at a fold: there the surface's own normal is used.
         means[i] = length > 0.0 ? means[i] / length : normals[i];
     }
     return means;
@@ -79,7 +80,7 @@ std::optional<LaidCurve> LaidCurve::over(const TriangleSource& triangles, const 
     for (size_t i = 0; i < hits.size(); ++i)
         if (!hits[i] || (i > 0 && breaksOff(view, *hits[i - 1], *hits[i], kStep * spacing)))
             return std::nullopt;
-    // Checked behind the gaps: this is the dearer half.
+    // Checked after the gaps, since it costs more.
     const std::vector<double> walls = wallsBeside(triangles, view, points, hits, depth + spacing);
     if (std::ranges::any_of(walls, [](double height) { return std::isfinite(height); }))
         return std::nullopt;
@@ -100,11 +101,11 @@ std::optional<LaidCurve> LaidCurve::over(const TriangleSource& triangles, const 
 
 std::optional<LaidCurve> LaidCurve::acrossEdge(const TriangleSource& triangles, const EdgeSite& site,
                                                double reach, double depth) {
-    // Past the edge, and as far behind it the landing on the other side: a steep edge is out of the way then.
+    // Past the edge, and the same distance behind the landing on the other side: clear of a steep edge.
     const double past = std::min(2.0 * depth, 0.3 * reach);
     const auto legPoints = static_cast<size_t>(std::max(kFewestOfLeg, std::ceil(reach / kLegSpacing)));
     std::vector<glm::dvec2> line;
-    for (size_t i = 1; i <= legPoints; ++i) // not on the edge itself, which is of both sides
+    for (size_t i = 1; i <= legPoints; ++i) // not on the edge itself, which belongs to both sides
         line.emplace_back(reach * static_cast<double>(i) / static_cast<double>(legPoints), 0.0);
     std::array<std::optional<LaidCurve>, 2> legs;
     for (size_t side = 0; side < 2; ++side) {
@@ -117,7 +118,7 @@ std::optional<LaidCurve> LaidCurve::acrossEdge(const TriangleSource& triangles, 
         if (!legs[side])
             return std::nullopt;
     }
-    // Out along one leg, past the edge, and in along the other from the landing on; then the same from there.
+    // Out along one leg, past the edge, and in along the other from the landing; then the same from there.
     LaidCurve loop;
     const auto landing = static_cast<size_t>(std::ceil(past / reach * static_cast<double>(legPoints)));
     for (size_t side = 0; side < 2; ++side) {
@@ -128,7 +129,7 @@ std::optional<LaidCurve> LaidCurve::acrossEdge(const TriangleSource& triangles, 
         }
         loop.pressed_.push_back(site.point - depth * site.normal[side] - past * site.inward[side]);
         loop.normals_.push_back(site.normal[side]);
-        for (size_t i = landing; i + 1 < legPoints; ++i) { // the farthest is the way back's first
+        for (size_t i = landing; i + 1 < legPoints; ++i) { // the farthest point is the first of the way back
             loop.pressed_.push_back(to.pressed_[i]);
             loop.normals_.push_back(to.normals_[i]);
         }

@@ -1,5 +1,5 @@
 #pragma once
-// A curve drawn in the plane of a view, laid onto the surface below it and pressed in.
+// A curve drawn in the plane of a view, projected onto the surface below it and pressed in.
 
 #include "devices/surface/surface_probe.h"
 
@@ -19,34 +19,34 @@ struct EdgeSite {
     std::array<glm::dvec3, 2> inward{}; ///< away from the edge along each surface, unit, across the edge
 };
 
-/// Where the hand goes and which way is out, by the length of the way under the surface. At least one point.
+/// Hand position and outward direction over the arc length of the path under the surface. At least one point.
 class LaidCurve {
   public:
-    /// One point only: `depth` m under `point`.
+    /// A single point, `depth` m under `point`.
     LaidCurve(const glm::dvec3& point, const glm::dvec3& normal, double depth);
 
-    /// The curve through `points` (m, right and up in `view`), none of whose surface is higher than `ceiling`
-    /// (m over the view's centre), and `depth` m under it. Nothing where it meets a gap, a step or a wall.
-    /// The outward direction is smoothed over `soft` m, so that a hand rounds what is sharp.
+    /// The curve through `points` (m, right and up in `view`), `depth` m under the surface, none of which is
+    /// higher than `ceiling` (m over the view's centre). Nullopt where it meets a gap, a step or a wall. The
+    /// outward direction is smoothed over `soft` m, so that the hand rounds sharp features.
     [[nodiscard]] static std::optional<LaidCurve> over(const TriangleSource& triangles, const View& view,
                                                        std::span<const glm::dvec2> points, double depth,
                                                        double soft, double ceiling);
-    /// A round of its own kind: over the first surface, `depth` m under it, straight on past the edge, down
-    /// onto the second one, `reach` m from the edge, and back in the same way. A hand that went round the
-    /// edge below the surface would leave its proxy behind on the other side. Its middle is half the length.
+    /// A closed curve over an edge: over the first surface, `depth` m under it, straight on past the edge,
+    /// down onto the second surface, `reach` m from the edge, and back in the same way. A hand that rounded
+    /// the edge below the surface would leave its proxy on the other side. Its middle is half the length.
     [[nodiscard]] static std::optional<LaidCurve>
     acrossEdge(const TriangleSource& triangles, const EdgeSite& site, double reach, double depth);
 
     [[nodiscard]] double length() const { return lengths_.back(); } ///< m
-    /// `lift` m out of the pressed place at `way` m from the start; `way` is held within the length, or goes
-    /// round again where the curve is closed.
+    /// `lift` m out of the pressed position at arc length `way` m; `way` is clamped to the length, or wraps
+    /// where the curve is closed.
     [[nodiscard]] glm::dvec3 at(double way, double lift) const;
 
   private:
     LaidCurve() = default;
 
     std::vector<glm::dvec3> pressed_, normals_;
-    std::vector<double> lengths_; // m to each point
+    std::vector<double> lengths_; // m, arc length of each point
     bool closed_ = false;
 };
 

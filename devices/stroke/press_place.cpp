@@ -13,9 +13,9 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kLargest = 12;
-constexpr double kFacing = 0.5; ///< of the half diagonal: what facing the direction counts
+constexpr double kFacing = 0.5; ///< of the half diagonal: weight of facing the direction
 
-/// A triangle by its middle; the normal is that of its winding.
+/// A triangle by its centroid; the normal is that of its winding.
 struct Candidate {
     double score = -std::numeric_limits<double>::infinity();
     glm::dvec3 middle{0.0}, normal{0.0};
@@ -26,12 +26,12 @@ std::array<glm::dvec3, 14> directionsFrom(const glm::dvec3& front) {
     std::array<glm::dvec3, 14> all{front,      {0, 1, 0},  {0, 0, 1}, {1, 0, 0},
                                    {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
     const double c = 1.0 / std::sqrt(3.0);
-    for (size_t i = 0; i < 7; ++i) // seven of the eight corners: the front stands for the last
+    for (size_t i = 0; i < 7; ++i) // seven of the eight corners: the last is the front
         all[7 + i] = {i & 1 ? c : -c, i & 2 ? c : -c, i & 4 ? c : -c};
     return all;
 }
 
-/// Its sides that are felt, that which faces `towards` first.
+/// Adds its tangible sides, the one that faces `towards` first.
 void addSides(std::vector<PressPlace>& places, const Candidate& candidate, const glm::dvec3& towards) {
     const double facing = glm::dot(candidate.normal, towards) < 0.0 ? -1.0 : 1.0;
     for (const double side : {facing, -facing})
@@ -46,7 +46,7 @@ std::vector<PressPlace> pressPlaces(const TriangleSource& triangles, const Bound
     const std::array<glm::dvec3, 14> directions = directionsFrom(front);
     const double half = 0.5 * bounds.diagonal();
     std::array<Candidate, 14> outermost;
-    std::vector<Candidate> largest; // a heap, the smallest on top
+    std::vector<Candidate> largest; // min-heap
     const auto larger = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
     triangles([&](const SurfaceTriangle& t) {
         const glm::dvec3 cross = glm::cross(t.b - t.a, t.c - t.a);

@@ -1,5 +1,5 @@
 #pragma once
-// Single places where a hand can press a model that offers no way to stroke it.
+// Single points where a hand can press a model on which no stroke fits.
 
 #include "devices/surface/triangle_source.h"
 #include "engine/core/error.h"
@@ -16,28 +16,29 @@ namespace touchstone {
 /// A hand hovers over `point` and presses it against `normal`.
 struct PressPlace {
     glm::dvec3 point{0.0};  ///< m, on the surface
-    glm::dvec3 normal{0.0}; ///< unit, out of a side that is felt
+    glm::dvec3 normal{0.0}; ///< unit, out of a tangible side
     double hover = 0.0;     ///< m over the surface, in the air
     double depth = 0.0;     ///< m under it
 };
 
-/// Middles of triangles, those that lie farthest out in 14 directions and face them before the largest ones;
-/// each from its sides that are felt. Two passes at most; empty where no triangle has an area.
+/// Centroids of triangles: first those that lie farthest out in 14 directions and face them, then the
+/// largest; each from its tangible sides. Two passes at most; empty where no triangle has an area.
 [[nodiscard]] std::vector<PressPlace> pressPlaces(const TriangleSource& triangles, const Bounds& bounds,
                                                   const glm::dvec3& front);
 
 /// The first of `places` at which `holds` with the triangles near it, tried with less hover (of `hover` m)
-/// and then with less depth (of `depth` m) where it does not: between two sheets a hand has little room, and
-/// at the bottom of a groove its proxy is farther away than the surface is deep.
+/// and then with less depth (of `depth` m): between two sheets a hand has little room, and at the bottom of a
+/// groove its proxy is farther away than the surface is deep.
 [[nodiscard]] std::optional<PressPlace>
 firstPress(const TriangleSource& triangles, std::span<const PressPlace> places, double hover, double depth,
            const std::function<bool(const PressPlace&, const TriangleSource& near)>& holds);
 
-/// Whether there is surface on all sides of the place: on the border of an open sheet it is a matter of
-/// rounding whether a hand meets it.
+/// Whether there is surface on all sides of the point: on the border of an open sheet, contact depends on
+/// rounding.
 [[nodiscard]] bool isSupported(const TriangleSource& near, const PressPlace& place);
 
-/// What a stroke throws where there is no triangle of some area, or none that a hand can press.
+/// The Error of a stroke on a model without a triangle of positive area, or without one that a hand can
+/// press.
 [[nodiscard]] Error noPlaceToPress(const TriangleSource& triangles);
 
 } // namespace touchstone

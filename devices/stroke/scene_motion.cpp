@@ -17,13 +17,12 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kMaxParts = 8;
-constexpr double kSampleTime = 1e-3; ///< s; what moves at 10 m/s² is 1 µm off its chord
+constexpr double kSampleTime = 1e-3; ///< s; at 10 m/s² the error of a chord is 1 µm
 constexpr double kMaxSamples = 20000.0;
-constexpr int kSide = 24;      ///< rays to a side of the view that count what shows
-constexpr size_t kBoxes = 256; ///< poses of the others that are boxed in, at most
+constexpr int kSide = 24;      ///< rays per side of the view that measure visibility
+constexpr size_t kBoxes = 256; ///< poses of the other parts that are boxed, at most
 
-/// The lowest node above an instance that the animation moves: those under the same one move as one. -1:
-/// none.
+/// The lowest animated node above an instance: instances under the same one move as one. -1: none.
 int moverOf(const Scene& scene, const Animation& animation, const Instance& instance) {
     if (!instance.followsNode)
         return -1;
@@ -34,7 +33,8 @@ int moverOf(const Scene& scene, const Animation& animation, const Instance& inst
     return -1;
 }
 
-/// Where an instance takes its static pose, device frame; the identity for what is flattened or mirrored.
+/// Motion of an instance relative to its static pose, device frame; the identity for a singular or mirrored
+/// transform.
 Similarity motionOf(const glm::dmat4& deviceFromScene, const glm::dmat4& now, const glm::dmat4& rest) {
     Similarity motion;
     const double volume = glm::determinant(glm::dmat3(rest));
@@ -71,7 +71,7 @@ class Movement {
     std::vector<glm::dmat4> rest_;
 };
 
-/// The box of what `rest` becomes, with half of what its corners moved since the pose before.
+/// The box of the moved `rest`, with half of the displacement of its corners since the previous pose.
 void sweep(Bounds& swept, const Bounds& rest, const Similarity& before, const Similarity& now) {
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p(corner & 1 ? rest.low.x : rest.high.x, corner & 2 ? rest.low.y : rest.high.y,
@@ -114,7 +114,7 @@ std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const
     return swept;
 }
 
-/// By instance: how many rays from the viewer meet it first; many more for that at the place asked for.
+/// By instance: number of rays from the viewer that hit it first; many more for the one at the given place.
 std::vector<size_t> showing(const TriangleSource& triangles, std::span<const Bounds> boxes,
                             const StrokeRequest& request) {
     std::vector<size_t> counts(boxes.size(), 0);

@@ -13,14 +13,14 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kWeld = 1e-6; ///< of the diagonal: corners this near are one
+constexpr double kWeld = 1e-6; ///< of the diagonal: corners this near are welded
 constexpr double kFlat = 0.2 * std::numbers::pi / 180.0;
 constexpr double kFolded = 175.0 * std::numbers::pi / 180.0; ///< a sheet with two sides, not an edge
 constexpr double kAsSharp = 1.0 * std::numbers::pi / 180.0;  ///< edges that differ by less are equally sharp
 constexpr double kApart = 0.005;                             ///< m
-constexpr double kShortest = 0.01; ///< of the diagonal: what is shorter is no edge to feel
+constexpr double kShortest = 0.01;                           ///< of the diagonal: shorter edges are ignored
 
-/// One triangle's side.
+/// One side of a triangle.
 struct Side {
     uint64_t ends = 0; // of both welded corners, in either order
     uint32_t triangle = 0;
@@ -39,7 +39,7 @@ uint64_t mixed(uint64_t x) {
     return x ^ (x >> 29);
 }
 
-/// What corners share that are nearer to each other than the grid (but for those that it parts).
+/// Hash of a corner that welded corners share (except across grid boundaries).
 uint64_t cornerHash(const glm::dvec3& p, const Bounds& bounds, double grid) {
     const glm::dvec3 cell = glm::round((p - bounds.low) / grid);
     uint64_t hash = 0x243f6a8885a308d3u;
@@ -58,12 +58,12 @@ struct Edge {
     }
 };
 
-/// The part of `v` across the unit vector `along`, unit.
+/// The component of `v` perpendicular to the unit vector `along`, normalised.
 glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& along) {
     return glm::normalize(v - glm::dot(v, along) * along);
 }
 
-/// The edge between two triangles that have `side` and `other` in common, if it is one to stroke over.
+/// The edge shared by two triangles as `side` and `other`, if it is convex and long enough.
 std::optional<Edge> convexEdge(const Triangle& first, const Side& side, const Triangle& second,
                                const Side& other) {
     Edge edge{.from = first.corner(side.corner), .to = first.corner(side.corner + 1u)};
@@ -72,7 +72,7 @@ std::optional<Edge> convexEdge(const Triangle& first, const Side& side, const Tr
     // The corners that are not on the edge.
     edge.inward = {across(first.corner(side.corner + 2u) - edge.from, along),
                    across(second.corner(other.corner + 2u) - edge.from, along)};
-    // Neighbours that are wound alike go along their edge in opposite directions.
+    // Neighbours of the same winding traverse their edge in opposite directions.
     const glm::dvec3& start = second.corner(other.corner);
     if (glm::distance(start, edge.from) < glm::distance(start, edge.to))
         edge.normal[1] = -edge.normal[1];
@@ -107,7 +107,7 @@ std::vector<EdgeSite> sharpestEdges(const TriangleSource& source, const Bounds& 
         size_t end = i + 1;
         while (end < sides.size() && sides[end].ends == sides[i].ends)
             ++end;
-        if (end == i + 2) // else a rim, or more than two meet
+        if (end == i + 2) // else a border, or more than two triangles meet
             if (const auto edge = convexEdge(triangles[sides[i].triangle], sides[i],
                                              triangles[sides[i + 1].triangle], sides[i + 1]))
                 if (edge->length() > kShortest * bounds.diagonal())

@@ -10,12 +10,12 @@ namespace touchstone {
 namespace {
 
 constexpr double kGapOfDepth = 1e-4;
-constexpr double kMargin = 0.98;   ///< of the limit: what samples and gaps leave open
-constexpr double kFine = 0.1;      ///< of the depth: a step in touch
+constexpr double kMargin = 0.98;   ///< of the limit: margin for samples and gaps
+constexpr double kFine = 0.1;      ///< of the depth: a step in contact
 constexpr double kFinest = 0.025;  ///< of the depth: a step near the limit
 constexpr double kNearLimit = 0.8; ///< of the limit
 constexpr double kAir = 5e-4;      ///< m: a step in the air
-constexpr double kLongest = 5e-3;  ///< s: a step of a hand that hardly moves
+constexpr double kLongest = 5e-3;  ///< s: a step of an almost stationary hand
 
 /// Crossings of the half lines from a point with one object.
 struct Crossings {
@@ -73,7 +73,7 @@ void StrokeWalk::step() {
         const glm::dvec3 hip = path_.position(time);
         proxy_.follow(hip);
         if (proxy_.touches() && step_ > fine) {
-            step_ = std::max(step_ / 8.0, fine); // not so far at once onto the surface
+            step_ = std::max(step_ / 8.0, fine); // shorter steps on the way onto the surface
             continue;
         }
         time_ = time;
@@ -110,7 +110,7 @@ bool strokeHolds(const TriangleSource& triangles, const StrokePath& path, double
 }
 
 bool maybeInside(const TriangleSource& triangles, const glm::dvec3& point, const glm::dvec3& out) {
-    // Askew, so that no way runs along the faces and edges that models like to have.
+    // Oblique directions, so that no ray runs along the axis-aligned faces and edges that models often have.
     const std::array<glm::dvec3, 3> ways{out + glm::dvec3(1.1e-3, 2.3e-3, -1.7e-3),
                                          glm::dvec3(0.5414, 0.8311, 0.1271),
                                          glm::dvec3(-0.7132, 0.2243, -0.6641)};

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a stroke keeps to its depth: walks a proxy along the whole path, before anybody plays it.
+// Checks the depth of a stroke: walks a proxy along the whole path before it is played.
 
 #include "devices/stroke/stroke_path.h"
 #include "devices/surface/near_triangles.h"
@@ -12,27 +12,26 @@
 
 namespace touchstone {
 
-/// A hand is never farther from its proxy than this times the depth that was asked for.
+/// A hand is never farther from its proxy than this times the given depth.
 inline constexpr double kDepthFactor = 1.5;
 
-/// The triangles that a hand on `path`, pressed in by `depth` m, can meet. One pass through all.
+/// The triangles that a hand on `path`, pressed in by `depth` m, can meet. One pass through all triangles.
 [[nodiscard]] NearTriangles trianglesAlong(const TriangleSource& triangles, const StrokePath& path,
                                            double depth);
 
-/// Goes along one period of a path. In steps of a tenth of the depth in touch and less where it is deep;
-/// between two samples the hand is deeper than at either by less than a step.
+/// Walks along one period of a path, in steps of a tenth of the depth in contact and less near the limit.
+/// Between two samples the hand is deeper than at either by less than a step.
 class StrokeWalk {
   public:
-    /// `keepOut`: boxes into which the hand must not come at all; they outlive it.
+    /// `keepOut`: boxes that the hand must not enter; they outlive it.
     StrokeWalk(const NearTriangles& triangles, const StrokePath& path, double depth,
                std::span<const Bounds> keepOut = {});
 
-    /// The time (s) at which the hand is too deep or where it must not be, next after where the walk is;
-    /// null: it never is.
+    /// The next time (s) at which the hand is too deep or in a forbidden box; null: there is none.
     [[nodiscard]] std::optional<double> nextFault();
-    /// Goes on from `time` with the proxy at `place`.
+    /// Continues from `time` with the proxy at `place`.
     void resume(double time, const glm::dvec3& place);
-    /// So far: it has been pressed in by a third of the depth.
+    /// True once the hand has been pressed in by a third of the depth.
     [[nodiscard]] bool pressed() const { return deepest_ > depth_ / 3.0; }
 
   private:
@@ -47,15 +46,15 @@ class StrokeWalk {
     double deepest_ = 0.0;     ///< m
 };
 
-/// The path presses the surface and nowhere deeper than it may; over `triangles` that hold all that is near.
+/// Whether the path presses the surface and nowhere exceeds its depth. `triangles` holds all that is near.
 [[nodiscard]] bool strokeHolds(const TriangleSource& triangles, const StrokePath& path, double depth,
                                std::span<const Bounds> keepOut = {});
 
 /// Whether `p` is in one of the boxes or within `margin` m of it.
 [[nodiscard]] bool isInAny(std::span<const Bounds> boxes, const glm::dvec3& p, double margin);
 
-/// Whether `point` may be inside a closed object: what begins there feels nothing. `out`: the direction in
-/// which the way is most likely free.
+/// Whether `point` may be inside a closed object: a path that starts there feels nothing. `out`: the
+/// direction most likely to be free.
 [[nodiscard]] bool maybeInside(const TriangleSource& triangles, const glm::dvec3& point,
                                const glm::dvec3& out);
 

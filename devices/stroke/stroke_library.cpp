@@ -1,4 +1,4 @@
-// Which strokes there are, and how each goes: find the place, draw the curve, lay it on, move along it.
+// The strokes of the simulated hand: choose the place, draw the curve, project it and move along it.
 
 #include "devices/stroke/stroke_library.h"
 
@@ -21,16 +21,16 @@ namespace {
 
 using Curve = std::vector<glm::dvec2>; ///< m in the site's view
 
-/// m over the surface, before and after; the less, where another part of the model is above.
+/// m over the surface, before and after; smaller where another part of the model is above.
 constexpr std::array kHovers{0.008, 0.002, 0.0005};
 constexpr double kLanding = 0.08;   ///< m/s at most, from there onto the surface and back, in the air
 constexpr double kSpacing = 2.5e-4; ///< m between the points that are laid
 constexpr double kDeepest = 0.1;    ///< of the model's diagonal: a small model is not pierced
 constexpr double kOfModel = 0.25;   ///< of the diagonal: no curve reaches farther from its middle
 constexpr double kSoftTime = 0.01;  ///< s over which a hand turns to another direction, at least
-constexpr std::array kSizes{1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05}; ///< of its full size, tried in turn
+constexpr std::array kSizes{1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05}; ///< of its full size, tried in order
 constexpr std::array kEdgeSizes{1.0, 0.5, 0.25, 0.15};
-constexpr double kFewest = 16; ///< points of a curve however small
+constexpr double kFewest = 16; ///< minimum number of points of a curve
 
 /// `place(t)` for t from 0 to 1, about `length` m long.
 template <class Place>
@@ -59,7 +59,7 @@ Curve ring(double reach) {
 Curve spiral(double reach) {
     constexpr double kTurns = 6.0, kStart = 1.0 / 7.0;
     const double angle = 2.0 * std::numbers::pi * kTurns;
-    // Radius grows evenly with the angle; so the way does as radius squared.
+    // The radius grows linearly with the angle, so the arc length grows with the radius squared.
     return drawn(0.5 * (1.0 + kStart) * reach * angle, [&](double t) {
         const double share = std::sqrt(kStart * kStart + t * (1.0 - kStart * kStart));
         const double at = angle * (share - kStart) / (1.0 - kStart);
@@ -67,7 +67,7 @@ Curve spiral(double reach) {
     });
 }
 
-/// Nine lines to and fro, joined by half circles: a scan of a field three to two.
+/// Nine lines back and forth, joined by half circles: a scan of a 3:2 field.
 Curve raster(double reach) {
     constexpr int kLines = 9;
     const double high = reach * 2.0 / 3.0, step = 2.0 * high / (kLines - 1), bend = 0.5 * step;
@@ -85,12 +85,13 @@ Curve raster(double reach) {
     });
 }
 
-/// What a stroke is told: its speed and depth, the depth as the model allows it, and its height in the air.
+/// Parameters of a stroke: speed and depth as requested, the depth as limited by the model, and the hover
+/// height.
 struct Told {
     double speed = 0.0, depth = 0.0;
     double hover = kHovers[0];
 };
-/// In the air as fast as hands come down; what is slower than that goes on slowly from the surface on.
+/// Descends at the landing speed in the air; a slower stroke slows down at the surface.
 void land(StrokeMotion& motion, const Told& told) {
     if (told.speed < kLanding)
         motion.liftTo(told.depth, kLanding);
@@ -103,7 +104,7 @@ void leave(StrokeMotion& motion, const Told& told) {
     motion.rest(0.2);
 }
 
-/// Onto the surface, and from there in and out as one tries how hard something is.
+/// Onto the surface, then in and out, as in probing hardness.
 void press(StrokeMotion& motion, const LaidCurve&, const Told& told) {
     motion.liftTo(told.depth, kLanding);
     for (int i = 0; i < 3; ++i) {
@@ -115,7 +116,7 @@ void press(StrokeMotion& motion, const LaidCurve&, const Told& told) {
     leave(motion, told);
 }
 
-/// Five times down and at once up again, twice a second.
+/// Five taps, each down and at once up again, twice a second.
 void tap(StrokeMotion& motion, const LaidCurve&, const Told& told) {
     for (int i = 0; i < 5; ++i) {
         motion.liftTo(0.0, told.speed);
@@ -131,7 +132,7 @@ void hold(StrokeMotion& motion, const LaidCurve&, const Told& told) {
     leave(motion, told);
 }
 
-/// To and fro in reaches, as one feels for a bump.
+/// Back and forth in reaches, as in feeling for a bump.
 void rub(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
     land(motion, told);
     for (int i = 0; i < 3; ++i) {
@@ -147,7 +148,7 @@ void round(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
     leave(motion, told);
 }
 
-/// Over the edge and back, three times: the curve is a round, and there is in its middle.
+/// Over the edge and back, three times: the curve is closed, and the far side is in its middle.
 void cross(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
     land(motion, told);
     for (int i = 0; i < 6; ++i)
@@ -155,7 +156,7 @@ void cross(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
     leave(motion, told);
 }
 
-/// To the end at one speed and back.
+/// To the end at constant speed and back.
 void follow(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
     land(motion, told);
     motion.runTo(curve.length(), told.speed);
@@ -163,7 +164,7 @@ void follow(StrokeMotion& motion, const LaidCurve& curve, const Told& told) {
     leave(motion, told);
 }
 
-/// How a stroke of the table goes.
+/// A stroke of the table.
 struct StrokeKind {
     StrokeInfo info;
     double reach = 0.0;                    ///< m from the curve's middle, at full size
@@ -171,7 +172,7 @@ struct StrokeKind {
     void (*move)(StrokeMotion&, const LaidCurve&, const Told&) = nullptr; ///< null: the tour
 };
 
-// Speeds and forces as people explore with: 20 to 200 mm/s and 0.5 to 2 N (0.6 N a millimetre at 600 N/m).
+// Speeds and forces of human exploration: 20 to 200 mm/s and 0.5 to 2 N (0.6 N per millimetre at 600 N/m).
 constexpr std::array kKinds{
     StrokeKind{
         {"tour", "round the model on the side that faces you, hopping over gaps and steps", 0.1, 0.001}},
@@ -198,14 +199,14 @@ const StrokeKind* findKind(std::string_view name) {
     return found != kKinds.end() ? &*found : nullptr;
 }
 
-/// What a stroke is laid on.
+/// The model that a stroke is laid on.
 struct Ground {
     const TriangleSource& triangles;
     const Bounds bounds;
-    std::span<const Bounds> keepOut; ///< boxes into which the hand must not come
+    std::span<const Bounds> keepOut; ///< boxes that the hand must not enter
 };
 
-/// Moves along `curve`, where that keeps to its depth over `near`; nothing where no hover makes it do so.
+/// The path along `curve` that keeps to its depth over `near`; nullopt if none does with any hover.
 std::optional<StrokePath> held(const Ground& ground, const TriangleSource& near, const StrokeKind& kind,
                                const LaidCurve& curve, Told told) {
     for (const double hover : kHovers) {
@@ -221,7 +222,7 @@ std::optional<StrokePath> held(const Ground& ground, const TriangleSource& near,
     return std::nullopt;
 }
 
-/// Over the sharpest edge that has room for it on both sides.
+/// Over the sharpest edge with room on both sides.
 std::optional<StrokePath> laidAcrossEdge(const Ground& ground, const StrokeKind& kind,
                                          const glm::dvec3& front, double reach, const Told& told) {
     for (const EdgeSite& edge : sharpestEdges(ground.triangles, ground.bounds, front)) {
@@ -262,7 +263,7 @@ std::optional<StrokePath> laidOnPoint(const Ground& ground, const StrokeKind& ki
     return path;
 }
 
-/// The stroke of `kind` at its place, as large as fits there.
+/// The stroke of `kind` at its place, at the largest size that fits.
 std::optional<StrokePath> laid(const Ground& ground, const StrokeKind& kind, const StrokeRequest& request,
                                const Told& told) {
     const auto& [triangles, bounds, keepOut] = ground;
@@ -311,7 +312,7 @@ StrokePath layKind(const TriangleSource& triangles, std::span<const Bounds> keep
     throw noPlaceToPress(triangles);
 }
 
-/// The kind that is asked for, with its speed and depth; throws where there is none.
+/// The requested kind with its speed and depth; throws Error for an unknown kind or a value out of range.
 std::pair<const StrokeKind*, Told> understood(const StrokeRequest& request) {
     const StrokeKind* const kind = findKind(request.name);
     if (kind == nullptr)

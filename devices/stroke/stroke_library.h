@@ -1,5 +1,5 @@
 #pragma once
-// The strokes that the simulated hand knows, by name.
+// The named strokes of the simulated hand.
 
 #include "devices/stroke/stroke_path.h"
 
@@ -10,7 +10,7 @@
 
 namespace touchstone {
 
-/// A stroke and what a person would do it with.
+/// A stroke and its purpose.
 struct StrokeInfo {
     std::string_view name;
     std::string_view meaning; ///< one line for --help and tooltips
@@ -29,9 +29,9 @@ struct StrokeRequest {
     std::string name = "tour";
     double speed = 0.0; ///< m/s, as StrokeInfo::speed; 0: the stroke's own
     double depth = 0.0; ///< m; 0: the stroke's own
-    /// Around the point touched last; without it (and where the model has nothing there) near the middle of
-    /// what faces `front`. `tour` goes over the whole model and `edge` to the sharpest edge, wherever that
-    /// is.
+    /// Around the point touched last; without it (and where the model has no surface there), near the centre
+    /// of what faces `front`. `tour` covers the whole model and `edge` uses the sharpest edge, whatever the
+    /// place.
     std::optional<StrokePlace> place = std::nullopt;
     glm::dvec3 front{0.0, 0.0, 1.0}; ///< towards the viewer, need not be unit
 
@@ -42,24 +42,23 @@ inline constexpr double kSlowestStroke = 0.001, kFastestStroke = 1.0;      ///< 
 inline constexpr double kShallowestStroke = 0.0001, kDeepestStroke = 0.01; ///< m
 
 [[nodiscard]] std::span<const StrokeInfo> strokeInfos();
-/// Null where there is none of this name.
+/// Null for an unknown name.
 [[nodiscard]] const StrokeInfo* findStroke(std::string_view name);
-/// What is wrong with the name, with those that there are; empty: nothing.
+/// The problem with the name, with the known names; empty: none.
 [[nodiscard]] std::string strokeProblem(std::string_view name);
 
-/// Lays the stroke onto the model as `deviceFromScene` places it: a closed path that begins in the air over
-/// the surface, comes down, strokes and lifts off again, for ever. Position, velocity and acceleration are
-/// continuous and the speed is nowhere above the stroke's, but in the air above the surface up to 0.08 m/s.
-/// Where the scene's animation moves the part that it is laid on the path rides on it
-/// (StrokePath::positionIn), and keeps out of what the other parts sweep over.
+/// Lays the stroke onto the model as `deviceFromScene` places it: a closed periodic path that starts in the
+/// air over the surface, descends, strokes and lifts off. Position, velocity and acceleration are continuous.
+/// The speed nowhere exceeds the stroke's, except in the air above the surface, up to 0.08 m/s. Where the
+/// scene's animation moves the part under the path, the path moves with it (StrokePath::positionIn) and
+/// avoids what the other parts sweep over.
 ///
 /// The hand is nowhere farther than 1.5 times the depth from a point proxy that follows it, which is checked
-/// before the path is returned. Curves become smaller until they find surface without gaps, steps and walls
-/// under all of them; where even the smallest does not (wires), the hand presses a single place, at the last
-/// less deep. The depth is at most a tenth of the model's diagonal. Any thread, not the servo's;
-/// deterministic; time grows with the triangles (0.1 to 0.5 s a million). Throws Error for a name or a number
-/// that cannot be, where there is no triangle to touch, and where no place can be pressed without going
-/// deeper.
+/// before the path is returned. Curves shrink until there is surface without gaps, steps and walls under all
+/// of them; where even the smallest fails (wires), the hand presses a single point, finally at less depth.
+/// The depth is at most a tenth of the model's diagonal. Any thread but the servo's; deterministic; time
+/// grows with the triangles (0.1 to 0.5 s per million). Throws Error for an unknown name, a number out of
+/// range, a model without a triangle to touch, and where no point can be pressed without going deeper.
 [[nodiscard]] StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene,
                                    const StrokeRequest& request);
 /// The same over triangles given by their corners, three each, in the device frame.

@@ -8,15 +8,15 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kPeakOverMean = 15.0 / 8.0; ///< of minimum jerk
-constexpr double kComing = 0.1;              ///< s in which a run gets to its speed
+constexpr double kPeakOverMean = 15.0 / 8.0; ///< of the minimum-jerk profile
+constexpr double kComing = 0.1;              ///< s in which a run reaches its speed
 
 double minimumJerk(double t) {
     return t * t * t * (10.0 + t * (6.0 * t - 15.0));
 }
 
-/// The way of a run of unit speed, `seconds` long, that comes and goes by smoothstep in `coming` s: the
-/// integral of the speed.
+/// Distance covered by a run of unit speed, `seconds` long, that accelerates and decelerates by smoothstep in
+/// `coming` s: the integral of the speed.
 double runWay(double time, double seconds, double coming) {
     const auto come = [&](double t) {
         const double u = std::clamp(t / coming, 0.0, 1.0);
@@ -71,9 +71,9 @@ void StrokeMotion::rest(double seconds) {
 
 void StrokeMotion::tremble(double seconds, double amplitude) {
     const glm::dvec3 place = curve_.at(way_, lift_);
-    // Three frequencies that do not beat within the hold, each in a direction of its own.
+    // Three frequencies that do not beat within the hold, each in its own direction.
     over(seconds, [&](double t) {
-        constexpr double kSwell = 0.2; // share of the time
+        constexpr double kSwell = 0.2; // fraction of the time
         const double swell = minimumJerk(std::clamp(std::min(t, 1.0 - t) / kSwell, 0.0, 1.0));
         const auto wave = [&](double hertz, double phase) {
             return std::sin(2.0 * std::numbers::pi * hertz * t * seconds + phase);

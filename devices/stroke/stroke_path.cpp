@@ -14,7 +14,7 @@ bool finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Where `time` lies between knots: the knot's index and the fraction past it, 0..1.
+/// Position of `time` between knots: the knot's index and the fraction past it, 0..1.
 struct Place {
     size_t knot;
     double fraction;
@@ -25,7 +25,7 @@ Place placeOf(double time, size_t knots, double interval) noexcept {
     const double turns = time / (interval * count);
     double at = (turns - std::floor(turns)) * count;
     if (!(at >= 0.0 && at < count))
-        at = 0.0; // time is not finite, or rounding met the end
+        at = 0.0; // non-finite time, or rounding reached the end
     const double knot = std::floor(at);
     return {static_cast<size_t>(knot), at - knot};
 }
@@ -48,8 +48,8 @@ StrokePath StrokePath::around(std::span<const glm::dvec3> waypoints, double spee
     const size_t count = waypoints.size();
     for (size_t i = 0; i < count; ++i)
         length += glm::distance(waypoints[i], waypoints[(i + 1) % count]);
-    // Control points at equal steps along the polygon: their chords are at most a step long, and so the speed
-    // of the spline at most a step per interval.
+    // Control points at equal steps along the polygon: their chords are at most a step long, and so is the
+    // spline's travel per interval.
     const double steps = std::max(4.0, std::ceil(length / (speed * kKnotInterval)));
     if (!(steps * kKnotInterval <= kLongest)) {
         char problem[160];

@@ -1,5 +1,5 @@
 #pragma once
-// Paths on which a simulated hand strokes a model that nobody has seen before.
+// Paths on which a simulated hand strokes an arbitrary model.
 
 #include "devices/surface/part_motion.h"
 #include "devices/surface/triangle_source.h"
@@ -15,52 +15,51 @@
 
 namespace touchstone {
 
-/// How the tour (strokeOver) goes; lengths in m of the device frame.
+/// Parameters of the tour (strokeOver); lengths in m of the device frame.
 struct StrokeOptions {
-    double speed = 0.1; ///< m/s along the path, the bound as well. People explore texture at 0.02..0.2 m/s.
+    double speed = 0.1; ///< m/s along the path and its bound. People explore texture at 0.02..0.2 m/s.
     double depth =
         0.001; ///< m below the surface, along its normal. 1 mm at 600 N/m is 0.6 N, a light finger.
-    double clearance = 0.01; ///< m above the model's highest point while not in touch
-    /// Side from which the hand comes, unit: towards the viewer. Another side of the box is taken when the
-    /// model has nothing to offer from there (a sheet seen edge-on).
+    double clearance = 0.01; ///< m above the model's highest point while not in contact
+    /// Side from which the hand comes, unit: towards the viewer. Another side of the box is used where the
+    /// model shows nothing from there (a sheet seen edge-on).
     glm::dvec3 front{0.0, 0.0, 1.0};
 };
 
-/// A closed path through space in time: a uniform cubic B-spline, so position, velocity and acceleration are
-/// continuous, and the speed nowhere exceeds the one asked for (its velocity is a convex combination of the
-/// chords between control points, which are at most speed times their interval long). It cuts corners by less
-/// than a control interval. Immutable; `position` and `velocity` may be called from any thread, allocate
-/// nothing.
+/// A closed path: a uniform cubic B-spline, so position, velocity and acceleration are continuous. The speed
+/// nowhere exceeds the given one: the velocity is a convex combination of the chords between control points,
+/// whose length is at most speed times their interval. It cuts corners by less than a control interval.
+/// Immutable; `position` and `velocity` may be called from any thread and do not allocate.
 class StrokePath {
   public:
     /// s between control points of `around`; at 0.1 m/s they are 1 mm apart.
     static constexpr double kKnotInterval = 0.010;
     static constexpr double kLongest = 12 * 3600.0; ///< s of a path of `around`: 100 MB of control points
 
-    /// Around the closed polygon of `waypoints` at `speed`, for ever. Throws Error without a finite waypoint,
-    /// and where one round takes longer than kLongest.
+    /// Along the closed polygon of `waypoints` at `speed`, periodic. Throws Error without a finite waypoint,
+    /// and where one period exceeds kLongest.
     [[nodiscard]] static StrokePath around(std::span<const glm::dvec3> waypoints, double speed);
 
-    /// Through the neighbourhood of `control`, `interval` s after each other, for ever: each point is passed
-    /// within a sixth of its second difference. Throws Error without a finite point or interval.
-    /// `place`: where on the surface it is laid.
+    /// Through the neighbourhood of `control`, at steps of `interval` s, periodic: each point is passed
+    /// within a sixth of its second difference. Throws Error without a finite point or interval. `place`: the
+    /// point on the surface where it is laid.
     [[nodiscard]] static StrokePath through(std::vector<glm::dvec3> control, double interval,
                                             const glm::dvec3& place);
 
     [[nodiscard]] glm::dvec3 position(double time) const noexcept; ///< m, device frame; time in s
     [[nodiscard]] glm::dvec3 velocity(double time) const noexcept; ///< m/s
-    /// The same path for a hand that rides on a part of the scene. Null: on what rests.
+    /// The same path for a hand that moves with a part of the scene. Null: static.
     [[nodiscard]] StrokePath carriedBy(std::shared_ptr<const PartMotion> part) const {
         StrokePath path = *this;
         path.part_ = std::move(part);
         return path;
     }
-    /// Where the hand is at `time` of the path and `sceneTime` of the animation; position(time) on what
-    /// rests.
+    /// Position of the hand at `time` of the path and `sceneTime` of the animation; position(time) on a
+    /// static part.
     [[nodiscard]] glm::dvec3 positionIn(double time, double sceneTime) const noexcept {
         return part_ == nullptr ? position(time) : part_->at(sceneTime).point(position(time));
     }
-    /// m: what stays where it is when the hand's workspace is zoomed; of a tour, where it begins.
+    /// m: the fixed point when the hand's workspace is zoomed; of a tour, its start.
     [[nodiscard]] const glm::dvec3& place() const { return place_; }
     [[nodiscard]] double period() const { return interval_ * static_cast<double>(control_.size()); } ///< s
 
@@ -76,19 +75,19 @@ class StrokePath {
     std::shared_ptr<const PartMotion> part_;
 };
 
-/// A stroke over whatever `scene` holds (static pose), placed by `deviceFromScene`: from above the model down
-/// onto it, `depth` below its surface around a wavy ellipse on the side that faces `front`, then off and
-/// again. The hand hops over gaps, steps and walls however low: it does not yield, and a proxy caught behind
-/// one would draw it with ever more force. Where no such ellipse meets the model (wires, sparse parts), it
-/// presses on single triangles one after the other. The hand is nowhere farther than 1.5 times the depth from
-/// a point proxy that follows it: what would be is mended or left out. Owner thread; time grows with the
-/// triangles (about 0.1 s a million). Throws Error when there is no triangle to touch, or no place that can
-/// be pressed without going deeper.
+/// A stroke over any `scene` (static pose), placed by `deviceFromScene`: from above the model down onto it,
+/// `depth` below its surface around a wavy ellipse on the side that faces `front`, then off again. The hand
+/// hops over gaps, steps and walls however low: it does not yield, and a proxy caught behind one would pull
+/// it with growing force. Where no such ellipse meets the model (wires, sparse parts), it presses single
+/// triangles one after the other. The hand is nowhere farther than 1.5 times the depth from a point proxy
+/// that follows it: violations are repaired or left out. Owner thread; time grows with the triangles (about
+/// 0.1 s per million). Throws Error when there is no triangle to touch, or no point that can be pressed
+/// without going deeper.
 [[nodiscard]] StrokePath strokeOver(const Scene& scene, const Similarity& deviceFromScene,
                                     const StrokeOptions& options = {});
 /// The same over triangles given by their corners, three each, in the device frame.
 [[nodiscard]] StrokePath strokeOver(std::span<const glm::dvec3> corners, const StrokeOptions& options = {});
-/// The same over any triangles, by a hand that keeps out of some boxes.
+/// The same over any triangles, by a hand that avoids the boxes of `keepOut`.
 [[nodiscard]] StrokePath strokeOver(const TriangleSource& triangles, const StrokeOptions& options,
                                     std::span<const Bounds> keepOut);
 

@@ -13,23 +13,24 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kNear = 0.005;    ///< m: how far from the surface a place may be that was touched
-constexpr double kCeiling = 0.005; ///< m over a place: what is higher there is another part
+constexpr double kNear = 0.005;    ///< m: maximum distance of the touched point from the surface
+constexpr double kCeiling = 0.005; ///< m over the place: higher surface belongs to another part
 constexpr double kAround =
-    0.003; ///< m: the surface's direction is its mean over so much, or less on small models
-constexpr double kOfModel = 0.02; ///< of the diagonal: so much less
+    0.003; ///< m: radius over which the surface's direction is averaged; smaller on small models
+constexpr double kOfModel = 0.02; ///< of the diagonal: that radius on small models
 constexpr int kCandidates = 400;
 constexpr size_t kMaxSites = 8;
 constexpr double kApart = 0.06; ///< of the diagonal
-constexpr double kSteep = 2.0;  ///< how many half extents from the middle a surface seen edge-on counts as
+constexpr double kSteep = 2.0;  ///< distance from the centre, in half extents, that a surface seen edge-on
+                                ///< counts as
 
-/// A sunflower's seeds: evenly over the unit disc, the first in its middle.
+/// Sunflower pattern: evenly over the unit disc, the first point at its centre.
 glm::dvec2 seed(int i, int count) {
     const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0)) * i;
     return std::sqrt(static_cast<double>(i) / count) * glm::dvec2(std::cos(turn), std::sin(turn));
 }
 
-/// The view down onto a hit, along the mean normal of the surface around it.
+/// The view onto a hit, along the mean normal of the surface around it.
 StrokeSite siteAt(const TriangleSource& triangles, const Bounds& bounds, const SurfaceHit& hit) {
     Bounds point;
     point.include(hit.point);
@@ -49,7 +50,7 @@ StrokeSite siteAt(const TriangleSource& triangles, const Bounds& bounds, const S
     return site;
 }
 
-/// Touchable hits, those first that are nearest the middle and face the viewer best, some way apart.
+/// Touchable hits, nearest the centre and facing the viewer first, at a minimum distance from each other.
 std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds& bounds,
                                    const glm::dvec3& front) {
     const View view = viewOf(bounds, front);

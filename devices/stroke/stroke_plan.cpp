@@ -1,4 +1,4 @@
-// How a hand that knows nothing of a model finds its way over it (declared in stroke_path.h).
+// Plans a tour over an arbitrary model (declared in stroke_path.h).
 
 #include "devices/stroke/press_place.h"
 #include "devices/stroke/stroke_check.h"
@@ -21,24 +21,25 @@ namespace {
 
 using Hits = std::vector<std::optional<SurfaceHit>>;
 
-// The ellipse follows the bounds at 70 % of their half extent, which is the crest of the doughnut of the
-// seeds (60 of 85 mm) and stays on a sphere's front; three waves of 12 % make the stroke cross crests and
+// The ellipse covers 70 % of the half extent of the bounds, which is the crest of the doughnut of the seeds
+// (60 of 85 mm) and stays on a sphere's front. Three waves of 12 % make the stroke cross crests and
 // curvature.
 constexpr double kEllipse = 0.70, kWave = 0.12;
 constexpr int kWaves = 3;
-constexpr double kLargestHalfAxis = 0.5; ///< m: what is larger is stroked near its middle only
-constexpr double kWorthwhile = 0.3; ///< share of the ellipse over the model that ends the search for a side
-constexpr double kHardlyAnything = 0.05; ///< share below which single triangles are pressed instead
-constexpr double kStep = 0.2;            ///< of the spacing: what neighbours may differ from their planes
+constexpr double kLargestHalfAxis = 0.5; ///< m: a larger model is stroked near its centre only
+constexpr double kWorthwhile = 0.3; ///< fraction of the ellipse over the model that ends the search for a
+                                    ///< side
+constexpr double kHardlyAnything = 0.05; ///< fraction below which single triangles are pressed instead
+constexpr double kStep = 0.2;            ///< of the spacing: tolerance of neighbours' heights to their planes
 constexpr double kHop = 0.003;           ///< m above the higher side of a step or gap
-constexpr double kDeepest = 0.1;         ///< of the model's diagonal: a small model is not pierced
-constexpr int kRepairs = 16;             ///< walks along a tour before another side is tried
+constexpr double kDeepest = 0.1;         ///< of the model's diagonal: limit for small models
+constexpr int kRepairs = 16;             ///< repairs of a tour before another side is tried
 
 struct Stroke {
     View view;
     Hits hits;                 ///< none where there is nothing
-    std::vector<double> walls; ///< height of one beside the hit, which the hand keeps off; else -infinity
-    std::vector<bool> overTop; ///< the hop that lands on this hit goes over the whole model
+    std::vector<double> walls; ///< height of a wall beside the hit, which the hand avoids; else -infinity
+    std::vector<bool> overTop; ///< the hop that lands on this hit clears the whole model
     double spacing = 0.0;      ///< m between neighbouring points of the ellipse, at most
     size_t touching = 0;
 
@@ -47,7 +48,7 @@ struct Stroke {
         const size_t at = i % hits.size();
         return hits[at] && !std::isfinite(walls[at]) ? &*hits[at] : nullptr;
     }
-    /// The hand keeps off the hit from now on, as from one beside a wall.
+    /// Marks the hit as untouchable, as one beside a wall.
     void keepOff(size_t i) {
         if (touchable(i) == nullptr)
             return;
@@ -65,7 +66,7 @@ std::vector<glm::dvec2> wavyEllipse(const View& view, double spacing) {
     const auto count = static_cast<size_t>(std::max(64.0, std::ceil(longest / spacing)));
     std::vector<glm::dvec2> points;
     for (size_t i = 0; i < count; ++i) {
-        // Clockwise from the top, as one would wipe a plate.
+        // Clockwise from the top.
         const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
         const double radius = kEllipse + kWave * std::sin(kWaves * angle);
         points.emplace_back(radius * a * std::sin(angle), radius * b * std::cos(angle));
@@ -79,7 +80,7 @@ Stroke strokeFrom(const TriangleSource& triangles, const Bounds& bounds, const g
     stroke.view = viewOf(bounds, front);
     const std::vector<glm::dvec2> points = wavyEllipse(stroke.view, spacing);
     stroke.hits = probe(triangles, stroke.view, points);
-    // The hand is up to `depth` beside the point that it touches, and goes on by `spacing`.
+    // The hand is up to `depth` beside the point that it touches, and advances by `spacing`.
     stroke.walls = wallsBeside(triangles, stroke.view, points, stroke.hits, depth + spacing);
     stroke.overTop.assign(points.size(), false);
     stroke.spacing = spacing;
@@ -93,8 +94,7 @@ std::array<glm::dvec3, 7> frontsOf(const StrokeOptions& options) {
             glm::dvec3(-1, 0, 0),          glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0)};
 }
 
-/// The side that was asked for if the model offers enough there, else the side that offers most; and which
-/// one that is.
+/// The preferred side if the model offers enough there, else the side that offers most; and its index.
 std::pair<Stroke, size_t> bestStroke(const TriangleSource& triangles, const Bounds& bounds,
                                      const StrokeOptions& options, double depth) {
     const double spacing = options.speed * StrokePath::kKnotInterval;
@@ -110,21 +110,21 @@ std::pair<Stroke, size_t> bestStroke(const TriangleSource& triangles, const Boun
     return best;
 }
 
-/// A corner of the tour's polygon.
+/// A vertex of the tour's polygon.
 struct Waypoint {
     glm::dvec3 place{0.0};
-    size_t hit = 0;      ///< that it presses, or that it is over
+    size_t hit = 0;      ///< the hit that it presses, or that it is over
     bool raised = false; ///< in the air
 };
 
-/// Down onto the first touching point, along all of them, through the air over gaps, steps and walls, and up.
+/// Down onto the first touched point, along all of them, through the air over gaps, steps and walls, and up.
 ///
-/// A hand that does not yield must not go through a step: 1 mm under the upper side it would be far inside
-/// the wall, and the proxy would rightly stay at the foot of it, where the force grows without bound.
+/// A hand that does not yield must not pass through a step: 1 mm under the upper side it would be far inside
+/// the wall, and the proxy would correctly stay at the foot of it, where the force grows without bound.
 std::vector<Waypoint> waypointsAlong(const Stroke& stroke, double depth, double clearance) {
     const size_t count = stroke.hits.size();
     const View& view = stroke.view;
-    // Begin behind a gap if there is one, so that no touching run is cut in two.
+    // Start behind a gap if there is one, so that no run of contact is cut in two.
     size_t start = 0;
     for (size_t i = 0; i < count; ++i)
         if (!stroke.touchable(i + count - 1) && stroke.touchable(i))
@@ -137,7 +137,7 @@ std::vector<Waypoint> waypointsAlong(const Stroke& stroke, double depth, double 
     const double top = view.half.z + clearance;
     std::vector<Waypoint> waypoints;
     const SurfaceHit* last = nullptr;
-    double highest = 0.0; // of what lies between the last touch and this one
+    double highest = 0.0; // between the last touched hit and this one
     bool skipped = false;
     for (size_t k = start; k < start + count; ++k) {
         const size_t i = k % count;
@@ -166,8 +166,8 @@ std::vector<Waypoint> waypointsAlong(const Stroke& stroke, double depth, double 
     return waypoints;
 }
 
-/// Where along the polygon of its waypoints a path is: StrokePath::around lays its control points at equal
-/// steps along it, and a uniform cubic spline is at its second control point when it begins.
+/// Position of a path along the polygon of its waypoints: StrokePath::around places its control points at
+/// equal steps along it, and a uniform cubic spline starts at its second control point.
 class TourWay {
   public:
     TourWay(std::span<const Waypoint> waypoints, const StrokePath& path) {
@@ -184,7 +184,7 @@ class TourWay {
         return (starts_[waypoint] - step_) / perSecond_;
     }
     [[nodiscard]] double step() const { return step_; } ///< m between control points
-    /// The last waypoint not beyond `way` m.
+    /// The last waypoint not beyond arc length `way` m.
     [[nodiscard]] size_t before(double way) const {
         const auto after = std::ranges::upper_bound(starts_, way);
         return after == starts_.begin() ? 0 : static_cast<size_t>(after - starts_.begin()) - 1;
@@ -192,12 +192,12 @@ class TourWay {
     [[nodiscard]] size_t count() const { return starts_.size(); }
 
   private:
-    std::vector<double> starts_; ///< m to each waypoint
+    std::vector<double> starts_; ///< m, arc length of each waypoint
     double perSecond_ = 0.0, step_ = 0.0;
 };
 
-/// Walks along the tour; where the hand is too deep it keeps off the hits around, or hops higher. False: it
-/// was not too deep anywhere.
+/// Walks along the tour. Where the hand is too deep, the tour avoids the hits around, or hops higher. False:
+/// it was nowhere too deep.
 bool repaired(Stroke& stroke, std::span<const Waypoint> waypoints, const StrokePath& path, StrokeWalk& walk,
               double depth, int round) {
     const TourWay way(waypoints, path);
@@ -210,14 +210,14 @@ bool repaired(Stroke& stroke, std::span<const Waypoint> waypoints, const StrokeP
             const Waypoint &from = waypoints[w], &to = waypoints[(w + 1) % waypoints.size()];
             const bool low = from.raised != to.raised || (from.raised && to.raised);
             if (low && from.hit != to.hit && !stroke.overTop[to.hit]) {
-                stroke.overTop[to.hit] = true; // a hop that is too low
+                stroke.overTop[to.hit] = true; // the hop is too low
                 continue;
             }
             stroke.keepOff(from.hit);
             if (w + 1 < waypoints.size())
                 stroke.keepOff(to.hit);
         }
-        // On from the next waypoint, the proxy where the surface was seen first.
+        // Continue from the next waypoint, with the proxy at the hit.
         const size_t next = last + 1;
         if (next >= way.count() || !(way.timeAt(next) > *fault))
             break;
@@ -229,7 +229,7 @@ bool repaired(Stroke& stroke, std::span<const Waypoint> waypoints, const StrokeP
     return faulty;
 }
 
-/// The tour along a stroke, mended until it keeps to its depth all the way. Nothing where hardly anything is
+/// The tour along a stroke, repaired until it keeps to its depth everywhere. Nullopt where hardly anything is
 /// left to touch.
 std::optional<StrokePath> heldTour(const TriangleSource& triangles, std::span<const Bounds> keepOut,
                                    Stroke stroke, double depth, const StrokeOptions& options) {
@@ -250,8 +250,9 @@ std::optional<StrokePath> heldTour(const TriangleSource& triangles, std::span<co
     return std::nullopt;
 }
 
-/// For models that hardly show a surface from any side: from six directions, each beside the one before, down
-/// to the triangle that lies furthest out there. Nothing is in the way, since nothing lies further out.
+/// For models with hardly any surface from any side: presses from six directions, each next to the one
+/// before, on the triangle that lies farthest out there. Nothing is in the way, since nothing lies farther
+/// out.
 std::vector<glm::dvec3> pressesFromAround(const TriangleSource& triangles, const Bounds& bounds, double depth,
                                           double clearance) {
     constexpr std::array<glm::dvec3, 6> kDirections{glm::dvec3(0, 0, 1),  glm::dvec3(1, 0, 0),
@@ -282,7 +283,7 @@ std::vector<glm::dvec3> pressesFromAround(const TriangleSource& triangles, const
     return waypoints;
 }
 
-/// To and fro over one place, where all else fails.
+/// Presses one point repeatedly, where all else fails.
 std::optional<StrokePath> pressSomewhere(const TriangleSource& triangles, std::span<const Bounds> keepOut,
                                          const Bounds& bounds, double depth, const StrokeOptions& options) {
     const auto pathAt = [&](const PressPlace& at) {

@@ -10,7 +10,7 @@ namespace touchstone {
 
 namespace {
 
-/// The space within `reach` of some points, as cells of a grid of 64^3 with a bit each.
+/// The space within `reach` of a set of points, as cells of a 64^3 grid with one bit each.
 class Corridor {
   public:
     Corridor(std::span<const glm::dvec3> points, double reach) {
@@ -74,7 +74,7 @@ NearTriangles::NearTriangles(const TriangleSource& triangles, std::span<const gl
         return;
     std::vector<Item> items;
     items.reserve(triangles_.size());
-    for (uint32_t i = 0; i < triangles_.size(); ++i) // three times the middle: only compared
+    for (uint32_t i = 0; i < triangles_.size(); ++i) // three times the centroid: only compared
         items.push_back({glm::vec3(triangles_[i].a + triangles_[i].b + triangles_[i].c), i});
     build(items);
     std::vector<SurfaceTriangle> ordered;

@@ -1,5 +1,5 @@
 #pragma once
-// The few triangles along a path, in a tree: what a hand on that path can meet.
+// The triangles along a path, in a tree: what a hand on that path can meet.
 
 #include "devices/surface/triangle_source.h"
 
@@ -13,11 +13,11 @@ namespace touchstone {
 
 class NearTriangles {
   public:
-    /// Those within `reach` m of any of `points` (and some that are a little farther). Goes through all
-    /// triangles once. Neighbouring points are at most about `reach` apart where nothing may be missed.
+    /// Those within `reach` m of any of `points` (and some that are a little farther). One pass through all
+    /// triangles. Neighbouring points must be at most about `reach` apart.
     NearTriangles(const TriangleSource& triangles, std::span<const glm::dvec3> points, double reach);
 
-    /// Calls `visit` with every triangle whose box meets the box of the way from `from` to `to`.
+    /// Calls `visit` with every triangle whose box overlaps the box of the segment from `from` to `to`.
     template <class Visit>
     void along(const glm::dvec3& from, const glm::dvec3& to, Visit visit) const {
         const glm::dvec3 low = glm::min(from, to) - slack_, high = glm::max(from, to) + slack_;
@@ -25,7 +25,7 @@ class NearTriangles {
             return l.x <= high.x && h.x >= low.x && l.y <= high.y && h.y >= low.y && l.z <= high.z &&
                    h.z >= low.z;
         };
-        // Depth first; a node's first child follows it, so that the index after a leaf is what comes next.
+        // Depth first; a node's first child follows it, so the index after a leaf is the next node.
         for (uint32_t at = 0; at < nodes_.size();) {
             const Node& node = nodes_[at];
             if (!meets(node.low, node.high)) {
@@ -42,7 +42,7 @@ class NearTriangles {
   private:
     struct Node {
         glm::dvec3 low{0.0}, high{0.0};
-        uint32_t first = 0, last = 0; ///< its triangles, of a leaf; else none
+        uint32_t first = 0, last = 0; ///< triangles of a leaf; else none
         uint32_t next = 0;            ///< the node after its whole subtree
     };
     struct Item {

@@ -12,7 +12,7 @@ namespace touchstone {
 
 namespace {
 
-/// The probed points sorted into the cells of a square grid, so that a triangle asks only those near it.
+/// The probed points in the cells of a square grid, so that a triangle tests only those near it.
 class PointGrid {
   public:
     explicit PointGrid(std::span<const glm::dvec2> points) {
@@ -63,25 +63,25 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// In one place of the program, so that equal corners give equal bits: inlined twice, a compiler may contract
-/// the products differently.
+/// Not inlined, so that equal corners give equal bits: inlined twice, a compiler may contract the products
+/// differently.
 [[gnu::noinline]] glm::dvec3 viewedFrom(const View& view, const glm::dvec3& p) {
     return view.viewed(p);
 }
 
-/// A triangle as a view sees it.
+/// A triangle projected into a view.
 struct ViewedTriangle {
     glm::dvec3 a, b, c;
     glm::dvec2 a2, b2, c2;
-    double area; ///< twice, in the plane of the view; its sign is exact
+    double area; ///< twice the area, in the plane of the view; its sign is exact
 
     ViewedTriangle(const View& view, const SurfaceTriangle& t)
         : a(viewedFrom(view, t.a)), b(viewedFrom(view, t.b)), c(viewedFrom(view, t.c)), a2(a), b2(b), c2(c),
           area(orientation(a2, b2, c2)) {}
 
-    /// Whether `p` is on it, borders included. Weights cannot tell: those of two triangles that share an edge
-    /// are rounded differently, and a point on it is rejected by both. (1 - wa - wb, taken for the third
-    /// weight, is off by the rounding of the other two, and lost the diagonal of every square face.)
+    /// Whether `p` is on it, borders included. Barycentric weights cannot decide: those of two triangles that
+    /// share an edge are rounded differently, and both may reject a point on it. (1 - wa - wb as the third
+    /// weight is off by the rounding of the other two, and lost the diagonal of every square face.)
     [[nodiscard]] bool covers(const glm::dvec2& p) const {
         const double sign = area > 0.0 ? 1.0 : -1.0;
         return sign * orientation(p, a2, b2) >= 0.0 && sign * orientation(p, b2, c2) >= 0.0 &&
@@ -92,12 +92,12 @@ struct ViewedTriangle {
         const double wa = cross(b2 - p, c2 - p) / flat, wb = cross(c2 - p, a2 - p) / flat;
         const double height = wa * a.z + wb * b.z + (1.0 - wa - wb) * c.z;
         const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
-        // Where the area is less than its rounding the triangle is a wall: its top.
+        // An area below its rounding is that of a wall: its top.
         return std::isfinite(height) ? std::clamp(height, lowest, highest) : highest;
     }
 };
 
-/// Distance from `p` to a triangle: to its plane above the inside, else to the nearest edge.
+/// Distance from `p` to a triangle: to its plane over the interior, else to the nearest edge.
 double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners,
                           const glm::dvec3& normal) {
     bool inside = true;
@@ -111,13 +111,13 @@ double distanceToTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& 
     return inside ? std::abs(glm::dot(p - corners[0], normal)) : nearest;
 }
 
-/// Cosine between the normals of a surface and of a wall beside it, at most: 75 degrees. Pressed in by d, a
-/// proxy reaches the top of what is less steep after some 4 d; of a true wall it never does.
+/// Maximum cosine between the normals of a surface and of a wall beside it: 75 degrees. A proxy pressed in by
+/// d climbs a less steep face after some 4 d; a true wall it never climbs.
 constexpr double kWallCosine = 0.26;
-/// Of the reach: how far a wall must rise above the plane of the surface. Less is the facets of a smooth
+/// Of the reach: how far a wall must rise above the plane of the surface. Lower ones are facets of a smooth
 /// surface.
 constexpr double kMinRise = 0.01;
-/// Of the reach: how far above a hit the space is taken to be free.
+/// Of the reach: height above a hit that is assumed free.
 constexpr double kFree = 0.25;
 
 } // namespace
@@ -190,9 +190,9 @@ std::vector<double> wallsBeside(const TriangleSource& triangles, const View& vie
             glm::min(a2, glm::min(b2, c2)) - reach, glm::max(a2, glm::max(b2, c2)) + reach, [&](uint32_t i) {
                 if (!hits[i] || top <= highest[i])
                     return;
-                // Whichever way the triangle is wound, its outside is where the free space above the hit
-                // lies: so the back of a thin plate, seen from the hit, faces as the plate's front does and
-                // is no wall.
+                // Whatever the winding, the outside of the triangle is on the side of the free space above
+                // the hit. So the back of a thin plate, seen from the hit, has the orientation of the front
+                // and is no wall.
                 const glm::dvec3 &surface = hits[i]->normal, free = hits[i]->point + kFree * reach * surface;
                 const double facing =
                     glm::dot(normal, surface) * (glm::dot(free - a, normal) < 0.0 ? -1.0 : 1.0);

@@ -1,5 +1,5 @@
 #pragma once
-// Looks down on a triangle soup along one direction: enough to plan a path, once, before the servo starts.
+// Probes a triangle soup along one direction, to plan a path before the servo starts.
 
 #include "devices/surface/triangle_source.h"
 #include "engine/math/similarity.h"
@@ -13,8 +13,8 @@
 
 namespace touchstone {
 
-/// A view without perspective of what lies in some bounds. Coordinates (right, up, height) are m from the
-/// bounds' centre, height towards the viewer.
+/// An orthographic view of given bounds. Coordinates (right, up, height) are m from the centre of the bounds,
+/// height towards the viewer.
 struct View {
     glm::dvec3 centre{0.0};
     glm::dvec3 right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, towards{0.0, 0.0, 1.0}; ///< unit, perpendicular
@@ -28,7 +28,7 @@ struct View {
     }
 };
 
-/// `towardsViewer`: unit. Up is as near to +y as it can be, else to -z.
+/// `towardsViewer`: unit. Up is as near to +y as possible, else to -z.
 [[nodiscard]] View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer);
 
 struct SurfaceHit {
@@ -37,24 +37,24 @@ struct SurfaceHit {
     uint32_t object = 0; ///< SurfaceTriangle::object
 };
 
-/// The first surface under each of `points` (right, up) that is not higher than `ceiling` and is felt from
-/// there. Watertight: a point inside the outline of a surface without holes meets it, on its edges and
-/// vertices too. Goes through the triangles once and keeps none of them, so that a model of ten million costs
-/// no memory here.
+/// The first surface under each of `points` (right, up) that is not higher than `ceiling` and is tangible
+/// from there. Watertight: a point inside the outline of a surface without holes hits it, on its edges and
+/// vertices too. Passes through the triangles once and stores none, so that a model of ten million needs no
+/// memory here.
 [[nodiscard]] std::vector<std::optional<SurfaceHit>>
 probe(const TriangleSource& triangles, const View& view, std::span<const glm::dvec2> points,
       double ceiling = std::numeric_limits<double>::infinity());
 
-/// For each of `points` the height of the highest wall within `reach` m of its hit, or minus infinity: a wall
-/// is a triangle that rises beside the surface there by over 75 degrees or leans over it, however low it is.
-/// A proxy that is pressed in does not climb it.
+/// For each of `points`, the height of the highest wall within `reach` m of its hit, or minus infinity. A
+/// wall is a triangle, however low, that rises beside the surface at over 75 degrees or overhangs it. A proxy
+/// that is pressed in does not climb it.
 [[nodiscard]] std::vector<double> wallsBeside(const TriangleSource& triangles, const View& view,
                                               std::span<const glm::dvec2> points,
                                               std::span<const std::optional<SurfaceHit>> hits, double reach);
 
-/// True if the surface breaks off between two neighbouring hits: the height of the second, as seen from the
-/// first, is by more than `tolerance` m neither what the one's plane says nor the other's nor anything
-/// between (as over a crease).
+/// True if the surface is discontinuous between two neighbouring hits: the height of the second relative to
+/// the first differs by more than `tolerance` m from both planes and from everything between them (as over a
+/// crease).
 [[nodiscard]] bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to,
                              double tolerance);
 

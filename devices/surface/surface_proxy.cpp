@@ -10,9 +10,9 @@ namespace touchstone {
 namespace {
 
 constexpr int kMoves = 24;
-/// Of the gap: what a triangle reaches beyond its edges. Closes the cracks between triangles whose corners
-/// differ by rounding, as the touch does when it welds them. Less than 1: a face that reached farther over
-/// its convex edge than the proxy stands off the next face would hold it there, as in a corner.
+/// Of the gap: extension of a triangle beyond its edges. It closes the cracks between triangles whose corners
+/// differ by rounding, which contact welds. Less than 1: a face extended farther over its convex edge than
+/// the proxy's gap to the next face would hold the proxy there, as in a corner.
 constexpr double kBeyond = 0.1;
 
 /// Whether `q`, in the plane of the triangle, is on it or within `beyond` m of it.
@@ -36,13 +36,13 @@ SurfaceProxy::Hit SurfaceProxy::firstAlong(const glm::dvec3& way) const {
             return;
         const glm::dvec3 normal = cross / length;
         const double start = glm::dot(normal, place_ - t.a), rate = glm::dot(normal, way), end = start + rate;
-        // Half a gap is as good as none: a hand that rests on the surface must not draw the proxy onto it,
-        // where rounding says on which side it is.
+        // Distances below half a gap count as zero: a hand that rests on the surface must not pull the proxy
+        // onto it, where the side depends on rounding.
         const double nearest = start > 0.0 ? end : -end;
         if (nearest > 0.5 * gap_ || (start > 0.0 ? rate : -rate) >= 0.0)
             return;
         if (t.front != 0 && (start > 0.0 ? 1 : -1) != t.front)
-            return; // comes from behind what is felt from its front only
+            return; // approaches a one-sided triangle from behind
         const double fraction = std::clamp(-start / rate, 0.0, 1.0);
         if (fraction >= first.fraction || !covers(t, normal, place_ + fraction * way, kBeyond * gap_))
             return;
@@ -65,13 +65,13 @@ void SurfaceProxy::follow(const glm::dvec3& hip) {
             return;
         }
         touches_ = true;
-        // Up to the gap over the triangle, back along the way, which is free.
+        // Up to the gap over the triangle, back along the move, which is free.
         const double approach = -glm::dot(hit.normal, goal.point);
         const double share =
             approach > 0.0 ? std::clamp((hit.height - gap_) / approach, 0.0, hit.fraction) : 0.0;
         const glm::dvec3 moved = share * goal.point;
         place_ += moved;
-        // Only what still holds it, and what it has just met.
+        // Only the planes that still hold it, and the one just met.
         FewPlanes<double> held;
         for (size_t i = 0; i < planes.count; ++i) {
             planes.plane[i].offset -= glm::dot(planes.plane[i].normal, moved);

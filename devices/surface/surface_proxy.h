@@ -1,5 +1,5 @@
 #pragma once
-// A point proxy on the triangles along a path: how deep a hand on that path will be.
+// A point proxy on the triangles along a path: the penetration of a hand on that path.
 
 #include "devices/surface/near_triangles.h"
 
@@ -7,18 +7,18 @@
 
 namespace touchstone {
 
-/// Zilles and Salisbury's god-object (1995): it follows the hand, and no triangle lets it through. Planning
-/// needs its own because `devices/` knows no `haptics/`; the tests compare both. Where a tick's budget of
-/// moves ends it stays where it is, so its depth is an upper bound.
+/// Zilles and Salisbury's god-object (1995): it follows the hand and passes through no triangle. Planning
+/// needs its own because `devices/` does not depend on `haptics/`; the tests compare both. Where a tick
+/// exhausts its budget of moves the proxy stays, so its depth is an upper bound.
 class SurfaceProxy {
   public:
-    /// `gap`: m that it stands off what it touches, far less than any depth of interest.
+    /// `gap`: m between the proxy and what it touches, far less than any depth of interest.
     SurfaceProxy(const NearTriangles& triangles, const glm::dvec3& place, double gap)
         : triangles_(&triangles), place_(place), gap_(gap) {}
 
-    /// The hand is at `hip`: goes there as far as the surface lets it.
+    /// Moves the proxy towards `hip` as far as the surface allows.
     void follow(const glm::dvec3& hip);
-    /// Puts it where nothing is in between, or where the surface is known to be.
+    /// Places the proxy where the straight line is free, or where the surface is known to be.
     void put(const glm::dvec3& place) { place_ = place; }
     [[nodiscard]] const glm::dvec3& place() const { return place_; }
     /// In the last `follow`.
@@ -27,7 +27,7 @@ class SurfaceProxy {
   private:
     struct Hit {
         double fraction = 2.0;  ///< of the way; over 1: nothing is hit
-        double height = 0.0;    ///< m of the way's start over the triangle
+        double height = 0.0;    ///< m of the move's start over the triangle
         glm::dvec3 normal{0.0}; ///< unit, towards the start
     };
     [[nodiscard]] Hit firstAlong(const glm::dvec3& way) const;

@@ -9,8 +9,8 @@ namespace touchstone {
 
 namespace {
 
-/// The vertices of one instance in the device frame. Neighbouring triangles share theirs, and a transform in
-/// double costs more than all else that a pass does with a triangle: the last ones are kept.
+/// The vertices of one instance in the device frame. Neighbouring triangles share vertices, and a transform
+/// in double costs more than the rest of the work per triangle: the latest are cached.
 class PlacedVertices {
   public:
     PlacedVertices(const Mesh& mesh, const glm::dmat4& sceneFromMesh, const Similarity& deviceFromScene)

@@ -6,11 +6,11 @@
 
 namespace touchstone {
 
-/// What is built when somebody first asks for it, and once; a servo may be touching meanwhile.
+/// An object built once, on first use, possibly while a servo is running.
 template <class T>
 class BuiltOnce {
   public:
-    /// Null until it is built. Wait-free.
+    /// Null until built. Wait-free.
     [[nodiscard]] const T* get() const noexcept { return there_.load(std::memory_order_acquire); }
     /// Any thread but the servo.
     template <class Make>
@@ -21,7 +21,7 @@ class BuiltOnce {
         built_ = std::make_shared<const T>(make());
         there_.store(built_.get(), std::memory_order_release);
     }
-    /// Takes the other's, if it is built. Any thread but the servo.
+    /// Shares the other's object, if it is built. Any thread but the servo.
     void share(const BuiltOnce& other) {
         const std::scoped_lock lock(building_, other.building_);
         built_ = other.built_;

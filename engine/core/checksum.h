@@ -1,5 +1,5 @@
 #pragma once
-// Two ways to tell whether bytes are what they were. Neither is meant against malice.
+// Two checks whether bytes are unchanged. Neither protects against deliberate tampering.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace touchstone {
 
 /// CRC-32C (Castagnoli, reflected, 0x82f63b78; initial value and final inversion as in RFC 3720) of the
-/// bytes; `before`: of what came before them. Any thread.
+/// bytes; `before`: the CRC of the preceding bytes. Any thread.
 [[nodiscard]] uint32_t crc32c(std::span<const std::byte> bytes, uint32_t before = 0) noexcept;
 
 /// A hash of 64-bit words in order: for each, state = (state ^ word) * 0x9e3779b97f4a7c15, then
@@ -32,7 +32,7 @@ class Hash64 {
         }
         addWord(word);
     }
-    /// Their number, then their bytes, eight to a word, the last one filled up with zeros.
+    /// Their number, then the bytes, eight to a word, the last word padded with zeros.
     void addBytes(std::span<const std::byte> bytes) noexcept;
     /// For types without padding.
     template <class Plain>
@@ -40,7 +40,7 @@ class Hash64 {
     void addBytes(const std::vector<Plain>& values) noexcept { addBytes(std::as_bytes(std::span(values))); }
 
     [[nodiscard]] uint64_t value() const noexcept { return state_; }
-    /// The upper half of one more product: the lower halves would let the last word's sign cancel out.
+    /// The upper half of one more product: in the lower halves the last word's sign would cancel out.
     [[nodiscard]] uint32_t folded() const noexcept { return static_cast<uint32_t>((state_ * kFactor) >> 32); }
 
   private:
@@ -52,7 +52,7 @@ class Hash64 {
     uint64_t state_ = 0x243f6a8885a308d3u;
 };
 
-/// Which bytes a file had, so that it is known again.
+/// Size and hash of a file's bytes, to recognise it.
 struct FileStamp {
     uint64_t size = 0; ///< bytes
     uint64_t hash = 0; ///< Hash64 of them

@@ -5,8 +5,8 @@
 
 namespace touchstone {
 
-/// Bad input or a missing facility, told so that the user can act: what, where in it, and the remedy.
-/// The program prints `what()` and exits with status 1. Never thrown by anything the servo calls.
+/// Bad input or a missing facility, reported so that the user can act: what, where in it, and the remedy. The
+/// program prints `what()` and exits with status 1. Never thrown by code that the servo calls.
 class Error : public std::runtime_error {
   public:
     /// `file`: the file or facility; `place`: the spot in it ("meshes[2].primitives[0]"), may be empty;

@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-/// Sets flush-to-zero and denormals-are-zero on the calling thread, for good. Every thread that runs ticks
+/// Sets flush-to-zero and denormals-are-zero on the calling thread permanently. Every thread that runs ticks
 /// calls it at entry: a denormal costs a hundred cycles, Embree expects the mode, and offline and live runs
 /// must round alike.
 inline void enterFloatMode() noexcept {

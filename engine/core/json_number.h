@@ -4,8 +4,8 @@
 
 namespace touchstone {
 
-/// A float as the shortest decimal that is read back as the same float: 0.35, not 0.3499999940395355; whole
-/// numbers without a point. Any thread.
+/// A float as the shortest decimal that parses to the same float: 0.35, not 0.3499999940395355; whole numbers
+/// without a point. Any thread.
 [[nodiscard]] nlohmann::ordered_json jsonOf(float value);
 
 } // namespace touchstone

@@ -1,5 +1,5 @@
 #pragma once
-// What program this is and on what processor: two machines or two builds may round differently.
+// Identity of the program and the processor: two machines or two builds may round differently.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace touchstone {
 /// "g++ 12.2.0"
 [[nodiscard]] std::string compilerName();
 
-/// As the processor names itself.
+/// The processor's own model name.
 [[nodiscard]] std::string processorName();
 
 } // namespace touchstone

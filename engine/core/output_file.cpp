@@ -13,7 +13,7 @@ namespace touchstone {
 OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)) {
     if (std::filesystem::is_directory(target_))
         throw Error(target_.string(), "", "is a folder", "name a file in it");
-    // A pipe or a terminal (/dev/stdout) is written to as it is; a link is followed, not replaced.
+    // A pipe or a terminal (/dev/stdout) is written to directly; a link is followed, not replaced.
     std::filesystem::path opened = target_;
     if (!std::filesystem::exists(target_) || std::filesystem::is_regular_file(target_)) {
         if (std::filesystem::is_symlink(target_) && std::filesystem::exists(target_))

@@ -7,8 +7,8 @@
 
 namespace touchstone {
 
-/// A file that is there as a whole or not at all: written under a temporary name beside the target, renamed
-/// by `commit`, removed if that never comes. One thread. Everything throws Error that names the target.
+/// A file that exists as a whole or not at all: written under a temporary name beside the target, renamed by
+/// `commit`, removed without it. One thread. Every function throws Error that names the target.
 class OutputFile {
   public:
     explicit OutputFile(std::filesystem::path target);
@@ -24,7 +24,7 @@ class OutputFile {
     std::ofstream stream_;
 };
 
-/// The whole file at once.
+/// Writes the whole file at once.
 void writeFile(const std::filesystem::path& target, std::string_view text);
 
 } // namespace touchstone

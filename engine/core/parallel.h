@@ -1,6 +1,5 @@
 #pragma once
-// Loops over independent blocks on two threads: loading may take two cores, and no more while somebody
-// touches.
+// Loops over independent blocks on two threads: loading may take two cores, and no more during touch.
 
 #include "engine/core/progress.h"
 
@@ -13,9 +12,9 @@
 
 namespace touchstone {
 
-/// Calls work(begin, end) for ranges that cover 0..count, on the calling thread and on another one. What one
-/// range writes no other may read or write: then the result is the same with one thread. Reports from the
-/// calling thread; throws Cancelled, and what `work` throws. Leaves no thread behind.
+/// Calls work(begin, end) for ranges that cover 0..count, on the calling thread and on another one. No range
+/// may read or write what another one writes: then the result is the same with one thread. Reports from the
+/// calling thread; throws Cancelled, and exceptions of `work`. Leaves no thread behind.
 template <class Work>
 void inParallel(size_t count, const Progress& progress, const char* what, const Work& work) {
     progress.step(0.0, what); // also where the other thread takes all blocks
@@ -44,7 +43,7 @@ void inParallel(size_t count, const Progress& progress, const char* what, const 
     if (count > kProgressWork) {
         try {
             second = std::thread(run, false);
-        } catch (const std::system_error&) { // no thread is to be had: then alone
+        } catch (const std::system_error&) { // no thread available: run alone
         }
     }
     run(true);

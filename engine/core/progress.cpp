@@ -13,7 +13,7 @@ EstimatedProgress::EstimatedProgress(const Progress& progress, const char* what,
         return;
     try {
         thread_ = std::thread([this] { estimate(); });
-    } catch (const std::system_error&) { // no thread is to be had: then only what the library reports
+    } catch (const std::system_error&) { // no thread available: only the library's own reports
     }
 }
 
@@ -28,7 +28,7 @@ EstimatedProgress::~EstimatedProgress() {
 }
 
 bool EstimatedProgress::at(double fraction) noexcept {
-    constexpr double kWorthwhile = 0.002; // a callback for every thousand triangles need not be a report
+    constexpr double kWorthwhile = 0.002; // not every callback for a thousand triangles needs a report
     if (progress_.cancelled())
         return false;
     if (progress_.watched()) {
@@ -44,7 +44,7 @@ bool EstimatedProgress::at(double fraction) noexcept {
 }
 
 void EstimatedProgress::estimate() noexcept {
-    constexpr double kLargestStep = 0.02; // where the machine is busy, it takes longer than expected
+    constexpr double kLargestStep = 0.02; // on a busy machine it takes longer than expected
     std::unique_lock lock(mutex_);
     while (!ended_.wait_for(lock, kInterval, [&] { return over_; })) {
         const double waited = std::chrono::duration<double>(Clock::now() - knownAt_).count();

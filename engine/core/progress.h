@@ -1,5 +1,5 @@
 #pragma once
-// How a long computation reports how far it is, and learns that nobody needs its result any more.
+// Progress reports and cancellation of long computations.
 
 #include "engine/core/error.h"
 
@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-/// Thrown out of a computation that was cancelled.
+/// Thrown by a computation that was cancelled.
 class Cancelled : public Error {
   public:
     Cancelled() : Error("loading", "", "cancelled", "") {}
@@ -28,12 +28,12 @@ inline constexpr size_t kProgressWork = 1 << 16;
     return all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all);
 }
 
-/// Handed down by value or reference; each part of a computation gets a part of the range. One that is
-/// default constructed reports to nobody and is never cancelled.
+/// Passed by value or reference; each part of a computation gets a part of the range. A default-constructed
+/// one reports nothing and is never cancelled.
 class Progress {
   public:
-    /// The fraction of the whole, 0..1, and what is being done: a literal, valid for ever. Never called by
-    /// two threads at once, but not always by the same one.
+    /// The fraction of the whole, 0..1, and the current activity: a literal with static lifetime. Never
+    /// called by two threads at once, but not always by the same one.
     using Report = std::function<void(double fraction, const char* what)>;
 
     Progress() = default;
@@ -79,18 +79,19 @@ class Progress {
     double begin_ = 0.0, end_ = 1.0;
 };
 
-/// Reports for a call into a library that itself reports seldom or never: as long as this lives, a thread of
-/// its own estimates the share from the time. Without a word from the library after `expected` seconds,
-/// 63 % of what was left at its last word are taken as done, and so on: it never stands, and never arrives.
+/// Progress of a call into a library that reports rarely or never: during its lifetime a thread of its own
+/// estimates the fraction from the time. Without a report from the library, 63 % of the remainder at its last
+/// report count as done after `expected` seconds, and so on: the estimate never stops, and never reaches the
+/// end.
 class EstimatedProgress {
   public:
     EstimatedProgress(const Progress& progress, const char* what, double expected);
-    /// Waits for the thread, some microseconds.
+    /// Waits for the thread, for some microseconds.
     ~EstimatedProgress();
     EstimatedProgress(const EstimatedProgress&) = delete;
     EstimatedProgress& operator=(const EstimatedProgress&) = delete;
 
-    /// What the library itself reports, 0..1. Any thread; false when it should stop.
+    /// The library's own report, 0..1. Any thread; false when it should stop.
     bool at(double fraction) noexcept;
 
   private:
@@ -102,7 +103,7 @@ class EstimatedProgress {
     const Progress progress_;
     const char* const what_;
     const double expected_; // s
-    std::mutex mutex_;      // of all below
+    std::mutex mutex_;      // guards all members below
     std::condition_variable ended_;
     bool over_ = false;
     double known_ = 0.0, reported_ = 0.0;

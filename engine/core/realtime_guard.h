@@ -1,16 +1,16 @@
 #pragma once
-// Says which code is inside a tick, so that a program can count what must never happen there.
+// Marks the code inside a tick, so that a program can count operations forbidden there.
 
 #include <atomic>
 #include <cstdint>
 
 namespace touchstone {
 
-/// What the real-time code of this process did that it must not do. Any thread may read.
+/// Forbidden operations of this process's real-time code. Any thread may read.
 struct RealtimeViolations {
-    uint64_t allocations = 0;   ///< malloc, operator new and their kin inside a tick
+    uint64_t allocations = 0;   ///< malloc, operator new and related calls inside a tick
     uint64_t deallocations = 0; ///< free, operator delete inside a tick
-    uint64_t locks = 0;         ///< mutexes and locks of readers and writers asked for inside a tick
+    uint64_t locks = 0;         ///< mutexes and read-write locks requested inside a tick
 };
 
 namespace realtime {
@@ -24,7 +24,7 @@ void noteDeallocation() noexcept;
 /// The same for locks (workbench/guards/lock_guard.cpp).
 void noteLock() noexcept;
 
-/// Whether an interposed allocator is linked into this program; without one nothing is ever counted.
+/// Whether an interposed allocator is linked into this program; without one nothing is counted.
 void announceInterposer() noexcept;
 [[nodiscard]] bool allocationsAreCounted() noexcept;
 void announceLockInterposer() noexcept;
@@ -37,7 +37,7 @@ void resetViolations() noexcept;
 class TickScope {
   public:
     // The fences bind the compiler only: it knows that malloc reads no variable of ours, and would move the
-    // stores away from around it.
+    // stores across it.
     TickScope() noexcept {
         inTick = true;
         std::atomic_signal_fence(std::memory_order_seq_cst);

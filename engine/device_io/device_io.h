@@ -1,5 +1,5 @@
 #pragma once
-// The two plain structs through which the haptic step and a device talk. Neither side links the other.
+// The plain structs exchanged between the haptic step and a device. Neither side links the other.
 
 #include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
@@ -14,12 +14,11 @@ namespace touchstone {
 
 class ForceLimiter;
 
-/// What clutch and zoom make of a place of the device: part of a tick's input. Forces are turned back by it
-/// and not scaled.
+/// The device's mapping by clutch and zoom: part of a tick's input. It rotates forces back and does not scale
+/// them.
 struct DeviceMapping {
     Similarity workspaceFromDevice;
-    double coupling = 1.0; ///< 0..1: share of the force that reaches the hand. Less while the clutch is held
-                           ///< and until its force has come back
+    double coupling = 1.0; ///< 0..1: force fraction passed; below 1 while clutched and as the force returns
 };
 
 /// Inputs in the device frame: m, right-handed, y up, z towards the user.
@@ -28,11 +27,11 @@ struct DeviceSample {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     uint32_t buttons = 0;
     double age = 0.0;   ///< s since the device measured it
-    bool valid = false; ///< false: nothing is known of the hand (unplugged, not started)
-    /// Touch begins again with this sample: the hand did not move here from where the last sample was.
+    bool valid = false; ///< false: the hand's position is unknown (unplugged, not started)
+    /// Touch begins again with this sample: the hand did not move here from the last sample's position.
     bool begins = false;
-    /// The hand is moved by something that sees the model (mouse, simulated hand). Where it begins was then
-    /// chosen in the open, and while it is not valid it has been lifted on purpose: no fault of a device.
+    /// The hand is moved by something that sees the model (mouse, simulated hand). Its start was then chosen
+    /// in sight of the model, and while it is not valid it has been lifted on purpose: no fault of a device.
     bool inSight = false;
     DeviceMapping mapping{};
 
@@ -40,8 +39,8 @@ struct DeviceSample {
     [[nodiscard]] glm::dvec3 inWorkspace() const { return mapping.workspaceFromDevice.point(position); }
 };
 
-/// What the last tick came to and how the objects have moved since, for a hand that the program itself moves.
-/// Workspace. `objects` holds during the call that passes it.
+/// Result of the last tick and the objects' motion since, for a hand that the program itself moves.
+/// Workspace. `objects` is valid during the call that passes it.
 struct TouchFeedback {
     bool touching = false;
     glm::dvec3 hip{0.0}, proxy{0.0};      ///< m, at the end of the last tick
@@ -51,7 +50,7 @@ struct TouchFeedback {
     ObjectMotions objects{};              ///< to this tick; empty: nothing moves
 };
 
-/// What may be sent to a device, in the device frame. Only the safety stage can make one that is not zero.
+/// A command to a device, in the device frame. Only the safety stage can make one that is not zero.
 class DeviceCommand {
   public:
     DeviceCommand() = default;                                         ///< zero force
@@ -64,7 +63,7 @@ class DeviceCommand {
     glm::dvec3 force_{0.0}, torque_{0.0};
 };
 
-/// What a device can do; the safety stage never exceeds it.
+/// Limits of a device; the safety stage never exceeds them.
 struct DeviceLimits {
     double maxForce = 8.5;               ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
     double maxForceRate = 8500.0;        ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
@@ -73,12 +72,12 @@ struct DeviceLimits {
     double recommendedStiffness = 600.0; ///< N/m, used where a material states none
     double maxStiffness = 3500.0;        ///< N/m, above it the closed loop may buzz
     /// s: a sample older than this is stale and the force fades out. Twenty periods at 1 kHz: longer than any
-    /// USB poll or scheduling hiccup, shorter than a hand's reaction. Larger keeps pushing on what may not be
-    /// true.
+    /// USB poll or scheduling delay, shorter than a hand's reaction. A larger value keeps pushing on an
+    /// outdated position.
     double staleAge = 0.02;
     double positionResolution = 3e-5; ///< m
-    double apparentMass = 0.075;      ///< kg at the tip, the least in any direction. Phantom Premium 1.5.
-    double coulombFriction = 0.0;     ///< N at the tip, the least in any direction; 0: none is known of
+    double apparentMass = 0.075;      ///< kg at the tip, minimum over all directions. Phantom Premium 1.5
+    double coulombFriction = 0.0;     ///< N at the tip, the minimum over all directions; 0: unknown
     bool commandDelay = false;        ///< a command acts a tick later, not at once
 };
 

@@ -5,9 +5,9 @@
 
 namespace touchstone {
 
-/// Gives an immutable object to the servo at a tick boundary and takes the old one back, so that the servo
-/// never allocates or frees. The owner offers; the servo adopts; the owner collects what the servo let go.
-/// One owner thread, one servo thread.
+/// Hands an immutable object to the servo at a tick boundary and takes the old one back, so that the servo
+/// never allocates or frees. The owner offers; the servo adopts; the owner collects what the servo has
+/// released. One owner thread, one servo thread.
 template <class T>
 class Handover {
   public:

@@ -10,11 +10,11 @@
 namespace touchstone {
 
 /// Every tick's record from the servo to one reader. When the reader falls behind, records are dropped and
-/// counted, never waited for. Capacity is allocated up front.
+/// counted; the servo never waits. Capacity is allocated at construction.
 ///
-/// Two free-running counters over a power of two of slots (Lamport 1983). A library queue would do as well,
-/// but the ones at hand synchronise by fences, which g++'s thread sanitizer cannot follow: here every
-/// hand-over is an acquire that reads a release, so the sanitizer proves it.
+/// Two free-running counters over a power of two of slots (Lamport 1983). A library queue would suffice, but
+/// the available ones synchronise by fences, which g++'s thread sanitizer cannot follow: here every hand-over
+/// is an acquire that reads a release, so the sanitizer proves it.
 template <class Record>
 class RecordRing {
     static_assert(std::is_nothrow_copy_assignable_v<Record>,

@@ -8,7 +8,7 @@
 namespace touchstone {
 
 /// Wait-free hand-over of the newest value from one writer thread to one reader thread. Older values that
-/// were never read are lost, which is what settings and snapshots want. No allocation after construction.
+/// were never read are lost, as intended for settings and snapshots. No allocation after construction.
 template <class T>
 class TripleBuffer {
     static_assert(std::is_nothrow_copy_assignable_v<T>, "a value that can throw has no place in the tick");
@@ -24,7 +24,7 @@ class TripleBuffer {
         writing_ = previous & kIndex;
     }
 
-    /// Reader thread only. True if a newer value than at the last call has come.
+    /// Reader thread only. True if a newer value than at the last call has arrived.
     bool update() noexcept {
         if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0)
             return false;

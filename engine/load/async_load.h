@@ -1,5 +1,5 @@
 #pragma once
-// loadScene on a worker thread, for a main thread that must keep drawing.
+// loadScene on a worker thread, for a main thread that must continue drawing.
 
 #include "engine/load/scene_loader.h"
 
@@ -12,8 +12,8 @@
 
 namespace touchstone {
 
-/// One load in the background. All members are for the thread that made it; none of them but `take` (and the
-/// destructor) waits, and those only once the worker is at its end or was told to stop.
+/// One load in the background. All members are for the thread that created it. Only `take` and the destructor
+/// wait, until the worker has finished or reacts to a cancellation.
 class AsyncLoad {
   public:
     /// Starts at once. `options.progress` and `options.cancel` are replaced by this object's own.
@@ -27,18 +27,19 @@ class AsyncLoad {
 
     struct Progress {
         double fraction = 0.0; ///< 0..1
-        const char* what = ""; ///< what is being done, never null
+        const char* what = ""; ///< current activity, never null
     };
     [[nodiscard]] Progress progress() const noexcept;
 
-    /// True once `take` has something to give without waiting.
+    /// True once `take` returns without waiting.
     [[nodiscard]] bool finished() const noexcept;
 
-    /// Asks the worker to stop. `take` then throws Error with problem "cancelled", unless the load was
-    /// already done.
+    /// Requests the worker to stop. `take` then throws Error with problem "cancelled", unless the load was
+    /// already complete.
     void cancel() noexcept;
 
-    /// The scene, or the Error of the load; waits for the worker's end. Once only: null after the first time.
+    /// The scene, or the Error of the load; waits until the worker has finished. Once only: null after the
+    /// first call.
     [[nodiscard]] ScenePtr take();
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -48,9 +49,9 @@ class AsyncLoad {
 
     const std::filesystem::path path_;
     std::atomic<double> fraction_{0.0};
-    std::atomic<const char*> what_{"starting"}; // string literals of the loader: they live for ever
+    std::atomic<const char*> what_{"starting"}; // string literals of the loader, with static lifetime
     std::atomic<bool> cancel_{false}, finished_{false};
-    ScenePtr scene_;             // the worker's until finished_
+    ScenePtr scene_;             // written by the worker until finished_
     std::exception_ptr problem_; // the same
     std::thread worker_;         // last: it uses all the others
 };

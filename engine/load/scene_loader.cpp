@@ -16,19 +16,20 @@ namespace touchstone {
 namespace {
 
 ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
-    // 1. Check and mend: the shape of the JSON, then how its parts relate. What passes may be read without
-    // more asking.
+    // 1. Check and repair: the structure of the JSON, then the relations of its parts. Valid data needs no
+    // further checks.
     context.step(0.2, "checking");
     checkSchema(context, file.json);
     validateGltf(context, file.json);
 
-    // 2. Bytes: buffers from wherever they lie, decompressed.
+    // 2. Bytes: buffers from all sources, decompressed.
     context.step(0.22, "reading buffers");
     const GltfDocument document = makeDocument(context, file);
     context.enter(context.progress().part(0.25, 0.35));
     warnOfAccessorValues(context, document);
 
-    // 3. Structure: nodes parents first, materials as they look and feel, meshes placed on the nodes.
+    // 3. Structure: nodes parents first, materials with appearance and haptic properties, meshes placed on
+    // the nodes.
     auto scene = std::make_shared<Scene>();
     scene->path = context.file();
     scene->file = stamp;
@@ -45,7 +46,7 @@ ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stam
     context.enter(context.progress().part(0.8, 0.85));
     scene->bounds = sceneBounds(context, *scene);
 
-    // 4. Images: only those that somebody uses are decoded; a broken one costs a warning, not the model.
+    // 4. Images: only used ones are decoded; a broken one costs a warning, not the model.
     scene->images = readImages(context, file, document, *scene, context.options().images);
     dropBrokenImages(scene->images, scene->materials);
     for (Material& material : scene->materials) {

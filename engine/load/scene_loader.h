@@ -1,5 +1,5 @@
 #pragma once
-// glTF and GLB in: read, validate, build. Any thread; throws touchstone::Error.
+// Loads glTF and GLB: read, validate, build. Any thread; throws touchstone::Error.
 
 #include "engine/import/file/load_options.h"
 #include "engine/scene/scene.h"

@@ -1,6 +1,6 @@
 #pragma once
-// The place nearest to a goal on at most four half-spaces, in the precision that is asked for. What
-// sub_goal.h does for the sweep's many planes in double, for the few that a god-object of rays has met.
+// The place nearest to a goal on at most four half-spaces, in the selected precision. The counterpart of
+// sub_goal.h, which handles the sweep's many planes in double, for the few planes of a god-object of rays.
 
 #include <glm/glm.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace touchstone {
 
-/// Half-space normal · x >= offset; x counts from the god-object.
+/// Half-space normal · x >= offset; x is relative to the god-object.
 template <class Real>
 struct FewPlane {
     glm::vec<3, Real> normal{Real(0)}; ///< unit
@@ -20,7 +20,7 @@ struct FewPlane {
 
 template <class Real>
 struct FewPlanes {
-    static constexpr size_t kMax = 4; ///< three that hold it and the one that it has just met
+    static constexpr size_t kMax = 4; ///< three that hold it and the newest one
     std::array<FewPlane<Real>, kMax> plane;
     size_t count = 0;
 };
@@ -31,13 +31,13 @@ struct FewPlanesGoal {
     std::array<size_t, 3> active{};
     std::array<Real, 3> multiplier{}; ///< >= 0
     size_t count = 0;
-    bool found = true; ///< false: planes that contradict each other; `point` is the origin
+    bool found = true; ///< false: contradictory planes; `point` is the origin
 };
 
 namespace detail {
 
-/// The place of the meet of `count` planes that is nearest to the goal, with its Lagrange multipliers (Zilles
-/// and Salisbury's system of equations, by orthogonalisation). False where planes depend on each other.
+/// The point of the intersection of `count` planes that is nearest to the goal, with its Lagrange multipliers
+/// (Zilles and Salisbury's system of equations, by orthogonalisation). False where the planes are dependent.
 template <class Real>
 bool meetOf(const glm::vec<3, Real>& goal, const FewPlanes<Real>& planes, const std::array<size_t, 3>& set,
             size_t count, FewPlanesGoal<Real>& result) noexcept {
@@ -78,7 +78,7 @@ bool meetOf(const glm::vec<3, Real>& goal, const FewPlanes<Real>& planes, const 
 
 } // namespace detail
 
-/// For a convex problem the nearest of the meets that violate nothing is the answer: at most fifteen are
+/// For a convex problem the answer is the nearest intersection that violates no plane: at most fifteen are
 /// tried.
 template <class Real>
 [[nodiscard]] FewPlanesGoal<Real> nearestOnPlanes(const glm::vec<3, Real>& goal,

@@ -1,5 +1,5 @@
 #pragma once
-// Between matrices and similarities.
+// Conversion of matrices to similarities.
 
 #include "engine/math/similarity.h"
 
@@ -9,9 +9,9 @@
 
 namespace touchstone {
 
-/// The similarity nearest to a matrix: scale from the volume, axes made orthogonal by Gram and Schmidt, who
-/// keep the rotation of a matrix that has one. False for what mirrors, flattens or is not finite:
-/// `similarity` stays as it was.
+/// The similarity nearest to a matrix: scale from the volume, axes orthogonalised by Gram and Schmidt, which
+/// preserves the rotation of a matrix that has one. False where the matrix mirrors, flattens or is not
+/// finite: `similarity` is then unchanged.
 inline bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) {
     const glm::dmat3 linear(matrix);
     const double volume = glm::determinant(linear);
@@ -19,7 +19,7 @@ inline bool nearestSimilarity(const glm::dmat4& matrix, Similarity& similarity) 
         return false;
     const glm::dvec3 x = glm::normalize(linear[0]);
     const glm::dvec3 across = linear[1] - glm::dot(linear[1], x) * x;
-    // Of columns that are parallel rounding leaves a volume, and nothing or anything of the second axis.
+    // Rounding gives parallel columns a small volume and an arbitrary second axis.
     constexpr double kFlat = 1e-12;
     if (!(glm::length(across) > kFlat * glm::length(linear[1])))
         return false;

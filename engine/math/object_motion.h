@@ -6,11 +6,11 @@
 
 namespace touchstone {
 
-/// Where one object stands at this tick and where it stood at the last, in the workspace.
+/// The pose of one object at this tick and at the last, in the workspace.
 struct ObjectMotion {
     Similarity workspaceFromObject;
     Similarity before;
-    bool jumped = false; ///< it was put here and did not come here from `before`
+    bool jumped = false; ///< it was placed here and did not move here from `before`
 };
 
 /// Index = HapticScene::objects.

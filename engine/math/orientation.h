@@ -1,5 +1,5 @@
 #pragma once
-// Which side of a line a point is on, exactly.
+// Exact test of the side of a line on which a point lies.
 
 #include <glm/glm.hpp>
 
@@ -11,8 +11,8 @@ namespace touchstone {
 
 namespace detail {
 
-/// A sum that is kept without rounding as parts that do not overlap, the smallest first (Shewchuk 1997,
-/// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", GROW-EXPANSION).
+/// An exact sum, stored as parts that do not overlap, the smallest first (Shewchuk 1997, "Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", GROW-EXPANSION).
 class ExactSum {
   public:
     void add(double value) {
@@ -29,7 +29,7 @@ class ExactSum {
         add(std::fma(a, b, -product));
         add(product);
     }
-    /// Of the same sign as the sum, and within its last bits.
+    /// Has the same sign as the sum, and agrees with it up to the last bits.
     [[nodiscard]] double estimate() const {
         for (size_t i = count_; i-- > 0;)
             if (part_[i] != 0.0)
@@ -44,14 +44,14 @@ class ExactSum {
 
 } // namespace detail
 
-/// Twice the area of the triangle p a b, positive when it is counter-clockwise: p is left of the way from a
-/// to b. The sign is exact, zero exactly for three points on a line, and swapping a and b negates it: so two
+/// Twice the area of the triangle p a b, positive when it is counter-clockwise: p is left of the line from a
+/// to b. The sign is exact, zero exactly for three collinear points, and swapping a and b negates it: so two
 /// triangles that share the edge a b agree about p, whatever the compiler contracts. (Shewchuk's ORIENT2D
-/// with one stage of filter. Exact while no product of two coordinates under- or overflows.)
+/// with one filter stage. Exact while no product of two coordinates under- or overflows.)
 [[nodiscard]] inline double orientation(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x);
     const double area = left - right;
-    constexpr double kFilter = 4.5e-16; // (3 + 16 u) u with u = 2^-53, and room
+    constexpr double kFilter = 4.5e-16; // (3 + 16 u) u with u = 2^-53, with a margin
     if (std::abs(area) > kFilter * (std::abs(left) + std::abs(right)))
         return area;
     detail::ExactSum sum;

@@ -1,12 +1,12 @@
 #pragma once
-// Frames and the maps between them. A transform reads as `aFromB`: it takes coordinates in b to a.
+// Frames and the maps between them. A transform reads as `aFromB`: it maps coordinates in b to a.
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 namespace touchstone {
 
-/// x -> scale * (rotation * x) + translation, in double. Angles and ratios survive it, so forces, friction
+/// x -> scale * (rotation * x) + translation, in double. It preserves angles and ratios, so forces, friction
 /// cones and penetration depths computed in one frame hold in the other up to `scale`.
 struct Similarity {
     double scale = 1.0;                      ///< length in a of one unit of length in b; > 0
@@ -26,7 +26,7 @@ struct Similarity {
     [[nodiscard]] glm::dvec3 inversePoint(const glm::dvec3& a) const {
         return glm::conjugate(rotation) * (a - translation) / scale;
     }
-    /// `inverse() * aFromC`, which is bFromC; the same holds.
+    /// `inverse() * aFromC`, which is bFromC, likewise without cancellation.
     [[nodiscard]] Similarity inverseTimes(const Similarity& aFromC) const {
         return {aFromC.scale / scale, glm::normalize(glm::conjugate(rotation) * aFromC.rotation),
                 inversePoint(aFromC.translation)};

@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Tells how far the parser has read. After a bracket, a key or a string that is right behind it; after a
-/// number it may be one further.
+/// Counts how far the parser has read. After a bracket, a key or a string the count is just behind it; after
+/// a number it may be one further.
 struct CountingIterator {
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
@@ -39,7 +39,7 @@ struct CountingIterator {
     bool operator!=(const CountingIterator& other) const { return at != other.at; }
 };
 
-/// Notes the children of the outermost value.
+/// Records the children of the outermost value.
 class PartFinder : public json::json_sax_t {
   public:
     PartFinder(std::string_view text, const size_t& consumed) : text_(text), consumed_(consumed) {}
@@ -74,7 +74,7 @@ class PartFinder : public json::json_sax_t {
     std::vector<JsonPart> parts;
 
   private:
-    /// Behind whatever may stand between a child and what came before it.
+    /// The position after any characters between the preceding token and a child's value.
     [[nodiscard]] size_t valueBegin() const {
         return std::min(text_.find_first_not_of(" \t\r\n,:", cursor_), text_.size());
     }
@@ -108,7 +108,7 @@ class PartFinder : public json::json_sax_t {
     std::string_view text_;
     const size_t& consumed_;
     int depth_ = 0;
-    size_t cursor_ = 0; // behind the last token that was dealt with
+    size_t cursor_ = 0; // after the last token processed
     size_t begin_ = 0;
     std::optional<size_t> keyBegin_;
     std::string key_;
@@ -149,8 +149,8 @@ std::string spliced(std::string_view text, size_t from, size_t to, std::string_v
     return result;
 }
 
-/// Behind the last child, or behind the opening bracket where there is none; `item` gets the white space that
-/// the last child has before it.
+/// Inserts after the last child, or after the opening bracket where there is none; `item` gets the white
+/// space that precedes the last child.
 std::string appended(std::string_view text, const std::vector<JsonPart>& parts, const std::string& item) {
     if (parts.empty()) {
         const size_t open = text.find_first_of("{[");

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kOurs = "TOUCHSTONE_materials_haptic";
 constexpr const char* kReexport = "re-export the model";
 
-/// Where the JSON of a file lies. In a GLB behind the header (12 bytes) and its chunk's (8).
+/// Position of a file's JSON. In a GLB it follows the header (12 bytes) and its chunk's (8).
 struct TextSpan {
     size_t begin = 0, end = 0;
     bool isGlb = false;
@@ -43,7 +43,7 @@ TextSpan textSpan(std::span<const uint8_t> bytes, bool isGlb) {
     return isGlb ? TextSpan{kJson, kJson + wordAt(bytes, kLength), true} : TextSpan{0, bytes.size(), false};
 }
 
-/// What a patch sets where nothing is yet: no member for one that only removes.
+/// The value that a patch creates where there is none: without members that only remove.
 Json withoutNulls(const Json& value) {
     if (!value.is_object())
         return value;
@@ -58,7 +58,7 @@ Json withoutNulls(const Json& value) {
     return result;
 }
 
-/// RFC 7396 on text, so that what the patch does not name keeps its spelling.
+/// RFC 7396 on text, so that members outside the patch keep their spelling.
 std::string merged(std::string_view object, const Json& patch) {
     std::string result(object);
     for (const auto& [name, value] : patch.items()) {
@@ -91,8 +91,7 @@ std::string patchedMaterial(std::string_view material, const Json& patch) {
     return isEmpty(rest) ? withoutMember(material, "extensions") : withMember(material, "extensions", rest);
 }
 
-/// The array `materials` with the patches made, from the last one to the first: what lies before keeps its
-/// place.
+/// The array `materials` with the patches applied, from the last to the first: earlier offsets stay valid.
 std::string patchedMaterials(std::string_view materials, const MaterialPatches& patches,
                              const std::string& shownAs) {
     const std::vector<JsonPart> parts = jsonParts(materials);
@@ -109,7 +108,7 @@ std::string patchedMaterials(std::string_view materials, const MaterialPatches& 
     return result;
 }
 
-/// Names the extension in `extensionsUsed` where some material has it, and nowhere else.
+/// Lists the extension in `extensionsUsed` exactly if some material has it.
 std::string withExtensionNamed(std::string root, const std::string& shownAs) {
     const auto used = jsonMember(root, "extensionsUsed");
     const std::string name = Json(kOurs).dump();
@@ -136,8 +135,8 @@ std::string patchedRoot(std::string_view root, const MaterialPatches& patches, c
     return withExtensionNamed(withMember(root, "materials", list), shownAs);
 }
 
-/// The file with other JSON. A GLB's chunk is filled up with spaces to a multiple of four, as the format
-/// asks.
+/// The file with other JSON. A GLB's chunk is padded with spaces to a multiple of four, as the format
+/// requires.
 std::vector<uint8_t> withText(std::span<const uint8_t> bytes, const TextSpan& span, std::string text,
                               const std::string& shownAs) {
     if (span.isGlb)
@@ -158,7 +157,7 @@ std::vector<uint8_t> withText(std::span<const uint8_t> bytes, const TextSpan& sp
     return result;
 }
 
-/// The first file beside it that it needs; empty: it needs none.
+/// The first external file that it needs; empty: none.
 std::string externalUri(const nlohmann::json& root) {
     for (const char* array : {"buffers", "images"})
         if (const auto list = root.find(array); list != root.end() && list->is_array())

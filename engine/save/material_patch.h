@@ -1,7 +1,7 @@
 #pragma once
-// What a user changes about how materials feel, written into the file that says it: only
-// `materials[i].extensions.TOUCHSTONE_materials_haptic` and `extensionsUsed` are touched, everything else of
-// the file keeps its bytes (of a GLB: but for the two lengths and the JSON chunk's padding).
+// Writes a user's changes of haptic materials into the source file: only
+// `materials[i].extensions.TOUCHSTONE_materials_haptic` and `extensionsUsed` change, everything else keeps
+// its bytes (in a GLB except for the two lengths and the JSON chunk's padding).
 
 #include "engine/core/checksum.h"
 
@@ -17,23 +17,24 @@
 namespace touchstone {
 
 /// Changes of the extension by the material's index in the file, each a merge patch (RFC 7396): members are
-/// set, those that are null removed, objects merged. An extension that states nothing any more is removed,
-/// with the name in `extensionsUsed` when it was the last.
+/// set, null ones removed, objects merged. An extension that becomes empty is removed, and its name in
+/// `extensionsUsed` when it was the last.
 using MaterialPatches = std::map<size_t, nlohmann::ordered_json>;
 
-/// As JSON, {"0": {...}}, and back; empty for none. patchesFrom throws Error where the text is no such thing.
+/// Converts to JSON, {"0": {...}}, and back; empty for none. patchesFrom throws Error where the text is
+/// invalid.
 [[nodiscard]] std::string textOf(const MaterialPatches& patches);
 [[nodiscard]] MaterialPatches patchesFrom(const std::string& text);
 
-/// The .gltf or .glb in `bytes` with the patches made. `shownAs` names it in messages. Without patches the
+/// The .gltf or .glb in `bytes` with the patches applied. `shownAs` names it in messages. Without patches the
 /// same bytes. Throws Error where it is no glTF, or has no material of such an index.
 [[nodiscard]] std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes,
                                                  const MaterialPatches& patches, const std::string& shownAs);
 
 /// Writes `source` with the patches to `target` (which may be the same file), as a whole or not at all.
-/// Throws Error where the source has no longer the bytes `loaded`, so that nobody else's work is overwritten;
-/// where the target would be of another kind (.glb, .gltf); and where the source names files beside it and
-/// the target is not beside them. Returns what the target then is.
+/// Throws Error where the source no longer has the bytes `loaded`, so that no other program's changes are
+/// overwritten; where the target would be of another kind (.glb, .gltf); and where the source refers to files
+/// beside it and the target is in another folder. Returns the target's new stamp.
 [[nodiscard]] FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
                                       const MaterialPatches& patches, const std::filesystem::path& target);
 

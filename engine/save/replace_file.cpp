@@ -16,7 +16,7 @@ namespace touchstone {
 
 namespace {
 
-/// A file under a name of its own, gone unless it is renamed.
+/// A file under a temporary name, deleted unless it is renamed.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::filesystem::path& target) : target_(target.string()) {
@@ -25,7 +25,7 @@ class TemporaryFile {
             name_ = target_ + "." + std::to_string(getpid()) + "-" + std::to_string(number++) + ".part";
             descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         } while (descriptor_ < 0 && errno == EEXIST && number < 1000);
-        if (descriptor_ < 0) // nothing is there to clean up
+        if (descriptor_ < 0) // nothing to clean up
             fail("cannot be written", "check the folder's permissions, or save under another name");
     }
     ~TemporaryFile() {
@@ -56,7 +56,8 @@ class TemporaryFile {
         if (rename(name_.c_str(), target_.c_str()) != 0)
             fail("cannot be replaced", "save under another name");
         renamed_ = true;
-        // The new name outlives a power cut, too; where the folder cannot be synchronised it is there anyway.
+        // Makes the new name survive a power failure; where the folder cannot be synchronised the name exists
+        // anyway.
         const std::filesystem::path parent = std::filesystem::path(target_).parent_path();
         const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (folder >= 0) {

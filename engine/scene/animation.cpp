@@ -23,7 +23,7 @@ glm::dvec4 unit(const glm::dvec4& q) noexcept {
     return length > 0.0 ? q / length : glm::dvec4(0.0, 0.0, 0.0, 1.0);
 }
 
-// Appendix C.4: a = acos |q0 . q1|, the sign of the dot product picks the short way round.
+// Appendix C.4: a = acos |q0 . q1|, the sign of the dot product selects the short arc.
 glm::dvec4 slerp(const glm::dvec4& from, const glm::dvec4& to, double t) noexcept {
     const double dot = glm::dot(from, to);
     const double angle = std::acos(std::min(std::abs(dot), 1.0));
@@ -99,7 +99,7 @@ void ScenePose::evaluate(const Scene& scene, const Animation* animation, double 
                 break;
             }
         }
-    // Parents come first, so one pass composes them all.
+    // Parents precede children, so one pass composes them all.
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         const glm::dmat4 parentFrom =
@@ -132,7 +132,7 @@ std::vector<bool> movedNodes(const Scene& scene, const Animation& animation) {
     std::vector<bool> moved(scene.nodes.size(), false);
     for (const AnimationChannel& channel : animation.channels)
         moved[static_cast<size_t>(channel.node)] = true;
-    // Parents come first.
+    // Parents precede children.
     for (size_t n = 0; n < scene.nodes.size(); ++n)
         if (const int parent = scene.nodes[n].parent; parent >= 0 && moved[static_cast<size_t>(parent)])
             moved[n] = true;

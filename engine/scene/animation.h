@@ -1,5 +1,5 @@
 #pragma once
-// Where everything is at a time: node animation of glTF sampled, and the poses of the instances composed.
+// Poses at a time: samples glTF node animation and composes the poses of the instances.
 
 #include "engine/scene/scene.h"
 
@@ -8,22 +8,21 @@
 
 namespace touchstone {
 
-/// The animation that plays, for the hand and for the eye: the first one that moves a node, for ever again.
-/// Null: nothing moves. One of morph weights alone has no channels here.
+/// The animation that plays, for touch and picture: the first one that moves a node, repeated without end.
+/// Null: nothing moves. An animation of morph weights alone has no channels here.
 [[nodiscard]] const Animation* playedAnimation(const Scene& scene);
 
 /// By node: whether the animation moves it, by itself or through a parent.
 [[nodiscard]] std::vector<bool> movedNodes(const Scene& scene, const Animation& animation);
 
-/// One channel at `time` s: clamped to its first and last key outside of them (glTF 2.0, section 3.11).
-/// Linear rotations are slerped the short way, cubic ones normalised. Rotations are x, y, z, w. Any thread,
-/// no allocation.
+/// One channel at `time` s: clamped to its first and last key (glTF 2.0, section 3.11). Linear rotations are
+/// slerped along the short arc, cubic ones normalised. Rotations are x, y, z, w. Any thread, no allocation.
 [[nodiscard]] glm::dvec4 sampleChannel(const AnimationChannel& channel, double time) noexcept;
 
 /// The static pose of a node relative to its parent.
 [[nodiscard]] glm::dmat4 parentFromNode(const Node& node) noexcept;
 
-/// sceneFromMesh of every instance of a scene at a time. Made once (allocates); `evaluate` then allocates
+/// sceneFromMesh of every instance of a scene at a time. The constructor allocates; `evaluate` allocates
 /// nothing, takes no lock and does not throw, so the servo may call it. Not shared between threads.
 class ScenePose {
   public:
@@ -48,7 +47,7 @@ class ScenePose {
 [[nodiscard]] std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* animation,
                                                       double time);
 
-/// `time` wrapped into the animation, so that it repeats without end; 0 if it lasts no time.
+/// `time` wrapped into the animation, so that it repeats without end; 0 if its duration is 0.
 [[nodiscard]] double loopedTime(const Animation& animation, double time) noexcept;
 
 } // namespace touchstone

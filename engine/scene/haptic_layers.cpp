@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// A field keeps the first value it gets: layers come in falling order of precedence.
+/// A field keeps its first value: layers come in falling order of precedence.
 template <class T>
 void offer(HapticMaterial::Field<T>& field, const std::optional<T>& value, HapticSource source) {
     if (!field.value && value)
@@ -45,8 +45,8 @@ void offerMpeg(const HapticLayers& says, HapticMaterial& haptic) {
     constexpr auto source = HapticSource::Mpeg;
     const HapticStatement& ours = says.ours;
     offer(haptic.stiffnessMap, says.mpegStiffness, source);
-    // The map is the coefficient itself, so its scalars are 1; beside a scalar of ours it would mean another
-    // thing.
+    // The map is the coefficient itself, so its scalars are 1; together with a scalar of the project's
+    // extension it would have another meaning.
     if (says.mpegFriction && !ours.staticFriction && !ours.dynamicFriction && !ours.friction) {
         offer(haptic.friction, says.mpegFriction, source);
         offer(haptic.staticFriction, std::optional(1.0f), source);
@@ -77,7 +77,7 @@ void deriveFriction(HapticMaterial& haptic, std::optional<float> meanRoughness) 
     if (!meanRoughness)
         return;
     const float rough = 0.15f + 0.6f * std::clamp(*meanRoughness, 0.0f, 1.0f);
-    // Beside a stated coefficient the derived one must not turn the pair upside down.
+    // Beside a stated coefficient the derived one must keep mu_d <= mu_s.
     const float fromStatic = haptic.staticFriction.value.value_or(rough);
     offer(haptic.dynamicFriction, std::optional(std::min(kSlidingShare * rough, fromStatic)),
           HapticSource::DerivedFromPbr);

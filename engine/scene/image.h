@@ -9,8 +9,8 @@ namespace touchstone {
 
 enum class ComponentType : uint8_t { U8, U16, F32 };
 
-/// Decoded pixels, rows from the top as glTF's UV origin has it, channels interleaved, no padding. Values are
-/// as stored in the file: no colour conversion is made (haptic maps are linear data; the eye decodes sRGB).
+/// Decoded pixels, rows from the top as in glTF's UV origin, channels interleaved, no padding. Values are as
+/// stored in the file, without colour conversion (haptic maps are linear data; the renderer decodes sRGB).
 struct PixelData {
     int width = 0, height = 0;
     int channels = 0; ///< 1..4
@@ -21,11 +21,10 @@ struct PixelData {
     [[nodiscard]] float value(int x, int y, int c) const;
 };
 
-/// An image of the file. `pixels` is empty when nobody asked for it or when it is broken (`problem` says
-/// why).
+/// An image of the file. `pixels` is empty when it is not needed or broken (`problem` states why).
 struct Image {
-    std::string name;                        ///< what to call it in messages: name, URI or "images[3]"
-    int width = 0, height = 0, channels = 0; ///< by its header, decoded or not
+    std::string name;                        ///< name for messages: name, URI or "images[3]"
+    int width = 0, height = 0, channels = 0; ///< from its header, decoded or not
     PixelData pixels;
     std::string problem;
     bool decoded = false;

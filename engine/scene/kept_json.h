@@ -1,5 +1,5 @@
 #pragma once
-// What a file says and nobody here reads yet: kept for saving and for `inspect`.
+// Parts of a file that are not yet used: kept for saving and for `inspect`.
 
 #include <nlohmann/json.hpp>
 
@@ -39,10 +39,10 @@ class KeptJson {
     }
 
   private:
-    std::shared_ptr<const nlohmann::json> value_; ///< null stands for JSON's null
+    std::shared_ptr<const nlohmann::json> value_; ///< null represents JSON's null
 };
 
-/// The same by name.
+/// KeptJson by name.
 struct KeptFields : std::map<std::string, KeptJson> {
     [[nodiscard]] bool is_null() const { return empty(); }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What a surface looks like (glTF's metallic-roughness) and what it feels like (docs/materials.md).
+// Appearance of a surface (glTF's metallic-roughness) and its haptic properties (docs/materials.md).
 
 #include "engine/scene/kept_json.h"
 
@@ -16,11 +16,11 @@ enum class Wrap : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
 
 /// A reference to an image with its sampler and KHR_texture_transform. UV origin is the upper left.
 struct TextureRef {
-    int texture = -1; ///< index into Scene::textures, that it was read from
+    int texture = -1; ///< index into Scene::textures, its source
     int image = -1;   ///< index into Scene::images; < 0: no texture
     int texCoord = 0; ///< UV set (0 or 1), already overridden by the transform extension
     Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
-    bool nearest = false;   ///< sampler asks for nearest magnification
+    bool nearest = false;   ///< the sampler specifies nearest magnification
     glm::vec2 offset{0.0f}; ///< KHR_texture_transform: uv' = offset + R(rotation) * (scale * uv)
     float rotation = 0.0f;  ///< rad, counter-clockwise as the extension defines it
     glm::vec2 scale{1.0f};
@@ -32,7 +32,7 @@ struct TextureRef {
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
 
-/// Where a haptic value came from, in falling order of precedence.
+/// The source of a haptic value, in falling order of precedence.
 enum class HapticSource : uint8_t { Touchstone, Mpeg, Physics, DerivedFromPbr, Default };
 
 /// A map whose R channel scales a factor from `min` (black) to `max` (white), linear.
@@ -53,8 +53,9 @@ struct HeightMap {
 enum class ShadingChoice : uint8_t { Auto, Off, TwoPass, Projected, Direction, Bezier };
 enum class SideChoice : uint8_t { Both, Front };
 
-/// What a material asks for. An empty optional means that the file says nothing: the session's setting or the
-/// device's recommendation holds. Every field keeps its source so that `inspect` can say why.
+/// The haptic properties of a material. An empty optional means that the file does not specify it: the
+/// session's setting or the device's recommendation applies. Every field keeps its source for the reasons in
+/// `inspect`.
 struct HapticMaterial {
     template <class T>
     struct Field {
@@ -67,17 +68,17 @@ struct HapticMaterial {
     Field<float> staticFriction;         ///< 1
     Field<float> dynamicFriction;        ///< 1
     Field<float> viscousFriction;        ///< N·s/m
-    Field<float> normalTextureInfluence; ///< 0..1, felt share of the core normal map
+    Field<float> normalTextureInfluence; ///< 0..1, felt fraction of the core normal map
     Field<HeightMap> height;
     Field<FactorMap> friction, stiffnessMap, dampingMap;
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
     std::string representation = "mesh"; ///< "implicit" is kept and reported as not yet available
-    KeptFields unavailable;              ///< fields of later work, for `inspect`
+    KeptFields unavailable;              ///< fields reserved for later, for `inspect`
     bool operator==(const HapticMaterial&) const = default;
 };
 
-/// What TOUCHSTONE_materials_haptic states of a material, field by field; an empty one is left out.
+/// The statements of TOUCHSTONE_materials_haptic about a material, field by field; an empty one is left out.
 struct HapticStatement {
     std::optional<float> stiffness, damping, staticFriction, dynamicFriction, viscousFriction,
         normalTextureInfluence;
@@ -87,21 +88,21 @@ struct HapticStatement {
     std::optional<SideChoice> sides;
     std::optional<bool> implicit;   ///< representation: "implicit", else "mesh"
     std::optional<float> voxelSize; ///< model metres
-    KeptJson shader;                ///< as the file has it; null: none
+    KeptJson shader;                ///< as in the file; null: none
     bool operator==(const HapticStatement&) const = default;
 };
 
-/// All that a file says of how a surface feels, by who says it. settleHaptics makes one of them.
+/// All haptic statements of a file about a surface, by source. settledHaptics resolves them.
 struct HapticLayers {
     HapticStatement ours;
     std::optional<FactorMap> mpegStiffness, mpegFriction;
-    KeptJson mpegUnavailable; ///< channels of later work, an object; null: none
+    KeptJson mpegUnavailable; ///< channels reserved for later, an object; null: none
     std::optional<float> physicsStatic, physicsDynamic;
-    std::optional<float> meanRoughness; ///< that the PBR material states and that could be read
+    std::optional<float> meanRoughness; ///< stated by the PBR material and readable
 };
 
-/// KHR_materials_pbrSpecularGlossiness: stands in place of metallic and roughness. The diffuse colour and its
-/// map are Material::baseColor and baseColorTexture.
+/// KHR_materials_pbrSpecularGlossiness: replaces metallic and roughness. The diffuse colour and its map are
+/// Material::baseColor and baseColorTexture.
 struct SpecularGlossiness {
     bool used = false;
     glm::vec3 specular{1.0f}; ///< reflectance at normal incidence, linear
@@ -109,7 +110,7 @@ struct SpecularGlossiness {
     TextureRef texture;       ///< RGB specular (sRGB), A glossiness
 };
 
-/// KHR_materials_ior and KHR_materials_specular: how the dielectric part reflects.
+/// KHR_materials_ior and KHR_materials_specular: reflection of the dielectric part.
 struct DielectricSpecular {
     float ior = 1.5f; ///< 0: reflects everything (the extension's backward-compatible mode)
     float factor = 1.0f;
@@ -136,20 +137,20 @@ struct Transmission {
     TextureRef texture;               ///< R
     float thickness = 0.0f;           ///< mesh metres; 0: thin walls, no volume
     TextureRef thicknessTexture;      ///< G
-    glm::vec3 attenuationColor{1.0f}; ///< linear: what white light becomes after attenuationDistance
+    glm::vec3 attenuationColor{1.0f}; ///< linear: colour of white light after attenuationDistance
     float attenuationDistance = 0.0f; ///< scene metres; 0: the volume absorbs nothing
 };
 
-/// The textures that a material's look reads, in the order of Material::lookTextures.
+/// The textures that a material's appearance reads, in the order of Material::lookTextures.
 inline constexpr size_t kLookTextures = 14;
 
 struct Material {
     std::string name;
-    int fileIndex = -1;          ///< of the file's materials; < 0: the file has none for this surface
+    int fileIndex = -1;          ///< index in the file; < 0: the file has no material for this surface
     glm::vec4 baseColor{1.0f};   ///< linear
     TextureRef baseColorTexture; ///< sRGB
     float metallic = 1.0f, roughness = 1.0f;
-    bool roughnessStated = false, metallicStated = false; ///< the file gives the factor explicitly
+    bool roughnessStated = false, metallicStated = false; ///< the file states the factor explicitly
     TextureRef metallicRoughnessTexture;                  ///< G roughness, B metallic
     TextureRef normalTexture;
     float normalScale = 1.0f;
@@ -161,14 +162,14 @@ struct Material {
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit =
-        false; ///< KHR_materials_unlit: the base colour is what is seen, and all that follows is ignored
+        false; ///< KHR_materials_unlit: only the base colour is drawn, and all that follows is ignored
     SpecularGlossiness specularGlossiness;
     DielectricSpecular specular;
     Clearcoat clearcoat;
     Sheen sheen;
     Transmission transmission;
     HapticLayers says;
-    HapticMaterial haptic; ///< what holds of `says`
+    HapticMaterial haptic; ///< resolved from `says`
 
     /// Base colour, metallic-roughness, normal, occlusion, emissive, specular-glossiness, specular, specular
     /// colour, clearcoat, clearcoat roughness, sheen colour, sheen roughness, transmission, thickness: the

@@ -27,7 +27,7 @@ uint32_t duplicateVertex(Mesh& mesh, uint32_t v) {
     forEachVertexArray(mesh, [v](const char*, auto& array) {
         if (array.empty())
             return;
-        const auto value = array[v]; // push_back may move what array[v] refers to
+        const auto value = array[v]; // push_back may reallocate what array[v] refers to
         array.push_back(value);
     });
     return static_cast<uint32_t>(mesh.positions.size() - 1);

@@ -1,6 +1,6 @@
 #pragma once
-// The one list of the vertex arrays of a Mesh. Whatever copies, splits, reorders, counts or checks vertices
-// goes through it: an array that such code forgets is shorter than `positions` afterwards, and is read past
+// The single list of the vertex arrays of a Mesh. All code that copies, splits, reorders, counts or checks
+// vertices uses it: an array that such code omits is shorter than `positions` afterwards, and is read past
 // its end (an importer that split vertices without `heights` did exactly that).
 
 #include "engine/scene/scene.h"
@@ -16,7 +16,7 @@ namespace touchstone {
 
 namespace detail {
 
-/// Converts to whatever type a member has; only for counting the members of an aggregate.
+/// Converts to any member's type; only for counting the members of an aggregate.
 struct AnyMember {
     template <class T>
     operator T() const; // NOLINT: implicit on purpose
@@ -73,24 +73,24 @@ void forEachVertexArray(AnyMesh& mesh, F&& f) {
 /// Appends a copy of vertex `v` to every vertex array and returns its index. `v` is in range.
 uint32_t duplicateVertex(Mesh& mesh, uint32_t v);
 
-/// Makes vertex i a copy of today's vertex from[i], in every vertex array: drops, reorders, duplicates.
+/// Makes vertex i a copy of the former vertex from[i], in every vertex array: drops, reorders, duplicates.
 /// Indices are left to the caller. All of `from` are in range.
 void selectVertices(Mesh& mesh, std::span<const uint32_t> from);
 
-/// Drops the vertices that no triangle, segment or point uses. The order of the others stays, indices follow.
-/// Nothing where nothing is drawn.
+/// Drops the vertices that no triangle, segment or point uses. The order of the others stays, and indices are
+/// updated. No effect where nothing is drawn.
 void dropUnusedVertices(Mesh& mesh);
 
-/// Bytes of one vertex over the arrays that the mesh has.
+/// Bytes of one vertex over the mesh's arrays.
 [[nodiscard]] uint64_t bytesPerVertex(const Mesh& mesh);
 
-/// What breaks the promises of Mesh that memory safety and finite forces rest on: an array that is neither
-/// empty nor as long as `positions`, a value that is not finite, a number of indices that is no multiple of
-/// three (of two for lines), an index out of range. Nothing if they hold. Linear in the mesh.
+/// A violation of the invariants of Mesh on which memory safety and finite forces depend: an array that is
+/// neither empty nor as long as `positions`, a value that is not finite, a number of indices that is no
+/// multiple of three (of two for lines), an index out of range. Empty if they hold. Linear in the mesh.
 [[nodiscard]] std::optional<std::string> meshFault(const Mesh& mesh);
 
-/// Throws Error (file, place) with meshFault, if there is one. Every maker of meshes ends with it, and what
-/// builds on a mesh that others made begins with it.
+/// Throws Error (file, place) with meshFault, if there is one. All code that makes meshes ends with it, and
+/// code that uses other code's meshes begins with it.
 void checkMesh(const Mesh& mesh, const std::string& file, const std::string& place);
 
 } // namespace touchstone

@@ -43,9 +43,8 @@ std::vector<MaterialPlacement> materialPlacements(const Scene& scene) {
 Similarity workspaceFromScene(const Scene& scene, Fit fit) {
     if (fit == Fit::None || scene.bounds.empty())
         return {};
-    // Coordinates are rounded to 1e-16 of themselves. Of a model that is smaller than 1e-9 of its way from
-    // the origin no magnification makes more than a heap of roundings, which would lie millions of kilometres
-    // apart.
+    // Coordinates have a relative rounding error of 1e-16. A model smaller than 1e-9 of its distance from the
+    // origin would, magnified, show only rounding errors, millions of kilometres apart.
     constexpr double kFinest = 1e-9;
     const glm::dvec3 extent = scene.bounds.extent(), centre = glm::abs(scene.bounds.centre());
     const double longest =

@@ -1,5 +1,5 @@
 #pragma once
-// What eye and hand share: an immutable scene. Made by scene_loader.h, validated before it exists.
+// The immutable scene that rendering and touch share. Made by scene_loader.h, validated before construction.
 
 #include "engine/core/checksum.h"
 #include "engine/math/similarity.h"
@@ -17,15 +17,14 @@
 
 namespace touchstone {
 
-/// One glTF primitive in its mesh frame (model metres, float as the file has it): an indexed triangle list,
-/// or line segments or points, which are drawn but not felt. Of the three index arrays at most one has
-/// entries. All vertex arrays have `positions.size()` entries or are empty. Indices are in range, positions
-/// finite.
+/// One glTF primitive in its mesh frame (model metres, float as in the file): an indexed triangle list, or
+/// line segments or points, which are drawn but not felt. Of the three index arrays at most one has entries.
+/// All vertex arrays have `positions.size()` entries or are empty. Indices are in range, positions finite.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< unit; from the file, else flat (then `normalsFromFile` is false)
-                                     ///< or, for lines and points, empty
+    std::vector<glm::vec3> normals;  ///< unit; from the file, else flat (`normalsFromFile` is false); empty
+                                     ///< for lines and points without
     std::vector<glm::vec4> tangents; ///< xyz unit, w = +1 or -1; empty if the material needs none
     std::vector<glm::vec2> uv0, uv1;
     std::vector<glm::vec4> colors;                   ///< linear, 0..1
@@ -42,14 +41,14 @@ struct Mesh {
     [[nodiscard]] size_t pointCount() const { return pointIndices.size(); }
 };
 
-/// Node transforms are kept as TRS in double so that animation can replace a part of them.
+/// Node transforms are stored as TRS in double so that animation can replace a part of them.
 struct Node {
     std::string name;
     int parent = -1; ///< parents come before children in Scene::nodes
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
-    bool hasMatrix = false; ///< then `matrix` is used verbatim (it may shear)
+    bool hasMatrix = false; ///< then `matrix` is used unchanged (it may shear)
     glm::dmat4 matrix{1.0};
 };
 
@@ -59,8 +58,8 @@ struct Instance {
     int mesh = -1;
     glm::dmat4 sceneFromMesh{1.0}; ///< static pose; may mirror, shear or scale unevenly
     glm::dmat4 nodeFromMesh{
-        1.0}; ///< one copy's place in its node (EXT_mesh_gpu_instancing), else the identity
-    /// False for a skinned mesh: its vertices hold the pose of the joints, its node does not move it.
+        1.0}; ///< one copy's pose in its node (EXT_mesh_gpu_instancing), else the identity
+    /// False for a skinned mesh: its vertices are in the pose of the joints, and its node does not move it.
     bool followsNode = true;
 };
 
@@ -81,13 +80,13 @@ struct Animation {
     std::vector<AnimationChannel> channels;
 };
 
-/// Something the user should know though the scene loads.
+/// A message for the user about a scene that loads nevertheless.
 struct Warning {
     std::string place; ///< "materials[2].normalTexture"
     std::string message;
 };
 
-/// One of the file's textures, without what a material adds to it.
+/// One of the file's textures, without a material's additions.
 struct SceneTexture {
     std::string name;
     TextureRef reference;
@@ -115,25 +114,26 @@ struct Scene {
 
 using ScenePtr = std::shared_ptr<const Scene>;
 
-/// Which sets of texture coordinates there are.
+/// The sets of texture coordinates that exist.
 using CoordinateSets = std::array<bool, 2>;
 
-/// Where a material is in its scene.
+/// The use of a material in its scene.
 struct MaterialPlacement {
     bool drawn = false;    ///< some instance has it
     bool placed = false;   ///< some instance with triangles has it
-    CoordinateSets sets{}; ///< of the meshes that do, any of them
+    CoordinateSets sets{}; ///< over the meshes with the material
 };
 /// One for each material.
 [[nodiscard]] std::vector<MaterialPlacement> materialPlacements(const Scene& scene);
 
 /// Longest side of a model fitted to the device's workspace, m. A Phantom Premium 1.5 spans 381 x 267 x 191
-/// mm; 0.15 m leaves room to approach the model from every side. Larger: finer device motion is felt coarser.
+/// mm; 0.15 m leaves room to approach the model from every side. A larger value makes device motion coarser
+/// relative to the model.
 inline constexpr double kFittedExtent = 0.15;
 
 enum class Fit : uint8_t { None, Workspace };
 
-/// The similarity that puts a scene into the device's workspace: `None` is the identity, `Workspace` centres
+/// The similarity that places a scene in the device's workspace: `None` is the identity, `Workspace` centres
 /// the bounds at the origin and scales the longest side to kFittedExtent; less where the model is smaller
 /// than the rounding of its place in the scene.
 [[nodiscard]] Similarity workspaceFromScene(const Scene& scene, Fit fit);

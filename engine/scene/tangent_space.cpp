@@ -18,8 +18,8 @@ struct Face {
     std::array<int, 3> group{kNone, kNone, kNone};     // per corner
     glm::dvec3 tangent{0.0};                           // unit dP/du
     bool collapsed = false;                            // two corners are the same vertex
-    bool joinsAny = false;                             // its UVs have no area: any frame will do
-    bool mirrored = false;                             // its UVs run the other way round than its corners
+    bool joinsAny = false;                             // its UVs have no area: any frame is valid
+    bool mirrored = false;                             // its UVs wind opposite to its corners
 };
 
 glm::dvec3 rejected(const glm::dvec3& v, const glm::dvec3& normal) {
@@ -50,7 +50,7 @@ class TangentBuilder {
     }
 
   private:
-    /// Once for every face that a loop comes by and for every two things that a sort compares.
+    /// Called once for every face of a loop and every comparison of a sort.
     void answerCancel() {
         if (++asked_ % kProgressWork == 0)
             progress_.stopIfCancelled();
@@ -60,7 +60,7 @@ class TangentBuilder {
         return glm::dvec3(mesh_.positions[mesh_.indices[3 * face + corner]]);
     }
 
-    /// Vertices that agree in position, normal and UV are one, however the file indexes them.
+    /// Welds vertices that agree in position, normal and UV, however the file indexes them.
     std::vector<int> weldedVertices() {
         const size_t count = mesh_.positions.size();
         std::vector<uint32_t> order(count);
@@ -156,7 +156,8 @@ class TangentBuilder {
         return kNone;
     }
 
-    /// Corners around a vertex share a frame while the faces hang together by edges and turn the same way.
+    /// Corners around a vertex share a frame while their faces are connected by edges and have the same UV
+    /// handedness.
     void groupCorners() {
         std::vector<int> open;
         for (size_t f = 0; f < faces_.size(); ++f) {
@@ -190,7 +191,7 @@ class TangentBuilder {
         }
     }
 
-    /// Each face's direction, in the plane of the vertex normal, weighs as much as its corner's angle there.
+    /// Sums each face's direction in the plane of the vertex normal, weighted by its corner's angle there.
     void sumGroups() {
         sum_.assign(mirroredGroup_.size(), glm::dvec3(0.0));
         for (size_t f = 0; f < faces_.size(); ++f) {
@@ -214,7 +215,7 @@ class TangentBuilder {
         }
     }
 
-    /// A corner whose vertex has another group's frame already.
+    /// A corner whose vertex already has another group's frame.
     struct Split {
         uint32_t vertex;
         int group;
@@ -222,13 +223,13 @@ class TangentBuilder {
         auto operator<=>(const Split&) const = default;
     };
 
-    /// Gives every vertex the frame of its group, splitting those that belong to several.
+    /// Gives every vertex the frame of its group, and splits those that belong to several.
     void writeTangents() {
         mesh_.tangents.assign(mesh_.positions.size(), glm::vec4(0.0f));
         constexpr int kUnset = -2;
         std::vector<int> groupOf(mesh_.positions.size(), kUnset);
         std::vector<Split> splits;
-        // Collapsed faces come last: they take whatever frame their vertex already has.
+        // Collapsed faces come last: they use whatever frame their vertex already has.
         for (const bool collapsedPass : {false, true})
             for (size_t f = 0; f < faces_.size(); ++f) {
                 answerCancel();
@@ -245,7 +246,7 @@ class TangentBuilder {
                     }
                 }
             }
-        // Vertices of no triangle.
+        // Vertices without a triangle.
         for (size_t v = 0; v < groupOf.size(); ++v)
             if (groupOf[v] == kUnset)
                 setTangent(static_cast<uint32_t>(v), kNone);
@@ -288,7 +289,7 @@ class TangentBuilder {
     }
 
     Mesh& mesh_;
-    const std::vector<glm::vec2> uv_; // a copy: the mesh's own grows while vertices are split
+    const std::vector<glm::vec2> uv_; // a copy: the mesh's own grows as vertices are split
     std::vector<Face> faces_;
     std::vector<bool> mirroredGroup_;
     std::vector<glm::dvec3> sum_;

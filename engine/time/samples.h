@@ -18,11 +18,11 @@ class Samples {
     [[nodiscard]] size_t count() const { return values_.size(); }
     [[nodiscard]] bool empty() const { return values_.empty(); }
 
-    /// The least kept value that at least the fraction `share` (0..1) of the values does not exceed
-    /// (nearest rank). 0 if nothing was added.
+    /// The smallest kept value that at least the fraction `share` (0..1) of the values does not exceed
+    /// (nearest rank). 0 if there are no values.
     [[nodiscard]] int64_t percentile(double share) const;
-    /// How many of the kept values lie in each bin: up to and with `ends[i]`, over the end before; one bin
-    /// more for what is over the last. `ends` increase.
+    /// The number of kept values in each bin: at most `ends[i]` and above the preceding end; one more bin for
+    /// values above the last. `ends` increase.
     [[nodiscard]] std::vector<uint64_t> histogram(std::span<const int64_t> ends) const;
     [[nodiscard]] double mean() const;
     [[nodiscard]] int64_t most() const;

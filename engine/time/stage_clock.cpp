@@ -19,7 +19,7 @@ double seconds(clockid_t clock) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// When the process began, s of CLOCK_BOOTTIME; to a hundredth (proc(5): field 22, after the name in
+/// Start time of the process, s of CLOCK_BOOTTIME; to a hundredth (proc(5): field 22, after the name in
 /// brackets).
 double processStart() {
     std::ifstream file("/proc/self/stat");

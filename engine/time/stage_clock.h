@@ -1,5 +1,5 @@
 #pragma once
-// Where the time of loading goes, by what is reported while it passes.
+// Measures the stages of loading from its progress reports.
 
 #include <cstdint>
 #include <string>
@@ -13,16 +13,15 @@ struct StageTime {
     double cpu = 0.0;  ///< s of all threads of the process
 };
 
-/// Fed with every report of a Progress: the time from one to the next is that of what the first one names.
-/// For one thread at a time, as the reports are.
+/// Takes every report of a Progress: the time between two reports belongs to the stage that the first one
+/// names. One thread at a time, like the reports.
 class StageClock {
   public:
-    /// The time before the first report is the program's own start: loading its libraries, reading its
-    /// options.
+    /// The time before the first report is the program's own start: loading libraries and reading options.
     StageClock();
 
     void at(const char* what);
-    /// The stages in the order in which they began, those that came again added up. The present one ends.
+    /// The stages in the order of their first report, with repeated ones summed. Ends the present stage.
     [[nodiscard]] std::vector<StageTime> take();
 
   private:
@@ -37,7 +36,7 @@ class StageClock {
     Reading since_;
 };
 
-/// The most memory that the process has held at once, bytes.
+/// The process's peak memory, bytes.
 [[nodiscard]] uint64_t peakMemory();
 
 } // namespace touchstone

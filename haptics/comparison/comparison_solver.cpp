@@ -20,7 +20,7 @@ Solver solverFor(const HapticScene& scene, ObjectMotions motions, const HapticSe
     return RayProxy<double>(scene, motions, budget, state, rest);
 }
 
-/// The watch has no part in what was jammed, and begins again where what it touches jumps.
+/// The watch ignores jammed objects, and restarts where its reference object jumps.
 void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) noexcept {
     if (state.jammed.count > 0) {
         state.jammed.count = 0;
@@ -40,7 +40,7 @@ void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) noex
 } // namespace
 
 bool comparisonIsReady(const HapticScene& scene, const HapticSettings& settings) noexcept {
-    // They would let the hand into a shape, and the sweep would push it out when it takes over.
+    // They would let the hand into a shape, and the sweep would then push it out.
     const auto isShape = [](const auto& object) { return object->shape != nullptr; };
     if (settings.contact != ContactMethod::Sweep && std::ranges::any_of(scene.objects, isShape))
         return false;
@@ -55,7 +55,7 @@ bool comparisonIsReady(const HapticScene& scene, const HapticSettings& settings)
     return false;
 }
 
-/// The watch meets moving objects along the HIP's path, which is relative to them.
+/// The watch meets moving objects along the HIP's path relative to them.
 void ComparisonSolver::followObjects(const HapticScene& scene, ObjectMotions motions,
                                      const HapticSettings& settings, DeviceState& state,
                                      uint32_t& flags) noexcept {

@@ -13,8 +13,8 @@ namespace touchstone {
 
 namespace {
 
-/// How far Embree's floats may be off in the object's frame: the HIP's path is lengthened by this at both
-/// ends, and what it strikes is judged in double.
+/// Error bound of Embree's floats in the object's frame: the HIP's path is extended by this at both ends, and
+/// its hits are verified in double.
 double floatMargin(const glm::dvec3& p) {
     return 4e-7 * (1.0 + glm::length(p));
 }
@@ -56,7 +56,7 @@ void NeighbourhoodWatch::query() noexcept {
         state_.watch.side = here.side;
         if (budget_.spent || !isOnFreeSide(surface(reference), here, hip, budget_))
             return;
-        // Off this surface: from where it was left, the way to the HIP may be barred by another.
+        // Off this surface: from the point where it left, another surface may bar the path to the HIP.
         state_.watch.touching = false;
         state_.shaded = false;
         if (acquire(here.point, true))
@@ -66,9 +66,9 @@ void NeighbourhoodWatch::query() noexcept {
     }
 }
 
-/// Looks for the first triangle of any object that the HIP's path crosses, in each object's own frame, so
-/// that what moves towards a resting HIP crosses it too. `start`: reference object frame, where the path
-/// begins; `left`: on the reference object's surface, which it has just let go.
+/// Finds the first triangle of any object that the HIP's path crosses, in each object's own frame, so that a
+/// path to a resting HIP also crosses what moves towards it. `start`: reference object frame, where the path
+/// begins; `left`: on the reference object's surface, which the proxy has just left.
 bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
     const auto reference = static_cast<size_t>(state_.reference);
     const glm::dvec3 begin = motions_[reference].before.point(start);
@@ -78,7 +78,7 @@ bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
         ObjectMotion motion = motions_[k];
         if (motion.jumped)
-            motion.before = motion.workspaceFromObject; // it swept over nothing
+            motion.before = motion.workspaceFromObject; // a jump sweeps nothing
         const double near = glm::length(state_.hip - motion.workspaceFromObject.translation) -
                             glm::length(begin - state_.hip) -
                             glm::length(motion.workspaceFromObject.translation - motion.before.translation);
@@ -86,7 +86,7 @@ bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
             continue;
         const glm::dvec3 from = k == reference ? start : motion.before.inversePoint(begin);
         const glm::dvec3 to = motion.workspaceFromObject.inversePoint(state_.hip);
-        // What it has just left lies under its first step.
+        // The surface that it has just left lies under its first step.
         const double skip = left && k == reference ? 2.0 * floatMargin(from) : -floatMargin(from);
         if (strikes(k, from, to, skip, first, place))
             hit = static_cast<int>(k);
@@ -95,12 +95,13 @@ bool NeighbourhoodWatch::acquire(const glm::dvec3& start, bool left) noexcept {
         return false;
     changeReference(state_, motions_, hit);
     state_.watch = {.side = place.side, .touching = true};
-    state_.friction = FrictionState::Free; // another place: nothing sticks there yet
+    state_.friction = FrictionState::Free; // a new place: nothing sticks there yet
     return true;
 }
 
-/// Whether the path from `from` to `to` ends behind a surface of this object that it crosses before `first`
-/// (share of the path), which then becomes that share. `skip`: distance from `from` at which to begin.
+/// True where the path from `from` to `to` ends behind a surface of this object that it crosses before
+/// `first` (fraction of the path), which then becomes that fraction. `skip`: distance from `from` at which to
+/// begin.
 bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const glm::dvec3& to, double skip,
                                  double& first, SurfacePlace& place) noexcept {
     constexpr int kAttempts = 4;
@@ -110,7 +111,7 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
         return false;
     const glm::dvec3 direction = (to - from) / length;
     const double margin = floatMargin(from);
-    // Embree wants distances from 0 up: the ray starts where the path does, or just before.
+    // Embree requires distances from 0 up: the ray starts where the path does, or just before.
     const glm::dvec3 origin = from + std::min(skip, 0.0) * direction;
     double near = std::max(skip, 0.0);
     bool passed = false;
@@ -125,9 +126,9 @@ bool NeighbourhoodWatch::strikes(size_t object, const glm::dvec3& from, const gl
         const double share = std::clamp((distance + std::min(skip, 0.0)) / length, 0.0, 1.0);
         if (share > first)
             return false;
-        // Float has found the triangle; whether the path crosses it, and whether its end is then behind the
-        // surface, is told by doubles. Where it is not, the path has gone through an edge of the body and out
-        // again: the same place seen from within is no contact either.
+        // Float has found the triangle; doubles decide whether the path crosses it, and whether its end is
+        // then behind the surface. Where it is not, the path went through an edge of the body and out again:
+        // the same place seen from within is no contact either.
         const glm::dvec3 normal = view.normal(2 * hit->triangle);
         const bool front = glm::dot(direction, normal) < 0.0;
         const double height = glm::dot(from - view.triangle(2 * hit->triangle).a, normal);
@@ -156,7 +157,7 @@ void NeighbourhoodWatch::moveTowards(const glm::dvec3& goal) noexcept {
     report(goal);
 }
 
-/// Walks to the goal and says what is touched there: one feature, with the normal from the goal to it (on a
+/// Walks to the goal and reports the contact there: one feature, with the normal from the goal to it (on a
 /// face the face's own, to the last bit).
 void NeighbourhoodWatch::report(const glm::dvec3& goal) noexcept {
     const auto reference = static_cast<size_t>(state_.reference);
@@ -194,8 +195,8 @@ void NeighbourhoodWatch::placeAt(const glm::dvec3& p) noexcept {
 void leaveWatch(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
     state.watch.touching = false;
     state.clearance = 0.0;
-    // What sticks or slides stands on the facet itself, where the sweep has no side: it may not go back
-    // there.
+    // A sticking or sliding proxy stands on the facet itself, where it has no side for the sweep: it may not
+    // return there.
     state.friction = FrictionState::Free;
     if (!state.placed)
         return;

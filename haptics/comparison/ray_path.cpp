@@ -10,14 +10,15 @@ namespace touchstone {
 
 namespace {
 
-/// How far a ray begins before the move does, so that a start that floats put behind a surface is before it
-/// again; and how far behind a surface that does not count the next look begins. Object units.
+/// Distance by which a ray begins before the move does, so that a start that float rounding put behind a
+/// surface is before it again; and distance behind an ignored surface at which the next ray begins. Object
+/// units.
 constexpr double kRayMargin = 4e-7;
-/// How far behind the end of a move a ray goes on, in clearances: what a move comes near to without meeting
-/// it leans to it by less than 1 in this.
+/// Extension of a ray beyond the end of a move, in clearances: a surface that the move approaches without
+/// meeting it is inclined to it by less than 1 in this.
 constexpr double kBeyond = 20.0;
 
-/// What a height may be off by, in object units: below that a start counts as before the plane.
+/// Error bound of a height, in object units: above minus this a start counts as before the plane.
 template <class Real>
 Real slack(const glm::vec<3, Real>& p) {
     return 4 * std::numeric_limits<Real>::epsilon() * (1 + glm::length(p));
@@ -45,7 +46,7 @@ std::optional<RayMeeting<Real>> meetAlong(const HapticObject& object, const glm:
                                           const glm::vec<3, Real>& direction, Real far) noexcept {
     constexpr int kAttempts = 4;
     const Real margin = Real(kRayMargin);
-    // A ray from afar would carry its start's rounding along: it begins where the object does.
+    // A ray from afar would add its start's rounding: it begins at the object.
     const Real reach = Real(1.001 * object.boundingRadius + 1e-3);
     const Real along = glm::dot(from, direction);
     const glm::vec<3, Real> nearest = from - along * direction;
@@ -86,7 +87,7 @@ Similarity RayPath<Real>::objectFromReference(int object) const noexcept {
         motions_[static_cast<size_t>(reference_)].workspaceFromObject);
 }
 
-/// Takes the objects other than the reference object whose spheres meet a ball around the way.
+/// Collects the objects other than the reference object whose spheres meet a ball around the path.
 template <class Real>
 void RayPath<Real>::gather(const glm::dvec3& from, const glm::dvec3& to) noexcept {
     const Similarity& reference = motions_[static_cast<size_t>(reference_)].workspaceFromObject;
@@ -113,14 +114,13 @@ void RayPath<Real>::gather(const glm::dvec3& from, const glm::dvec3& to) noexcep
     }
 }
 
-/// `from`, `direction` and `length` in the reference object's frame; `first`: distance of what was hit
-/// before.
+/// `from`, `direction` and `length` in the reference object's frame; `first`: distance of the previous hit.
 template <class Real>
 void RayPath<Real>::strikeOne(int object, const Vec& from, const Vec& direction, Real length, Real& first,
                               std::optional<RayStrike<Real>>& hit) const noexcept {
     const HapticObject& shape = *scene_.objects[static_cast<size_t>(object)];
     Vec start = from, towards = direction;
-    Real unit = 1; // reference object units in one of the object
+    Real unit = 1; // reference object units per unit of the object
     Similarity here;
     const bool foreign = object != reference_;
     if (foreign) {
@@ -136,8 +136,8 @@ void RayPath<Real>::strikeOne(int object, const Vec& from, const Vec& direction,
         return;
     const Real height = unit * met->height;
     if (height + length * met->rate >= clearance)
-        return; // the move ends short of it
-    // A place far out is rounded coarsely: it stops short by that, and goes on from there.
+        return; // the move ends before it
+    // A place far out has coarse rounding: the move stops short by that, and continues from there.
     const Real coarse =
         8 * std::numeric_limits<Real>::epsilon() * std::max(unit * glm::length(start) - 2 * unit, Real(0));
     const Real free = met->rate < 0 ? (height - clearance) / -met->rate - coarse : Real(0);
@@ -181,8 +181,8 @@ template <class Real>
 bool RayPath<Real>::stands(const RayStrike<Real>& at, const Vec& p) const noexcept {
     const RayFacet<Real> facet(*scene_.objects[static_cast<size_t>(at.object)], at.triangle);
     const Vec q = at.object == reference_ ? p : Vec(objectFromReference(at.object).point(glm::dvec3(p)));
-    // Beyond its edge by the rounding of the place it still stands there: or it would be let go of and found
-    // again for as long as there are moves.
+    // Within the rounding of the place beyond the triangle's edge the proxy still stands on it: else the
+    // plane would be dropped and found again in every move.
     constexpr Real kLoose = Real(0.05) * kRayClearance<Real>;
     const auto inside = [&](const Vec& start, const Vec& end) {
         const Vec edge = end - start;

@@ -1,5 +1,5 @@
 #pragma once
-// What a straight move meets, found by Embree's rays and judged in the precision that is asked for.
+// The surfaces that a straight move meets, found by Embree's rays and tested in the selected precision.
 
 #include "engine/math/object_motion.h"
 #include "haptics/scene/haptic_scene.h"
@@ -12,9 +12,9 @@
 
 namespace touchstone {
 
-/// Distance that a god-object of rays keeps from every surface, object units: what float rays and, with
-/// precision=single, float heights may be off by (1e-7 of the object), several times over. 75 nm and 0.3 µm
-/// on a fitted model.
+/// Distance that a god-object of rays keeps from every surface, object units: several times the error of
+/// float rays and, with precision=single, float heights (1e-7 of the object). 75 nm and 0.3 µm on a fitted
+/// model.
 template <class Real>
 inline constexpr Real kRayClearance = Real(sizeof(Real) == sizeof(double) ? 5e-7 : 2e-6);
 
@@ -26,24 +26,24 @@ struct RayFacet {
     RayFacet(const HapticObject& object, uint32_t triangle) noexcept;
 };
 
-/// A surface that a move runs into, in the reference object's frame.
+/// A surface that a move hits, in the reference object's frame.
 template <class Real>
 struct RayStrike {
     using Vec = glm::vec<3, Real>;
     Vec normal{Real(0)}; ///< unit, on the side that the move comes from
-    Real share = 0;      ///< of the move, up to where it is nearer to the surface than the clearance
-    Real back = 1;       ///< 1 or -1: by which the triangle's own normal is turned
+    Real share = 0;      ///< fraction of the move at which it is nearer to the surface than the clearance
+    Real back = 1;       ///< 1 or -1: sign of the triangle's own normal
     Real clearance = 0;  ///< of its object, reference object units
     int object = -1;
     uint32_t triangle = 0;
 };
 
-/// One ray in the frame of one object. Bounded: four triangles. What counts is told by Real: whether the
-/// start is on the near side of the plane of the triangle that Embree found. `far`: how far the ray goes.
-/// Distance from `from`, triangle and side.
+/// One ray in the frame of one object. Bounded: four triangles. A hit counts if the start is on the near side
+/// of the plane of the triangle that Embree found, evaluated in Real. `far`: length of the ray. Returns the
+/// distance from `from`, triangle and side.
 template <class Real>
 struct RayMeeting {
-    Real distance = 0, height = 0, rate = 0; ///< height of the start, and what it grows by on the way
+    Real distance = 0, height = 0, rate = 0; ///< height of the start, and its rate along the path
     Real back = 1;
     glm::vec<3, Real> normal{Real(0)};
     uint32_t triangle = 0;
@@ -61,14 +61,14 @@ class RayPath {
     RayPath(const HapticScene& scene, ObjectMotions motions, int reference) noexcept
         : scene_(scene), motions_(motions), reference_(reference) {}
 
-    /// The first surface that the move from `from` brings nearer than its clearance.
+    /// The first surface to which the move from `from` comes nearer than its clearance.
     [[nodiscard]] std::optional<RayStrike<Real>> strike(const Vec& from, const Vec& move) noexcept;
 
-    /// Height over the plane of what was hit, on the side where it was hit from; reference object units.
+    /// Height above the plane of the hit triangle, on the side of the hit; reference object units.
     [[nodiscard]] Real height(const RayStrike<Real>& at, const Vec& p) const noexcept;
-    /// True where `p` is near the triangle and its foot lies on it.
+    /// True where `p` is near the triangle and its projection lies on it.
     [[nodiscard]] bool stands(const RayStrike<Real>& at, const Vec& p) const noexcept;
-    /// More objects are near than there is room for: nothing may move.
+    /// More objects are near than fit: nothing may move.
     [[nodiscard]] bool full() const noexcept { return full_; }
 
   private:
@@ -84,7 +84,7 @@ class RayPath {
     std::array<int, kMaxNear> near_; // `count_` of them
     size_t count_ = 0;
     bool full_ = false;
-    glm::dvec3 middle_{0.0}; ///< workspace, of the ball whose objects are known
+    glm::dvec3 middle_{0.0}; ///< workspace, of the ball whose objects are listed
     double radius_ = -1.0;
 };
 

@@ -12,11 +12,12 @@ namespace touchstone {
 
 namespace {
 
-/// A wish shorter than this ends the solve, object units: far below the clearance, above rounding.
+/// A target displacement shorter than this ends the solve, object units: far below the clearance, above
+/// rounding.
 template <class Real>
 constexpr Real kStill = Real(sizeof(Real) == sizeof(double) ? 1e-11 : 1.5e-7);
 /// The same after `moves` in this tick: from the ninth on it doubles with every second one, up to a quarter
-/// of the clearance. Where facets meet at hundredths of a degree moves of that length go round and round.
+/// of the clearance. Where facets meet at hundredths of a degree, moves of that length would circle.
 template <class Real>
 Real stillAfter(uint32_t moves) {
     constexpr uint32_t kPatient = 8;
@@ -24,7 +25,7 @@ Real stillAfter(uint32_t moves) {
                              : std::min(std::ldexp(kStill<Real>, static_cast<int>((moves - kPatient) / 2)),
                                         std::max(Real(0.25) * kRayClearance<Real>, kStill<Real>));
 }
-/// Rays in a row that may find planes without moving the god-object. Three make a corner.
+/// Consecutive rays that may find planes without moving the god-object. Three make a corner.
 constexpr int kFruitlessRays = 8;
 constexpr uint32_t kRaysPerMove = 4;
 
@@ -58,7 +59,8 @@ void RayProxy<Real>::placeAt(const glm::dvec3& p) noexcept {
     heldCount_ = 0;
 }
 
-/// Where the planes leave the god-object to go, and which of them hold it: the others are let go of.
+/// The target displacement that the planes allow, and the planes that hold the god-object: the others are
+/// dropped.
 template <class Real>
 void RayProxy<Real>::target(const Vec& goal) noexcept {
     target_ = goal - at_;
@@ -71,7 +73,7 @@ void RayProxy<Real>::target(const Vec& goal) noexcept {
         planes.plane[i] = {held_[i].normal, held_[i].clearance - path_.height(held_[i], at_)};
     const FewPlanesGoal<Real> nearest = nearestOnPlanes<Real>(target_, planes);
     target_ = nearest.point;
-    if (!nearest.found) // between planes that leave no room: all of them hold it there
+    if (!nearest.found) // between planes that leave no room: all of them hold it
         return;
     std::array<RayStrike<Real>, 4> holding;
     for (size_t i = 0; i < nearest.count; ++i) {
@@ -82,7 +84,7 @@ void RayProxy<Real>::target(const Vec& goal) noexcept {
     heldCount_ = nearest.count;
 }
 
-/// A plane more, or again. There is always room: after `wish` at most three are held.
+/// Adds or updates a plane. There is always room: after `target` at most three are held.
 template <class Real>
 void RayProxy<Real>::add(const RayStrike<Real>& hit) noexcept {
     for (size_t i = 0; i < heldCount_; ++i)
@@ -95,7 +97,8 @@ void RayProxy<Real>::add(const RayStrike<Real>& hit) noexcept {
     held_[heldCount_++] = hit;
 }
 
-/// Out of moves over what it was sliding on: that still holds the hand, or the force would drop out.
+/// Out of moves over the surface that it was sliding on: that surface still holds the HIP off, or the force
+/// would drop out.
 template <class Real>
 void RayProxy<Real>::holdInTheAir(const Vec& goal) noexcept {
     if (heldCount_ > 0 || last_.object < 0)
@@ -149,7 +152,7 @@ void RayProxy<Real>::solve(const glm::dvec3& towards, bool sliding) noexcept {
     report();
 }
 
-/// The planes that hold it, as the stages after it read them: touched where it stands.
+/// The active planes as the later stages read them: in contact at the proxy's place.
 template <class Real>
 void RayProxy<Real>::report() noexcept {
     state_.proxy = glm::dvec3(at_);
@@ -176,8 +179,8 @@ template class RayProxy<float>;
 
 namespace {
 
-/// The way of the god-object past one object in this tick, in that object's frame; where it is hit, the
-/// place where the object holds it from then on.
+/// The path of the god-object past one object in this tick, in that object's frame; where it hits, the place
+/// at which the object holds it from then on.
 std::optional<glm::dvec3> runInto(const HapticScene& scene, const ObjectMotion& motion, size_t object,
                                   const glm::dvec3& before, const glm::dvec3& now) {
     const glm::dvec3 from = motion.before.inversePoint(before),
@@ -191,7 +194,7 @@ std::optional<glm::dvec3> runInto(const HapticScene& scene, const ObjectMotion& 
     const auto met = meetAlong<double>(*scene.objects[object], from, direction, length + kClearance);
     if (!met || met->height + length * met->rate >= kClearance)
         return std::nullopt;
-    // Where it was, seen from the object, but off its surface.
+    // Its former place, seen from the object, but off its surface.
     const double free = std::clamp((met->height - kClearance) / -met->rate, 0.0, length);
     return from + free * direction + std::max(kClearance - met->height, 0.0) * met->normal;
 }

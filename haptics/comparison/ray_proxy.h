@@ -1,6 +1,6 @@
 #pragma once
 // The third contact model, stages 2 and 3: Zilles and Salisbury's god-object [001], a point that is moved by
-// rays. Made to be compared with the sweep, which is the better one.
+// rays. A comparison solver: the sweep is the better method.
 
 #include "engine/math/object_motion.h"
 #include "haptics/comparison/ray_path.h"
@@ -15,15 +15,16 @@
 
 namespace touchstone {
 
-/// One device in one tick. A ray goes from the god-object to where it wishes to be. What it meets becomes a
-/// constraint plane, the place nearest to the goal on the planes the next wish; at most three hold it, and
-/// the multipliers say which. A free move lets go of the planes whose triangles the god-object has left, and
-/// the next ray says what is there instead. It ends where the planes leave it no wish.
+/// One device in one tick. A ray runs from the god-object along its target displacement. Each surface that it
+/// meets becomes a constraint plane, and the next target is the place nearest to the goal on the planes; at
+/// most three are active, selected by the multipliers. A free move drops the planes whose triangles the
+/// god-object has left, and the next ray finds their successors. It ends where the planes leave no target
+/// displacement.
 ///
 /// Real: the precision of all of this, double or float (precision=single); poses of several objects are
 /// double in both, and Embree's rays float in both. It keeps kRayClearance from every surface that a ray
-/// finds. A point: it knows no radius. See docs/architecture.md for what rays may let slip. Bounded: `budget`
-/// moves and four times as many rays, beyond which it stops where it is and sets BudgetReached.
+/// finds. A point: it has no radius. See docs/architecture.md for the contacts that rays may miss. Bounded:
+/// `budget` moves and four times as many rays, beyond which it stops where it is and sets BudgetReached.
 template <class Real>
 class RayProxy {
   public:
@@ -34,12 +35,11 @@ class RayProxy {
     /// Puts the god-object at the HIP in the first tick; false while the HIP is inside a closed object.
     [[nodiscard]] bool begin() noexcept;
 
-    /// Moves the god-object to a rest (`goal`: reference object frame). Anytime: every move ends in free
-    /// space.
+    /// Moves the god-object to rest (`goal`: reference object frame). Anytime: every move ends in free space.
     void moveTowards(const glm::dvec3& goal) noexcept { solve(goal, true); }
-    /// Straight until it touches something.
+    /// Moves it straight until contact.
     void dropTowards(const glm::dvec3& goal) noexcept { solve(goal, false); }
-    /// Without a ray: only for places where it stood before.
+    /// Without a ray: only for its former places.
     void placeAt(const glm::dvec3& p) noexcept;
 
   private:
@@ -53,21 +53,21 @@ class RayProxy {
     ObjectMotions motions_;
     DeviceState& state_;
     SolveResult& rest_;
-    uint32_t moves_, rays_; ///< that are left
+    uint32_t moves_, rays_; ///< that remain in the tick
     RayPath<Real> path_;
     Vec at_; ///< the god-object, reference object frame
     std::array<RayStrike<Real>, 4> held_;
     size_t heldCount_ = 0;
     RayStrike<Real> last_; ///< of this tick
-    Vec target_{Real(0)};  ///< way to the place nearest to the goal on the planes held
+    Vec target_{Real(0)};  ///< displacement to the place nearest to the goal on the planes held
     std::array<Real, 4> multiplier_{};
 };
 
 extern template class RayProxy<double>;
 extern template class RayProxy<float>;
 
-/// Stage 2 where objects move: the god-object goes with its reference object; an object that runs into it
-/// takes it along. One that two run into stays with the last, and may be left behind by the other (Jammed).
+/// Stage 2 where objects move: the god-object moves with its reference object; an object that hits it takes
+/// it along. A god-object hit by two stays with the last, and may be left behind by the other (Jammed).
 void sweepMovingObstaclesByRays(const HapticScene& scene, ObjectMotions motions, DeviceState& state,
                                 uint32_t& flags) noexcept;
 

@@ -45,8 +45,7 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
     return true;
 }
 
-/// Items gathered in the frame of their own object, from `first` on, are put into that of the reference
-/// object.
+/// Transforms the items from `first` on from their own object's frame into the reference object frame.
 void CandidateCache::turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept {
     for (size_t i = first; i < count_; ++i) {
         Candidate& item = items_[i];
@@ -54,7 +53,7 @@ void CandidateCache::turnIntoReference(size_t first, const Similarity& reference
         item.triangle =
             Triangle(referenceFromObject.point(item.triangle.a), referenceFromObject.point(item.triangle.b),
                      referenceFromObject.point(item.triangle.c));
-        // distance >= offset + g . p, and p is where the reference object's frame has it.
+        // distance >= offset + g . p, with p in the reference object frame.
         Block& block = bounds_[i / kBlock];
         const size_t k = i % kBlock;
         const glm::dvec3 gradient =
@@ -84,8 +83,8 @@ bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>>
     return gatherAll(objects, poses, sphereOf, reference, centre, radius);
 }
 
-/// `sphereOf(k)` touches nothing of the object itself: of a thousand, most lie far from the hand and far from
-/// each other in memory.
+/// `sphereOf(k)` reads nothing of the object itself: of a thousand objects, most are far from the hand and
+/// far apart in memory.
 template <class SphereOf>
 bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects,
                                ObjectMotions poses, const SphereOf& sphereOf, int reference,
@@ -96,7 +95,7 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
     radius_ = radius;
     const Similarity& workspaceFromReference = poses[static_cast<size_t>(reference)].workspaceFromObject;
     const glm::dvec3 place = workspaceFromReference.point(centre);
-    // A share more than double rounds at the far end of a scene.
+    // A fraction more than double rounds at the far end of a scene.
     const double room = workspaceFromReference.scale * radius + 1e-14 * glm::length(place);
     for (size_t k = 0; k < objects.size(); ++k) {
         const glm::dvec4 sphere = sphereOf(k);
@@ -137,7 +136,7 @@ bool CandidateCache::passesOneSided(size_t i, const glm::dvec3& p, double distan
     const double height = glm::dot(t.normal, p - t.a), clear = std::min(reach, standing_) - kNotClear;
     if (!(height > 0.0) || distance < clear)
         return true;
-    // What is straight above a triangle stands on it, whatever else it is coming through.
+    // A proxy straight above a triangle stands on it, whatever else it is coming through.
     if (height >= clear)
         return false;
     bool comingThrough = false;
@@ -172,7 +171,7 @@ std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3
         for (size_t k = 0; k < kBlock; ++k) {
             if (gap[k] + std::min(0.0, limit * rate[k]) > doubt)
                 continue;
-            // Where the bound was evaluated at p there is no doubt about it.
+            // A bound that was evaluated at p is exact there.
             const auto i = static_cast<uint32_t>(first + k);
             const bool here = items_[i].measured == place_;
             if (here && rate[k] >= 0.0)

@@ -1,5 +1,5 @@
 #pragma once
-// What is near the proxy: gathered once, reused by every move until the proxy leaves the ball.
+// The triangles and shapes near the proxy: gathered once, used by every move until the proxy leaves the ball.
 
 #include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
@@ -24,18 +24,18 @@ struct Candidate {
     const HapticObject* source = nullptr;
     int object = -1;       ///< HapticScene::objects
     uint32_t index = 0;    ///< triangle of that object
-    bool prepared = false; ///< `triangle` is filled in
+    bool prepared = false; ///< `triangle` is computed
     uint32_t measured = 0; ///< CandidateCache::place_ when its distance was last evaluated
     Triangle triangle;     ///< frame of the reference object, object units
 };
 
-/// Every triangle that meets the ball (centre, radius) is in `items`, every other shape in `shapes`; those
-/// alone can stop a proxy that stays in it. Preallocated; gather neither allocates nor throws.
+/// `items` holds every triangle that meets the ball (centre, radius), `shapes` every other shape; only these
+/// can stop a proxy that stays in the ball. Preallocated; gather neither allocates nor throws.
 ///
 /// The distance from a triangle is a convex function of the place, so each evaluation (d and gradient g at q)
-/// bounds it from below everywhere: distance(p) >= d + g . (p - q). These half-spaces, kept side by side,
-/// answer for most triangles, wherever the proxy has gone since; only where one reaches up to the surface is
-/// the distance evaluated again. The box of a triangle gives the first of them.
+/// bounds it from below everywhere: distance(p) >= d + g . (p - q). These half-spaces, stored side by side,
+/// suffice for most triangles, wherever the proxy moves; only where one reaches up to the surface is the
+/// distance evaluated again. The triangle's box supplies the first half-space.
 class CandidateCache {
     /// Half-spaces of eight triangles, for the vector unit; unused ones are far away.
     static constexpr size_t kBlock = 8;
@@ -44,24 +44,24 @@ class CandidateCache {
     };
 
   public:
-    /// Room for the densest neighbourhood in which the proxy still moves; beyond it the ball is made smaller.
+    /// Capacity for the densest neighbourhood in which the proxy still moves; beyond it the ball shrinks.
     static constexpr size_t kCapacity = 4096;
 
     CandidateCache()
         : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity) {}
 
-    /// Collects what meets the ball, in the frame of `reference`. False when there may be more than
-    /// kCapacity: then the cache is empty and invalid. `spheres`: bounding spheres of the objects at these
-    /// poses (centre, radius; workspace).
+    /// Gathers everything that meets the ball, in the frame of `reference`. False when there may be more than
+    /// kCapacity triangles: the cache is then empty and invalid. `spheres`: bounding spheres of the objects
+    /// at these poses (centre, radius; workspace).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                 std::span<const glm::dvec4> spheres, int reference, const glm::dvec3& centre,
                 double radius) noexcept;
-    /// The same where only their radii are known (object units).
+    /// The same where only the radii are known (object units).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                 std::span<const double> radii, int reference, const glm::dvec3& centre,
                 double radius) noexcept;
 
-    /// What a gather leaves out from now on: at most kMaxIgnored objects.
+    /// Objects that a gather leaves out from now on: at most kMaxIgnored.
     static constexpr size_t kMaxIgnored = 8;
     void ignore(std::span<const int> objects) noexcept {
         ignoredCount_ = std::min(objects.size(), kMaxIgnored);
@@ -74,8 +74,9 @@ class CandidateCache {
         shapes_.clear();
     }
 
-    /// How far the proxy may go from `p` along the unit vector `direction` and still know every triangle
-    /// within `reach` of it; negative when p itself is not covered. Zero direction: zero or negative.
+    /// Distance that the proxy may move from `p` along the unit vector `direction` with every triangle within
+    /// `reach` of it still in the cache; negative when p itself is not covered. Zero direction: zero or
+    /// negative.
     [[nodiscard]] double freeAlong(const glm::dvec3& p, const glm::dvec3& direction,
                                    double reach) const noexcept {
         const double room = radius_ - reach;
@@ -93,8 +94,8 @@ class CandidateCache {
     [[nodiscard]] double radius() const noexcept { return radius_; }
     [[nodiscard]] const NearShapes& shapes() const noexcept { return shapes_; }
     [[nodiscard]] const Candidate& item(size_t i) const noexcept { return items_[i]; }
-    /// Ready for distance queries. Most of a ball's triangles are never come near to, so each is prepared at
-    /// its first use.
+    /// The triangle, ready for distance queries. The proxy comes near few of a ball's triangles, so each is
+    /// prepared at its first use.
     [[nodiscard]] const Triangle& triangle(size_t i) noexcept {
         if (!items_[i].prepared)
             prepare(items_[i]);
@@ -113,28 +114,27 @@ class CandidateCache {
         items_[i].measured = 0; // not at the proxy's place
         return d;
     }
-    /// Far more than a resting proxy sinks into what it stands on, far less than the smallest radius: object
-    /// units.
+    /// Far more than a resting proxy sinks into its surface, far less than the smallest radius: object units.
     static constexpr double kNotClear = 1e-8;
 
-    /// A triangle of the ball belongs to a one-sided object.
+    /// True if a triangle of the ball belongs to a one-sided object.
     [[nodiscard]] bool anyOneSided() const noexcept { return oneSided_; }
-    /// True where triangle i, at `distance` from the place p where a move begins, is not there for a proxy of
-    /// this reach: it is one-sided, and p is behind its plane; or not clear of it, coming through from behind
-    /// or turned round on the way; or beside it while it comes through another triangle of the same object,
-    /// as it would be coming through this one there. What came through is felt once it is clear of it, so
-    /// that there is no place between the sides.
+    /// True where a proxy of this reach ignores triangle i, at `distance` from the place p where a move
+    /// begins. The triangle is one-sided, and p is behind its plane; or p is not clear of it, coming through
+    /// from behind or turned around on the way; or p is beside it while it comes through another triangle of
+    /// the same object. A proxy that came through a triangle feels it once it is clear of it, so that there
+    /// is no place between the sides.
     [[nodiscard]] bool passes(size_t i, const glm::dvec3& p, double distance, double reach) noexcept {
         return items_[i].source->oneSided && passesOneSided(i, p, distance, reach);
     }
-    /// The proxy stands where it was clear by no more than `distance`, whatever its reach is now: nearer than
-    /// that is what it is coming through. Until it is called again.
+    /// The proxy was clear at its place by no more than `distance`, whatever its reach is now: it is coming
+    /// through anything nearer. Valid until the next call.
     void standsClearBy(double distance) noexcept { standing_ = distance; }
     [[nodiscard]] double standing() const noexcept { return standing_; }
-    /// The least distance of the one-sided triangles that are there for a proxy of this reach at p, at most
-    /// `reach`. The ball covers p.
+    /// The minimum distance at p of the one-sided triangles that a proxy of this reach does not ignore, at
+    /// most `reach`. The ball covers p.
     [[nodiscard]] double clearanceAt(const glm::dvec3& p, double reach) noexcept;
-    /// The proxy is somewhere else now.
+    /// The proxy has moved.
     void moved() noexcept { place_ += place_ + 1 == 0 ? 2 : 1; } // 0 is never a place
 
     /// Calls visit(i) for every triangle that may be within `reach` of p.
@@ -152,14 +152,14 @@ class CandidateCache {
         }
     }
 
-    /// A triangle that a move may run into, not before `time`.
+    /// A triangle that a move may hit, not before `time`.
     struct Approach {
         double time; ///< in moves
         uint32_t index;
         uint32_t steps;
     };
-    /// All triangles that a proxy at p may come within `reach` of before p + limit * move. Valid until the
-    /// next call.
+    /// All triangles that a proxy moving from p may come within `reach` of before p + limit * move. Valid
+    /// until the next call.
     std::span<Approach> approaching(const glm::dvec3& p, const glm::dvec3& move, double limit,
                                     double reach) noexcept;
 

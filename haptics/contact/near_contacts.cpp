@@ -12,8 +12,9 @@ struct Found {
     bool& full;
     uint32_t count = 0;
 
-    /// Coplanar neighbours say the same: one plane for both. The same to the last bits, no less: a neighbour
-    /// seen from beside its edge may lean by 1e-8, and what leans is a plane of its own or it blocks unseen.
+    /// Coplanar neighbours share one plane if they agree to the last bits, and only then: a neighbour seen
+    /// from beside its edge may lean by 1e-8, and a leaning plane must be kept as a plane of its own or it
+    /// blocks unseen.
     [[gnu::always_inline]] void add(const glm::dvec3& normal, const glm::dvec3& point, double gap, int object,
                                     FeatureId feature, uint32_t candidate) noexcept {
         bool known = false;
@@ -48,7 +49,7 @@ template <bool OneSided>
     });
 }
 
-/// Out of line: what a scene does not call for must not take registers from what it does.
+/// Out of line: code that a scene may not need must not take registers from code that it needs.
 [[gnu::noinline]] void addOneSidedTriangles(CandidateCache& cache, const glm::dvec3& p, double radius,
                                             double within, Found& found) noexcept {
     addTriangles<true>(cache, p, radius, within, found);
@@ -64,7 +65,7 @@ template <bool OneSided>
 
 /// A goal nearer to the triangle than this has no direction from it, object units.
 constexpr double kNoDirection = 1e-9;
-/// Cosine of the farthest roll: the way over the corner is then no longer than 1.16 times the arc.
+/// Cosine of the largest roll: the path over the corner is then no longer than 1.16 times the arc.
 constexpr double kFarthestRoll = 0.5;
 constexpr double kNearestRoll = 1.0 - 1e-9;
 

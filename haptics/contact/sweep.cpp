@@ -15,10 +15,10 @@ constexpr double kParallel = 1e-13;
 constexpr double kTouch = 1e-13;
 
 /// Time at which p + t * move comes within `reach` of the half-plane that holds the triangle and ends where
-/// the triangle is nearest to p. The triangle cannot be touched earlier, and is touched just then while the
-/// nearest feature stays the same: a slab, then the half cylinder around the half-plane's edge. (A tangent
-/// plane alone, Newton's method, halves the distance in each step where the proxy grazes an edge, which is
-/// what it does wherever it crosses from facet to facet: fifteen to twenty evaluations in a tick, here
+/// the triangle is nearest to p. The triangle cannot be touched earlier, and is touched exactly then while
+/// the nearest feature stays the same: a slab, then the half cylinder around the half-plane's edge. (A
+/// tangent plane alone, Newton's method, halves the distance in each step where the proxy grazes an edge, as
+/// it does wherever it crosses from facet to facet: fifteen to twenty evaluations in a tick instead of
 /// seven.)
 double timeToHalfPlane(const Triangle& triangle, const TriangleDistance& here, const glm::dvec3& p,
                        const glm::dvec3& move, double reach, double rate) {
@@ -30,7 +30,7 @@ double timeToHalfPlane(const Triangle& triangle, const TriangleDistance& here, c
     const double outside = glm::length(out);
     if (here.face || triangle.normal == glm::dvec3(0.0) || outside == 0.0)
         return newton;
-    // Around the edge: |outside + t drift, height + t sink| = reach; the root that is reached first.
+    // Around the edge: |outside + t drift, height + t sink| = reach; the earlier root.
     const double drift = glm::dot(out, move) / outside;
     const double a = drift * drift + sink * sink;
     const double b = outside * drift + height * sink;
@@ -49,9 +49,9 @@ double timeToHalfPlane(const Triangle& triangle, const TriangleDistance& here, c
 }
 
 // A triangle is convex, so its distance along a straight move is a convex function of time, and steps that
-// end where a convex set around it is touched never overstep the first touch. The triangle whose next step is
-// the earliest goes first; when that one touches, every other one touches later, wherever its own steps
-// stand.
+// end where a convex set around it is touched never overstep the first touch. The triangle with the earliest
+// next step is advanced first; when it touches, every other one touches later, however far its own steps have
+// come.
 template <bool OneSided>
 [[gnu::always_inline]] inline double firstTouch(CandidateCache& cache, const glm::dvec3& p,
                                                 const glm::dvec3& move, double reach, double limit) noexcept {
@@ -69,7 +69,8 @@ template <bool OneSided>
             return limit;
         const TriangleDistance here = time > 0.0 ? cache.measureAhead(approach.index, p + time * move)
                                                  : cache.measure(approach.index, p);
-        // One-sided triangles are asked where the move begins; what is not reached at once is clear there.
+        // One-sided triangles are tested where the move begins; any that is not reached at once is clear
+        // there.
         if constexpr (OneSided) {
             if (approach.steps == 0 &&
                 cache.passes(approach.index, p, time > 0.0 ? INFINITY : here.distance, reach)) {
@@ -91,7 +92,7 @@ template <bool OneSided>
     return limit;
 }
 
-/// Out of line: what a scene does not call for must not take registers from what it does.
+/// Out of line: code that a scene may not need must not take registers from code that it needs.
 [[gnu::noinline]] double firstTouchOneSided(CandidateCache& cache, const glm::dvec3& p,
                                             const glm::dvec3& move, double reach, double limit) noexcept {
     return firstTouch<true>(cache, p, move, reach, limit);

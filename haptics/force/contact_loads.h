@@ -1,5 +1,5 @@
 #pragma once
-// Where several planes hold the hand: what each contact carries, and the force that comes of it.
+// Where several planes hold the HIP off: the load of each contact, and the resulting force.
 
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
@@ -18,27 +18,27 @@ struct ContactLoad {
     glm::dvec3 surface{0.0}; ///< unit normal of the true plane
     glm::dvec3 plane{0.0}; ///< n_i: unit normal of the plane of the solve; interpolated with two-pass shading
     double length = 0.0;   ///< lambda_i >= 0
-    /// Of the HIP below the plane, n_i . (p - h), along feel.normal; with `projected` both this and
+    /// Depth of the HIP below the plane, n_i . (p - h), along feel.normal; with `projected` both this and
     /// feel.depth are longer.
     double depth = 0.0;
     /// Its `normal` is the one felt (turned by `direction` or `projected`), its `depth` is lambda_i along it.
-    /// Stiffness, damping and viscous term are those that the device bears at this zoom.
+    /// Stiffness, damping and viscous term are those that the device can bear at this zoom.
     SurfaceSample feel;
 };
 
 /// The elastic force is
 ///     F = K (p - h) + beta sum (f_i - K lambda_i n_i),   f_i = k_i lambda_i (n_i + t_i (m_i - n_i)),
 /// with t_i = min(1, H_i / max(d_i, lambda_i)): the displacement law of spring_damper.h at the HIP's depth
-/// d_i below the plane, times the plane's part lambda_i / d_i of it; where walls meet at less than a right
-/// angle (d_i < lambda_i), at the depth lambda_i, whole. For one plane it is that law; at right angles each
-/// plane feels its own bump height whole; planes almost parallel share one. Where all k_i are equal and
-/// nothing is textured or turned F = k (p - h), also where a solve ended before its rest. K = sum k_i
-/// lambda_i / sum lambda_i. Continuous in h wherever p, the normals and the samples are, since f_i vanishes
-/// with lambda_i.
+/// d_i below the plane, times the plane's fraction lambda_i / d_i of it; where walls meet at less than a
+/// right angle (d_i < lambda_i), the whole law at the depth lambda_i. For one plane it is that law; at right
+/// angles each plane contributes its whole bump height; almost parallel planes share one. Where all k_i are
+/// equal and nothing is textured or turned F = k (p - h), also where a solve ended before its rest. K = sum
+/// k_i lambda_i / sum lambda_i. F is continuous in h wherever p, the normals and the samples are, since f_i
+/// vanishes with lambda_i.
 ///
 /// Two walls that almost oppose each other carry loads far beyond the resultant (lambda = 1 / (2 sin(a / 2))
-/// times it in a groove of angle a); beta = min(1, kMaxLoad |p - h| / sum lambda_i) bounds what a difference
-/// of their stiffness, and friction on them, make of it. It is 1 where the least singular value of the
+/// times it in a groove of angle a); beta = min(1, kMaxLoad |p - h| / sum lambda_i) bounds the effect of a
+/// difference of their stiffness and of friction on them. It is 1 where the smallest singular value of the
 /// normals is 0.1: sum lambda_i <= sqrt(3) |p - h| / 0.1.
 struct ContactLoads {
     int count = 0; ///< at least 2 where these are used
@@ -49,13 +49,13 @@ struct ContactLoads {
     int loaded = 0;         ///< the contact with the largest k_i lambda_i
 };
 
-/// sum lambda_i over |p - h|, beyond which the loads count no more.
+/// Bound of sum lambda_i over |p - h|, beyond which beta scales the loads down.
 inline constexpr double kMaxLoad = 20.0;
 
-/// Reads the surface under every active plane of `hold`, which are those of shadedPlanes with `twoPass`.
-/// `offset`: p - h, reference object units. `velocity` of the HIP against the surface, m/s, reference object
-/// frame. `zoom` as in bearableShare, to which each contact's stiffness is cut by itself: a stiffer plane
-/// that joins without load changes nothing.
+/// Reads the surface under every active plane of `hold`; with `twoPass` these are shadedPlanes. `offset`: p -
+/// h, reference object units. `velocity` of the HIP relative to the surface, m/s, reference object frame.
+/// `zoom` as in bearableShare, which limits each contact's stiffness separately: a stiffer plane that joins
+/// without load changes nothing.
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
                const SolveResult& rest, const SubGoal& activeSet, bool twoPass, const glm::dvec3& offset,
                double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
@@ -64,13 +64,13 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
 /// F above, N, reference object frame.
 [[nodiscard]] glm::dvec3 elasticForce(const ContactLoads& loads) noexcept;
 
-/// The part of the plane in what planes that are almost parallel hold together: lambda_i / d_i, at most 1.
+/// The plane's fraction of the load that almost parallel planes share: lambda_i / d_i, at most 1.
 [[nodiscard]] inline double partOf(const ContactLoad& contact) noexcept {
     return contact.depth > contact.feel.depth ? contact.feel.depth / contact.depth : 1.0;
 }
 
 /// Damping of every contact along its normal, N: -c_i min(1, lambda_i / d_i) (v . n_i) n_i, and no contact
-/// pulls. Where planes are almost parallel they share one damper.
+/// pulls. Almost parallel planes share one damper.
 [[nodiscard]] glm::dvec3 dampingForce(const ContactLoads& loads, const glm::dvec3& velocity) noexcept;
 
 } // namespace touchstone

@@ -1,5 +1,5 @@
 #pragma once
-// Stage 7: what the hand should feel, before safety.
+// Stage 7: the force before safety.
 
 #include "haptics/surface/surface_sample.h"
 
@@ -8,18 +8,18 @@
 namespace touchstone {
 
 /// Force in N in the frame of the arguments' directions. With stiffness k, depth d, height H, normals n and
-/// m: texture=law: k [(d - H) n + H m] if d >= H, else k d m (the displacement law of [000], continuous at
-/// d = H), and k d m where there is no height; blinn: k d m, the god-object's magnitude [001 §4.3.2]; minsky:
-/// k d m / (n . m) = k d (n - grad H), a lateral force beside an unchanged normal one; plus friction k *
-/// (held proxy - frictionless proxy); minus damping of the velocity into the surface (never pulling); plus
-/// the viscous part of friction. `frictionStretch` in m, `velocity` of the HIP against the surface in m/s.
+/// m: texture=law: k [(d - H) n + H m] if d >= H, else k d m (the displacement law of [000], continuous at d
+/// = H), and k d m where there is no height; blinn: k d m, the god-object's magnitude [001 §4.3.2]; minsky: k
+/// d m / (n . m) = k d (n - grad H), a lateral force beside an unchanged normal one; plus friction k * (held
+/// proxy - frictionless proxy); minus damping of the velocity into the surface (never pulling); plus the
+/// viscous part of friction. `frictionStretch` in m, `velocity` of the HIP relative to the surface in m/s.
 [[nodiscard]] glm::dvec3 springDamperForce(const SurfaceSample& feel, const glm::dvec3& frictionStretch,
                                            const glm::dvec3& viscousForce,
                                            const glm::dvec3& velocity) noexcept;
 
-/// What is left of a force where the workspace is `zoom` > 1 times as large as the device's: the device feels
-/// `stiffness` (N/m, workspace) times zoom, and gets no more than it bears (limits.maxStiffness), or what was
-/// asked for in so many words. In (0, 1].
+/// Fraction of a force that remains where the workspace is `zoom` > 1 times as large as the device's: the
+/// device feels `stiffness` (N/m, workspace) times zoom, limited to what it can bear (limits.maxStiffness) or
+/// to the value set explicitly. In (0, 1].
 [[nodiscard]] double bearableShare(double stiffness, double zoom, const HapticSettings& settings,
                                    const DeviceLimits& limits) noexcept;
 

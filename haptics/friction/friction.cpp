@@ -23,8 +23,8 @@ FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
     return zillesLaw(input);
 }
 
-/// Onto the surface at `goal`, a place on the chord between two places of the surface: below it where the
-/// surface bulges, above it, in the air, where it is hollow.
+/// Moves the proxy onto the surface at `goal`, a place on the chord between two places of the surface: below
+/// it where the surface is convex, above it, in the air, where it is concave.
 template <class Solver>
 bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, Solver& proxy,
             const DeviceState& state, const SolveResult& rest) {
@@ -34,14 +34,14 @@ bool settle(const glm::dvec3& goal, const glm::dvec3& down, double tolerance, So
     return touches(rest) && glm::length(state.proxy - goal) <= tolerance;
 }
 
-/// The proxy to the place of the surface at `stretch` from the one without friction. Wherever it ends is a
-/// place where a solve came down on the surface: what ends in the air, since the moves are used up or the way
-/// down goes past a rim, is not kept. A place in the air would hold the proxy there for as long as it sticks.
+/// Moves the proxy to the place of the surface at `stretch` from the frictionless one. It ends only where a
+/// solve reached the surface: an end in the air, since the moves are used up or the path down passes a rim,
+/// is discarded. A place in the air would hold the proxy there for as long as it sticks.
 template <class Solver>
 void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec3& down, Solver& proxy,
               DeviceState& state, const SolveResult& rest) {
-    // Where a wall stands between the last place and this one, or the surface bends sharply, it is met from
-    // the frictionless side.
+    // Where a wall stands between the last place and this one, or the surface bends sharply, the proxy
+    // approaches from the frictionless side.
     constexpr double kNear = 0.1;
     const glm::dvec3 frictionless = state.frictionless;
     if (proxy.slideOnFacet(frictionless + stretch))
@@ -53,7 +53,7 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
     proxy.startAt(frictionless);
     if (settle(frictionless + stretch, down, tolerance, proxy, state, rest) || touches(rest))
         return;
-    // The place without friction is in the air itself where the budget ended that solve.
+    // The frictionless place is itself in the air where the budget ended that solve.
     const glm::dvec3 hip = frictionless + down;
     if (!proxy.returnTo(frictionless, hip) && !proxy.returnTo(held, hip))
         (void)proxy.returnTo(frictionless, hip);
@@ -69,17 +69,17 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
         return glm::dvec3(0.0);
     }
     if (state.friction == FrictionState::Free && !touches(rest))
-        return glm::dvec3(0.0); // the budget ended the first touch in the air: nothing sticks there
+        return glm::dvec3(0.0); // the budget ended the first solve in the air: nothing sticks there
     const glm::dvec3 before = state.frictionless;
     const glm::dvec3 frictionless = state.frictionless = state.proxy;
     if (state.friction == FrictionState::Free) {
-        // First touch: the stiction point is where the surface was met.
+        // First contact: the stiction point is the point of contact.
         state.friction = FrictionState::Sticking;
         state.stictionPoint = frictionless;
         return glm::dvec3(0.0);
     }
-    // Ho's spring is softer than the surface: its stiction point is farther away than the proxy. The others'
-    // is the proxy itself, wherever the world may have pushed it.
+    // Ho's spring is softer than the surface: its stiction point is farther away than the proxy. In the other
+    // laws it is the proxy itself, wherever moving objects may have pushed it.
     const glm::dvec3 point = mode == FrictionMode::Ho ? state.stictionPoint : held;
     const FrictionCone::Limit limit = cone.along(point - frictionless);
     const FrictionAnswer answer = askLaw(mode, {.state = state.friction,
@@ -96,11 +96,11 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
         return held - frictionless;
     }
     const glm::dvec3 target = answer.share * answer.stretch;
-    if (target != glm::dvec3(0.0) || !touches(rest)) // else the proxy already stands there
+    if (target != glm::dvec3(0.0) || !touches(rest)) // else the proxy is already there
         holdBack(held, target, cone.down(), proxy, state, rest);
     state.stictionPoint = ownPlace ? state.proxy : answer.stays ? point : frictionless + answer.stretch;
-    // On a curved surface, and where a wall is in the way, the chord is not quite what was asked for: the
-    // force is, never more, and never more than the contacts bear along it.
+    // Where the surface is curved or a wall is in the way, the chord differs from the requested stretch. The
+    // force follows the chord, no longer than that stretch and never more than the contacts bear along it.
     const glm::dvec3 kept = state.proxy - frictionless;
     double asked = glm::dot(target, target);
     const double got = glm::dot(kept, kept);

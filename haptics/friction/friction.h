@@ -1,6 +1,6 @@
 #pragma once
 // Stage 6: friction as a stiction point on the surface ([001 §4.1], the god-object's god-object). The law is
-// one of friction_law.h; here the proxy is held back as it says.
+// one of friction_law.h; this stage moves the proxy accordingly.
 
 #include "haptics/friction/friction_cone.h"
 #include "haptics/proxy/proxy_solver.h"
@@ -10,12 +10,12 @@
 
 namespace touchstone {
 
-/// Holds the proxy back by the law that `mode` names. On entry the proxy is where stage 4 left it; `held` is
-/// where it stood at the end of the last tick (reference object frame). The proxy is moved by the solver from
-/// places where it stood before, so it stays on the surface and inside all planes; where it sticks it goes
-/// back to `held` to the last bit, so that nothing drifts. Returns the friction force over K (reference
-/// object units): the way from the frictionless place to the proxy, no longer than the law has it. Solver:
-/// ProxySolver or ComparisonSolver.
+/// Holds the proxy back by the law `mode`. On entry the proxy is where stage 4 left it; `held` is its place
+/// at the end of the last tick (reference object frame). The solver moves the proxy from its former places,
+/// so it stays on the surface and inside all planes; where it sticks it returns to `held` to the last bit, so
+/// that nothing drifts. Returns the friction force over K (reference object units): the vector from the
+/// frictionless place to the proxy, no longer than the law's stretch. Solver: ProxySolver or
+/// ComparisonSolver.
 template <class Solver>
 glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Solver& proxy,
                          DeviceState& state, SolveResult& rest) noexcept;

@@ -1,5 +1,5 @@
 #pragma once
-// How much friction the contacts bear: the sum of their cones, less what the viscous term takes of it.
+// The friction that the contacts can bear: the sum of their cones, less the viscous term.
 
 #include "haptics/force/contact_loads.h"
 #include "haptics/surface/surface_sample.h"
@@ -10,26 +10,27 @@
 
 namespace touchstone {
 
-/// Friction's share of one tick. With contacts of normal load N_i = beta k_i lambda_i the friction along a
+/// The friction limit of one tick. With contacts of normal load N_i = beta k_i lambda_i the friction along a
 /// unit vector u is at most
 ///     mu N (u) = sum mu_i N_i |u - (u . n_i) n_i|   (n_i: of the true planes),
-/// the extent of the sum of the contacts' friction disks along u: all of sum mu_i N_i along what the planes
-/// leave free, and continuous where a plane joins, since N_i then is 0.
+/// the extent along u of the sum of the contacts' friction disks: all of sum mu_i N_i along the directions
+/// that the planes leave free, and continuous where a plane joins, since N_i then is 0.
 ///
 /// The viscous term takes its part first ([001] eq. 4.6: the total stays at mu N): V_i = min(c_i v_i min(1,
-/// lambda_i / d_i), mu_d,i N_i) against the velocity along contact i; planes almost parallel share one term.
-/// The stiction point bears the rest, mu N - sum V_i, never less than nothing. A material that states no
-/// friction coefficient has no cone: its viscous term is c v.
+/// lambda_i / d_i), mu_d,i N_i) against the velocity along contact i; almost parallel planes share one term.
+/// The stiction point bears the rest, max(0, mu N - sum V_i). A material without a friction coefficient has
+/// no cone: its viscous term is c v.
 class FrictionCone {
   public:
     FrictionCone() = default; ///< nothing is touched
-    /// `velocity` of the HIP against the surface, m/s; `workspacePerReference` m per reference object unit.
+    /// `velocity` of the HIP relative to the surface, m/s; `workspacePerReference` m per reference object
+    /// unit.
     FrictionCone(const SurfaceSample& feel, const glm::dvec3& velocity,
                  double workspacePerReference) noexcept;
     FrictionCone(const ContactLoads& loads, const glm::dvec3& velocity,
                  double workspacePerReference) noexcept;
 
-    /// What a law is given for the stretch that it meets. Lengths in reference object units.
+    /// The limit along a given stretch, as the law reads it. Lengths in reference object units.
     struct Limit {
         double depth = 0.0; ///< N / K
         double staticFriction = 0.0, dynamicFriction = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-// What every friction model is: a function of lengths that knows no mesh. One file each: zilles_law, ho_law,
-// elastoplastic_law; friction.cpp asks the one that the settings name and moves the proxy.
+// The friction laws: functions of lengths, independent of any mesh. One file each: zilles_law, ho_law,
+// elastoplastic_law; friction.cpp calls the one that the settings select and moves the proxy.
 
 #include "haptics/state/device_state.h"
 
@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-/// What a law is told. Lengths and vectors in any one frame and unit. Normal and tangential stiffness are
-/// both K, so a force F is the stretch F / K, and the normal force N is the depth N / K.
+/// Input of a law. Lengths and vectors in any one frame and unit. Normal and tangential stiffness are both K,
+/// so a force F is the stretch F / K, and the normal force N is the depth N / K.
 struct FrictionInput {
     FrictionState state = FrictionState::Sticking; ///< of the last tick; not Free
     glm::dvec3 stretch{0.0};      ///< x: from the place without friction to the stiction point
@@ -19,16 +19,17 @@ struct FrictionInput {
     double dynamicFriction = 0.0; ///< mu_d, 0 .. mu_s
 };
 
-/// What the law makes of it. The friction force is K * share * stretch.
+/// Result of a law. The friction force is K * share * stretch.
 struct FrictionAnswer {
     FrictionState state = FrictionState::Sticking;
     bool stays = true;       ///< the stiction point keeps its place, to the last bit
-    glm::dvec3 stretch{0.0}; ///< x as it is now
+    glm::dvec3 stretch{0.0}; ///< the new x
     double share = 1.0;      ///< tangential stiffness over K
 };
 
-/// Zilles and Salisbury [001 §4.1.1]: one state, the convict's chain. Sticks while |x| <= mu_s N / K; beyond
-/// it the stiction point is put mu_d N / K behind, and sticks there: the sawtooth of [001 Fig. 4-4].
+/// Zilles and Salisbury [001 §4.1.1]: one state, like a convict's ball and chain. Sticks while |x| <= mu_s N
+/// / K; beyond it the stiction point is moved to mu_d N / K from the frictionless place, and sticks there:
+/// the sawtooth of [001 Fig. 4-4].
 [[nodiscard]] FrictionAnswer zillesLaw(const FrictionInput& input) noexcept;
 
 /// Ho, Basdogan and Srinivasan [000 §4.2]: sticking with ks, breaking away above mu_s N; sliding with kd, the
@@ -37,16 +38,16 @@ struct FrictionAnswer {
 /// stiffer than the surface, which is as stiff as the device can bear.
 [[nodiscard]] FrictionAnswer hoLaw(const FrictionInput& input) noexcept;
 
-/// Hayward and Armstrong's drift-free elasto-plastic model (ISER 1999; the exponent's step made exact as by
+/// Hayward and Armstrong's drift-free elasto-plastic model (ISER 1999; with the exact exponential step of
 /// Dupont, Hayward, Armstrong and Altpeter, 2002), in the form without time. The adhesion point follows a
 /// growing stretch by alpha(|x|) of its growth and nothing else:
-///   alpha = 0                                              |x| <= kElastic L: no creep at all
+///   alpha = 0                                              |x| <= kElastic L: no creep
 ///         = A (1 - cos(pi (|x| / L - kElastic) / (1 - kElastic))) / 2    up to L
-/// Sticking: L = mu_s N / K, A = 1/2, so that the limit is reached; beyond it breaks away. Sliding: L = mu_d
-/// N / K, A = 1, and |x| never exceeds L; below kElastic L it sticks again.
+/// Sticking: L = mu_s N / K, A = 1/2, so that the limit is reached; beyond it the contact breaks away.
+/// Sliding: L = mu_d N / K, A = 1, and |x| never exceeds L; below kElastic L it sticks again.
 [[nodiscard]] FrictionAnswer elastoplasticLaw(const FrictionInput& input) noexcept;
 
-/// Share of its limit up to which the elasto-plastic contact is purely elastic.
+/// Fraction of its limit up to which the elasto-plastic contact is purely elastic.
 inline constexpr double kElastic = 0.7;
 
 } // namespace touchstone

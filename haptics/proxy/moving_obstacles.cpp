@@ -1,23 +1,22 @@
-// A tick in which objects move, as each of them sees it.
+// A tick in which objects move, seen from the frame of each object.
 //
-// Every object D keeps a copy of the proxy in its own frame. When D moves the copy goes along, so that D
-// never meets it; the copies then disagree about where in the workspace the proxy is, and the tick is solved
-// when they meet again in one place to which each of them found a way clear of its own object. That is all
-// that "never passes through" says, and no order of the objects, no normal and no speed enters into it.
+// Every object D keeps a copy of the proxy in its own frame. When D moves the copy moves with it, so that D
+// never meets it. The copies then disagree about the proxy's place in the workspace. The tick is solved when
+// they meet again in one place that each of them reached by a path clear of its own object. That is all that
+// "never passes through" requires; no order of the objects, no normal and no speed enters into it.
 //
-// The place is found like a rest of the proxy: the point nearest to where it was (the wish) in the meet of
-// half-spaces. A half-space is the linearised distance from a triangle that stopped a copy,
-//     d(c) + grad d(c) . (x - c) >= reach,
-// with D where it will be at the end of the step. The distance from a triangle is convex, so this never
-// admits a place that is too near; and a copy that goes straight from c, where the inequality holds or the
-// move leads away, to such a place cannot meet that triangle on the way. So each round either ends with all
-// copies in one place or finds a triangle that was not known. That a surface moves enters by its place alone:
-// the same inequality says "it stands" and "it pushes".
+// The place is found like a proxy at rest: the point nearest to the proxy's target in the intersection of
+// half-spaces. A half-space is the linearised distance from a triangle that stopped a copy, d(c) + grad d(c)
+// . (x - c) >= reach, with D at its pose at the end of the step. The distance from a triangle is convex, so
+// this never admits a place that is too near; and a copy that moves straight from c, where the inequality
+// holds or the move leads away, to such a place cannot meet that triangle on the way. So each round either
+// ends with all copies in one place or finds a new triangle. The motion of a surface enters by its pose
+// alone: the same inequality describes a surface at rest and one that pushes.
 //
-// Planes reach on where surfaces end, and normals turn: what finds no place in one step of the tick is tried
-// in half of it. Steps are also short enough for an object to turn by little, because a copy goes along the
-// chord of what is an arc in its object's frame: with turns of 1/8 rad they part by 0.0017 of the object's
-// longest side at most. Whatever the chord, it is a way clear of the object.
+// Planes extend beyond the ends of surfaces, and normals turn: where one step of the tick finds no place,
+// half a step is tried. Steps are also short enough for an object to turn by little, because a copy moves
+// along the chord of what is an arc in its object's frame: with turns of 1/8 rad chord and arc differ by
+// 0.0017 of the object's longest side at most. Every chord is still a path clear of the object.
 
 #include "haptics/proxy/moving_obstacles.h"
 
@@ -36,21 +35,20 @@ namespace touchstone {
 
 namespace {
 
-/// Distance beyond the radius at which the places of a tick end, object units: more than the rounding between
+/// Distance beyond the radius at which the proxy ends a tick, object units: more than the rounding between
 /// frames, less than a thousandth of the smallest radius. A sweep ends at half of it.
 constexpr double kObstacleGap = 1e-10;
 /// A move shorter than this is rounding, object units.
 constexpr double kNoMove = 1e-12;
 /// The largest turn of a step, rad.
 constexpr double kLargestTurn = 0.125;
-/// The shortest step, in ticks: what is squeezed flat is found out that exactly.
+/// The shortest step, in ticks: the resolution at which a jam is detected.
 constexpr double kShortestStep = 1.0 / 4096.0;
 constexpr int kRounds = 24;
-/// Bound of a tick's work. A step without conflict takes one sweep an object.
+/// Bound of a tick's work. A step without conflict takes one sweep per object.
 constexpr int kSweepBudget = 512;
 constexpr int kFollowRounds = 8;
-/// Where a jammed object has gone on by this much (its longest side is 1), the proxy has been left behind
-/// for good.
+/// Once a jammed object has moved on by this distance (its longest side is 1), touch begins again.
 constexpr double kGivenUp = 0.5;
 
 class MovingObstacles {
@@ -114,7 +112,7 @@ class MovingObstacles {
     uint32_t& flags_;
     double radius_; // workspace
     glm::dvec3 start_, place_;
-    double room_ = 0.0; // how far from start_ every near object is known, workspace
+    double room_ = 0.0; // every object within this distance of start_ is known, workspace
     double unit_ = 1.0; // workspace metres per unit of the solve
     double largestAngle_ = 0.0;
     size_t near_ = 0; // copies in use
@@ -134,8 +132,8 @@ bool MovingObstacles::moves(size_t k) const {
     return !motions_[k].jumped && !same(motions_[k].before, motions_[k].workspaceFromObject);
 }
 
-/// Whether any part of object k may come within `within` of the place where the proxy starts, by bounding
-/// spheres. The origin goes along less than half a circle, which lies in the ball around its chord.
+/// True where any part of object k may come within `within` of the proxy's start, by bounding spheres. The
+/// origin moves along less than half a circle, which lies in the ball around its chord.
 bool MovingObstacles::isNear(size_t k, double within) const {
     const ObjectMotion& motion = motions_[k];
     const Similarity& from = motion.jumped ? motion.workspaceFromObject : motion.before;
@@ -144,7 +142,7 @@ bool MovingObstacles::isNear(size_t k, double within) const {
     const double distance2 = glm::dot(away, away);
     const double reach =
         within + scene_.boundingRadii[k] * std::max(from.scale, motion.workspaceFromObject.scale);
-    // Of a thousand objects nearly all are so far away that no root is needed to tell.
+    // Of a thousand objects nearly all are rejected without a square root.
     const double most = std::abs(half.x) + std::abs(half.y) + std::abs(half.z) + reach;
     if (distance2 > most * most)
         return false;
@@ -152,7 +150,7 @@ bool MovingObstacles::isNear(size_t k, double within) const {
     return distance2 <= exact * exact;
 }
 
-/// Whether a proxy cannot be at `place` (workspace) for object k as it stands now.
+/// True where the proxy cannot be at `place` (workspace) for object k at its present pose.
 bool MovingObstacles::blockedAt(size_t k, const glm::dvec3& place) noexcept {
     const Similarity& pose = motions_[k].workspaceFromObject;
     const glm::dvec3 p = pose.inversePoint(place);
@@ -167,7 +165,7 @@ bool MovingObstacles::blockedAt(size_t k, const glm::dvec3& place) noexcept {
     return nearestDistance(cache, p, reach, reach) < reach;
 }
 
-/// False when something was put where the proxy is.
+/// False when an object was placed where the proxy is.
 bool MovingObstacles::settleJumps() noexcept {
     for (size_t k = 0; k < motions_.size(); ++k) {
         if (!motions_[k].jumped)
@@ -185,7 +183,7 @@ bool MovingObstacles::settleJumps() noexcept {
     return true;
 }
 
-/// Lists all objects that can have a say in this tick. False when there are too many.
+/// Lists all objects that can affect this tick. False when there are too many.
 bool MovingObstacles::listNear() noexcept {
     near_ = 0;
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
@@ -218,7 +216,7 @@ void MovingObstacles::startStep(double from, double to) noexcept {
     struckCount_ = 0;
 }
 
-/// Remembers what stopped the copy.
+/// Stores the feature that stopped the copy.
 void MovingObstacles::note(size_t copy, const MovingObstacle& object) noexcept {
     CandidateCache& cache = state_.obstacleCandidates;
     const double touching = object.reach - 0.4 * kObstacleGap;
@@ -229,7 +227,7 @@ void MovingObstacles::note(size_t copy, const MovingObstacle& object) noexcept {
             hit_[struckCount_++] = {copy, cache.triangle(i), nullptr, 0};
     });
     const Shape* shape = scene_.objects[index(object.object)]->shape.get();
-    // Of a shape each feature once: it is linearised again in every round.
+    // Each feature of a shape once: it is linearised again in every round.
     (void)cache.shapes().eachNear(object.place, touching, [&](int, const FeatureDistance& d) {
         const auto known = std::span(hit_).first(struckCount_);
         const bool noted = std::any_of(known.begin(), known.end(), [&](const Hit& s) {
@@ -240,8 +238,8 @@ void MovingObstacles::note(size_t copy, const MovingObstacle& object) noexcept {
     });
 }
 
-/// Moves a copy straight to `to` (object frame) or as far as its object lets it; true when it arrives. A
-/// stretch with too many triangles is halved; one that stays too dense ends there.
+/// Moves a copy straight to `to` (object frame) or as far as its object allows; true when it arrives. A
+/// segment with too many triangles is halved; where one remains too dense, the sweep ends.
 bool MovingObstacles::sweep(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept {
     constexpr int kPieces = 64;
     const glm::dvec3 from = object.place, move = to - from;
@@ -286,7 +284,7 @@ bool MovingObstacles::sweep(size_t copy, MovingObstacle& object, const glm::dvec
     return false;
 }
 
-/// The place nearest to `wish` that all hit triangles allow; false where they allow none.
+/// The place nearest to `target` that satisfies all hit triangles; false where there is none.
 bool MovingObstacles::nearestPlace(std::span<const MovingObstacle> copies, const glm::dvec3& target,
                                    double unit, glm::dvec3& place) noexcept {
     for (size_t i = 0; i < struckCount_; ++i) {
@@ -331,8 +329,8 @@ bool MovingObstacles::solve(const glm::dvec3& target) noexcept {
     return false;
 }
 
-/// Where the proxy would be if nothing stood in its way: where it is, unless a surface that it sticks to
-/// takes it along; no farther than friction can hold it back.
+/// The proxy's place without obstacles: its present place, or the place to which a surface that it sticks to
+/// takes it; no farther than friction can hold it back.
 glm::dvec3 MovingObstacles::target(double step) const noexcept {
     if (state_.friction == FrictionState::Free)
         return place_;
@@ -345,8 +343,8 @@ glm::dvec3 MovingObstacles::target(double step) const noexcept {
     return place_;
 }
 
-/// Moves everything that the holder does not carry out of the way, if it lets itself be: the proxy goes to
-/// where the holder takes it. With `commit` those that do not are jammed; else false tells of one.
+/// Moves the proxy to where the holder takes it and sweeps every other copy there as far as its object
+/// allows. With `commit` the objects that block it are jammed; else false if there is one.
 bool MovingObstacles::advanceWith(size_t holder, bool commit) noexcept {
     const std::span<MovingObstacle> copies = std::span(state_.carried).first(near_);
     const glm::dvec3 target = copies[holder].pose.point(copies[holder].origin);
@@ -369,8 +367,9 @@ bool MovingObstacles::advanceWith(size_t holder, bool commit) noexcept {
     return true;
 }
 
-/// No place was found. One of those that met may still take the proxy along through the rest of the tick, as
-/// where a slide between many facets is too long for one tick; else it stays with the one it touched last.
+/// No place was found. One of the objects that met may still take the proxy through the rest of the tick, as
+/// where a slide between many facets is too long for one tick; else the proxy stays with the one touched
+/// last.
 void MovingObstacles::pinch(double from) noexcept {
     std::array<int, 4> touched{-1, -1, -1, -1};
     size_t count = 0, holder = near_;
@@ -412,7 +411,7 @@ void MovingObstacles::advance() noexcept {
     }
 }
 
-/// Slides the copy of a jammed object as near to the proxy as that object lets it; true when it is there.
+/// Slides the copy of a jammed object as near to the proxy as that object allows; true when it arrives.
 bool MovingObstacles::follow(MovingObstacle& copy) noexcept {
     struckCount_ = 0;
     const std::span<const MovingObstacle> only(&copy, 1);
@@ -426,7 +425,7 @@ bool MovingObstacles::follow(MovingObstacle& copy) noexcept {
     return false;
 }
 
-/// Takes the copies of the jammed objects along. False when one is so far gone that touch has to begin anew.
+/// Moves the copies of the jammed objects. False when one is so far away that touch must begin again.
 bool MovingObstacles::followJammed() noexcept {
     for (size_t i = 0; i < state_.jammed.count; ++i) {
         const size_t k = index(state_.jammed.objects[i]);
@@ -471,7 +470,7 @@ void MovingObstacles::run() noexcept {
     state_.candidates.invalidate();
     if (!settleJumps())
         return lose();
-    // Who moves where the proxy is?
+    // Which objects move where the proxy is?
     bool pushed = false, byReferenceOnly = true;
     double way = 0.0, largest = 0.0;
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
@@ -484,7 +483,7 @@ void MovingObstacles::run() noexcept {
     }
     if (!pushed)
         return finish();
-    // Pushed about by a wedge the proxy may go farther than what pushes it.
+    // A wedge may push the proxy farther than the wedge itself moves.
     room_ = 2.0 * radius_ + 8.0 * way + 0.25 * largest;
     unit_ = motions_[index(state_.reference)].workspaceFromObject.scale;
     if (!listNear()) {
@@ -492,13 +491,13 @@ void MovingObstacles::run() noexcept {
         return lose();
     }
     if (byReferenceOnly && near_ == 1 && state_.jammed.count == 0)
-        return; // it goes with the reference object, as with an object that is alone
+        return; // the proxy moves with the reference object, as with a single object
     advance();
     if (state_.placed)
         finish();
 }
 
-/// An object that shrinks takes the proxy's clearance along.
+/// The proxy's clearance shrinks with its object.
 void shrinkClearance(const ObjectMotion& reference, DeviceState& state) noexcept {
     if (!reference.jumped && reference.workspaceFromObject.scale < reference.before.scale)
         state.clearance *= reference.workspaceFromObject.scale / reference.before.scale;

@@ -1,5 +1,5 @@
 #pragma once
-// Stage 2 in a scene that moves: what the objects do to the proxy between two ticks.
+// Stage 2 in a moving scene: how the objects displace the proxy between two ticks.
 
 #include "engine/math/object_motion.h"
 #include "haptics/scene/haptic_scene.h"
@@ -9,16 +9,16 @@
 
 namespace touchstone {
 
-/// Takes a placed proxy (radius in workspace metres) from the last tick's poses to this tick's, through no
-/// surface of any object at any speed. What touches nothing stays where it is in the workspace; what is run
-/// into is pushed, slides between the surfaces that push and those that stand, and comes to rest as near to
-/// where it was as they allow.
+/// Moves a placed proxy (radius in workspace metres) from the last tick's poses to this tick's, through no
+/// surface of any object at any speed. A proxy without contact stays in place in the workspace. A proxy that
+/// is hit is pushed, slides between moving and resting surfaces, and comes to rest as near to its former
+/// place as they allow.
 ///
-/// Where objects close on each other and leave no way out the proxy stays with the one that it touched last
-/// and the others are not felt (TickFlag::Jammed) until it is in front of them again; when one has gone on
-/// by half its longest side touch begins anew. An object that jumps (ObjectMotion::jumped) does not sweep:
-/// the proxy stays where it was in the workspace if that is free now; else `state.placed` becomes false and
-/// touch begins anew.
+/// Where objects close and leave no way out, the proxy stays with the one that it touched last and the others
+/// are not felt (TickFlag::Jammed) until the proxy is in front of them again; when one has moved on by half
+/// its longest side, touch begins again. An object that jumps (ObjectMotion::jumped) does not sweep: the
+/// proxy stays in place in the workspace if that place is free; else `state.placed` becomes false and touch
+/// begins again.
 ///
 /// Costs nothing in a scene at rest; with one object its motion is the whole relative motion and the sweep to
 /// the HIP covers it. Bounded, no allocation. Sets bits of TickFlag in `flags`.

@@ -16,8 +16,8 @@ namespace touchstone {
 [[nodiscard]] bool isInsideAny(const HapticScene& scene, ObjectMotions motions,
                                const glm::dvec3& hip) noexcept;
 
-/// Whether touch may begin at state.hip: not inside a closed object and, where the hand must leave the model
-/// first, clear of it (clear_of_model.h); then it need not leave any more.
+/// True where touch may begin at state.hip: outside every closed object and, where the hand must first leave
+/// the model, clear of it (clear_of_model.h); the hand then counts as having left.
 [[nodiscard]] bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
 } // namespace touchstone

@@ -18,23 +18,23 @@ namespace {
 /// Moves without progress after which the proxy counts as resting.
 constexpr int kFruitlessMoves = 2;
 
-/// Moves of a drop that may exceed the budget: one, and what a small ball of candidates adds to it.
+/// Moves of a drop that may exceed the budget: one, and those that small candidate balls add.
 constexpr int kDropMoves = 4;
 
 /// Moves after which the proxy may be creeping around an edge.
 constexpr uint32_t kCreeping = 5;
 
-/// Balls smaller than this are not worth gathering; larger ones than this reach over any object.
+/// Smaller balls are not worth gathering; the largest reaches beyond any object.
 constexpr double kSmallestMargin = 1e-7;
 constexpr double kLargestMargin = 4.0;
 /// The margin shrinks above and grows below these candidate counts.
 constexpr size_t kManyCandidates = 16;
 constexpr size_t kFewCandidates = 4;
-/// How far ahead of the proxy the middle of a new ball lies, in margins.
+/// Distance of a new ball's centre ahead of the proxy, in margins.
 constexpr double kAhead = 0.5;
 constexpr double kLasting = 2.0;
 
-/// A sweep ends at this gap, short of the resting one: a surface that the proxy rests on at kContactGap and
+/// A sweep ends at this gap, below the resting gap: a surface that the proxy rests on at kContactGap and
 /// slides along is then not hit again at once by the rounding of its gradient.
 constexpr double kStrikeGap = 0.5 * kContactGap;
 
@@ -48,7 +48,7 @@ ProxySolver::ProxySolver(const HapticScene& scene, ObjectMotions motions, const 
     rest_.iterations = 0;
     rest_.flags = 0;
     rest_.activeSet = SubGoal{};
-    state_.candidates.moved(); // another contact model may have had the proxy since
+    state_.candidates.moved(); // another contact model may have moved the proxy
     adoptReference(state_.reference);
 }
 
@@ -64,7 +64,7 @@ bool ProxySolver::begin() noexcept {
     placeAt(motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.inversePoint(state_.hip));
     if (!mayBegin(scene_, motions_, state_))
         return false;
-    state_.candidates.invalidate(); // what moved since the last try is not where it was gathered
+    state_.candidates.invalidate(); // an object that moved since is not where it was gathered
     state_.placed = isFree();
     return state_.placed;
 }
@@ -84,8 +84,8 @@ void ProxySolver::adoptReference(int reference) noexcept {
             state_.placed ? state_.clearance / motions_[index].workspaceFromObject.scale : INFINITY);
 }
 
-/// A radius that grew counts from when the proxy is clear by it wherever it may go back to: until then what
-/// is nearer lifts it and is not taken for something that it comes through.
+/// A radius that grew takes effect once the proxy is clear by it wherever it may return to. Until then a
+/// nearer surface lifts the proxy and does not count as one that it is coming through.
 void ProxySolver::measureClearance() noexcept {
     CandidateCache& cache = state_.candidates;
     double stands = cache.standing();
@@ -111,13 +111,13 @@ bool ProxySolver::gather(CandidateCache& cache, const glm::dvec3& centre, double
                : within(std::span<const double>(scene_.boundingRadii));
 }
 
-/// Makes sure that all triangles are known that a proxy moving by `length` along `direction` could touch; or
-/// as far as the hand went in this tick, if that is less: a long move that a near surface ends must not
-/// gather what lies behind it. How far they are known; negative if not even the place itself can be covered.
+/// Gathers all triangles that a proxy moving by `length` along `direction` could touch, or within the HIP's
+/// travel in this tick if that is less: a long move that a near surface ends must not gather what lies behind
+/// it. Returns the covered distance; negative if not even the place itself can be covered.
 double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
     const double reach = radius_ + kContactReach;
     const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
-    // A ball gathered in flight may hold thousands of triangles: of little use to a hand that has landed.
+    // A ball gathered in free motion may hold thousands of triangles, of little use after contact.
     const double ball = state_.candidates.radius();
     const bool crowded =
         state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + kLasting * travel_);
@@ -131,7 +131,7 @@ double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
     constexpr int kAttempts = 16;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const double margin = state_.gatherMargin;
-        // The ball lies ahead of the hand, where it lasts longer.
+        // The ball lies ahead of the hand, where it stays valid for longer.
         const glm::dvec3 centre = state_.proxy + kAhead * margin * heading_;
         const bool fits = gather(state_.candidates, centre, reach + margin);
         const size_t count = state_.candidates.count();
@@ -145,8 +145,8 @@ double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
         else if (count < kFewCandidates)
             next = 1.5 * margin;
         // However dense the mesh, a ball that does not last for two ticks of this motion costs more than it
-        // saves. A hand that rested has shrunk it to nothing: it must grow again, while four times the ball
-        // still holds, or the proxy would creep.
+        // saves. A hand at rest has shrunk it to nothing: it must grow again, while four times the ball still
+        // holds, or the proxy would creep.
         const double growth = 16 * count <= CandidateCache::kCapacity ? 4.0 : 1.0;
         const double lasting = fits ? std::min(kLasting * travel_, growth * margin) : 0.0;
         const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
@@ -166,9 +166,9 @@ void ProxySolver::findContacts(double within) noexcept {
         rest_.flags = rest_.flags | TickFlag::CandidatesFull;
 }
 
-/// A plane lets the proxy down to the resting gap, or lifts it there after a strike. Around that gap it asks
-/// for nothing: between planes a millionth of a degree apart, a wish of a tenth of the gap would be a tenth
-/// of a micrometre of sideways motion, in every move another one.
+/// A plane lets the proxy down to the resting gap, or lifts it there after a hit. Around that gap its offset
+/// is zero: between planes a millionth of a degree apart, an offset of a tenth of the gap would be a tenth of
+/// a micrometre of sideways motion, again in every move.
 void ProxySolver::buildPlanes() noexcept {
     constexpr double kContent = 0.3 * kContactGap;
     for (uint32_t i = 0; i < rest_.contactCount; ++i) {
@@ -215,11 +215,11 @@ void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
 }
 
 bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
-    // Against rounding, where other objects carry the proxy along.
+    // Margin for rounding, where other objects move the proxy.
     constexpr double kRounding = 1e-9;
     CandidateCache& cache = state_.candidates;
     const double reach = radius_ + kContactReach, least = radius_ - kRounding;
-    // Mostly a facet that the proxy touches now holds it there, too.
+    // In most cases a facet that the proxy touches now also holds it there.
     for (uint32_t i = 0; i < rest_.contactCount; ++i) {
         const double distance = distanceOf(cache, rest_.contacts[i], p);
         if (std::isinf(distance))
@@ -233,7 +233,7 @@ bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
     };
     if (cache.freeAlong(p, glm::dvec3(0.0), reach) >= 0.0)
         return holds(cache);
-    // Too far from the proxy for its ball: a small one about p.
+    // Too far from the proxy for its ball: gather a small one about p.
     CandidateCache& about = state_.obstacleCandidates;
     about.standsClearBy(cache.standing());
     return gather(about, p, reach) && holds(about);
@@ -245,7 +245,7 @@ bool ProxySolver::slideOnFacet(const glm::dvec3& goal) noexcept {
     Contact& contact = rest_.contacts[0];
     const glm::dvec3 target = goal - state_.proxy;
     const double above = glm::dot(target, contact.normal);
-    // A goal in the air would have to be dropped from.
+    // A goal in the air would need a drop.
     if (above > kContactReach)
         return false;
     const glm::dvec3 move = target - above * contact.normal;
@@ -264,7 +264,7 @@ bool ProxySolver::slideOnFacet(const glm::dvec3& goal) noexcept {
     return true;
 }
 
-/// Moves the proxy straight to a place; if that is not wholly free, not at all.
+/// Moves the proxy straight to a place if the whole path is free; else not at all.
 bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
     const glm::dvec3 move = to - state_.proxy;
     const double length = glm::length(move);
@@ -293,7 +293,8 @@ bool ProxySolver::rollAround(const glm::dvec3& goal) noexcept {
     return false;
 }
 
-/// One move: false when the proxy rests, or may not or cannot go on; then contacts and hold are up to date.
+/// One move. False when the proxy rests, or may not or cannot move on; contacts and active set are then up to
+/// date.
 bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
@@ -308,7 +309,8 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     }
     if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
         rest_.flags = rest_.flags | TickFlag::BudgetReached;
-        // In the air over what it was sliding on: that still holds the hand, or the force would drop out.
+        // In the air over the surface that it was sliding on: that surface still holds the HIP off, or the
+        // force would drop out.
         if (rest_.contactCount == 0)
             findContacts(lastMove_);
         return false;

@@ -1,7 +1,7 @@
 #pragma once
 // The virtual proxy: stages 2 and 3. A sphere moves towards a goal and never through a surface (Ruspini,
-// Kolarov and Khatib [000, 001]). It knows planes, distances and times of impact; what gives them is in
-// haptics/shape and haptics/contact.
+// Kolarov and Khatib [000, 001]). It handles only planes, distances and times of impact; haptics/shape and
+// haptics/contact supply them.
 
 #include "engine/math/object_motion.h"
 #include "haptics/scene/haptic_scene.h"
@@ -23,16 +23,16 @@ namespace touchstone {
 inline constexpr double kRestLength = 1e-11;
 
 /// The same after `moves` in this tick: from the eighth on it doubles with every second one, up to 1e-8 (1 nm
-/// on a fitted model, 1 µN at 1000 N/m). In a pocket between facets 1e-7 rad apart the heights that a move of
-/// 1e-9 changes are below the contact gap, and the proxy would go round and round in it until the budget
-/// ends. (At 8e-8 a proxy that crept was taken to rest 1.7e-6 of its object from where it was going.)
+/// on a fitted model, 1 µN at 1000 N/m). In a pocket between facets 1e-7 rad apart a move of 1e-9 changes
+/// heights by less than the contact gap, and the proxy would circle in it until the budget ends. (At 8e-8 a
+/// creeping proxy was taken to rest 1.7e-6 of its object from its goal.)
 [[nodiscard]] inline double restLength(uint32_t moves) noexcept {
     return moves < 10 ? kRestLength
                       : std::ldexp(kRestLength, (std::min(static_cast<int>(moves), 28) - 8) / 2);
 }
 
-/// False where nothing is touched, and where the budget ended the last move in the air: its contacts are then
-/// what the proxy was sliding on, farther away than a surface that is touched.
+/// False where nothing is touched, and where the budget ended the last move in the air: the contacts are then
+/// those of the surface that the proxy was sliding on, farther away than contact.
 [[nodiscard]] inline bool touches(const SolveResult& rest) noexcept {
     for (uint32_t i = 0; i < rest.contactCount; ++i)
         if (rest.contacts[i].gap <= kContactReach)
@@ -45,57 +45,55 @@ inline constexpr double kRestLength = 1e-11;
 class ProxySolver {
   public:
     /// `settings.proxyRadius`: workspace metres. The proxy is at least half the weld tolerance of the
-    /// reference object: a god-object that closes every crack narrower than that, and knows its side of a
-    /// sheet by standing on it.
+    /// reference object: a god-object that closes every narrower crack and stands on a definite side of a
+    /// sheet.
     ProxySolver(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                 DeviceState& state, SolveResult& rest) noexcept;
 
-    /// What the objects' own motion does to the proxy before the solve (moving_obstacles.h).
+    /// Moves the proxy with the objects' own motion before the solve (moving_obstacles.h).
     static void followObjects(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                               DeviceState& state, uint32_t& flags) noexcept;
 
     /// Places the proxy in the first tick, in free space only. False while touch may not begin
-    /// (place_proxy.h) or the HIP is within the proxy's radius of a surface: it feels nothing until it has
-    /// left. True from then on.
+    /// (place_proxy.h) or the HIP is within the proxy's radius of a surface; nothing is felt until then. True
+    /// from then on.
     [[nodiscard]] bool begin() noexcept;
 
-    /// The solve without friction goes on from `place`, where it ended in the last tick.
+    /// Resumes the solve without friction from `place`, where it ended in the last tick.
     void resumeFrom(const glm::dvec3& place) noexcept { placeAt(place); }
 
-    /// Moves the proxy to a rest: the point nearest to `goal` (reference object frame) that can be reached by
-    /// sliding without leaving free space. Anytime: every move ends in free space and none goes away from the
-    /// goal.
+    /// Moves the proxy to the point nearest to `goal` (reference object frame) that it can reach by sliding
+    /// in free space. Anytime: every move ends in free space and none leads away from the goal.
     void moveTowards(const glm::dvec3& goal) noexcept;
 
-    /// Moves the proxy straight towards `goal` until it touches something, without sliding on from there. May
-    /// exceed the budget by kDropMoves: where the budget ended a slide in the air, the drop is what brings
-    /// the proxy back to the surface.
+    /// Moves the proxy straight towards `goal` until contact, without sliding. May exceed the budget by
+    /// kDropMoves: where the budget ended a slide in the air, the drop returns the proxy to the surface.
     void dropTowards(const glm::dvec3& goal) noexcept;
 
     /// True where a proxy at `p` (reference object frame) would touch a surface and be nearer than its radius
-    /// to none. Nothing moves. Only after a solve.
+    /// to none. Moves nothing. Only after a solve.
     [[nodiscard]] bool touchesAt(const glm::dvec3& p) noexcept;
 
-    /// Straight to the place nearest to `goal` on the plane of the one facet that the proxy rests on, where
-    /// nothing is in the way and that facet holds the proxy there too. False, and nothing moved, where it is
-    /// not so simple. Only after a solve that came to rest. What moveTowards would do in two moves.
+    /// Moves straight to the place nearest to `goal` on the plane of the one facet that the proxy rests on,
+    /// where the path is free and that facet also holds the proxy there. False, and nothing moved, otherwise.
+    /// Only after a solve that came to rest. Equals two moves of moveTowards.
     [[nodiscard]] bool slideOnFacet(const glm::dvec3& goal) noexcept;
 
-    /// Puts the proxy at `p` (reference object frame) without a sweep. Only for places that are known to be
-    /// free: where the proxy stood before, or where isFree says so.
+    /// Puts the proxy at `p` (reference object frame) without a sweep. Only for places known to be free: a
+    /// former place of the proxy, or one that isFree confirms.
     void placeAt(const glm::dvec3& p) noexcept;
 
-    /// The way to a place that a solve looks for starts at `p`, where the proxy stood before.
+    /// Starts the path to a place that a solve looks for at `p`, a former place of the proxy.
     void startAt(const glm::dvec3& p) noexcept { placeAt(p); }
 
-    /// Back to a place where a solve ended. True where it is on the surface.
+    /// Returns to the end of an earlier solve. True where that is on the surface.
     [[nodiscard]] bool returnTo(const glm::dvec3& p, const glm::dvec3& hip) noexcept;
 
-    /// True when the proxy, where it stands, is farther than its radius from every surface.
+    /// True when the proxy at its present place is farther than its radius from every surface.
     [[nodiscard]] bool isFree() noexcept;
 
-    /// At the end of the tick: remembers how far clear of one-sided surfaces the proxy stands. Nothing in
-    /// scenes without such.
+    /// At the end of the tick: stores the proxy's clearance from one-sided surfaces. No effect in scenes
+    /// without them.
     void settleClearance() noexcept {
         if (scene_.plan.oneSided)
             measureClearance();
@@ -127,7 +125,8 @@ class ProxySolver {
     SolveResult& rest_;
 };
 
-/// Makes `reference` the frame in which the device's proxy lives, stiction point and shading along with it.
+/// Makes `reference` the reference object; transforms the proxy, stiction point and shading state into its
+/// frame.
 void changeReference(DeviceState& state, ObjectMotions motions, int reference) noexcept;
 
 } // namespace touchstone

@@ -11,10 +11,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kAxes = 7; // each looked along in both directions
+constexpr size_t kAxes = 7; // each tested in both directions
 constexpr int kEnclosing = 10;
 
-/// The axes and diagonals of a cube that is turned, so that no ray runs along a facet of a box.
+/// The axes and diagonals of a rotated cube, so that no ray runs along a facet of a box.
 constexpr std::array<glm::dvec3, kAxes> kDirections{{{0.8138, 0.4698, 0.3420},
                                                      {-0.5438, 0.8232, 0.1632},
                                                      {-0.2049, -0.3188, 0.9254},
@@ -23,7 +23,7 @@ constexpr std::array<glm::dvec3, kAxes> kDirections{{{0.8138, 0.4698, 0.3420},
                                                      {-0.9021, 0.0200, 0.4310},
                                                      {-0.2742, -0.9306, 0.2426}}};
 
-/// Boxes that the ball around a hand may meet before the surface counts as near without a closer look.
+/// Maximum number of boxes tested against the ball around a hand; with more, the surface counts as near.
 constexpr size_t kLookedAt = 512;
 
 bool isNear(const HapticObject& object, const Similarity& pose, const glm::dvec3& hip) noexcept {
@@ -45,13 +45,13 @@ bool isNear(const HapticObject& object, const Similarity& pose, const glm::dvec3
                        });
 }
 
-/// The same question as firstCrossing's of a shape: a ball without radius that goes past all of it.
+/// The query of firstCrossing for a shape: a ball of radius zero swept past all of it.
 bool meets(const HapticObject& object, const glm::dvec3& from, const glm::dvec3& along) noexcept {
     const double far = glm::length(from) + object.boundingRadius;
     return object.shape->sweep(from, 0.0, far * along, 1.0) < 1.0;
 }
 
-/// A surface with both sides that the ray from `hip` along the unit vector `direction` meets.
+/// True where the ray from `hip` along the unit vector `direction` meets a two-sided surface.
 bool isBarred(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip,
               const glm::dvec3& direction) noexcept {
     for (size_t k = 0; k < scene.objects.size(); ++k) {

@@ -8,16 +8,16 @@
 namespace touchstone {
 
 /// m of the workspace. A hand nearer than this to a surface is within reach of the model. A hand that presses
-/// on what is replaced is up to 14 mm deep (8.5 N on 600 N/m) and shoots ahead when it vanishes; a mouse
-/// hovers 3 mm over a surface, but chooses its place in sight (DeviceSample::inSight).
+/// on a model being replaced is up to 14 mm deep (8.5 N on 600 N/m) and accelerates when the model vanishes;
+/// a mouse hovers 3 mm over a surface, but chooses its place in sight (DeviceSample::inSight).
 inline constexpr double kModelReach = 5e-3;
 
-/// Whether `hip` (workspace) is out of the model: farther than kModelReach from every surface and not
-/// enclosed. A closed object encloses by parity (isInsideAny). One that is open has no inside; it encloses
+/// True where `hip` (workspace) is out of the model: farther than kModelReach from every surface and not
+/// enclosed. A closed object encloses by parity (isInsideAny). An open object has no inside; it encloses
 /// where 10 of 14 directions meet a two-sided surface. From outside the convex hull of the surfaces 7 do at
-/// most, since of two opposite directions one leads away from it; a sheet is met by 7.
-/// Servo thread: bounded by objects times 14 rays and one search for a near triangle. Boxes that the ball
-/// around the hand meets in greater number than are looked at one by one count as near.
+/// most, since of two opposite directions one leads away from it; a sheet is met by 7. Servo thread: bounded
+/// by objects times 14 rays and one search for a near triangle. Where the ball around the hand meets more
+/// boxes than are tested one by one, the surface counts as near.
 [[nodiscard]] bool clearOfModel(const HapticScene& scene, ObjectMotions motions,
                                 const glm::dvec3& hip) noexcept;
 

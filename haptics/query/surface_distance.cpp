@@ -30,7 +30,7 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
     if (distance >= nearest.distance)
         return false;
     nearest.distance = distance;
-    return false; // the ball is left as wide as it is: what rounding would cut off may be the nearest
+    return false; // the ball keeps its radius: rounding might cut off the nearest triangle
 }
 
 } // namespace
@@ -50,7 +50,7 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
                 within = std::min(within, std::abs(d.distance) * motions[k].workspaceFromObject.scale);
             continue;
         }
-        // Embree rounds to float: a ball a little wider loses nothing, the double distance decides.
+        // Embree rounds to float: a slightly larger ball loses nothing, the double distance decides.
         RTCPointQuery query{};
         query.x = static_cast<float>(nearest.point.x);
         query.y = static_cast<float>(nearest.point.y);

@@ -9,9 +9,9 @@ namespace touchstone {
 class HapticScene;
 
 /// The distance of `point` (workspace, m) from the nearest triangle of the whole scene, in double, or
-/// `within` where there is none so near. For reports and tests: it is not what the tick uses. `motions` as in
-/// TickInput, empty: at rest. Any thread but the servo; builds the rays where they are not there, and throws
-/// Error when Embree fails.
+/// `within` where none is nearer. For reports and tests: the tick does not use it. `motions` as in TickInput,
+/// empty: at rest. Any thread but the servo; builds the rays where they are missing, and throws Error when
+/// Embree fails.
 [[nodiscard]] double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
                                      double within);
 

@@ -20,7 +20,7 @@ struct ObjectHit {
 
 std::optional<ObjectHit> hitObject(const HapticObject& object, const glm::dvec3& from,
                                    const glm::dvec3& direction) noexcept {
-    if (const Shape* shape = object.shape.get()) { // a ball without radius
+    if (const Shape* shape = object.shape.get()) { // a ball of radius zero
         const double far = glm::length(from) + object.boundingRadius;
         const double impact = shape->sweep(from, 0.0, far * direction, 1.0);
         if (!(impact < 1.0))

@@ -2,7 +2,7 @@
 
 namespace touchstone {
 
-// Out of line: inlined, g++ 12 sees overflows that are not there.
+// Out of line: inlined, g++ 12 warns of overflows that cannot occur.
 void ByteWriter::put(std::span<const std::byte> bytes) {
     const size_t at = bytes_.size();
     bytes_.resize(at + bytes.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and texts in bytes: little endian, without padding.
+// Serialisation of numbers and texts: little endian, without padding.
 
 #include "engine/core/error.h"
 

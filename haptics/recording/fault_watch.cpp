@@ -9,10 +9,10 @@ namespace touchstone {
 
 std::optional<Fault> FaultWatch::add(const RecordedTick& tick) {
     constexpr double kMemory = 1.0; // s
-    constexpr double kForget = 0.1; // s of invalid input that a second of valid input makes good
+    constexpr double kForget = 0.1; // s of invalid input that a second of valid input offsets
     const bool faulty = has(tick.flags, TickFlag::ForceFault);
     const bool latched = has(tick.flags, TickFlag::SafetyLatched);
-    // A hand in sight has been lifted on purpose, or its picture stalls: no device has failed.
+    // A hand in sight has been lifted on purpose, or its image stalls: no device has failed.
     const bool invalid = has(tick.flags, TickFlag::InputInvalid) && !tick.sample.inSight;
     sinceContact_ = tick.contacts > 0 ? 0.0 : sinceContact_ + tick.dt;
     invalid_ = invalid ? invalid_ + tick.dt : std::max(0.0, invalid_ - kForget * tick.dt);

@@ -1,5 +1,5 @@
 #pragma once
-// When the last seconds are worth keeping.
+// Detects when the last seconds are worth keeping.
 
 #include "haptics/recording/recording_format.h"
 
@@ -13,14 +13,15 @@ struct Fault {
     std::string text; ///< for a person
 };
 
-/// Looks at every tick in order. One thread.
+/// Examines every tick in order. One thread.
 class FaultWatch {
   public:
-    /// s of a second without a usable sample, after which a hand that was pushed a second ago counts as lost.
+    /// s: accumulated time without a usable sample after which the hand counts as lost, if it was in contact
+    /// within the last second.
     static constexpr double kInputLost = 0.1;
 
-    /// What begins with this tick: a force that is not finite, a safety latch, a hand lost while it touched.
-    /// Each is told when it begins, not as long as it lasts.
+    /// A fault that begins with this tick: a force that is not finite, a safety latch, a hand lost during
+    /// contact. Each is reported once, when it begins.
     [[nodiscard]] std::optional<Fault> add(const RecordedTick& tick);
 
   private:

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLock = ".lock";
 
-/// The session's lock, or -1 where somebody lives who has it.
+/// Locks the session; -1 where a running process holds the lock.
 int lockSession(const fs::path& session) {
     const int descriptor = open((session.string() + kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor < 0)
@@ -52,7 +52,7 @@ std::string bytesOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// Of the first chunk; nothing where there is none.
+/// Sequence number of the first chunk; empty where there is none.
 std::optional<uint32_t> firstSequence(const std::string& recording) {
     constexpr size_t kAt = kFileHeaderSize + 12;
     if (recording.size() < kFileHeaderSize + kChunkHeaderSize)
@@ -62,7 +62,7 @@ std::optional<uint32_t> firstSequence(const std::string& recording) {
     return sequence;
 }
 
-/// Two segments as one recording, `end` behind them.
+/// Two segments as one recording, followed by `end`.
 std::string joined(const fs::path& session, bool both, int current, const std::string& end) {
     std::string before = both ? bytesOf(segmentOf(session, 1 - current)) : std::string();
     std::string after = bytesOf(segmentOf(session, current));
@@ -84,7 +84,7 @@ std::string dated(std::time_t time) {
     return text.data();
 }
 
-/// A name in the folder that nothing has yet.
+/// An unused name in the folder.
 fs::path freshName(const fs::path& folder, const std::string& stem) {
     for (int n = 0;; ++n) {
         fs::path path =
@@ -94,7 +94,7 @@ fs::path freshName(const fs::path& folder, const std::string& stem) {
     }
 }
 
-/// All of it or nothing.
+/// Writes the whole file or nothing.
 void writeWhole(const fs::path& path, const std::string& bytes) {
     const fs::path part = path.string() + ".part";
     std::error_code error;
@@ -114,7 +114,7 @@ void writeWhole(const fs::path& path, const std::string& bytes) {
         throw Error(path.string(), "", "the flight recording cannot be kept: " + error.message(), "");
 }
 
-/// Makes room for what was kept: the oldest go.
+/// Deletes the oldest kept files beyond the limits.
 void prune(const FlightConfig& config) {
     std::vector<std::pair<fs::file_time_type, fs::path>> files;
     std::error_code error;
@@ -147,7 +147,7 @@ std::vector<KeptFlight> FlightRecorder::recover(const FlightConfig& config) {
     for (const fs::path& session : sessions) {
         const int lock = lockSession(session);
         if (lock < 0)
-            continue; // it lives
+            continue; // its process is running
         const std::string bytes = joined(session, true, 0, "");
         if (firstSequence(bytes)) {
             const fs::path file = freshName(config.folder, "crash-" + dated(std::time(nullptr)));
@@ -185,7 +185,7 @@ fs::path FlightRecorder::segment(int index) const {
     return segmentOf(session_, index);
 }
 
-/// The older of the two segments makes room.
+/// Overwrites the older of the two segments.
 void FlightRecorder::rotate() {
     const uint32_t sequence = writer_ ? writer_->file().nextSequence() : 0;
     if (writer_) {
@@ -200,7 +200,7 @@ void FlightRecorder::rotate() {
 
 void FlightRecorder::add(const TickToRecord& tick) {
     const double dt = std::clamp(tick.tick.dt, 0.0, 1.0);
-    // Half a tick less: a second of ticks adds up to a hair less or more than a second.
+    // Half a tick less: a second of ticks adds up to slightly less or more than a second.
     if (tick.checkpoint != nullptr && (!writer_ || recorded_ + 0.5 * dt >= config_.seconds))
         rotate();
     if (!writer_)

@@ -7,7 +7,7 @@ namespace touchstone {
 
 namespace {
 
-/// A choice's number of values; 0: a number.
+/// Third argument: the number of a choice's values; 0: a number.
 template <class Settings, class Visit>
 void eachSetting(Settings& s, const Visit& visit) {
     visit("contact", s.contact, 3);
@@ -69,7 +69,7 @@ NamedNumbers getNumbers(ByteReader& bytes) {
     return numbers;
 }
 
-/// Moves a number into its field and out of the list.
+/// Moves a number from the list into its field.
 template <class Field>
 void takeNumber(NamedNumbers& numbers, std::string_view name, Field& field, int choices) {
     const auto found = numbers.find(name);

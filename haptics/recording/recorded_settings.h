@@ -1,6 +1,6 @@
 #pragma once
-// Settings and limits as named numbers: exact to the last bit, and readable by a version that has fewer or
-// more of them.
+// Settings and limits as named numbers: exact to the last bit, and readable by versions with fewer or more of
+// them.
 
 #include "engine/device_io/device_io.h"
 #include "haptics/recording/byte_stream.h"
@@ -8,13 +8,13 @@
 
 namespace touchstone {
 
-/// Count (u16), then for each: name (u32 length, text) and value (f64; choices by their place in
+/// Count (u16), then for each: name (u32 length, text) and value (f64; choices by their index in
 /// settingInfos' `values`, switches 0 or 1).
 void putSettings(ByteWriter& bytes, const HapticSettings& settings);
 void putLimits(ByteWriter& bytes, const DeviceLimits& limits);
 
-/// What is not there keeps its default. Throws Error for a name that this version does not know and for a
-/// value that `--set` would refuse.
+/// A missing setting keeps its default. Throws Error for a name unknown to this version and for a value that
+/// `--set` would refuse.
 [[nodiscard]] HapticSettings getSettings(ByteReader& bytes);
 [[nodiscard]] DeviceLimits getLimits(ByteReader& bytes);
 

@@ -74,7 +74,7 @@ void RecordingFile::write(std::span<const std::byte> bytes) {
             continue;
         if (wrote <= 0) {
             const int problem = wrote < 0 ? errno : ENOSPC;
-            // Not for a pipe or /dev/full; what is left over is then cut off as a reader cuts it.
+            // Not possible for a pipe or /dev/full; a reader then cuts off the rest.
             if (ftruncate(descriptor_, static_cast<off_t>(bytes_)) == 0)
                 lseek(descriptor_, static_cast<off_t>(bytes_), SEEK_SET);
             throw Error(path_.string(), "", std::string("recording failed: ") + std::strerror(problem),

@@ -1,5 +1,5 @@
 #pragma once
-// A recording on its way to the disk: chunk by chunk, each whole or not at all.
+// Writes a recording to the disk chunk by chunk, each whole or not at all.
 
 #include "haptics/recording/recording_format.h"
 
@@ -9,19 +9,19 @@
 
 namespace touchstone {
 
-/// A file of chunks. Every `append` hands its chunk to the system at once, so that what was appended outlives
-/// the process, however it ends (not the machine's power: nothing waits for the disk). One thread; everything
-/// throws Error that names the file.
+/// A file of chunks. Every `append` passes its chunk to the system at once, so that it survives the process
+/// however it ends (not a power failure: nothing waits for the disk). One thread; every function throws Error
+/// that names the file.
 class RecordingFile {
   public:
-    /// Makes the file anew, with its header. `sequence`: of the first chunk.
+    /// Creates or overwrites the file, with its header. `sequence`: of the first chunk.
     explicit RecordingFile(std::filesystem::path path, uint32_t sequence = 0);
     ~RecordingFile();
     RecordingFile(const RecordingFile&) = delete;
     RecordingFile& operator=(const RecordingFile&) = delete;
 
-    /// Where the disk is full or the file may not grow, what there is of the chunk is taken back: the file
-    /// ends with the last whole one.
+    /// Where the disk is full or the file may not grow, the partial chunk is removed: the file ends with the
+    /// last whole one.
     void append(const RecordedItem& item);
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -37,7 +37,7 @@ class RecordingFile {
     uint64_t bytes_ = 0;
 };
 
-/// A chunk as it stands in the file.
+/// The bytes of a chunk in the file.
 [[nodiscard]] std::vector<std::byte> chunkOf(const RecordedItem& item, uint32_t sequence);
 
 } // namespace touchstone

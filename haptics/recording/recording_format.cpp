@@ -143,7 +143,7 @@ void get(ByteReader& bytes, RecordedTick& tick) {
     tick.checkpoint = (bits & kCheckpoint) != 0;
     tick.sample.begins = (bits & kBegins) != 0;
     tick.sample.inSight = (bits & kInSight) != 0;
-    // Samples may be anything, they come from devices. These two come from us.
+    // Samples come from devices and may have any value. These two come from the program.
     if (!std::isfinite(tick.time) || !std::isfinite(tick.dt))
         throw Error("", "tick " + std::to_string(tick.tick), "has no time", "");
 }
@@ -154,8 +154,7 @@ bool same(const DeviceMapping& a, const DeviceMapping& b) {
            a.coupling == b.coupling;
 }
 
-/// Behind the ticks, where there is any other than the identity: those that differ from that of the tick
-/// before.
+/// After the ticks, where any mapping is not the identity: those that differ from that of the preceding tick.
 void putMappings(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
     std::vector<uint32_t> changes;
     DeviceMapping last;
@@ -178,7 +177,7 @@ void putMappings(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
     }
 }
 
-/// The step bears any mapping, but we write none that is not finite.
+/// The step accepts any mapping, but the writer writes only finite ones.
 bool meant(const DeviceMapping& mapping) {
     const Similarity& map = mapping.workspaceFromDevice;
     const glm::dquat& q = map.rotation;

@@ -1,5 +1,5 @@
 #pragma once
-// What stands in a recording; docs/recording.md has the layout byte by byte. Change both and
+// The contents of a recording; docs/recording.md has the layout byte by byte. Change both and
 // kRecordingVersion together.
 
 #include "engine/device_io/device_io.h"
@@ -18,26 +18,26 @@
 namespace touchstone {
 
 inline constexpr uint32_t kRecordingVersion = 1;
-/// As PNG's: a byte that is no text, both line ends and an end of file, each of which a careless copy
+/// Like PNG's: a byte that is not text, both line ends and an end of file, each of which a faulty copy
 /// changes.
 inline constexpr std::string_view kRecordingMagic{"\x89TSR\r\n\x1a\n", 8};
 inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224;
-inline constexpr uint32_t kChunkSync = 0x6b6e6843;  ///< "Chnk": where to go on behind damage
+inline constexpr uint32_t kChunkSync = 0x6b6e6843;  ///< "Chnk": where reading resumes after damage
 inline constexpr uint32_t kLargestChunk = 1u << 20; ///< bytes of payload: the reader's memory is bounded
 inline constexpr std::string_view kRecordingEnding = ".tsrec";
 
-/// Who made it. Other bits may come out on another build or processor.
+/// The program that made it. Another build or processor may produce other bits.
 struct RecordingOrigin {
     std::string version, build, compiler, processor;
     std::string command; ///< "touch", "run", "window", "flight recorder"
     std::string date;    ///< ISO 8601, UTC
-    double rateHz = 0.0; ///< 0: ticks at times of their own
+    double rateHz = 0.0; ///< 0: ticks at individual times
 };
 /// This program, now.
 [[nodiscard]] RecordingOrigin recordingOrigin(std::string command, double rateHz);
 
 struct RecordedScene {
-    uint32_t number = 0; ///< by which ticks name it; 0 is no scene
+    uint32_t number = 0; ///< number by which ticks name it; 0 is no scene
     SceneIdentity identity;
 };
 struct RecordedSettings {
@@ -52,16 +52,16 @@ struct RecordedTick {
     bool late = false, missed = false, checkpoint = false;
     int32_t wakeLatencyNs = 0, stepNs = 0;
     StageHashes hashes{};
-    // For people; the hashes decide.
+    // For people; only the hashes are compared.
     glm::dvec3 proxy{0.0}, force{0.0}; ///< m, N, stages 6 and 7, workspace
     glm::dvec3 command{0.0};           ///< N, device frame
     uint32_t contacts = 0, flags = 0;
 };
-/// With the mapping of each sample; where it is the identity throughout, nothing stands for it.
+/// With the mapping of each sample; omitted where it is the identity throughout.
 struct RecordedTicks {
     std::vector<RecordedTick> ticks;
 };
-/// Ticks that were made and not recorded.
+/// Ticks that were made but not recorded.
 struct RecordedLoss {
     uint64_t ticks = 0;
 };
@@ -69,7 +69,7 @@ struct RecordedNote {
     uint64_t tick = 0;
     std::string text;
 };
-/// The recording ended as it should.
+/// The recording ended properly.
 struct RecordedEnd {
     uint64_t ticks = 0;
 };
@@ -84,7 +84,7 @@ inline constexpr std::array<std::string_view, 8> kChunkNames{"MADE", "SCEN", "SE
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);
 
 /// The item of chunk `name` (index into kChunkNames). Throws Error (with `problem` alone) where the payload
-/// is none of its kind: too short, or with values that no writer writes.
+/// is invalid: too short, or with values that no writer writes.
 [[nodiscard]] RecordedItem decode(size_t name, std::span<const std::byte> payload);
 
 } // namespace touchstone

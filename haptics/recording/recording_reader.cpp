@@ -51,7 +51,7 @@ bool RecordingReader::bytesAt(uint64_t at, std::span<std::byte> out) {
     return static_cast<size_t>(file_.gcount()) == out.size();
 }
 
-/// The chunk at `at`. Short: the file ends before it does.
+/// The chunk at `at`. Short: the file ends within it.
 RecordingReader::Found RecordingReader::read(uint64_t at, Chunk& chunk, uint64_t& end) {
     if (at == size_)
         return Found::End;
@@ -135,7 +135,7 @@ std::optional<RecordingReader::Item> RecordingReader::next() {
                             error.problem(), error.remedy());
             }
         }
-        // What follows the last whole chunk is no chunk: spoilt, or the end of what was written.
+        // The data after the last whole chunk is no chunk: damaged, or the end of what was written.
         std::optional<uint64_t> whole = found == Found::End ? std::nullopt : findSync(at_ + 1);
         while (whole && read(*whole, chunk, end) != Found::Whole)
             whole = findSync(*whole + 1);

@@ -1,5 +1,5 @@
 #pragma once
-// A recording from the disk, whatever has happened to it since.
+// Reads a recording from the disk, damaged or not.
 
 #include "haptics/recording/recording_format.h"
 
@@ -11,31 +11,30 @@
 
 namespace touchstone {
 
-/// Chunk by chunk; memory is bounded by the largest of them. One thread.
+/// Reads chunk by chunk; memory is bounded by the largest of them. One thread.
 class RecordingReader {
   public:
-    /// Throws Error where the file cannot be read, is no recording, or is of a version that this program does
-    /// not read.
+    /// Throws Error where the file cannot be read, is no recording, or has an unsupported version.
     explicit RecordingReader(const std::filesystem::path& path);
 
     struct Item {
         RecordedItem item;
-        /// Before it something is missing or spoilt: what is known of the touch ends there.
+        /// Data before it is missing or damaged: the state of the touch is unknown from there.
         bool damageBefore = false;
         uint64_t offset = 0; ///< byte at which its chunk begins
     };
-    /// The next whole chunk; nothing at the end of the file. Chunks of kinds that this version does not know
-    /// are left out. Throws Error for a chunk that is whole and yet cannot be meant.
+    /// The next whole chunk; empty at the end of the file. Chunks of kinds unknown to this version are
+    /// skipped. Throws Error for a whole chunk with invalid contents.
     [[nodiscard]] std::optional<Item> next();
 
-    /// The next chunk to be read is the one at `offset`, which an Item of this file said.
+    /// Continues at the chunk at `offset`, taken from an Item of this file.
     void goTo(uint64_t offset);
-    [[nodiscard]] uint64_t size() const { return size_; } ///< bytes, when it was opened
+    [[nodiscard]] uint64_t size() const { return size_; } ///< bytes, when opened
 
     /// One sentence for each place that was skipped.
     [[nodiscard]] const std::vector<std::string>& damage() const { return damage_; }
-    /// The file ends within a chunk, or without the chunk that says that it is whole: the program that wrote
-    /// it was killed, or the disk was full.
+    /// The file ends within a chunk, or without the end chunk: the program that wrote it was killed, or the
+    /// disk was full.
     [[nodiscard]] bool cutOff() const { return cutOff_; }
 
   private:

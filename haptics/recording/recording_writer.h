@@ -1,5 +1,5 @@
 #pragma once
-// From ticks as they come to a file: what each of them needs stands before it.
+// Writes ticks to a file as they come; each is preceded by the data that it needs.
 
 #include "haptics/recording/recording_file.h"
 #include "haptics/servo/servo_loop.h"
@@ -10,20 +10,20 @@
 
 namespace touchstone {
 
-/// What a recording keeps of a tick. Hashes it; not for the servo thread.
+/// The recorded part of a tick. Computes its hashes; not for the servo thread.
 [[nodiscard]] RecordedTick recordedTick(const TickRecord& record);
 
-/// A tick with all that it depends on.
+/// A tick with all data that it depends on.
 struct TickToRecord {
     const RecordedTick& tick;
     const HapticSettings& settings;              ///< TickRecord::settings
     const SceneIdentity* scene = nullptr;        ///< TickRecord::scene; null: none
     const TouchCheckpoint* checkpoint = nullptr; ///< taken before this tick
-    uint64_t lostBefore = 0; ///< ticks that were made since the last one and are not known
+    uint64_t lostBefore = 0;                     ///< ticks made since the last one whose records were lost
 };
 
-/// Writes a recording. Begins with the first tick that has a checkpoint; those before it are left out. Ticks
-/// are kept back until `flush`, or for kBlock of them. One thread; everything throws Error that names the
+/// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are
+/// buffered until `flush`, or for kBlock of them. One thread; every function throws Error that names the
 /// file.
 class RecordingWriter {
   public:
@@ -31,9 +31,9 @@ class RecordingWriter {
 
     void add(const TickToRecord& tick);
     void note(uint64_t tick, std::string text);
-    /// Everything so far is the system's.
+    /// Passes all data to the system.
     void flush();
-    /// Nothing follows. Without it a reader says that the recording was cut off.
+    /// End of the input. Without it a reader reports that the recording was cut off.
     void finish();
 
     [[nodiscard]] uint64_t ticks() const { return ticks_; }

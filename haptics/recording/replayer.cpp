@@ -78,13 +78,13 @@ void Replayer::take(const RecordedTicks& ticks) {
     }
 }
 
-/// From here on the state is not known, until the next checkpoint.
+/// The state is unknown from here to the next checkpoint.
 void Replayer::lose() {
     known_ = false;
     checkpoint_.reset();
 }
 
-/// The scene with this number, loaded when it is first touched; null for none.
+/// The scene with this number, loaded on first use; null for none.
 Replayer::Touched* Replayer::touched(uint32_t number) {
     if (number == 0)
         return nullptr;
@@ -101,12 +101,12 @@ Replayer::Touched* Replayer::touched(uint32_t number) {
     return entry.get();
 }
 
-/// Takes the state of the checkpoint before `tick`.
+/// Restores the state of the checkpoint before `tick`.
 void Replayer::resume(const RecordedTick& tick) {
     Touched* const touched = this->touched(tick.scene);
     const HapticScene* const scene = touched != nullptr ? touched->scene.haptic.get() : nullptr;
     const double came = checkpoint_->previousTime;
-    // Nothing between: then it must be what the ticks before came to.
+    // Without a gap before it, it must equal the state after the preceding ticks.
     const bool goesOn = known_ && scene_ == tick.scene && came == previousTime_;
     if (goesOn) {
         TouchCheckpoint own;
@@ -133,13 +133,13 @@ void Replayer::step(const RecordedTick& tick) {
         throw Error("recording", "tick " + std::to_string(tick.tick), "has settings that are not there",
                     "the file is damaged");
     if (tick.checkpoint)
-        device_.candidates.invalidate(); // the servo did, also where the checkpoint itself was lost
+        device_.candidates.invalidate(); // as the servo did, also where the checkpoint itself was lost
     HapticOutput output;
     StageTrace trace;
     int64_t stepNs = 0;
     if (Touched* const touched = this->touched(tick.scene)) {
         const HapticScene& scene = *touched->scene.haptic;
-        // What the watch walks on, and what rays need, came when it was built, in the middle of the run.
+        // Data for the neighbourhood watch and rays became available when built, in the middle of the run.
         if (!has(tick.flags, TickFlag::NeighbourhoodMissing)) {
             if (settings->second.contact == ContactMethod::Neighbourhood)
                 scene.buildNeighbourhoods();

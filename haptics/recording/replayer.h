@@ -1,5 +1,5 @@
 #pragma once
-// Touches again what a recording says was touched, and looks whether the same comes out.
+// Repeats a recorded touch and compares the results.
 
 #include "haptics/recording/recording_reader.h"
 #include "haptics/scene/haptic_scene.h"
@@ -16,17 +16,17 @@
 
 namespace touchstone {
 
-/// A scene as the replay touches it.
+/// A scene for the replay.
 struct ReplayScene {
     std::shared_ptr<const HapticScene> haptic;
     ScenePtr source; ///< whose animation moves the objects
 };
 
-/// Where a replay and its recording part.
+/// The first difference between a replay and its recording.
 struct Difference {
     uint64_t tick = 0;
     double time = 0.0;
-    /// One of kStageNames; "state" where a checkpoint differs from what the ticks before it came to.
+    /// One of kStageNames; "state" where a checkpoint differs from the state after the preceding ticks.
     std::string stage;
     glm::dvec3 recordedProxy{0.0}, replayedProxy{0.0}; ///< m, workspace
     glm::dvec3 recordedForce{0.0}, replayedForce{0.0}; ///< N, stage 7
@@ -36,34 +36,35 @@ struct ReplayReport {
     RecordingOrigin origin;
     uint64_t ticks = 0;     ///< in the recording
     uint64_t replayed = 0;  ///< those whose state was known
-    uint64_t differing = 0; ///< of those: one stage at least came to something else
-    uint64_t lost = 0;      ///< made and not recorded, as far as the recording knows
+    uint64_t differing = 0; ///< of those: at least one stage differs
+    uint64_t lost = 0;      ///< made but not recorded, as far as the recording contains
     uint64_t gaps = 0;      ///< places where ticks are missing
     std::optional<Difference> first;
     std::vector<RecordedNote> notes;
     std::vector<std::string> damage;
     bool cutOff = false;
-    double seconds = 0.0; ///< from the first tick to the last that was replayed, on the recording's clock
+    double seconds = 0.0; ///< from the first to the last replayed tick, on the recording's clock
 };
 
-/// One thread; not the servo. Deterministic as far as the scene, the program and the processor are the same.
+/// One thread; not the servo. Deterministic for the same scene, program and processor.
 class Replayer {
   public:
-    /// `load` is asked once for each scene of the recording, before its first tick; what it throws ends the
-    /// replay.
+    /// `load` is called once for each scene of the recording, before its first tick; an exception from it
+    /// ends the replay.
     using Load = std::function<ReplayScene(const RecordedScene&)>;
-    /// Every tick that was replayed, with what came out.
+    /// Called for every replayed tick, with its output.
     using Each = std::function<void(const RecordedTick&, const HapticOutput&, int64_t stepNs, bool equal)>;
 
     explicit Replayer(Load load) : load_(std::move(load)) {}
 
-    /// To the end of the file. After a gap it goes on at the next checkpoint, and where a replay has parted
-    /// from the recording it takes the recorded state there: one rounding does not make the rest differ.
-    /// Throws Error where the recording contradicts itself or no checkpoint fits this version.
+    /// Replays to the end of the file. After a gap it resumes at the next checkpoint. Where the replay
+    /// differs from the recording it takes the recorded state at the next checkpoint, so that one rounding
+    /// does not affect the rest. Throws Error where the recording contradicts itself or no checkpoint fits
+    /// this version.
     [[nodiscard]] ReplayReport replay(RecordingReader& reader, const Each& each = {});
 
-    /// The same piece by piece, for who reads only a part: scenes and settings that the ticks name, the
-    /// checkpoint where it begins, then the ticks. `each` must outlive the last `take`.
+    /// The same item by item, for callers that read only a part: scenes and settings that the ticks name, the
+    /// checkpoint at the start, then the ticks. `each` must outlive the last `take`.
     void begin(const Each& each);
     void take(const RecordingReader::Item& item);
     [[nodiscard]] const ReplayReport& report() const { return report_; }
@@ -95,8 +96,8 @@ class Replayer {
     std::map<uint32_t, RecordedScene> scenes_;
     std::map<uint32_t, std::unique_ptr<Touched>> loaded_;
     std::map<uint32_t, HapticSettings> settings_;
-    std::optional<TouchCheckpoint> checkpoint_; // of the tick that comes next
-    // What is touched now.
+    std::optional<TouchCheckpoint> checkpoint_; // of the next tick
+    // Present state of the replay.
     bool known_ = false; // the state is that of the recording's last tick
     uint32_t scene_ = 0;
     WorldState world_;

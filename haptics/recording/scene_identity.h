@@ -1,5 +1,5 @@
 #pragma once
-// Which scene was touched: where its file is, and whether a scene at hand is the same one.
+// Identifies the touched scene: its file, and whether a given scene is the same.
 
 #include "engine/device_io/device_io.h"
 #include "engine/scene/scene.h"
@@ -17,19 +17,19 @@ struct SceneIdentity {
     bool generated = false;   ///< the program's own default scene
     uint64_t fileSize = 0;    ///< bytes; of the file itself, not of those that it refers to
     uint64_t fileHash = 0;    ///< Hash64 of its bytes
-    uint64_t feltHash = 0;    ///< all that touch reads: see feltHash
-    /// What was changed since the file was read: MaterialPatches as JSON (engine/save). Empty: nothing.
+    uint64_t feltHash = 0;    ///< of all data that touch reads: see feltHash
+    /// Changes since the file was read: MaterialPatches as JSON (engine/save). Empty: none.
     std::string edits;
     Fit fit = Fit::None;
-    DeviceLimits limits; ///< that it was compiled for
+    DeviceLimits limits; ///< limits that it was compiled for
 };
 
-/// Of everything in a compiled scene that a tick reads: meshes, poses, materials, maps, limits, and the
-/// animation that plays in `source`. Two scenes of one hash feel the same; how they look is not in it. Not
+/// Hash of everything in a compiled scene that a tick reads: meshes, poses, materials, maps, limits, and the
+/// animation that plays in `source`. Two scenes of one hash feel the same; appearance is not included. Not
 /// for the servo thread: reads every vertex and texel (0.1 s for a million triangles).
 [[nodiscard]] uint64_t feltHash(const HapticScene& scene, const Scene& source);
 
-/// Reads the file once more. A file that is gone by now gives size and hash 0.
+/// Reads the file again. A file that no longer exists has size and hash 0.
 [[nodiscard]] SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit);
 
 } // namespace touchstone

@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-/// A recording that fails, for want of room on the disk or in memory, is over; the other one goes on.
+/// A recording that fails, for lack of disk space or memory, ends; the other one continues.
 template <class Action>
 void ServoRecorder::guarded(const Action& action, bool flight) {
     try {

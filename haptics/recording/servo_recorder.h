@@ -1,5 +1,5 @@
 #pragma once
-// From the servo to its recordings: the one that was asked for and the flight recorder's.
+// Passes the servo's records to its recordings: the requested one and the flight recorder's.
 
 #include "haptics/recording/flight_recorder.h"
 #include "haptics/recording/recording_writer.h"
@@ -13,21 +13,21 @@
 
 namespace touchstone {
 
-/// Takes every record that was popped from the servo, with what it refers to. The owner's thread of the
-/// ServoLoop, which must outlive it. A recording that fails ends there, keeps what it has, and is told by
-/// `takeProblem`; touch goes on.
+/// Takes every record popped from the servo, with the data that it refers to. Runs on the owner thread of the
+/// ServoLoop, which must outlive it. A recording that fails ends there and keeps its contents, and
+/// `takeProblem` reports why; touch continues.
 class ServoRecorder {
   public:
     explicit ServoRecorder(ServoLoop& servo) : servo_(servo) {}
 
-    /// What ServoLoop::offerScene's number stands for. Before its first record is taken.
+    /// The scene for a number from ServoLoop::offerScene. Before its first record is taken.
     void sceneOffered(uint32_t number, SceneIdentity identity) { scenes_[number] = std::move(identity); }
 
-    /// From the next tick on. Throws Error where the file cannot be made.
+    /// From the next tick on. Throws Error where the file cannot be created.
     void start(const std::filesystem::path& file, const std::string& command);
     void stop();
     [[nodiscard]] bool recording() const { return writer_.has_value(); }
-    [[nodiscard]] bool failed() const { return failed_; } ///< a recording that was asked for ended early
+    [[nodiscard]] bool failed() const { return failed_; } ///< a requested recording ended early
     [[nodiscard]] double rateHz() const { return servo_.rateHz(); }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; } ///< the last one
     [[nodiscard]] uint64_t ticks() const { return ticks_; }                   ///< recorded in it
@@ -38,12 +38,12 @@ class ServoRecorder {
     [[nodiscard]] std::vector<KeptFlight> takeKept();
 
     void take(const TickRecord& record);
-    /// After each batch: the system has all of it.
+    /// After each batch: passes all data to the system.
     void flush();
     /// After the last record.
     void finish();
 
-    /// Why a recording ended early; empty: it did not. Told once.
+    /// Why a recording ended early; empty: it did not. Reported once.
     [[nodiscard]] std::string takeProblem() { return std::exchange(problem_, {}); }
 
   private:

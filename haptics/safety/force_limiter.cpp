@@ -15,7 +15,7 @@ bool finite(const glm::dvec3& v) {
 }
 
 /// `v` shortened to `longest`. Divides by the largest component first: |v|^2 of a finite v may be infinite.
-/// The result is a hair short of `longest`, so that rounding cannot carry it over the limit.
+/// The result is slightly shorter than `longest`, so that rounding cannot exceed the limit.
 glm::dvec3 shortened(const glm::dvec3& v, double longest, bool& cut) {
     constexpr double kHairShort = 1.0 - 1e-15;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -30,7 +30,7 @@ glm::dvec3 shortened(const glm::dvec3& v, double longest, bool& cut) {
 }
 
 /// One step from `last` towards `target`. Both lie in the ball of radius `most`, which is convex, so the step
-/// does too; the last line only matters when the ball itself has shrunk since the last tick.
+/// does too; the last line matters only when the ball itself has shrunk since the last tick.
 glm::dvec3 stepTowards(const glm::dvec3& last, const glm::dvec3& target, double most, double maxStep,
                        bool& cut) {
     bool stepCut = false;
@@ -47,12 +47,12 @@ bool usable(const SafetyInputs& inputs) {
            limit(limits.coulombFriction) && limit(limits.positionResolution);
 }
 
-/// What the last command did on the way here. The contact's springs hold as much of their energy as the ramp
-/// lets pass. The clutch takes none of it away: the point that it holds keeps its springs stretched, with
-/// work that the hand has done, and they are what the hand gets back when it lets the clutch go.
+/// Accounts for the work of the last command. The contact's springs store as much of their energy as the ramp
+/// passes. The clutch removes none of it: the held point keeps its springs stretched, with work that the hand
+/// has done, and returns it when the clutch is released.
 void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterState& state, uint32_t& flags) {
     if (inputs.passivity == PassivityMode::Off) {
-        state.passivity = PassivityState{}; // nobody keeps the account: none is left to be settled later
+        state.passivity = PassivityState{}; // off: no balance is kept, and none is settled later
         return;
     }
     if (!inputs.inputValid || !finite(inputs.position)) {
@@ -66,10 +66,10 @@ void observe(const SafetyInputs& inputs, const glm::dvec3& force, ForceLimiterSt
 }
 
 double coupled(const SafetyInputs& inputs) {
-    return inputs.coupling > 0.0 ? std::min(inputs.coupling, 1.0) : 0.0; // also where it is no number
+    return inputs.coupling > 0.0 ? std::min(inputs.coupling, 1.0) : 0.0; // also where it is NaN
 }
 
-/// What the passivity controller leaves of `target`, where it is asked for and force is given at all.
+/// `target` after the passivity controller, if it is enabled and the force is on.
 glm::dvec3 madePassive(const glm::dvec3& target, const SafetyInputs& inputs, const ForceLimiterState& state,
                        uint32_t& flags, bool& cut) {
     if (inputs.passivity != PassivityMode::Control || !inputs.inputValid || !inputs.forceEnabled ||
@@ -115,8 +115,8 @@ DeviceCommand ForceLimiter::limit(const glm::dvec3& force, const glm::dvec3& tor
         flags = flags | TickFlag::InputInvalid;
     const DeviceLimits& limits = inputs.limits;
     bool cut = false;
-    // A servo that was silent for longer than a device holds a force (kServoSilence) begins from
-    // nothing, and no tick counts for more than that: else the whole force would come at once after a stall.
+    // After a pause longer than a device holds a force (kServoSilence) the servo starts from zero force, and
+    // no tick counts for more than that: else the full force would come at once after a stall.
     const double dt = std::min(inputs.dt, kServoSilence);
     if (inputs.dt > kServoSilence) {
         state.ramp = 0.0;

@@ -26,7 +26,7 @@ void observeEnergy(const glm::dvec3& sent, const glm::dvec3& reading, double sto
     if (std::isfinite(balance))
         state.balance = balance;
     else
-        losePosition(state); // no place that a hand can be in
+        losePosition(state); // not a position that a hand can have
 }
 
 glm::dvec3 passiveForce(const glm::dvec3& force, double dt, const DeviceLimits& limits,
@@ -37,8 +37,8 @@ glm::dvec3 passiveForce(const glm::dvec3& force, double dt, const DeviceLimits& 
     const double square = glm::dot(state.way, state.way);
     if (!(square > 0.0) || !(dt > 0.0))
         return left;
-    // In terms of the way w = v dt: a v = (a / dt) w, and a = E / (dt v²) makes that E / w² times w. A
-    // sampled damper beyond mass / dt turns the motion round; half of that leaves room for what is late by a
+    // In terms of the displacement w = v dt: a v = (a / dt) w, and a = E / (dt v²) makes that E / w² times w.
+    // A sampled damper beyond mass / dt reverses the motion; half of that leaves room for a delay of one
     // tick.
     const double most = ramp * limits.apparentMass * std::min(kMaxDampingRate, 0.5 / dt) / dt;
     const double pushed = std::max(0.0, glm::dot(left, state.way)) / square;

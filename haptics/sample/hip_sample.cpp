@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// Farther than any workspace: such a number is a broken reading, not a place, m.
+/// Farther than any workspace, m: such a value is a broken reading.
 constexpr double kFarthestSample = 1e7;
 
 bool usable(const glm::dvec3& p) {
@@ -24,7 +24,7 @@ bool takeSample(const DeviceSample& sample, double dt, DeviceState& state, uint3
     const glm::dvec3 hip = sample.inWorkspace();
     if (!sample.valid || !usable(sample.position) || !usable(hip)) {
         flags = flags | TickFlag::InputInvalid;
-        state.sampled = false; // the velocity starts anew: a gap is not one tick long
+        state.sampled = false; // the velocity restarts: a gap is not one tick long
         state.unsampled = std::min(kForceRampOutTime, state.unsampled + dt);
         return false;
     }

@@ -32,7 +32,7 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     copy->workspaceFromScene = scene.workspaceFromScene;
     copy->limits = scene.limits;
     if (scene.hasRays())
-        copy->buildRays(); // its objects have theirs
+        copy->buildRays(); // its objects have theirs already
     return copy;
 }
 
@@ -74,7 +74,7 @@ std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
                                                       const Similarity& workspaceFromScene,
                                                       const DeviceLimits& limits,
                                                       const CompileOptions& options) {
-    // Of a smaller object's parts no report is worth its time.
+    // Progress within a smaller object is not worth reporting.
     constexpr size_t kWorthReporting = 4096; // triangles
     constexpr double kMaps = 0.02;           // of all work
     const Progress progress = options.progress.part(0.0, options.rays ? 0.7 : 1.0);
@@ -136,14 +136,14 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
     for (std::shared_ptr<const HapticObject>& object : haptic->objects) {
         const auto m = static_cast<size_t>(object->material);
         if (object->shape != nullptr || m >= uses.size())
-            continue; // geometry and material are not the file's
+            continue; // geometry and material are not from the file
         const ObjectUse use = objectUse(after[m], haptic->materials[m]);
         if (use != objectUse(before[m], compiled.materials[m]))
             object = buildHapticObject(scene, object->instance, compiled.workspaceFromScene, use);
         uses[m].add(*object);
     }
     if (compiled.hasRays())
-        haptic->buildRays(); // of the objects that were built again
+        haptic->buildRays(); // of the rebuilt objects
     for (size_t m = 0; m < after.size(); ++m)
         planMaterial(static_cast<int>(m), after[m], haptic->materials[m], uses[m], haptic->plan);
     settlePlan(*haptic);

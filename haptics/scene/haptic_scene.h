@@ -1,6 +1,6 @@
 #pragma once
-// The scene as the hand knows it: welded objects with their BVH, haptic maps and the effect plan.
-// Immutable after compileHapticScene; read by the servo, the oracle and the studies alike.
+// The scene for touch: welded objects with their BVH, haptic maps and the effect plan. Immutable after
+// compileHapticScene; read by the servo, the oracle and the studies alike.
 
 #include "engine/core/built_once.h"
 #include "engine/device_io/device_io.h"
@@ -36,22 +36,22 @@ class HapticScene {
     DeviceLimits limits;
     std::vector<Warning> warnings;
 
-    /// Every object's `rays` is built: contact=rays can touch it. Wait-free.
+    /// True once every object's `rays` is built, so that contact=rays can touch it. Wait-free.
     [[nodiscard]] bool hasRays() const noexcept { return hasRays_.load(std::memory_order_acquire); }
     /// Any thread but the servo. Throws Error when Embree fails, and Cancelled.
     void buildRays(const Progress& progress = {}) const;
 
-    /// What contact=neighbourhood walks on, one per object; null until somebody asked for it. Wait-free.
+    /// Adjacency for contact=neighbourhood, one per object; null until built. Wait-free.
     [[nodiscard]] const std::vector<MeshAdjacency>* neighbourhoods() const noexcept {
         return neighbourhoods_.get();
     }
-    /// Any thread but the servo. Builds the rays, too.
+    /// Any thread but the servo. Also builds the rays.
     void buildNeighbourhoods() const;
-    /// Takes those of a scene of the same geometry, if it has them. Before the scene is handed to a servo.
+    /// Shares those of a scene of the same geometry, if it has them. Before the scene is handed to a servo.
     void shareNeighbourhoods(const HapticScene& other) { neighbourhoods_.share(other.neighbourhoods_); }
 
-    /// What textureGradient=precomputed reads, one per material (empty without a height map); null until
-    /// somebody asked for it, and until then a tick works out the same from the texels. Wait-free.
+    /// Slopes for textureGradient=precomputed, one per material (empty without a height map); null until
+    /// built, and until then a tick computes the same values from the texels. Wait-free.
     [[nodiscard]] const std::vector<HapticMap::Slopes>* slopes() const noexcept { return slopes_.get(); }
     /// Any thread but the servo.
     void buildSlopes() const;
@@ -62,34 +62,33 @@ class HapticScene {
     BuiltOnce<std::vector<HapticMap::Slopes>> slopes_;
 };
 
-/// Says anew which stages the scene's materials call for. Before the scene is handed to a servo.
+/// Recomputes which stages the scene's materials need. Before the scene is handed to a servo.
 void settlePlan(HapticScene& scene);
 
-/// A scene of its own on the same geometry, without neighbourhoods, slopes and warnings: to be changed and
-/// tried out.
+/// A scene of its own on the same geometry, without neighbourhoods, slopes and warnings: for trial changes.
 [[nodiscard]] std::shared_ptr<HapticScene> copyOf(const HapticScene& scene);
 
-/// The scene `compiled` with other materials. `before` is what it was compiled from, `after` what it is to
-/// feel like, each one for a material of `scene`, whose meshes and images it has. Geometry, maps and search
-/// trees are shared; where other attributes are read, or `sides` differs, the object is built again, with
-/// equal geometry: the touch of one goes on in the other (ServoLoop::offerScene). Any thread but the servo;
-/// throws Error.
+/// The scene `compiled` with other materials. `before` is what it was compiled from, `after` the new
+/// materials, both with one entry for each material of `scene`, whose meshes and images it has. Geometry,
+/// maps and search trees are shared; where other attributes are read, or `sides` differs, the object is
+/// rebuilt with equal geometry, so that touch continues on the new scene (ServoLoop::offerScene). Any thread
+/// but the servo; throws Error.
 [[nodiscard]] std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Scene& scene,
                                                          std::span<const Material> before,
                                                          std::span<const Material> after);
 
-/// Takes one effect off a material and its objects, and settles the plan. Only on a copy.
+/// Removes one effect from a material and its objects, and updates the plan. Only on a copy.
 void removeEffect(HapticScene& scene, int material, Effect effect);
 
 struct CompileOptions {
-    /// False: HapticScene::buildRays is left to whoever needs it. contact=sweep never does; for others it
+    /// False: HapticScene::buildRays is called on demand. contact=sweep never needs it; building the rays
     /// takes a third of the time to build a scene, and half of its memory.
     bool rays = true;
     Progress progress;
 };
 
-/// Builds what touch needs and nothing that no material calls for. Any thread but the servo; throws Error,
-/// and Cancelled.
+/// Builds what touch needs and nothing that no material uses. Any thread but the servo; throws Error, and
+/// Cancelled.
 [[nodiscard]] std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
                                                                     const Similarity& workspaceFromScene,
                                                                     const DeviceLimits& limits = {},

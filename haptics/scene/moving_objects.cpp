@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// Whether two poses are one but for the rounding of keys in a file: a thousandth of the object.
+/// True where two poses are equal up to the rounding of keys in a file: a thousandth of the object.
 bool meet(const Similarity& a, const Similarity& b) {
     constexpr double kSame = 1e-3;
     return glm::length(a.translation - b.translation) < kSame * a.scale &&
@@ -51,7 +51,7 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
     const std::vector<bool> moved = movedNodes(*scene_, *animation_);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         if (haptic.objects[k]->instance < 0)
-            continue; // a shape that no file names
+            continue; // a shape that is not in a file
         const auto instance = static_cast<size_t>(haptic.objects[k]->instance);
         const glm::dmat4& objectFromMesh = haptic.objects[k]->objectFromMesh;
         const Instance& placed = scene_->instances[instance];

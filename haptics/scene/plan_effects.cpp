@@ -20,7 +20,7 @@ bool anyPositive(const std::vector<float>& values) {
     return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
 }
 
-/// An effect's verdict. "a, b" of what it reads, or why there is nothing.
+/// An effect's verdict: what it reads, as "a, b", or why it is off.
 struct Verdict {
     bool on = false;
     std::string reason;
@@ -74,7 +74,7 @@ Verdict heightMap(const Material& material, const HapticMaterialData& data, cons
                                 : "the height map has no coordinates or could not be read");
 }
 
-/// A map alone multiplies nothing: it waits for a session that sets the coefficient.
+/// A map alone has no effect until a session sets the coefficient.
 Verdict friction(const HapticMaterialData& data, const MaterialUse& use) {
     if (data.staticFriction > 0.0 || use.friction)
         return fromSources(
@@ -166,7 +166,7 @@ const char* effectName(Effect effect) {
     return "";
 }
 
-/// A map or an attribute without a coefficient above zero has no say and does not count: see feelsPlain.
+/// A map or an attribute without a coefficient above zero has no effect and does not count: see feelsPlain.
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
     plan.plainSample = true;
@@ -178,7 +178,7 @@ void settlePlan(HapticScene& scene) {
                   !(m.viscousFriction > 0.0);
     for (const auto& object : scene.objects) {
         HapticMaterialData& m = scene.materials[static_cast<size_t>(object->material)];
-        // Vertex damping of nothing takes the place of what the material states.
+        // Zero vertex damping overrides the material's damping.
         const bool damped = anyPositive(object->damping) || (!object->damping.empty() && m.damping > 0.0);
         if (!object->stiffness.empty() || !object->heights.empty() || damped || anyPositive(object->friction))
             m.plain = false;
@@ -250,7 +250,7 @@ void removeEffect(HapticScene& scene, int material, Effect effect) {
     for (auto& object : scene.objects) {
         if (object->material != material)
             continue;
-        HapticObject copy = *object; // but for the search tree of rays
+        HapticObject copy = *object; // without the search tree of rays
         std::vector<float>* attribute = attributeOf(effect, copy);
         if (attribute == nullptr || attribute->empty())
             continue;

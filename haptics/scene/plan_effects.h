@@ -1,11 +1,11 @@
 #pragma once
-// Why each effect of a material is on or off, and what it holds. For the compiler of haptic scenes only.
+// Why each effect of a material is on or off, and its memory. For the compiler of haptic scenes only.
 
 #include "haptics/scene/haptic_scene.h"
 
 namespace touchstone {
 
-/// What the objects with a material have to say about its effects.
+/// The parts of a material's effects that its objects determine.
 struct MaterialUse {
     bool placed = false; ///< some instance with triangles has the material
     bool smooth = false, heights = false, stiffness = false, damping = false, friction = false;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kFifoPriority = 80; // above most IRQ threads (50), below the watchdogs (99)
 constexpr uint64_t kSliceNs =
-    100'000; // the kernel's least; cut missed deadlines tenfold (docs/architecture.md, Threads)
+    100'000; // the kernel's minimum; reduced missed deadlines tenfold (docs/architecture.md, Threads)
 constexpr size_t kStackToTouch = 256 * 1024; // far more than a tick uses
 
 // Not in Debian 12's headers.
@@ -39,7 +39,7 @@ bool askForFifo() {
 }
 
 /// Since Linux 6.12 sched_runtime of a normal thread is its EEVDF slice: the shorter, the sooner it runs
-/// after a wake-up. Older kernels accept and ignore it, so the answer is read back.
+/// after a wake-up. Older kernels accept and ignore it, so the value is read back.
 bool askForSlice(int nice) {
     SchedAttr attributes{};
     attributes.size = sizeof attributes;
@@ -61,14 +61,14 @@ bool mayLockWithoutLimit() {
     return syscall(SYS_capget, &header, data) == 0 && (data[0].effective & (1u << CAP_IPC_LOCK)) != 0;
 }
 
-/// Locks pages as they are touched. Under a memory limit it is not even tried: once the limit is reached
-/// every later mmap of the process would fail, the loader's and the renderer's too. Without ONFAULT it would
-/// fill all that is merely reserved, thread stacks first.
+/// Locks pages as they are touched. Under a memory limit it is not attempted: once the limit is reached every
+/// later mmap of the process would fail, including the loader's and the renderer's. Without ONFAULT it would
+/// fill all reserved memory, thread stacks first.
 bool lockMemory() {
     return mayLockWithoutLimit() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
-/// Pins to the last CPU that the process may use: the first one serves most interrupts.
+/// Pins to the last CPU available to the process: the first one serves most interrupts.
 int pinToLastCpu() {
     cpu_set_t allowed;
     if (sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) < 2)

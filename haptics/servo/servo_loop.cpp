@@ -19,11 +19,11 @@ int32_t saturated(long long nanoseconds) {
     return static_cast<int32_t>(std::clamp(nanoseconds, kMin, kMax));
 }
 
-/// Where a hand was longer ago than `staleAge` it need not be any more: nothing is known of it. So a device
-/// that freezes is to all stages one that is unplugged: its force fades out, and where it comes back after
-/// that, touch begins anew once it has left the model.
+/// A position older than `staleAge` is unknown. So all stages treat a device that freezes like one that is
+/// unplugged: its force fades out, and where it returns after that, touch begins again once it has left the
+/// model.
 void refuseStale(DeviceSample& sample, double staleAge) noexcept {
-    sample.valid = sample.valid && sample.age <= staleAge; // an age that is no number is none to rely on
+    sample.valid = sample.valid && sample.age <= staleAge; // a NaN age is not fresh
 }
 
 } // namespace
@@ -35,11 +35,11 @@ struct ServoLoop::Touch {
     DeviceLimits limits;                      // of the newest offer with a scene
     WorldState world;
     DeviceState device;
-    TouchFeedback felt; // of the tick before
+    TouchFeedback felt; // of the preceding tick
     std::array<glm::dvec3, 3> planes{};
     bool late = false; // the previous tick ended after its next deadline
     uint64_t nextCheckpoint = 0;
-    double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the tick before in this scene
+    double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the preceding tick in this scene
     TouchCheckpoint checkpoint;
 
     void feelFrom(const HapticOutput& output) noexcept {
@@ -52,7 +52,7 @@ struct ServoLoop::Touch {
                 .object = output.object};
     }
 
-    /// Where nothing is touched: what the device still holds goes to zero no faster than it may.
+    /// The command without contact: the force that the device still holds goes to zero within its limits.
     DeviceCommand restCommand(double dt) noexcept {
         uint32_t flags = 0;
         return ForceLimiter::limit(glm::dvec3(0.0), glm::dvec3(0.0), {.limits = limits, .dt = dt}, {},
@@ -133,8 +133,8 @@ ServoScheduling ServoLoop::scheduling() const {
     return scheduled_.load(std::memory_order_acquire) ? scheduling_ : ServoScheduling{};
 }
 
-/// Turns to another scene. The checkpoint that is taken then forgets the candidates, which point into the one
-/// before.
+/// Switches to another scene. The checkpoint taken then drops the candidates, which point into the previous
+/// one.
 void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     const uint32_t geometry = offer != nullptr ? offer->geometry : 0;
     const bool goesOn = geometry != 0 && geometry == touch.geometry;
@@ -145,12 +145,12 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
         touch.limits = offer->scene->limits;
     }
     if (goesOn) {
-        // As a replay does that resumes here: the objects come from where they were.
+        // As in a replay that resumes here: the objects have their previous poses.
         if (std::isfinite(touch.previousTime))
             (void)offer->moving.at(touch.previousTime);
         return;
     }
-    // A new world: forget the proxy, fade the force in, but remember what the device still holds.
+    // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
     touch.world = WorldState{};
     touch.device.forgetTouch();
     touch.device.mustLeave = true;
@@ -159,7 +159,7 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     touch.previousTime = std::numeric_limits<double>::quiet_NaN();
 }
 
-/// What a tick begins with: the newest scene and settings, and a checkpoint where one is due.
+/// Start of a tick: the newest scene and settings, and a checkpoint where one is due.
 void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     settings_.update();
     touch.settings = &settings_.value().settings;
@@ -188,7 +188,7 @@ void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     checkpoints_.push(touch.checkpoint);
 }
 
-/// One tick's work: read, step, write. Times are of the step alone, which is what `step_ns` means everywhere.
+/// One tick: read, step, write. The times are those of the step alone, as `step_ns` means everywhere.
 TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     TickRecord record;
     record.tick = number;
@@ -270,7 +270,7 @@ void ServoLoop::run() noexcept {
             records_.push(record);
             snapshot_.write(record);
 
-            // The next deadline that is still ahead: late ticks are dropped, never made up for in a bunch.
+            // The next deadline still ahead: late ticks are dropped, never made up in a burst.
             const auto passed = static_cast<uint64_t>(std::max(0LL, (done - deadline) / period));
             if (passed > 0)
                 skipped_.fetch_add(passed, std::memory_order_relaxed);

@@ -21,23 +21,23 @@
 
 namespace touchstone {
 
-/// One tick as the servo lived it; streamed to the other side.
+/// The servo's record of one tick; streamed to the owner thread.
 struct TickRecord {
-    uint64_t tick = 0;         ///< number of the deadline: skips those that were slept through
-    uint64_t step = 0;         ///< steps made before this one: where it jumps, records were dropped
+    uint64_t tick = 0;         ///< number of the deadline; missed deadlines leave gaps
+    uint64_t step = 0;         ///< steps made before this one: a gap means dropped records
     double time = 0.0;         ///< s since the loop started, of the deadline
-    double dt = 0.0;           ///< s, that the step was told
-    int32_t wakeLatencyNs = 0; ///< wake-up against the deadline; what does not fit is saturated
+    double dt = 0.0;           ///< s, input of the step
+    int32_t wakeLatencyNs = 0; ///< wake-up after the deadline; saturated
     int32_t stepNs = 0;        ///< time of the whole step
-    /// By Stage, of `stepNs`; zeros unless ServoConfig::stageTimes. What lies between two readings of the
-    /// clock, one of which is in each.
+    /// By Stage, parts of `stepNs`; zeros unless ServoConfig::stageTimes. Each is the time between two
+    /// readings of the clock and includes one reading.
     std::array<int32_t, kStageCount> stageNs{};
     bool missed = false;     ///< the step ended after the next deadline
-    bool late = false;       ///< what the step was told of the one before
+    bool late = false;       ///< input of the step: the preceding one was late
     bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
-    uint32_t settings = 0;   ///< which: ServoLoop::settingsOf
-    uint32_t scene = 0;      ///< which: what ServoLoop::offerScene returned; 0: none, and no step
-    DeviceSample sample;     ///< device 0, as it was read; not valid where it is older than the scene allows
+    uint32_t settings = 0;   ///< number for ServoLoop::settingsOf
+    uint32_t scene = 0;      ///< number that ServoLoop::offerScene returned; 0: none, and no step
+    DeviceSample sample;     ///< device 0, as read; not valid where it is older than the scene allows
     StageTrace trace;
     HapticOutput output; ///< device 0
 };
@@ -45,7 +45,7 @@ struct TickRecord {
 struct ServoConfig {
     double rateHz = 1000.0; ///< kMinServoRate..kMaxServoRate
     size_t ringCapacity = 1 << 14;
-    bool wantRealtime = true;       ///< false: ask the system for nothing (tests, sanitizers)
+    bool wantRealtime = true;       ///< false: request nothing from the system (tests, sanitizers)
     double checkpointSeconds = 1.0; ///< from one TouchCheckpoint to the next
     bool stageTimes = false;        ///< TickRecord::stageNs; some 200 ns a tick
 };
@@ -59,17 +59,17 @@ struct DevicePort {
     void* context = nullptr;
     DeviceSample (*sample)(void* context, double time) noexcept = nullptr;
     void (*apply)(void* context, const DeviceCommand& command) noexcept = nullptr;
-    /// Before each sample; may be null.
+    /// Called before each sample; may be null.
     void (*feel)(void* context, const TouchFeedback& felt) noexcept = nullptr;
 };
 
-/// What a new scene is to the touch that goes on.
+/// Effect of a new scene on the present touch.
 enum class SceneSwap : uint8_t {
-    Anew,         ///< another world: touch begins anew, and its force fades in
-    SameGeometry, ///< the scene offered last, with other materials (withMaterials): touch goes on
+    Anew,         ///< another world: touch begins again, and its force fades in
+    SameGeometry, ///< the scene offered last, with other materials (withMaterials): touch continues
 };
 
-/// Owner thread constructs, starts and stops; everything else says its thread.
+/// The owner thread constructs, starts and stops; every other function states its thread.
 class ServoLoop {
   public:
     /// Throws Error if the rate is outside kMinServoRate..kMaxServoRate or the port is incomplete.
@@ -79,31 +79,31 @@ class ServoLoop {
     ServoLoop& operator=(const ServoLoop&) = delete;
 
     void start(); ///< returns once the thread has its scheduling; no-op while running
-    void stop(); ///< joins; the last command sent is zero. May be started again: time and ticks go on from 0.
+    void stop();  ///< joins; the last command sent is zero. May be restarted: time and ticks start from 0
 
     /// Makes tick `number` at once on the calling thread, without a clock: the same code, deterministic. Not
-    /// while it runs. Allocates in the first call. The caller enters the float mode
-    /// (engine/core/float_mode.h). `number` grows.
+    /// while the servo thread runs. Allocates in the first call. The caller enters the float mode
+    /// (engine/core/float_mode.h). `number` must grow.
     TickRecord step(uint64_t number);
 
-    /// Owner thread. Swapped in at a tick boundary; the old scene is freed by the owner.
-    /// `source` is the scene it was compiled from, whose animation moves the objects; null: nothing moves.
-    /// Returns the number by which TickRecord::scene names it. Null: nothing is touched any more; the force
-    /// of the scene before goes to zero as fast as its limits allow, of which the records say nothing. With
-    /// SameGeometry the hand goes on touching what it touches: the force goes over to what it is with the new
-    /// materials, within the limits of force and slew and without fading, as when a setting changes.
+    /// Owner thread. Swapped in at a tick boundary; the owner frees the old scene. `source` is the scene it
+    /// was compiled from, whose animation moves the objects; null: nothing moves. Returns the number by which
+    /// TickRecord::scene names it. A null scene: nothing can be touched; the force of the previous scene goes
+    /// to zero as fast as its limits allow, which the records do not contain. With SameGeometry the present
+    /// touch continues: the force changes to that of the new materials, within the limits of force and slew
+    /// and without fading, as when a setting changes.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
                         SceneSwap swap = SceneSwap::Anew);
     void setSettings(const HapticSettings& settings);
-    /// Takes the force away from any thread. While it is off a tick has the settings with forceEnabled off,
+    /// Any thread: switches the force off. While it is off a tick has the settings with forceEnabled off,
     /// under a number of their own.
     [[nodiscard]] ForceSwitch& forceSwitch() { return forceSwitch_; }
-    /// Owner thread: what TickRecord::settings of the record popped last, or of a later one, stands for.
+    /// Owner thread: the settings for TickRecord::settings of the record popped last, or of a later one.
     [[nodiscard]] const HapticSettings& settingsOf(uint32_t number) const;
-    /// Owner thread: the next tick takes one, wherever the last one was.
+    /// Owner thread: requests a checkpoint in the next tick, wherever the last one was.
     void requestCheckpoint() { checkpointWanted_.store(true, std::memory_order_relaxed); }
 
-    /// Owner thread: newest tick. Also frees the scene that the servo let go.
+    /// Owner thread: newest tick. Also frees the scene that the servo has released.
     bool updateSnapshot() {
         scene_.collect();
         return snapshot_.update();
@@ -111,15 +111,15 @@ class ServoLoop {
     [[nodiscard]] const TickRecord& snapshot() const { return snapshot_.value(); }
     /// Owner thread: every tick in order.
     bool popRecord(TickRecord& record);
-    /// Owner thread: every checkpoint in order. For a record that has one it is there when the record is,
-    /// unless nobody popped the ones before (TouchCheckpoint::tick tells which it is).
+    /// Owner thread: every checkpoint in order. The checkpoint of a record is available when the record is,
+    /// unless earlier ones were not popped (TouchCheckpoint::tick identifies it).
     bool popCheckpoint(TouchCheckpoint& checkpoint) { return checkpoints_.pop(checkpoint); }
 
     struct Counters {
         uint64_t ticks = 0;          ///< steps made
         uint64_t missed = 0;         ///< steps that ended after the next deadline
-        uint64_t skipped = 0;        ///< deadlines that passed meanwhile and got no step: ticks never bunch
-        uint64_t droppedRecords = 0; ///< ticks whose record found the ring full
+        uint64_t skipped = 0;        ///< deadlines that passed during a late step: ticks never come in bursts
+        uint64_t droppedRecords = 0; ///< ticks whose record was lost to a full ring
     };
     [[nodiscard]] Counters counters() const;          ///< any thread
     [[nodiscard]] ServoScheduling scheduling() const; ///< after start
@@ -128,7 +128,7 @@ class ServoLoop {
     [[nodiscard]] double rateHz() const { return config_.rateHz; }
 
   private:
-    /// A scene with what the servo alone changes in it.
+    /// A scene with the state that only the servo changes in it.
     struct Offer {
         std::shared_ptr<const HapticScene> scene;
         mutable MovingObjects moving; // servo thread once adopted
@@ -139,9 +139,9 @@ class ServoLoop {
         uint32_t number = 0;
         HapticSettings settings, withoutForce{.forceEnabled = false};
     };
-    /// Bit of a settings' number: with the force taken away.
+    /// Bit of a settings number: with the force off.
     static constexpr uint32_t kWithoutForce = 1u << 31;
-    struct Touch; // what the loop carries from tick to tick
+    struct Touch; // the loop's state from tick to tick
 
     void run() noexcept;
     static void adopt(Touch& touch, const Offer* offer) noexcept;
@@ -158,7 +158,7 @@ class ServoLoop {
     std::atomic<bool> checkpointWanted_{false};
     Handover<Offer> scene_;
     // Owner thread:
-    std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may name
+    std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may still name
     uint32_t offeredScenes_ = 0, offeredGeometry_ = 0;
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};

@@ -16,27 +16,26 @@ enum class Effect : uint8_t {
     VaryingStiffness ///< by map or vertex
 };
 
-/// Why an effect is on or off for one material, as `inspect` prints it.
+/// The reason why an effect is on or off for one material, as `inspect` prints it.
 struct PlannedEffect {
     Effect effect;
     int material; ///< Scene material
     bool on;
     std::string reason; ///< "normal map of the PBR material, influence 1"
-    /// What it holds besides the geometry: maps, and what it reads at the vertices. Texture coordinates that
-    /// several maps read count with the first of them.
+    /// Memory besides the geometry: maps and vertex attributes. Texture coordinates that several maps read
+    /// count with the first of them.
     uint64_t memoryBytes;
 };
 
-/// What the scene calls for. What no material needs costs nothing in the tick (docs/architecture.md, The
-/// effect plan).
+/// The effects that the scene uses. Effects that no material uses cost nothing in the tick
+/// (docs/architecture.md, The effect plan).
 struct EffectPlan {
     std::vector<PlannedEffect> effects;
-    // Smooth surfaces: of any material that does not say off; of those that are two-pass by themselves; of
-    // those that say projected or direction. Where none is, stage 4 is not there.
-    bool plainSample = false; ///< every touchable material is plain: stages 5 and 6 are not there either
-    bool dampingMap =
-        false; ///< some touchable material has one, which a session's own damping is multiplied by
-    bool oneSided = false; ///< some touchable object shows only its front
+    bool plainSample = false; ///< every touchable material is plain: the tick has no stages 5 and 6
+    bool dampingMap = false;  ///< some touchable material has one; it also scales the session's damping
+    bool oneSided = false;    ///< some touchable object is felt only from its front
+    /// Some smooth surface has a material whose shading is not off; is two-pass by default; is projected or
+    /// direction. With none of them the tick has no stage 4.
     bool anyShading = false, twoPassShading = false, oneFacetShading = false;
 };
 

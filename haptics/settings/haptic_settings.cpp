@@ -132,7 +132,7 @@ std::string text(double number) {
     return {buffer.data(), result.ptr};
 }
 
-/// An angle in degrees, the shorter where that says the same radians.
+/// An angle in degrees, in the shorter form where it converts to the same radians.
 std::string degrees(double radians) {
     const double exact = radians / kDegree;
     std::array<char, 32> buffer{};

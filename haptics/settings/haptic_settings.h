@@ -1,5 +1,5 @@
 #pragma once
-// What a person may choose while touching. Plain data: copied to the servo by a triple buffer.
+// Settings that a person may change during touch. Plain data: copied to the servo by a triple buffer.
 
 #include <cstdint>
 #include <span>
@@ -9,32 +9,32 @@
 
 namespace touchstone {
 
-/// Neighbourhood: Ho's walk over the mesh, a point method (comparison/neighbourhood_watch.h). Rays: Zilles'
-/// god-object moved by rays, a point too (comparison/ray_proxy.h).
+/// Neighbourhood: Ho's walk over the mesh, for a point (comparison/neighbourhood_watch.h). Rays: Zilles'
+/// god-object moved by rays, also a point (comparison/ray_proxy.h).
 enum class ContactMethod : uint8_t { Sweep, Neighbourhood, Rays };
 /// Of the contact query and the proxy solve of contact=rays; the others are double.
 enum class Precision : uint8_t { Double, Single };
-/// Material: as each material's forceShading says (auto is two-pass). The others hold for every material but
-/// those that say off.
+/// Material: each material's forceShading (auto is two-pass). The others apply to every material that is not
+/// off.
 enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
 /// How the bump height of the maps becomes force (force/spring_damper.h).
 enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
-/// How a place between texels is read. Mip: bilinear in the level whose texel is two strokes long, which
-/// leaves out what would alias at the servo rate; the others read the finest level, whatever the stroke.
+/// Interpolation between texels. Mip: bilinear in the level whose texel is two strokes long, which leaves out
+/// what would alias at the servo rate; the others read the finest level, whatever the stroke.
 enum class TextureFilter : uint8_t { Nearest, Bilinear, Bicubic, Mip };
-/// Where the slope of a height map comes from. Central: differences over half a texel to either side of the
-/// place. Precomputed: differences that are kept for each texel, read as the heights are. Analytic: the
-/// derivative of what the filter makes.
+/// The slope of a height map. Central: differences over half a texel to either side of the place.
+/// Precomputed: differences stored for each texel, interpolated like the heights. Analytic: the derivative of
+/// the filter.
 enum class TextureGradient : uint8_t { Central, Precomputed, Analytic };
 enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic };
-/// What safety does about the energy that the device gives the hand (safety/passivity.h).
+/// The response of safety to energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
 
-/// Defaults are what the program starts with. SI units; lengths in workspace metres.
+/// Default-constructed: the program's start values. SI units; lengths in workspace metres.
 struct HapticSettings {
     ContactMethod contact = ContactMethod::Sweep;
     Precision precision = Precision::Double;
-    /// Where the material and the model's normals allow it.
+    /// Applies where the material and the model's normals allow it.
     ShadingMode forceShading = ShadingMode::Material;
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
@@ -54,21 +54,21 @@ struct HapticSettings {
     double textureStrength = 1.0;
     TextureFilter textureFilter = TextureFilter::Mip;
     TextureGradient textureGradient = TextureGradient::Central;
-    /// Proxy moves a tick; fewer is safe and merely feels sticky [000 §7].
+    /// Proxy moves a tick; fewer is safe, but touch feels sticky [000 §7].
     int iterationBudget = 64;
     PassivityMode passivity = PassivityMode::Observe;
-    /// false: the force-off key; contact goes on, commands are zero.
+    /// false: the force-off key; contact continues, commands are zero.
     bool forceEnabled = true;
 
     bool operator==(const HapticSettings&) const = default;
 };
 
-/// The radius with which the hand touches, m: all but the sweep are points, whatever proxyRadius says.
+/// The radius of touch, m: 0 for all methods but the sweep, whatever proxyRadius is.
 [[nodiscard]] constexpr double feltRadius(const HapticSettings& settings) {
     return settings.contact == ContactMethod::Sweep ? settings.proxyRadius : 0.0;
 }
 
-/// What a person should know about settings that do not go together, one sentence each.
+/// Warnings about settings that do not combine, one sentence each.
 [[nodiscard]] std::vector<std::string> settingWarnings(const HapticSettings& settings);
 
 /// One row for `--set`, `--help` and the panel.
@@ -77,8 +77,8 @@ struct SettingInfo {
 };
 [[nodiscard]] std::span<const SettingInfo> settingInfos();
 
-/// Sets NAME to VALUE. Returns an empty string, or what is wrong with it and which values are allowed; then
-/// `settings` is unchanged. Not for the servo thread.
+/// Sets NAME to VALUE. Returns an empty string, or an error message with the allowed values; then `settings`
+/// is unchanged. Not for the servo thread.
 [[nodiscard]] std::string setSetting(HapticSettings& settings, std::string_view name, std::string_view value);
 
 /// The value of NAME as `--set` would take it; empty if there is no such setting.

@@ -2,9 +2,8 @@
 
 namespace touchstone {
 
-/// True in a build with -DTOUCHSTONE_PLAIN_TICK=ON, which has no shading, texture, friction, maps or vertex
-/// attributes in its tick: what a tick of a scene that calls for none of them is measured against
-/// (tools/plain-tick).
+/// True in a build with -DTOUCHSTONE_PLAIN_TICK=ON, whose tick has no shading, texture, friction, maps or
+/// vertex attributes: the reference cost for scenes that use none of them (tools/plain-tick).
 #ifdef TOUCHSTONE_PLAIN_TICK
 inline constexpr bool kPlainTick = true;
 #else

@@ -4,27 +4,27 @@
 
 namespace touchstone {
 
-/// Hard facts about a tick, as bits.
+/// Events and states of a tick, as bits.
 enum class TickFlag : uint32_t {
     None = 0,
-    InputInvalid = 1u << 0, ///< no sample, stale or not finite: no force
-    StartedInside =
-        1u << 1, ///< the HIP was inside, or had to leave the model, when touch began: feels nothing until out
+    InputInvalid = 1u << 0,  ///< no sample, stale or not finite: no force
+    StartedInside = 1u << 1, ///< touch began inside, or where the hand must leave the model: nothing is felt
+                             ///< until it is out
     BudgetReached = 1u << 2, ///< proxy solve stopped at the iteration budget: sticky, still safe
     CandidatesFull =
-        1u << 3, ///< more triangles near the proxy than the tick has room for; motion was cut short
+        1u << 3, ///< more triangles near the proxy than a tick can hold; the motion was cut short
     ShadingNotConverged = 1u << 4,
     TiltCompressed = 1u << 5, ///< the texture's normal was steeper than textureTiltLimit
     ForceLimited = 1u << 6,   ///< safety clamped magnitude or slew
-    ForceFault = 1u << 7,     ///< safety saw NaN or infinity in this tick: command is zero
-    Teleported = 1u << 8,     ///< the HIP jumped farther than a hand can: the proxy swept there all the same
+    ForceFault = 1u << 7,     ///< a NaN or infinity reached safety in this tick: the command is zero
+    Teleported = 1u << 8,     ///< the HIP jumped farther than a hand can move; swept nevertheless
     ForceRamping = 1u << 9,   ///< safety fades the force in (enabled, scene swapped) or out (input stale)
-    NeighbourhoodMissing = 1u << 11, ///< what contact=neighbourhood or =rays needs is not built yet: swept
+    NeighbourhoodMissing = 1u << 11, ///< the data for contact=neighbourhood or =rays is not built yet: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
     Jammed = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
     EnergyGiven = 1u << 14,  ///< the device gave more energy than it took, by more than kNoticedEnergy
     EnergyDamped = 1u << 15, ///< passivity=control: a damper took some of it back
-    ObjectJumped = 1u << 13, ///< an object was put elsewhere (an animation began again) and swept nothing
+    ObjectJumped = 1u << 13, ///< an object was placed elsewhere (an animation restarted) and swept nothing
 };
 [[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) {
     return flags | static_cast<uint32_t>(flag);

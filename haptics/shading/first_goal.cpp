@@ -11,11 +11,11 @@ namespace touchstone {
 
 namespace {
 
-/// A facet with the field of normals that interpolation spreads over its plane, as a linear function of the
-/// place: N(x) = atA + (x - a) . overB * towardsB + (x - a) . overC * towardsC, not of unit length.
+/// A facet with its field of interpolated normals, as a linear function of the place: N(x) = atA + (x - a) .
+/// overB * towardsB + (x - a) . overC * towardsC, not of unit length.
 struct SmoothFacet {
     glm::dvec3 a, normal;
-    glm::dvec3 atA, towardsB, towardsC; ///< normal of corner a, and how those of b and c differ from it
+    glm::dvec3 atA, towardsB, towardsC; ///< normal of corner a; those of b and c relative to it
     glm::dvec3 overB, overC;            ///< gradients of the corners' barycentric weights
 
     SmoothFacet(const HapticObject& object, uint32_t triangle) {
@@ -35,7 +35,7 @@ struct SmoothFacet {
         overC = glm::cross(area, b) / squared;
     }
 
-    /// `fromA`: a place from corner a.
+    /// `fromA`: position relative to corner a.
     [[nodiscard]] glm::dvec3 normalAt(const glm::dvec3& fromA) const {
         return atA + glm::dot(overB, fromA) * towardsB + glm::dot(overC, fromA) * towardsC;
     }
@@ -46,14 +46,14 @@ struct SmoothFacet {
 };
 
 /// The fixed point of goal -> proxy -> interpolated plane -> goal for a proxy that slides on the plane of one
-/// facet, without asking the mesh: what takes a move each in the rounds takes a square root here. Nothing
-/// where the facet does not hold the proxy, the normals lean beyond the limit, or it does not converge (a
-/// hollow that is pressed deeper than it is wide).
+/// facet, without a query of the mesh: each round of shading takes a move, here it takes a square root. Empty
+/// where the facet does not hold the proxy, the normals tilt beyond the limit, or the iteration does not
+/// converge (a hollow pressed deeper than it is wide).
 std::optional<FirstGoal> goalOnFacet(const HapticObject& object, const HapticSettings& settings,
                                      const DeviceState& state, const glm::dvec3& hip,
                                      const glm::dvec3& guess) {
     constexpr int kMaxSteps = 6;
-    constexpr double kStill = 1e-8; // object units; what is left is a few hundredths of it
+    constexpr double kStill = 1e-8; // object units; the remaining error is a few hundredths of it
     const SmoothFacet facet(object, state.shadedTriangle);
     glm::dvec3 place = state.proxy - facet.a, up = facet.normal;
     if (!facet.contains(place))
@@ -81,7 +81,8 @@ std::optional<FirstGoal> goalOnFacet(const HapticObject& object, const HapticSet
         place = onPlane;
         if (glm::dot(change, change) > kStill * kStill)
             continue;
-        // Over the facet's edge another plane holds, and starting from this one's goal costs a move more.
+        // Beyond the facet's edge another plane holds the proxy, and a start from this goal costs one more
+        // move.
         if (!facet.contains(place))
             return {};
         return FirstGoal{.goal = facet.a + (above > 0.0 ? onPlane : goal),
@@ -102,15 +103,15 @@ FirstGoal firstGoal(const HapticScene& scene, const HapticSettings& settings, co
     if (state.shadedObject == state.reference) {
         const HapticObject& object = *scene.objects[static_cast<size_t>(state.reference)];
         const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
-        // A checkpoint may name any facet: one of an object without normals, too. A flat one may have held
-        // the proxy beside a smooth one.
+        // A checkpoint may name any facet, including one of an object without normals. A flat facet may have
+        // held the proxy beside a smooth one.
         if (shadingMode(settings, material) == ShadingMode::TwoPass && !object.normals.empty() &&
             object.smooth[state.shadedTriangle] != 0)
             if (const auto goal = goalOnFacet(object, settings, state, hip, normal))
                 return *goal;
     }
-    // The goal stays a little under the shaded plane, by what that plane can rise over the true one in this
-    // tick, so that the proxy is not lifted off before it is shaded.
+    // The goal stays below the shaded plane by as much as that plane can rise over the true one in this tick,
+    // so that the proxy is not lifted off before it is shaded.
     constexpr double kRise = 0.2;
     const glm::dvec3 unit = glm::normalize(normal);
     const double depth = glm::dot(state.proxy - hip, unit) - kRise * travel;

@@ -12,15 +12,16 @@ namespace touchstone {
 
 namespace {
 
-/// The goal contracts by depth over radius of curvature each time (0.04 on a 25 mm torus pressed 1 mm, 0.15
-/// on the ten-sided prism of [000 Fig. 6]); twelve rounds take the worst of these below a nanometre.
+/// The error of the goal contracts by depth over radius of curvature in each round (0.04 on a 25 mm torus
+/// pressed 1 mm, 0.15 on the ten-sided prism of [000 Fig. 6]); twelve rounds bring the worst of these below a
+/// nanometre.
 constexpr int kMaxRounds = 12;
 /// Object units: 1.5 nm on a fitted model, 1.5 µN at 1000 N/m.
 constexpr double kGoalTolerance = 1e-8;
-/// rad: a normal that turned farther in one tick went over an edge and says nothing about the next.
+/// rad: a normal that turned farther in one tick crossed an edge and does not predict the next.
 constexpr double kLargestTurn = 0.1;
 
-/// Where the interpolated planes through the proxy send it.
+/// The goal that the interpolated planes through the proxy define.
 struct ShadedGoal {
     glm::dvec3 goal{0.0};   ///< reference object frame
     glm::dvec3 normal{0.0}; ///< unit, from the HIP to the goal; meaningful while held
@@ -29,8 +30,7 @@ struct ShadedGoal {
     int facet = -1;         ///< the one contact whose plane holds it; -1: several do
 };
 
-/// A goal above all true planes would lift the proxy off: such a goal put back onto the nearest of them [000
-/// §4].
+/// A goal above all true planes would lift the proxy off: it is projected onto the nearest of them [000 §4].
 glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const SolveResult& rest) {
     double nearest = INFINITY;
     glm::dvec3 normal(0.0);
@@ -45,8 +45,8 @@ glm::dvec3 onTruePlanes(const glm::dvec3& goal, const glm::dvec3& proxy, const S
     return nearest > 0.0 && rest.contactCount > 0 ? goal - nearest * normal : goal;
 }
 
-/// First pass: the nearest point to the HIP on the interpolated planes, put back onto the nearest true plane
-/// where it is above all of them, since a goal up there would lift the proxy off [000 §4].
+/// First pass: the nearest point to the HIP on the interpolated planes, projected onto the nearest true plane
+/// where it is above all of them, since such a goal would lift the proxy off [000 §4].
 ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                       const DeviceState& state, const glm::dvec3& hip, SolveResult& rest) {
     auto& planes = rest.shadedPlanes;
@@ -76,12 +76,12 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Hap
     return result;
 }
 
-/// How far the shaded normal turned, where that says something about the next tick.
+/// The turn of the shaded normal, where it predicts the next tick; else zero.
 glm::dvec3 smallTurn(const glm::dvec3& turn) {
     return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
 }
 
-/// The vertex normals of a triangle at a point of it; object frame, not of unit length.
+/// The interpolated vertex normal at a point of a triangle; object frame, not of unit length.
 glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point) {
     const size_t first = 3 * static_cast<size_t>(triangle);
     const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
@@ -90,8 +90,8 @@ glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm
            weight.z * glm::dvec3(object.normals[object.sourceIndices[first + 2]]);
 }
 
-/// True where stage 3 came to rest where the first goal said, held by that facet alone: then a round would
-/// find just that goal again.
+/// True where stage 3 came to rest at the place that the first goal predicted, held by that facet alone: a
+/// round would then find the same goal again.
 bool cameTo(const FirstGoal& first, const DeviceState& state, const SolveResult& rest) {
     if (!first.onFacet || rest.contactCount != 1)
         return false;
@@ -123,9 +123,9 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
                                                 : interpolated(object, contact.feature, point);
     const double length = glm::length(normal);
     if (!(length > 1e-6))
-        return contact.normal; // opposed vertex normals cancel: no shading to be had
+        return contact.normal; // opposed vertex normals cancel: no shading
     normal /= length;
-    // The model's normals show outwards; a proxy on the back of a sheet feels the same curve from below.
+    // The model's normals face outwards; a proxy on the back of a sheet feels the same curve from below.
     double cosine = glm::dot(normal, trueNormal);
     if (cosine < 0.0) {
         normal = -normal;
@@ -172,8 +172,8 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
         const double length = glm::length(step);
         if (length <= kGoalTolerance)
             return;
-        // Steps shrink by a ratio that changes little: go to where they would end (Aitken). In a hollow that
-        // is pressed deeper than it is wide the goal swings to and fro instead: meet it half way.
+        // Steps shrink by a nearly constant ratio: extrapolate to their limit (Aitken). In a hollow pressed
+        // deeper than it is wide the goal oscillates instead: take the midpoint.
         const glm::dvec3 change = lastStep - step;
         const double before = glm::dot(change, change);
         relax = before > 0.0 && shaded.held && glm::dot(lastStep, lastStep) > 0.0
@@ -182,16 +182,17 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
         lastGoal = shaded.held ? onTruePlanes(lastGoal + relax * step, state.proxy, rest) : shaded.goal;
         lastStep = shaded.held ? step : glm::dvec3(0.0);
         proxy.moveTowards(lastGoal);
-        // Over a rounded edge the true planes' goal is in the air: the surface is below it along the shaded
-        // normal.
+        // Over a rounded edge the goal of the true planes is in the air: the surface is below it along the
+        // shaded normal.
         if (rest.contactCount == 0 && shaded.held)
             proxy.dropTowards(hip);
-        // A third of the tick's moves, so that the others can bring the proxy back to the true contact.
+        // At most a third of the tick's moves, so that the rest can return the proxy to the true contact.
         if (3 * rest.iterations >= static_cast<uint32_t>(settings.iterationBudget))
             break;
     }
     rest.flags = rest.flags | TickFlag::ShadingNotConverged;
-    // Where the rounds come to nothing, the true contact holds: a rest, and the same one in the next tick.
+    // Where the rounds do not converge, the true contact holds: a stable rest, and the same one in the next
+    // tick.
     state.shaded = false;
     proxy.moveTowards(hip);
 }

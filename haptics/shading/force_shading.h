@@ -1,6 +1,6 @@
 #pragma once
-// Stage 4: facets that feel round. Interpolated normals [000 §4.1] move the proxy (Ruspini's two passes), or
-// turn the force (Ho, Morgenbesser).
+// Stage 4, force shading: facets are felt as a smooth surface. Interpolated normals [000 §4.1] move the proxy
+// (Ruspini's two passes), or turn the force (Ho, Morgenbesser).
 
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/scene/haptic_scene.h"
@@ -12,17 +12,17 @@
 
 namespace touchstone {
 
-/// The normal that the model's vertex normals give at a contact (reference object frame, unit), on the
-/// proxy's side and tilted from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1,
-/// eq. 1]; on an edge they are the two vertices' weights by inverse distance and at a vertex its own normal,
-/// as the paper has these cases. The true normal where the triangle is flat.
+/// The interpolated vertex normal at a contact (reference object frame, unit), on the proxy's side and tilted
+/// from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1, eq. 1]; on an edge they
+/// are the two vertices' weights by inverse distance and at a vertex its own normal, which agrees with the
+/// paper's cases. The true normal where the triangle is flat.
 [[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int reference,
                                             const Contact& contact, double tiltLimit) noexcept;
 
-/// Ruspini's two-pass shading run to its fixed point: goal = nearest point to the HIP on the interpolated
-/// planes through the proxy; then the proxy moves to the point of the true surface nearest to that goal;
-/// repeated with the normals of the new place until the goal stands still. There the force is along the
-/// interpolated normal of the final proxy. `first`: what stage 3 went for. Sets ShadingNotConverged.
+/// Ruspini's two-pass shading iterated to its fixed point: goal = nearest point to the HIP on the
+/// interpolated planes through the proxy; the proxy then moves to the point of the true surface nearest to
+/// that goal; repeated with the normals of the new place until the goal is stationary. The force is then
+/// along the interpolated normal of the final proxy. `first`: the goal of stage 3. Sets ShadingNotConverged.
 /// Solver: ProxySolver or ComparisonSolver.
 template <class Solver>
 void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,

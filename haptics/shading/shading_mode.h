@@ -1,5 +1,5 @@
 #pragma once
-// Which kind of force shading holds where: what the material says and the session allows.
+// The kind of force shading at a contact, from material and session.
 
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
@@ -12,7 +12,7 @@ namespace touchstone {
     return scene.materials[static_cast<size_t>(scene.objects[static_cast<size_t>(contact.object)]->material)];
 }
 
-/// How a material is shaded in this session: a material that says off stays off, else the session's choice.
+/// The shading mode of a material in this session: off where the material is off, else the session's choice.
 [[nodiscard]] inline ShadingMode shadingMode(const HapticSettings& settings,
                                              const HapticMaterialData& material) noexcept {
     return settings.forceShading == ShadingMode::Material || material.shading == ShadingMode::Off
@@ -20,7 +20,7 @@ namespace touchstone {
                : settings.forceShading;
 }
 
-/// True where some surface of the scene is felt by two-pass shading: else stage 4 moves nothing.
+/// True where two-pass shading applies to some surface of the scene: else stage 4 moves nothing.
 [[nodiscard]] inline bool anyTwoPass(const EffectPlan& plan, const HapticSettings& settings) noexcept {
     return settings.forceShading == ShadingMode::Material
                ? plan.twoPassShading

@@ -14,7 +14,7 @@ TurnedNormal turnedNormal(const HapticScene& scene, ObjectMotions motions, const
     const glm::dvec3 m = interpolatedNormal(scene, motions, reference, contact, settings.shadingTiltLimit);
     if (mode == ShadingMode::Direction)
         return {.normal = m};
-    constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection runs away
+    constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees the projection diverges
     return {.normal = m, .cosine = std::max(glm::dot(m, contact.normal), kSteepest)};
 }
 

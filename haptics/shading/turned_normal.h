@@ -1,5 +1,5 @@
 #pragma once
-// Stage 4 without a second pass: the force of one contact turned to its interpolated normal.
+// Stage 4 without a second pass: turns the force of one contact to its interpolated normal.
 
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
@@ -9,15 +9,15 @@
 
 namespace touchstone {
 
-/// Which way a contact pushes. Reference frame.
+/// Direction of a contact's force. Reference frame.
 struct TurnedNormal {
     glm::dvec3 normal{0.0}; ///< unit
-    double cosine = 1.0;    ///< the distance from the facet, over this, is the distance along `normal`
+    double cosine = 1.0;    ///< distance along `normal` = distance from the facet / cosine
 };
 
-/// `normal` where the contact's material does not turn it. Morgenbesser (`direction`) keeps the magnitude and
-/// turns the force to the interpolated normal; Ho (`projected`) takes the distance of the HIP from the facet
-/// along it [000 §4.1].
+/// `normal` itself where the contact's material does not turn it. Morgenbesser (`direction`) keeps the
+/// magnitude and turns the force to the interpolated normal; Ho (`projected`) takes the distance of the HIP
+/// from the facet along it [000 §4.1].
 [[nodiscard]] TurnedNormal turnedNormal(const HapticScene& scene, ObjectMotions motions,
                                         const HapticSettings& settings, int reference, const Contact& contact,
                                         const glm::dvec3& normal) noexcept;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the proxy touches, and the tolerances of touching. Lengths in object units (the object's longest side
+// A contact of the proxy, and the tolerances of contact. Lengths in object units (the object's longest side
 // is 1).
 
 #include "haptics/shape/shape.h"
@@ -13,13 +13,13 @@ namespace touchstone {
 /// Distance that a resting proxy keeps from the surface besides its radius: far above double rounding
 /// (1e-16), far below anything felt (0.2 pm on a fitted model).
 inline constexpr double kContactGap = 1e-12;
-/// A feature nearer than the radius and this is touched. Hardly more than the gap itself: a triangle that is
-/// merely near has a tilted distance gradient (a coplanar neighbour seen from beside its edge by as much as
-/// sqrt(2 reach / radius)), and its plane would hold a proxy that nothing holds.
+/// A feature nearer than the radius and this is in contact. Hardly more than the gap itself: a triangle that
+/// is merely near has a tilted distance gradient (a coplanar neighbour seen from beside its edge by as much
+/// as sqrt(2 reach / radius)), and its plane would hold back a free proxy.
 inline constexpr double kContactReach = 2.0 * kContactGap;
 
 struct Contact {
-    /// Of a contact that is no triangle of the cache.
+    /// The value of `candidate` for a contact that is no triangle of the cache.
     static constexpr uint32_t kNoCandidate = UINT32_MAX;
 
     glm::dvec3 normal{0.0}; ///< unit, from the surface to the proxy's centre, reference object frame
@@ -27,7 +27,7 @@ struct Contact {
     double gap = 0.0;       ///< distance minus radius, object units
     int object = -1;        ///< HapticScene::objects
     FeatureId feature = 0;  ///< of that object's shape; of a mesh the triangle
-    uint32_t candidate = kNoCandidate; ///< of the CandidateCache, until it gathers again
+    uint32_t candidate = kNoCandidate; ///< index in the CandidateCache, until it gathers again
 };
 
 } // namespace touchstone

@@ -31,7 +31,7 @@ double NearShapes::sweep(const glm::dvec3& p, const glm::dvec3& move, double rea
         const double impact =
             placed.shape->sweep(objectFromReference.point(p), objectFromReference.scale * reach,
                                 objectFromReference.vector(move), limit);
-        limit = impact > 0.0 ? std::min(impact, limit) : 0.0; // no number is no free way
+        limit = impact > 0.0 ? std::min(impact, limit) : 0.0; // NaN counts as no free path
     }
     return limit;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The shapes near the proxy that are no meshes, in the frame of the reference object.
+// The shapes near the proxy that are not meshes, in the frame of the reference object.
 
 #include "engine/math/similarity.h"
 #include "haptics/shape/shape.h"
@@ -16,7 +16,7 @@ namespace touchstone {
 /// Gathered with the triangles of the meshes (CandidateCache). No allocation.
 class NearShapes {
   public:
-    /// Shapes near one place: with more the ball is made smaller. Features of each: farther ones are not felt
+    /// Shapes near one place: with more, the ball shrinks. Features of each: farther ones are not felt
     /// (TickFlag::CandidatesFull).
     static constexpr size_t kMaxShapes = 16, kMaxFeatures = 16;
 
@@ -31,11 +31,11 @@ class NearShapes {
     [[nodiscard]] double sweep(const glm::dvec3& p, const glm::dvec3& move, double reach,
                                double limit) const noexcept;
 
-    /// The distance of the nearest within `reach` of p; INFINITY where there is none.
+    /// The distance of the nearest feature within `reach` of p; INFINITY where there is none.
     [[nodiscard]] double nearest(const glm::dvec3& p, double reach) const noexcept;
 
     /// Calls visit(object, feature distance in the reference object frame) for every feature within `reach`
-    /// of p. False where a shape has more of them than there is room for.
+    /// of p. False where a shape has more features than fit.
     template <class Visit>
     bool eachNear(const glm::dvec3& p, double reach, const Visit& visit) const noexcept {
         bool all = true;

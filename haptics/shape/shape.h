@@ -1,5 +1,5 @@
 #pragma once
-// What the proxy solver asks of an object that is no triangle mesh.
+// The queries of the proxy solver to an object that is not a triangle mesh.
 
 #include <glm/glm.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace touchstone {
 
-/// A place on a shape, as the shape numbers them: opaque to the solver. A mesh's features are its triangles.
+/// A feature of a shape, numbered by the shape: opaque to the solver. A mesh's features are its triangles.
 using FeatureId = uint32_t;
 
 /// A feature seen from a point: the plane through `closest` with the unit normal `gradient` bounds it to
@@ -21,21 +21,22 @@ struct FeatureDistance {
 };
 
 /// Geometry in an object frame whose unit is about the size of the object. Immutable while a servo reads it.
-/// Every function is called on the servo: bounded, no allocation, no lock, no throw. Distances are signed and
-/// good to 1e-13: the solver rests at a gap of 1e-12 and takes what is within 2e-12 for touched (contact.h).
+/// Every function runs on the servo thread: bounded, no allocation, no lock, no throw. Distances are signed
+/// and accurate to 1e-13: the solver rests at a gap of 1e-12 and counts what is within 2e-12 as contact
+/// (contact.h).
 class Shape {
   public:
     virtual ~Shape() = default;
 
     /// Time of impact in [0, limit] (fraction of `motion`) of a ball of `radius` that starts at `centre`;
-    /// `limit` where it stays free. The place where it stops is within 1e-13 of touching. A ball that is
-    /// nearer than `radius` (at least 0) may move away, and along the surface to a slope of 1e-13; it stops
-    /// at 0 where it would come nearer still.
+    /// `limit` where it stays free. It stops within 1e-13 of contact. A ball that is nearer than `radius` (at
+    /// least 0) may move away, and along the surface to a slope of 1e-13; it stops at 0 where it would come
+    /// nearer still.
     [[nodiscard]] virtual double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
                                        double limit) const noexcept = 0;
 
-    /// Writes the features within `reach` of `point`, all behind the surface among them, into `found`, the
-    /// nearest first, each once; their number, also where `found` has no room for all.
+    /// Writes the features within `reach` of `point`, including all behind the surface, into `found`, the
+    /// nearest first, each once; returns their number, also where `found` has no room for all.
     [[nodiscard]] virtual size_t near(const glm::dvec3& point, double reach,
                                       std::span<FeatureDistance> found) const noexcept = 0;
 
@@ -43,8 +44,7 @@ class Shape {
     [[nodiscard]] virtual FeatureDistance distanceFrom(FeatureId feature,
                                                        const glm::dvec3& point) const noexcept = 0;
 
-    /// Unit outward normal that force shading follows at `point` of a feature; zero where there is none
-    /// besides the true one.
+    /// Unit outward normal for force shading at `point` of a feature; zero where there is only the true one.
     [[nodiscard]] virtual glm::dvec3 shadingNormal(FeatureId feature,
                                                    const glm::dvec3& point) const noexcept = 0;
 
@@ -54,10 +54,10 @@ class Shape {
     /// True where touch may not begin.
     [[nodiscard]] virtual bool contains(const glm::dvec3& point) const noexcept = 0;
 
-    /// Radius about the object's origin that holds all of it.
+    /// Radius of a sphere about the object's origin that contains the object.
     [[nodiscard]] virtual double boundingRadius() const noexcept = 0;
 
-    /// Tells this geometry from every other, for recordings.
+    /// Distinguishes this geometry from every other, for recordings.
     [[nodiscard]] virtual uint64_t identity() const noexcept = 0;
 };
 

@@ -7,14 +7,14 @@ namespace touchstone {
 
 namespace {
 
-/// Below this angle (rad) the origin's arc and its chord differ by less than a thousandth of its way, and the
-/// axis of the screw, a way divided by an angle off, loses digits.
+/// Below this angle (rad) the origin's arc and its chord differ by less than a thousandth of its path, and
+/// the screw axis, a path divided by an angle away, loses digits.
 constexpr double kSmallTurn = 1e-3;
 
 } // namespace
 
-// The origin goes by d across the axis u while all turns by a. Seen along u it goes along an arc with the
-// chord d, so it starts from the axis by the arm -(d / 2 + u x d / (2 tan(a / 2))).
+// The origin moves by d across the axis u while the object turns by a. Seen along u it moves along an arc
+// with the chord d, so it starts from the axis at the arm -(d / 2 + u x d / (2 tan(a / 2))).
 ObjectPath::ObjectPath(const ObjectMotion& motion) noexcept : motion_(motion) {
     const Similarity &from = motion.before, &to = motion.workspaceFromObject;
     glm::dquat turn = to.rotation * glm::conjugate(from.rotation);

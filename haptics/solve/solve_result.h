@@ -10,15 +10,15 @@
 
 namespace touchstone {
 
-/// Where the last move ended and what holds the proxy there.
+/// Where the last move ended, its contacts and the active set.
 struct SolveResult {
     static constexpr size_t kMaxContacts = 64;
     std::array<Contact, kMaxContacts> contacts;
     std::array<ConstraintPlane, kMaxContacts> planes;       ///< of the contacts, relative to the proxy
     std::array<ConstraintPlane, kMaxContacts> shadedPlanes; ///< the same with interpolated normals
     uint32_t contactCount = 0;
-    SubGoal activeSet;       ///< which planes hold the proxy from its goal; indices into contacts
-    SubGoal shadedActiveSet; ///< the same of the shaded planes, where two-pass shading came to rest
+    SubGoal activeSet;       ///< the planes that hold the proxy back from its goal; indices into contacts
+    SubGoal shadedActiveSet; ///< the same for the shaded planes, if two-pass shading came to rest
                              ///< (DeviceState::shaded)
     uint32_t iterations = 0;
     uint32_t flags = 0; ///< TickFlag bits

@@ -17,10 +17,10 @@ const ConstraintPlane& at(std::span<const ConstraintPlane> planes, int index) {
     return planes[static_cast<size_t>(index)];
 }
 
-/// Nearest point to the goal on the meet of `count` planes with its Lagrange multipliers; false if dependent.
-/// By orthogonalisation: each plane is satisfied along a direction that leaves those before it alone, so that
-/// planes a millionth of a degree apart cost digits along their common line, where nothing is decided, and
-/// not across.
+/// Nearest point to the goal on the intersection of `count` planes with its Lagrange multipliers; false if
+/// dependent. By orthogonalisation: each plane is satisfied along a direction that leaves the earlier ones
+/// unchanged, so that planes a millionth of a degree apart lose digits along their common line, where nothing
+/// is decided, and not across it.
 bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const std::array<int, 3>& set,
           int count, SubGoal& result) {
     const glm::dvec3& n0 = at(planes, set[0]).normal;
@@ -35,7 +35,7 @@ bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const
     const glm::dvec3& n1 = at(planes, set[1]).normal;
     const double c1 = glm::dot(n1, n0);
     glm::dvec3 t = n1 - c1 * n0;
-    t -= glm::dot(t, n0) * n0; // once more: the first pass leaves rounding of n1 - n0 behind
+    t -= glm::dot(t, n0) * n0; // again: the first pass leaves rounding of n1 - n0 behind
     const double s1 = glm::length(t);
     if (s1 < kDependent)
         return false;
@@ -59,9 +59,9 @@ bool meet(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const
     return true;
 }
 
-/// The nearest point among the meets of `entering` with the subsets of `held` that violate none of the planes
-/// held. For a convex problem that is the one without a negative multiplier (Karush-Kuhn-Tucker); going by
-/// the distance instead of by the signs leaves rounding nothing to decide where two answers are the same.
+/// The nearest point among the intersections of `entering` with the subsets of `held` that violate no held
+/// plane. For a convex problem that is the one without a negative multiplier (Karush-Kuhn-Tucker); selecting
+/// by distance instead of by sign is immune to rounding where two candidates coincide.
 bool exchange(const glm::dvec3& goal, std::span<const ConstraintPlane> planes, const SubGoal& held,
               int entering, double tolerance, SubGoal& result) {
     double nearest = INFINITY;

@@ -7,7 +7,8 @@
 
 namespace touchstone {
 
-/// Half-space normal · x >= offset. In the proxy solve x counts from the proxy, which satisfies every plane.
+/// Half-space normal · x >= offset. In the proxy solve x is relative to the proxy, which satisfies every
+/// plane.
 struct ConstraintPlane {
     glm::dvec3 normal{0.0}; ///< unit, out of the surface
     double offset = 0.0;    ///< <= 0 where the origin is feasible
@@ -24,7 +25,7 @@ struct SubGoal {
 
 namespace detail {
 
-/// A plane is violated beyond this share of 1 + |goal|.
+/// A plane is violated beyond this fraction of 1 + |goal|.
 inline constexpr double kPlaneTolerance = 3e-14;
 
 /// Any number of planes.

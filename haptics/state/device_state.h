@@ -1,6 +1,6 @@
 #pragma once
-// What one device's touch remembers from tick to tick. Owned by the servo (or by an offline run); reset at a
-// scene swap.
+// The state that one device's touch carries from tick to tick. Owned by the servo (or by an offline run);
+// reset at a scene swap.
 
 #include "engine/math/similarity.h"
 #include "haptics/contact/candidates.h"
@@ -15,7 +15,7 @@
 
 namespace touchstone {
 
-/// Where the neighbourhood watch is, with `contact=neighbourhood`.
+/// State of the neighbourhood watch, with `contact=neighbourhood`.
 struct WatchState {
     uint32_t side = 0;     ///< TriangleSide of the reference object
     bool touching = false; ///< else the proxy is where the HIP is
@@ -32,32 +32,32 @@ struct DeviceState {
     glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
     double unsampled = 0.0;   ///< s since the last usable sample, kForceRampOutTime at most
 
-    // Stages 2 and 3. The proxy lives in the frame of the reference object: the object touched last. When the
-    // reference object moves it carries the proxy along.
+    // Stages 2 and 3. The proxy is stored in the frame of the reference object: the object touched last. When
+    // the reference object moves the proxy moves with it.
     bool placed = false; ///< the proxy is in free space or on a surface; false: not yet outside
-    /// The model came to be where the hand was (a scene swap, a device that is taken up or comes back):
-    /// nothing is felt before the hand is clear of it (proxy/clear_of_model.h).
+    /// The model appeared where the hand was (a scene swap, a device that is taken up or returns): nothing is
+    /// felt before the hand is clear of it (proxy/clear_of_model.h).
     bool mustLeave = false;
     int reference = -1;    ///< HapticScene::objects
     glm::dvec3 proxy{0.0}; ///< reference object frame, object units
-    /// Workspace m that the proxy stands clear of one-sided surfaces, while placed: the radius, less while
-    /// one that has grown is still being lifted out. What is nearer is being come through.
+    /// Workspace m by which the proxy is clear of one-sided surfaces, while placed: the radius, or less while
+    /// a proxy that has grown is still being lifted out. The proxy is coming through any nearer surface.
     double clearance = 0.0;
     CandidateCache candidates;
     CandidateCache
         obstacleCandidates; ///< of one object that moves towards the proxy, or of a place far from it
-    std::vector<MovingObstacle> carried = std::vector<MovingObstacle>(256); ///< those near, while a tick runs
+    std::vector<MovingObstacle> carried = std::vector<MovingObstacle>(256); ///< the near ones, during a tick
     PinchedObjects jammed;
     double gatherMargin = 1e-3; ///< object units; adapts to the density of triangles
     WatchState watch;
 
     SolveResult rest; ///< of this tick; kept here because clearing it each tick costs more than a sweep
 
-    // Stage 4: the goal that the shaded planes gave, relative to the HIP, to start the next tick from.
+    // Stage 4: the goal of the shaded planes, relative to the HIP, to start the next tick from.
     bool shaded = false;
     glm::dvec3 shadedNormal{0.0}; ///< reference object frame
-    glm::dvec3 shadedTurn{0.0};   ///< what that normal turned by in the last tick
-    int shadedObject = -1;        ///< whose facet alone held the HIP off; -1: none, or several did
+    glm::dvec3 shadedTurn{0.0};   ///< turn of that normal in the last tick
+    int shadedObject = -1;        ///< whose facet alone held the HIP off; -1: none or several
     uint32_t shadedTriangle = 0;
 
     // Stage 6, reference object frame.
@@ -68,7 +68,7 @@ struct DeviceState {
     // Stage 8
     ForceLimiterState limiter;
 
-    /// Forgets the touch, keeps what the device still feels (the limiter's last command).
+    /// Forgets the touch; keeps what the device still holds (the limiter's last command).
     void forgetTouch() noexcept {
         sampled = placed = mustLeave = shaded = watch.touching = false;
         shadedTurn = glm::dvec3(0.0);

@@ -1,5 +1,5 @@
 #pragma once
-// What the proxy's journey through a tick of moving objects remembers of each object.
+// The state of each object while the proxy moves through a tick of moving objects.
 
 #include "haptics/contact/candidates.h"
 #include "haptics/solve/object_path.h"
@@ -13,21 +13,21 @@
 
 namespace touchstone {
 
-/// One object near the proxy, and the proxy as that object knows it: a place in its own frame that goes with
-/// it and never passed through it.
+/// One object near the proxy, and that object's copy of the proxy: a place in the object's frame that moves
+/// with it and never passed through it.
 struct MovingObstacle {
     int object = -1; ///< HapticScene::objects
     ObjectPath path;
-    Similarity pose;        ///< workspaceFromObject at the end of the step under way
+    Similarity pose;        ///< workspaceFromObject at the end of the current step
     glm::dvec3 place{0.0};  ///< object frame and units
     double reach = 0.0;     ///< distance that the proxy keeps, object units
-    double standing = 0.0;  ///< distance that it already kept at the start of the step, object units
+    double standing = 0.0;  ///< distance already kept at the start of the step, object units
     double bounding = 0.0;  ///< radius about the origin, object units
     glm::dvec3 origin{0.0}; ///< `place` at the start of the step
 };
 
-/// Objects that met another one through the proxy and left it no room. They are not touched until the proxy
-/// is in front of them again; `places` is where, in the frame of each, it last was.
+/// Objects that met another one through the proxy and left it no room. They are not felt until the proxy is
+/// in front of them again; `places` is the proxy's last place in the frame of each.
 struct PinchedObjects {
     static constexpr size_t kMax = CandidateCache::kMaxIgnored;
     std::array<int, kMax> objects{};

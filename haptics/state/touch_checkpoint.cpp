@@ -10,9 +10,9 @@ namespace touchstone {
 namespace {
 
 /// Everything that one tick leaves to the next, in the order of the bytes: scalars, vectors and arrays of
-/// them. Not: what a tick writes before it reads (rest, carried, obstacleCandidates, limiter.passivity.way)
-/// and what can be found again (candidates). A field that is added to DeviceState and outlives the tick must
-/// be added here and to docs/recording.md; tests/unit/recording watches the sizes.
+/// them. Excluded: what a tick writes before it reads (rest, carried, obstacleCandidates,
+/// limiter.passivity.way) and what can be gathered again (candidates). A field that is added to DeviceState
+/// and outlives the tick must be added here and to docs/recording.md; tests/unit/recording checks the sizes.
 template <class State, class Visit>
 void eachField(State& s, const Visit& visit) {
     visit(s.sampled);
@@ -54,7 +54,7 @@ void eachField(State& s, const Visit& visit) {
     visit(s.limiter.passivity.balance);
 }
 
-/// Only the fields that eachField visits; a DeviceState's own copy would be a megabyte.
+/// Only the fields that eachField visits; a copy of the whole DeviceState would be a megabyte.
 struct CarriedFields {
     bool sampled = false;
     glm::dvec3 hip{0.0}, travel{0.0}, velocity{0.0};
@@ -75,7 +75,7 @@ struct CarriedFields {
     ForceLimiterState limiter;
 };
 
-/// No number that a touch comes to, in any unit, is larger; Embree takes none above 1.8e18.
+/// Upper bound of every number that a touch produces, in any unit; Embree takes none above 1.8e18.
 constexpr double kLargest = 1e15;
 
 bool reasonable(const CarriedFields& fields) {
@@ -116,13 +116,13 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
         return inObject(object, feature) || (object >= 0 && object < objects &&
                                              scene->objects[static_cast<size_t>(object)]->shape != nullptr);
     };
-    // After a scene swap it names a facet of the scene before, which nobody asks for.
+    // After a scene swap it names a facet of the previous scene, which is never used.
     if (fields.shaded && fields.shadedObject != -1 && !isFeature(fields.shadedObject, fields.shadedTriangle))
         return false;
     return !fields.watch.touching || inObject(fields.reference, triangleOf(fields.watch.side));
 }
 
-/// The bytes back into fields. A bool is read as a number: another byte than 0 and 1 would be no bool.
+/// Decodes the bytes into fields. A bool is read as a number: any byte but 0 and 1 would be no bool.
 template <class State>
 void readFields(std::span<const std::byte> bytes, State& state) {
     size_t at = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Stage 5, the part that is constant over a material: all of it where nothing is to be read.
+// Stage 5, the part that is constant over a material: all of it where no map or attribute is read.
 
 #include "haptics/settings/plain_tick.h"
 #include "haptics/surface/surface_sample.h"
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// The contact that carries most of the load; the first one where no plane holds.
+/// The contact with the largest load; the first one where no plane holds.
 [[nodiscard]] inline const Contact& loadedContact(const SolveResult& rest,
                                                   const SubGoal& activeSet) noexcept {
     size_t loaded = 0;
@@ -22,15 +22,15 @@ namespace touchstone {
     return rest.contacts[loaded];
 }
 
-/// True where readSurface would find no map, no vertex attribute and no friction that has a say. A map of a
-/// coefficient that is nowhere stated gets one from a session that sets it.
+/// True where readSurface would find no map, no vertex attribute and no friction with an effect. A map of a
+/// coefficient that the material does not state takes effect when the session sets the coefficient.
 [[nodiscard]] inline bool feelsPlain(const HapticMaterialData& material,
                                      const HapticSettings& settings) noexcept {
     return material.plain && !(settings.staticFriction > 0.0) &&
            (material.dampingMap.map.empty() || !(settings.damping > 0.0));
 }
 
-/// N/m that the settings or the material specify, as maps and attributes scale it.
+/// N/m that the settings or the material specify, before maps and attributes scale it.
 [[nodiscard]] inline double specifiedStiffness(const HapticMaterialData& material,
                                                const HapticSettings& settings,
                                                const DeviceLimits& limits) noexcept {
@@ -39,7 +39,7 @@ namespace touchstone {
                                             : material.stiffness;
 }
 
-/// What a device bears of it. What a person sets explicitly is not cut.
+/// The part of it that a device can bear. A value that a person sets explicitly is not reduced.
 [[nodiscard]] inline double bornStiffness(double stiffness, const HapticSettings& settings,
                                           const DeviceLimits& limits) noexcept {
     return settings.stiffness > 0.0 ? stiffness : std::min(stiffness, limits.maxStiffness);
@@ -51,8 +51,8 @@ namespace touchstone {
     return settings.damping >= 0.0 ? settings.damping : std::isnan(material.damping) ? 0.0 : material.damping;
 }
 
-/// What every contact begins with, into a `feel` as constructed; readSurface adds what varies. Arguments as
-/// there.
+/// The initial sample of every contact, written into a default-constructed `feel`; readSurface adds what
+/// varies. Arguments as there.
 inline void plainSample(const HapticScene& scene, const HapticSettings& settings, const Contact& contact,
                         const glm::dvec3& normal, double depth, SurfaceSample& feel) noexcept {
     const int index = scene.objects[static_cast<size_t>(contact.object)]->material;
@@ -68,7 +68,7 @@ inline void plainSample(const HapticScene& scene, const HapticSettings& settings
     feel.damping = specifiedDamping(material, settings);
 }
 
-/// Stage 7 for it: a spring and a damper that never pulls. Zero where nothing is touched.
+/// Stage 7 for it: a spring and a damper that never pulls. Zero without contact.
 [[nodiscard]] inline glm::dvec3 plainForce(const SurfaceSample& feel, const glm::dvec3& velocity) noexcept {
     const double push = feel.stiffness * feel.depth;
     return (push + std::max(-feel.damping * glm::dot(velocity, feel.normal), -push)) * feel.normal;

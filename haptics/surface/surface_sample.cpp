@@ -15,11 +15,11 @@ namespace {
 /// 87 degrees: the steepest slope that Minsky's force climbs.
 constexpr double kMinCosine = 0.05;
 
-/// What is touched at `point`, of a mesh the triangle; both in the object's frame.
+/// The touched place at `point`, on a mesh in the touched triangle; both in the object's frame.
 SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& material, uint32_t triangle,
                    const glm::dvec3& point, const glm::dvec3& towardsProxy) {
     SurfaceSpot spot{object, material, {}};
-    if (object.shape != nullptr) { // no attributes, no coordinates: the material alone says what is felt
+    if (object.shape != nullptr) { // no attributes, no coordinates: the material alone defines the surface
         spot.normal = towardsProxy;
         return spot;
     }

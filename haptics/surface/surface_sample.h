@@ -1,5 +1,5 @@
 #pragma once
-// Stage 5: what the maps say at the contact.
+// Stage 5: the surface at the contact, with its maps.
 
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/scene/haptic_scene.h"
@@ -20,18 +20,18 @@ struct SurfaceSample {
     double depth = 0.0;       ///< d: distance of the HIP from the proxy, workspace m
     glm::dvec3 textured{0.0}; ///< m: unit normal with the texture's tilt
     double height = 0.0;      ///< H >= 0, workspace m
-    bool hasHeight = false;   ///< H shortens the way along n (texture=law); else m alone turns the force
+    bool hasHeight = false;   ///< H shortens the depth along n (texture=law); else only m turns the force
     double lengthening = 1.0; ///< of the force along m; texture=minsky: 1 / (n . m), which leaves k d along n
     bool tiltCompressed = false;
     double stiffness = 0.0; ///< N/m
     double damping = 0.0;   ///< N·s/m
     double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
-    bool coulomb = false; ///< coefficients are stated, though a map may make them zero here
+    bool coulomb = false; ///< the coefficients are specified, though a map may make them zero here
 };
 
-/// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are what is felt there.
-/// With textureFilter=mip `speed` (m/s along the surface) and `dt` choose the level: what would alias at the
-/// servo rate is left out.
+/// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are those felt there. With
+/// textureFilter=mip `speed` (m/s along the surface) and `dt` choose the level, which leaves out what would
+/// alias at the servo rate.
 [[nodiscard]] SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions,
                                         const HapticSettings& settings, int reference, const Contact& contact,
                                         const glm::dvec3& normal, double depth, double speed,

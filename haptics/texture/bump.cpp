@@ -7,7 +7,7 @@ namespace touchstone {
 
 namespace {
 
-/// What the core normal map says, object frame, not of unit length; the felt normal where there is no tangent
+/// The core normal map's normal, object frame, not of unit length; the felt normal where there is no tangent
 /// frame.
 glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
     const HapticMap& map = spot.material.normal;
@@ -26,7 +26,7 @@ glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
             sign += spot.weight[static_cast<int>(k)] * static_cast<double>(t.w);
         }
     } else {
-        // dP/du lies across grad v, on the side of grad u; the image's top is against growing v.
+        // dP/du is perpendicular to grad v, on the side of grad u; the image's top points against growing v.
         const SurfaceGradients& g = maps.gradients(map.layout().texCoord);
         tangent = glm::cross(g.second, spot.normal);
         if (glm::dot(tangent, g.first) < 0.0)
@@ -46,11 +46,11 @@ glm::dvec3 normalFromMap(const SurfaceSpot& spot, SpotMaps& maps) {
 /// Height and its gradient: model metres, and metres of the model per object unit.
 struct Heights {
     bool known = false;
-    double above = 0.0; ///< over the lowest place, seen from the side that is touched
+    double above = 0.0; ///< above the lowest place, seen from the side that is touched
     glm::dvec3 gradient{0.0};
 };
 
-/// `high` - `low` bounds the values; a bump is a dent from the back, and the highest is the lowest there.
+/// `high` - `low` bounds the values; from the back a bump is a dent, and the highest place is the lowest.
 double aboveLowest(double value, double low, double high, bool fromBack) {
     return std::max(fromBack ? high - value : value - low, 0.0);
 }
@@ -84,9 +84,9 @@ Heights heightsFromVertices(const SurfaceSpot& spot) {
             smoothed(spot, o.heightGradients, facet).first};
 }
 
-/// [001 4.11], N + (B_u (N x P_t) - B_v (N x P_s)) / |N|, with the triangle's own sides as s and t: with
-/// N = P_s x P_t the formula gives the same whatever the parameters are, and these exist where texture
-/// coordinates are missing, mirrored or collapsed.
+/// [001 4.11], N + (B_u (N x P_t) - B_v (N x P_s)) / |N|, with the triangle's own sides as s and t: with N =
+/// P_s x P_t the result is independent of the parameters, and the sides exist where texture coordinates are
+/// missing, mirrored or collapsed.
 glm::dvec3 blinnNormal(const SurfaceSpot& spot, const glm::dvec3& slope) {
     const glm::dvec3 s = spot.triangle.b - spot.triangle.a, t = spot.triangle.c - spot.triangle.a;
     const double size = glm::length(glm::cross(s, t));
@@ -94,7 +94,7 @@ glm::dvec3 blinnNormal(const SurfaceSpot& spot, const glm::dvec3& slope) {
     return size * n + glm::dot(slope, s) * glm::cross(n, t) - glm::dot(slope, t) * glm::cross(n, s);
 }
 
-/// `slope`: grad H, a pure number. The [000] form leaves of it what lies in the felt surface. Not of unit
+/// `slope`: grad H, dimensionless. The [000] form keeps its component in the felt surface. Not of unit
 /// length.
 glm::dvec3 normalFromSlope(const SurfaceSpot& spot, const glm::dvec3& slope, TextureMode mode) {
     const glm::dvec3& n = spot.normal;
@@ -105,8 +105,8 @@ glm::dvec3 normalFromSlope(const SurfaceSpot& spot, const glm::dvec3& slope, Tex
 }
 
 /// Unit vector along m, with the tangent t of its angle to the unit vector n compressed smoothly below that
-/// of the limit, T: t / (1 + (t/T)^4)^(1/4) keeps small tilts to fourth order and never reaches the limit, so
-/// no shape is cut flat.
+/// of the limit, T: t / (1 + (t/T)^4)^(1/4) preserves small tilts to fourth order and never reaches the
+/// limit, so no shape is cut flat.
 glm::dvec3 compressTilt(const glm::dvec3& n, const glm::dvec3& m, double limit, bool& compressed) {
     constexpr double kNoLimit = 1.5707963267948966;
     if (limit >= kNoLimit)
@@ -136,7 +136,7 @@ Bump readBump(const SurfaceSpot& spot, SpotMaps& maps, const HapticSettings& set
     Heights heights = heightsFromMap(spot, maps);
     if (!heights.known)
         heights = heightsFromVertices(spot);
-    // Blinn's and Minsky's are about grad H.
+    // Blinn's and Minsky's modes use grad H.
     const bool fromNormalMap =
         !spot.material.normal.empty() && (settings.texture == TextureMode::Law || !heights.known);
     if (heights.known) {
@@ -147,7 +147,7 @@ Bump readBump(const SurfaceSpot& spot, SpotMaps& maps, const HapticSettings& set
                 normalFromSlope(spot, strength / spot.modelPerObject * heights.gradient, settings.texture);
     }
     if (fromNormalMap) {
-        constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees slopes run away
+        constexpr double kSteepest = 0.05; // cosine; beyond 87 degrees slopes diverge
         const glm::dvec3 m = normalFromMap(spot, maps);
         const double along = std::max(glm::dot(m, spot.normal), kSteepest * glm::length(m));
         bump.normal = spot.normal + strength * (m / along - spot.normal);

@@ -11,16 +11,16 @@ namespace touchstone {
 
 namespace {
 
-/// Float maps may hold anything; beyond this sums of texels would overflow.
+/// Float maps may hold any value; beyond this, sums of texels would overflow.
 constexpr float kLargestTexel = 1e12f;
 
-/// The texels that a coarser one covers, and how much of each.
+/// The texels that a coarser one covers, with their weights.
 struct Cover {
     int first = 0, count = 0;
     float share[4] = {};
 };
 
-/// Coarse texel i of `coarse` over `fine` ones, which is two, or three where an odd size is halved.
+/// Coarse texel i of `coarse` over `fine` ones: two of them, or three where an odd size is halved.
 Cover coverOf(int i, int fine, int coarse) {
     const double width = static_cast<double>(fine) / coarse, from = i * width, to = from + width;
     Cover cover;
@@ -73,8 +73,7 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
     levels_ = Levels(std::move(levels));
 }
 
-/// Box filter over the very area that a coarse texel covers, so that odd sizes neither shift nor lose an
-/// edge.
+/// Box filter over the exact area of a coarse texel, so that odd sizes neither shift nor lose an edge.
 HapticMap::Level HapticMap::halved(const Level& fine) const {
     Level coarse;
     coarse.width = std::max(1, fine.width / 2);
@@ -122,7 +121,7 @@ void HapticMap::addTo(Hash64& hash) const {
     if (empty())
         return;
     hash.add(levels_[0].width);
-    hash.addBytes(levels_[0].texels); // the coarser ones follow from them
+    hash.addBytes(levels_[0].texels); // the coarser levels are derived from it
 }
 
 glm::dvec2 HapticMap::transform(const glm::dvec2& uv) const {
@@ -181,12 +180,11 @@ glm::dvec3 HapticMap::vector(const Footprint& at) const {
     return read<glm::dvec3>(at);
 }
 
-/// (value, d/du, d/dv). Half a texel to the left of the place and half a texel to the right lie in two cells
-/// side by side, and the place itself in one of them: three columns say it all, and three rows. With w the
-/// share of the way from the first column to the second at the left end, the weights of the columns are
-///   (1/2 - w)+, 1 - |w - 1/2|, (w - 1/2)+
-/// for the value; the slope is 1 - w of the first step and w of the second, exactly zero where texels are
-/// equal.
+/// (value, d/du, d/dv). The points half a texel to the left and to the right of the place lie in two adjacent
+/// cells, and the place itself in one of them, so three columns and three rows suffice. With w the fraction
+/// from the first column to the second at the left point, the weights of the columns are (1/2 - w)+, 1 - |w -
+/// 1/2|, (w - 1/2)+ for the value; the slope is 1 - w of the first difference and w of the second, exactly
+/// zero where texels are equal.
 glm::dvec3 HapticMap::valueAndSlope(const Level& level, const glm::dvec2& uv) const {
     const double x = boundedTexel(uv.x * level.width - 1.0), y = boundedTexel(uv.y * level.height - 1.0);
     const double fx = std::floor(x), fy = std::floor(y);
@@ -219,7 +217,7 @@ HapticMap::Slope HapticMap::slope(const glm::dvec2& uv, double level) const {
     const auto fine = static_cast<size_t>(bound);
     const double share = bound - static_cast<double>(fine);
     glm::dvec3 s = valueAndSlope(levels_[fine], uv);
-    // Each level by its own texel, so that the gradient does not jump where one level gives way to the next.
+    // Each level's slope is over its own texel, so that the gradient does not jump between levels.
     if (share > 0.0)
         s = (1.0 - share) * s + share * valueAndSlope(levels_[fine + 1], uv);
     return {s.x, {s.y, s.z}};

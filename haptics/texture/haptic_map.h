@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-/// A texture as the hand reads it: float texels with mip levels, wrap modes and UV transform. Immutable;
+/// A texture for haptic sampling: float texels with mip levels, wrap modes and UV transform. Immutable;
 /// sampling is safe on the servo thread.
 class HapticMap {
   public:
@@ -22,7 +22,7 @@ class HapticMap {
     /// Takes the first `channels` channels of the pixels (1 for height and factors, 3 for normals).
     HapticMap(const PixelData& pixels, const TextureRef& reference, int channels);
 
-    /// How the texels lie over the texture coordinates: what decides where a place falls among them.
+    /// The placement of the texels over the texture coordinates.
     struct Layout {
         int texCoord = 0;
         int width = 1, height = 1; ///< of the finest level
@@ -32,7 +32,7 @@ class HapticMap {
         bool operator==(const Layout&) const = default;
     };
 
-    /// Takes the other's layout for its own where they are equal: then they have one address.
+    /// Adopts the other's layout where they are equal, so that both have one address.
     void shareLayout(const HapticMap& other);
 
     [[nodiscard]] bool empty() const { return levels_.empty(); }
@@ -40,13 +40,13 @@ class HapticMap {
     [[nodiscard]] float least() const { return least_; } ///< of channel 0 over the finest level
     [[nodiscard]] float greatest() const { return greatest_; }
     [[nodiscard]] uint64_t memoryBytes() const;
-    /// All that sampling depends on.
+    /// Hashes everything that sampling depends on.
     void addTo(Hash64& hash) const;
 
     /// The texture coordinate after KHR_texture_transform.
     [[nodiscard]] glm::dvec2 transform(const glm::dvec2& uv) const;
 
-    /// The texels around a place in two levels, and the shares of them: bilinear in the level, linear between
+    /// The texels around a place in two levels, with their weights: bilinear in the level, linear between
     /// levels.
     struct Footprint {
         struct Cell {
@@ -57,7 +57,7 @@ class HapticMap {
         double share = 0.0; ///< of the next
         Cell fine, coarse;
     };
-    /// `uv` is transformed already; `level` >= 0. Good for every map of the same layout.
+    /// `uv` is already transformed; `level` >= 0. Valid for every map of the same layout.
     void footprint(const glm::dvec2& uv, double level, Footprint& at) const;
     [[nodiscard]] double scalar(const Footprint& at) const;
     [[nodiscard]] glm::dvec3 vector(const Footprint& at) const;
@@ -79,25 +79,25 @@ class HapticMap {
     /// of the bilinear surface averaged over one texel; linear between levels.
     [[nodiscard]] Slope slope(const glm::dvec2& uv, double level) const;
 
-    // The configurations beside those: in texture/map_filters.cpp, so that they cost the others nothing.
+    // The other filters and gradients: in texture/map_filters.cpp, so that they cost the default nothing.
 
-    /// The texels around a place in the finest level and their shares, by the filters that know no levels.
+    /// The texels around a place in the finest level with their weights, for the filters without levels.
     struct Patch {
         int count = 0;                   ///< columns, and rows
         std::array<int32_t, 4> column{}; ///< texels
         std::array<int32_t, 4> row{};    ///< times the width
         std::array<double, 4> across{}, down{};
     };
-    /// `filter` is not Mip. Good for every map of the same layout.
+    /// `filter` is not Mip. Valid for every map of the same layout.
     void patch(const glm::dvec2& uv, TextureFilter filter, Patch& at) const;
     [[nodiscard]] double scalar(const Patch& at) const;
     [[nodiscard]] glm::dvec3 vector(const Patch& at) const;
 
-    /// Slopes kept for every texel of every level, per texel: central differences over two texels.
+    /// Precomputed slopes for every texel of every level, per texel: central differences over two texels.
     using Slopes = std::vector<std::vector<std::array<float, 2>>>;
     [[nodiscard]] Slopes texelSlopes() const;
-    /// As `slope`, by any filter and gradient. `level` is Mip's. `kept`, where not null, is what texelSlopes
-    /// gave; without it Precomputed works out the same numbers from the texels.
+    /// As `slope`, for any filter and gradient. `level` is Mip's. `kept`: the result of texelSlopes, or null;
+    /// without it Precomputed computes the same numbers from the texels.
     [[nodiscard]] Slope slopeBy(TextureFilter filter, TextureGradient gradient, const glm::dvec2& uv,
                                 double level, const Slopes* kept) const;
 

@@ -8,14 +8,14 @@ namespace touchstone {
 
 namespace {
 
-/// Makes the maps of one material.
+/// Builds the maps of one material.
 struct MapMaker {
     const Scene& scene;
     const CoordinateSets& sets;
     std::vector<Warning>& warnings;
 
     /// Empty, with a warning, where the image could not be read or no mesh has the coordinates. `known`: the
-    /// same map, if there is one already.
+    /// same map, if it exists already.
     [[nodiscard]] HapticMap map(const TextureRef& reference, int channels, const std::string& place,
                                 const HapticMap* known) {
         if (!reference)
@@ -55,7 +55,7 @@ double numberOr(const HapticMaterial::Field<float>& field, double otherwise) {
     return field.value ? static_cast<double>(*field.value) : otherwise;
 }
 
-/// "bezier" is kept for later work and felt as two-pass; the import tells so.
+/// "bezier" is reserved for later and felt as two-pass; the import reports this.
 ShadingMode shadingOf(ShadingChoice choice) {
     switch (choice) {
     case ShadingChoice::Off:

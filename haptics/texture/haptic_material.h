@@ -16,7 +16,7 @@ struct HapticFactor {
     double min = 0.0, max = 1.0;
 };
 
-/// A material as the step reads it: numbers settled, maps ready. NaN: the material says nothing.
+/// A material as the step reads it: values resolved, maps built. NaN: not specified by the material.
 struct HapticMaterialData {
     double stiffness = NAN;                             ///< N/m
     double damping = NAN;                               ///< N·s/m
@@ -27,10 +27,10 @@ struct HapticMaterialData {
     HapticMap height;                                   ///< 0..1
     double heightScale = 0.0;                           ///< model metres, black to white
     HapticFactor friction, stiffnessMap, dampingMap;
-    /// The material's forceShading, settled: auto is TwoPass, never Material.
+    /// The material's forceShading, resolved: auto is TwoPass, never Material.
     ShadingMode shading = ShadingMode::TwoPass;
     /// Neither the material nor any of its objects has a map, a vertex attribute, friction or a viscous term:
-    /// stage 5 reads nothing. Settled with the plan.
+    /// stage 5 reads nothing. Resolved with the plan.
     bool plain = false;
 
     [[nodiscard]] bool textured() const { return !normal.empty() || (!height.empty() && heightScale != 0.0); }
@@ -40,14 +40,14 @@ struct HapticMaterialData {
     }
 };
 
-/// A material as it was and what it was settled to. Its maps are taken over where they stay the same.
+/// A source material and its resolved form, whose maps are reused where they are unchanged.
 struct SettledMaterial {
     const Material* material = nullptr;
     const HapticMaterialData* data = nullptr;
 };
 
-/// Settles `material`, number `index` of the scene, of whose texture coordinates its meshes have `sets`;
-/// appends what the user should know to `warnings`. Of the scene it reads the images.
+/// Resolves `material`, number `index` of the scene; its meshes have the texture coordinates `sets`. Appends
+/// messages for the user to `warnings`. Reads only the scene's images.
 [[nodiscard]] HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& material,
                                                      size_t index, const CoordinateSets& sets,
                                                      std::vector<Warning>& warnings,

@@ -1,4 +1,4 @@
-// The configurations of the texture filter and the gradient beside the default.
+// The texture filters and gradients other than the default.
 
 #include "haptics/texture/haptic_map.h"
 #include "haptics/texture/map_stencil.h"
@@ -25,7 +25,7 @@ void fillPatch(const HapticMap::Layout& layout, const glm::dvec2& uv, HapticMap:
     }
 }
 
-/// Sum over the rows and columns of a patch of `count` texels a side, which is known to the compiler.
+/// Sum over the rows and columns of a patch of `count` texels a side, a compile-time constant.
 template <int count, class Value, class Texel>
 Value weighted(const HapticMap::Patch& at, const Texel& texel) {
     Value sum(0.0);
@@ -78,7 +78,7 @@ glm::dvec3 HapticMap::vector(const Patch& at) const {
     });
 }
 
-/// Rounded to float whether kept or not, so that keeping them changes no bit.
+/// Rounded to float whether stored or not, so that storing changes no bit.
 std::array<float, 2> HapticMap::texelSlope(const Level& level, int column, int row) const {
     const auto texel = [&](int x, int y) {
         const int at = wrapIndex(y, level.height, layout_->wrapT) * level.width +
@@ -102,7 +102,7 @@ HapticMap::Slopes HapticMap::texelSlopes() const {
     return slopes;
 }
 
-/// (value, d/du, d/dv) by a rule that has both in one stencil an axis.
+/// (value, d/du, d/dv) by a rule that has both in one stencil per axis.
 template <class Rule>
 glm::dvec3 HapticMap::derived(const Level& level, const glm::dvec2& uv) const {
     constexpr auto kCount = static_cast<size_t>(Rule::Type::kCount);
@@ -127,7 +127,7 @@ glm::dvec3 HapticMap::derived(const Level& level, const glm::dvec2& uv) const {
     return {sum.x, level.width * sum.y, level.height * sum.z};
 }
 
-/// (value, d/du, d/dv): the texels and the slopes of each by the same filter.
+/// (value, d/du, d/dv): the texels and their slopes by the same filter.
 template <class Rule>
 glm::dvec3 HapticMap::precomputed(size_t index, const glm::dvec2& uv, const Slopes* kept) const {
     const Level& level = levels_[index];

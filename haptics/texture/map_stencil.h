@@ -1,6 +1,6 @@
 #pragma once
-// Which texels a place reads along one axis of a map, and with what weights: one stencil for each filter and
-// way to the slope. Texel i of a map covers i .. i + 1 and has its centre at i + 1/2; slopes are per texel.
+// The texels that a place reads along one axis of a map, and their weights: one stencil for each filter and
+// gradient. Texel i of a map covers i .. i + 1 and has its centre at i + 1/2; slopes are per texel.
 
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ struct Stencil {
     std::array<double, static_cast<size_t>(count)> value{}, slope{};
 };
 
-/// The texel's own value, a staircase; its slope is nothing.
+/// The texel's own value, a staircase; its slope is zero.
 struct NearestStencil {
     using Type = Stencil<1>;
     [[nodiscard]] static Type at(double place) noexcept {
@@ -23,18 +23,17 @@ struct NearestStencil {
     }
 };
 
-/// The staircase, and its difference over half a texel to either side: the step to the neighbour that is
-/// nearer.
+/// The staircase, and its difference over half a texel to either side: the step to the nearer neighbour.
 struct NearestCentralStencil {
     using Type = Stencil<2>;
     [[nodiscard]] static Type at(double place) noexcept {
         const double first = std::floor(place - 0.5);
-        const double second = place - first >= 1.0 ? 1.0 : 0.0; // that one holds the place
+        const double second = place - first >= 1.0 ? 1.0 : 0.0; // it contains the place
         return {.first = static_cast<int>(first), .value = {1.0 - second, second}, .slope = {-1.0, 1.0}};
     }
 };
 
-/// Straight between two centres, and the derivative of that.
+/// Linear between two centres, and its derivative.
 struct LinearStencil {
     using Type = Stencil<2>;
     [[nodiscard]] static Type at(double place) noexcept {
@@ -43,8 +42,8 @@ struct LinearStencil {
     }
 };
 
-/// Catmull and Rom's cubic through the centres, with the central differences there as its slopes, and its
-/// derivative. Of third order (Keys 1981), continuous with its derivative; steps overshoot by 2/27.
+/// Catmull and Rom's cubic through the centres, whose slopes there are the central differences, and its
+/// derivative. Third order (Keys 1981), continuously differentiable; steps overshoot by 2/27.
 struct CubicStencil {
     using Type = Stencil<4>;
     [[nodiscard]] static std::array<double, 4> values(double w) noexcept {
@@ -64,7 +63,8 @@ struct CubicStencil {
 struct CubicCentralStencil {
     using Type = Stencil<5>;
     [[nodiscard]] static Type at(double place) noexcept {
-        // Half a texel to the left and to the right lie in cells side by side, the place in one of them.
+        // The points half a texel to the left and to the right lie in adjacent cells, the place in one of
+        // them.
         const double cell = std::floor(place - 1.0), w = place - 1.0 - cell;
         Type stencil{.first = static_cast<int>(cell) - 1};
         const std::array<double, 4> ends = CubicStencil::values(w);

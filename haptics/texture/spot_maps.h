@@ -1,5 +1,5 @@
 #pragma once
-// How the maps lie over the surface at the contact. For stage 5 only.
+// Placement of the maps over the surface at the contact. For stage 5 only.
 
 #include "haptics/texture/surface_spot.h"
 
@@ -16,8 +16,8 @@ struct SurfaceGradients {
     glm::dvec3 first{0.0}, second{0.0};
 };
 
-/// Interpolated between the corners where the surface is felt smooth and the corners know them, else the
-/// facet's own, which `facet()` gives.
+/// Interpolated between the corners where the surface is smooth and the corners have gradients, else the
+/// facet's own, computed by `facet()`.
 template <class Facet>
 [[nodiscard]] SurfaceGradients smoothed(const SurfaceSpot& spot, const std::vector<GradientPair>& vertices,
                                         const Facet& facet) noexcept {
@@ -35,28 +35,29 @@ template <class Facet>
     return sum;
 }
 
-/// What maps share at one spot, each part found when it is first asked for: gradients of the texture
-/// coordinates, mip level and texels. Maps of one material mostly lie the same way.
+/// Data that maps share at one spot, each computed on first use: gradients of the texture coordinates, mip
+/// level and texels. Maps of one material mostly have the same layout.
 class SpotMaps {
   public:
-    /// `stroke`: m in the workspace that the hand goes along the surface in this tick; chooses mip levels.
+    /// `stroke`: distance in workspace m that the hand moves along the surface in this tick; chooses mip
+    /// levels.
     SpotMaps(const SurfaceSpot& spot, TextureFilter filter, TextureGradient gradient, double stroke)
         : spot_(spot), filter_(filter), gradient_(gradient), stroke_(stroke) {}
 
     [[nodiscard]] const SurfaceGradients& gradients(int set) noexcept;
-    // What follows is for maps whose coordinates the mesh has (SurfaceSpot::hasUv).
+    // The following functions are for maps whose coordinates the mesh has (SurfaceSpot::hasUv).
     /// Gradients of the map's own coordinates, by the chain rule over KHR_texture_transform.
     [[nodiscard]] const SurfaceGradients& gradients(const HapticMap& map) noexcept {
         settle(map);
         return over_;
     }
     /// With textureFilter=mip: the level whose texel is at least two strokes long: at that spacing the servo
-    /// still samples every feature twice (Nyquist).
+    /// samples every feature twice (Nyquist).
     [[nodiscard]] double level(const HapticMap& map) noexcept {
         settle(map);
         return level_;
     }
-    /// The spot in the map, after its transform.
+    /// The spot's coordinates in the map, after its transform.
     [[nodiscard]] const glm::dvec2& place(const HapticMap& map) noexcept {
         settle(map);
         return place_;
@@ -67,7 +68,7 @@ class SpotMaps {
     [[nodiscard]] glm::dvec3 vector(const HapticMap& map) noexcept {
         return filter_ == TextureFilter::Mip ? map.vector(footprint(map)) : map.vector(patch(map));
     }
-    /// `kept`: HapticScene::slopes of the map, if they are there.
+    /// `kept`: HapticScene::slopes of the map, if available.
     [[nodiscard]] HapticMap::Slope slope(const HapticMap& map, const HapticMap::Slopes* kept) noexcept {
         if (filter_ == TextureFilter::Mip && gradient_ == TextureGradient::Central)
             return map.slope(place(map), level(map));
@@ -85,7 +86,7 @@ class SpotMaps {
     double stroke_;
     std::array<SurfaceGradients, 2> gradients_;
     std::array<bool, 2> known_{};
-    // Of the layout asked for last:
+    // Of the layout used last:
     const HapticMap::Layout* settled_ = nullptr;
     SurfaceGradients over_;
     double level_ = 0.0;

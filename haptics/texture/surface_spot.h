@@ -1,5 +1,5 @@
 #pragma once
-// The touched triangle with its contact point: what attributes and maps are read at. For stage 5 only.
+// The touched triangle and the contact point, at which attributes and maps are read. For stage 5 only.
 
 #include "haptics/shape/mesh/haptic_object.h"
 #include "haptics/shape/mesh/triangle.h"
@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-/// Everything in the frame of the touched object, lengths in object units unless said otherwise.
+/// Everything in the frame of the touched object, lengths in object units unless stated otherwise.
 struct SurfaceSpot {
     const HapticObject& object;
     const HapticMaterialData& material;
@@ -23,11 +23,11 @@ struct SurfaceSpot {
     glm::dvec3 weight{0.0};         ///< barycentric
     glm::dvec3 normal{0.0};         ///< unit, of the felt shape, on the outer side
     bool backside = false;          ///< touched from the inner side
-    bool smooth = false;            ///< gradients are interpolated between vertices, as normals are
-    std::array<glm::dvec2, 2> uv{}; ///< texture coordinates of both sets, where there are such
+    bool smooth = false;            ///< gradients are interpolated between vertices, like normals
+    std::array<glm::dvec2, 2> uv{}; ///< texture coordinates of both sets, where present
     double workspacePerObject = 1.0;
     double modelPerObject = 1.0;               ///< metres of the model in one object unit
-    const HapticMap::Slopes* slopes = nullptr; ///< kept for the height map, where they are wanted and there
+    const HapticMap::Slopes* slopes = nullptr; ///< precomputed for the height map; null without
 
     [[nodiscard]] uint32_t source(size_t corner) const { return object.sourceIndices[first + corner]; }
     [[nodiscard]] double attribute(const std::vector<float>& values, double otherwise) const {

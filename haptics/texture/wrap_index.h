@@ -7,10 +7,10 @@
 
 namespace touchstone {
 
-/// The texel of 0 .. size - 1 that stands at index i.
+/// The texel of 0 .. size - 1 at index i.
 [[nodiscard]] inline int wrapIndex(int i, int size, Wrap wrap) noexcept {
     if (i >= 0 && i < size)
-        return i; // in most ticks, and a division is a quarter of a texel's cost
+        return i; // the case in most ticks, and a division is a quarter of a texel's cost
     switch (wrap) {
     case Wrap::ClampToEdge:
         return std::clamp(i, 0, size - 1);
@@ -25,8 +25,7 @@ namespace touchstone {
     return ((i % size) + size) % size;
 }
 
-/// What a slope that is kept for the texel counts at index i: it is turned where the map is mirrored, and
-/// beyond a clamped edge there is none.
+/// Factor of a texel's precomputed slope at index i: -1 where the map is mirrored, 0 beyond a clamped edge.
 [[nodiscard]] inline double wrapSlope(int i, int size, Wrap wrap) noexcept {
     if ((i >= 0 && i < size) || wrap == Wrap::Repeat)
         return 1.0;
@@ -36,10 +35,10 @@ namespace touchstone {
     return ((i % period) + period) % period < size ? 1.0 : -1.0;
 }
 
-/// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must not
+/// Far coordinates carry no fraction and would overflow an int; a texture there is meaningless but must do no
 /// harm.
 [[nodiscard]] inline double boundedTexel(double x) noexcept {
-    return std::max(-1e9, std::min(1e9, x)); // in this order, what is no number becomes one
+    return std::max(-1e9, std::min(1e9, x)); // in this order, NaN becomes a number
 }
 
 } // namespace touchstone

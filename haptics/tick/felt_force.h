@@ -1,7 +1,7 @@
 #pragma once
-// Stages 5 to 7 of a tick, and of stage 4 what turns the force alone: from the solve's result to a force.
-// haptic_step.cpp alone includes it. Functions are out of line where a scene may not call for them: they must
-// not take registers from what every scene calls for.
+// Stages 5 to 7 of a tick, and the part of stage 4 that turns only the force: from the solve result to a
+// force. Only haptic_step.cpp includes this file. Functions that a scene may not need are out of line, so
+// that they take no registers from those that every scene needs.
 
 #include "haptics/force/contact_loads.h"
 #include "haptics/force/spring_damper.h"
@@ -18,18 +18,20 @@
 
 namespace touchstone {
 
-/// The felt shape at the final proxy: which way it pushes and how deep the HIP is, for each shading model.
+/// The felt shape at the final proxy: the direction of the force and the depth of the HIP, for each shading
+/// model.
 struct FeltShape {
     glm::dvec3 normal{0.0}; ///< unit, reference object frame
     double depth = 0.0;     ///< reference object units
 };
 
-/// The force of one facet turned.
+/// The felt shape where one facet's force is turned.
 [[gnu::noinline]] FeltShape turnedShape(const HapticScene& scene, ObjectMotions motions,
                                         const HapticSettings& settings, int reference, const Contact& facet,
                                         const glm::dvec3& offset, const FeltShape& shape);
 
-/// Of all that is touched as one: `oneFacet` where some surface of the scene turns the force of its facet.
+/// The felt shape where all contacts are felt as one. `oneFacet`: some surface of the scene turns the force
+/// of its facet.
 [[gnu::always_inline]] inline FeltShape feltShape(const HapticScene& scene, ObjectMotions motions,
                                                   const HapticSettings& settings, bool oneFacet,
                                                   const glm::dvec3& hip, const DeviceState& state,
@@ -44,7 +46,7 @@ struct FeltShape {
     return shape;
 }
 
-/// Velocity of the HIP against the reference object's surface, m/s, in the reference object frame.
+/// Velocity of the HIP relative to the reference object's surface, m/s, in the reference object frame.
 inline glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& reference,
                                   const DeviceState& state) {
     const Similarity& now = reference.workspaceFromObject;
@@ -54,33 +56,34 @@ inline glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& re
     return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
-/// Stage 5 where the touched material calls for it. `velocity` of the HIP against the surface.
+/// Stage 5 where the touched material needs it. `velocity` of the HIP relative to the surface.
 [[gnu::noinline]] void feelTexture(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
                                    const Contact& contact, const glm::dvec3& normal, double depth,
                                    const glm::dvec3& velocity, double dt, SurfaceSample& feel);
 
-/// Stages 5 and 7 but for friction, where each of several contacts has its say.
+/// Stages 5 and 7 without friction, where several contacts are felt separately.
 struct SeveralContacts {
     glm::dvec3 force{0.0}; ///< elastic and damping, N, reference object frame
     FrictionCone cone;
 };
 
-/// `feel` becomes that of the contact which carries most, with the direction of the whole elastic force.
-/// `velocity` of the HIP against the surface; the force has `zoom` taken out, and is what the device bears.
+/// `feel` becomes the sample of the contact with the largest load, with the direction of the whole elastic
+/// force. `velocity` of the HIP relative to the surface; `zoom` is already divided out of the force, which
+/// the device can bear.
 [[gnu::noinline]] void feelSeveral(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const DeviceState& state,
                                    const SubGoal& activeSet, const glm::dvec3& offset,
                                    double workspacePerReference, const glm::dvec3& velocity, double zoom,
                                    double dt, SurfaceSample& feel, SeveralContacts& several);
 
-/// True where the planes need not be told apart: all of one plain material without damping whose force
-/// nothing turns, which gives K (p - h) whichever of them carries it; or none of them carries anything
-/// (RayProxy between planes that leave it no room).
+/// True where the planes need not be distinguished: all have one plain material without damping whose force
+/// nothing turns, so that the force is K (p - h) whatever the loads; or no plane carries a load (RayProxy
+/// between planes that leave it no room).
 bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet,
                const SolveResult& rest, const SubGoal& activeSet);
 
-/// What holds the hand, before friction moves the proxy away from there.
+/// Publishes the contacts that hold the HIP off, before friction moves the proxy.
 inline void publishContact(const Similarity& workspaceFromReference, const SolveResult& rest,
                            const SurfaceSample& feel, HapticOutput& output) {
     output.contacts = rest.contactCount;
@@ -96,16 +99,16 @@ inline void publishContact(const Similarity& workspaceFromReference, const Solve
             rest.contacts[static_cast<size_t>(rest.activeSet.active[i])].normal);
 }
 
-/// What stages 5 to 7 give.
+/// Result of stages 5 to 7.
 struct Felt {
     glm::dvec3 force{0.0}; ///< N, reference object frame
-    double share = 1.0;    ///< of it that the device bears
+    double share = 1.0;    ///< fraction of it that the device bears
     int object = -1;       ///< HapticScene::objects; -1: nothing is touched
 };
 
-/// Stages 5 to 7, and of 4 what turns the force alone. `held`: where the proxy was when the tick began;
-/// `hip`: reference object frame. Effects: some material of the scene calls for more than a constant
-/// stiffness and damping, or several contacts are felt apart.
+/// Stages 5 to 7, and the part of stage 4 that turns only the force. `held`: proxy at the start of the tick;
+/// `hip`: reference object frame. Effects: some material of the scene needs more than a constant stiffness
+/// and damping, or several contacts are felt separately.
 template <bool Effects, class Solver, class Stopwatch>
 Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& activeSet,
@@ -121,7 +124,7 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
         shape = feltShape(scene, motions, settings, oneFacet, hip, state, activeSet);
     stopwatch.lap(Stage::Shading);
 
-    // 5. Surface: what material, attributes and maps are under each contact.
+    // 5. Surface: material, attributes and maps at each contact.
     glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.reference)], state);
     SurfaceSample feel;
     [[maybe_unused]] std::conditional_t<Effects, SeveralContacts, std::monostate> several;
@@ -146,7 +149,7 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
         velocity /= output.zoom;
     stopwatch.lap(Stage::Texture);
 
-    // 6. Friction: the proxy held back inside the cones.
+    // 6. Friction: holds the proxy back inside the cones.
     [[maybe_unused]] glm::dvec3 stretch(0.0);
     if constexpr (!Effects) {
         state.friction = FrictionState::Free;

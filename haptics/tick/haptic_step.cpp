@@ -24,7 +24,7 @@ void publishProxy(const Similarity& workspaceFromReference, const DeviceState& s
         output.stictionPoint = workspaceFromReference.point(state.stictionPoint);
 }
 
-/// True where no material of the scene calls for stages 4 to 6.
+/// True where no material of the scene needs stages 4 to 6.
 bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
     return kPlainTick || (scene.plan.plainSample && !(settings.staticFriction > 0.0) &&
                           !(scene.plan.dampingMap && settings.damping > 0.0) &&
@@ -32,13 +32,13 @@ bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) 
                            (!anyTwoPass(scene.plan, settings) && !anyOneFacet(scene.plan, settings))));
 }
 
-/// Out of line: what a scene does not call for must not take registers from what it does.
+/// Out of line: code that a scene may not need must not take registers from code that it needs.
 template <class... Arguments>
 [[gnu::noinline]] Felt feelEffects(Arguments&&... arguments) {
     return feltForce<true>(arguments...);
 }
 
-/// Stages 3 and 4 where two-pass shading moves the proxy. Out of line as all that a scene may not call for.
+/// Stages 3 and 4 where two-pass shading moves the proxy. Out of line, since a scene may not need it.
 template <class Solver, class Stopwatch>
 [[gnu::noinline]] void solveShaded(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const glm::dvec3& hip, double travel,
@@ -49,14 +49,14 @@ template <class Solver, class Stopwatch>
     shadeTwoPass(scene, motions, settings, hip, first, proxy, state, state.rest);
 }
 
-/// Stages 2 to 7 for a hand whose place is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
+/// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
 template <class Solver, class Stopwatch>
 [[gnu::noinline]] void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                              DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
     const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
     const bool effects = !callsForNoEffect(scene, settings);
 
-    // 2. Contact query: the proxy goes with its object and meets what moved towards it.
+    // 2. Contact query: the proxy moves with its object and is swept against the objects that moved.
     SolveResult& rest = state.rest;
     if (state.reference < 0)
         state.reference = nearestObject(scene, motions, state.hip);
@@ -73,19 +73,19 @@ template <class Solver, class Stopwatch>
         motions[static_cast<size_t>(state.reference)].workspaceFromObject;
     const glm::dvec3 hip = workspaceFromReference.inversePoint(state.hip);
     const glm::dvec3 held = state.proxy;
-    // The place without friction is a god-object of its own, which friction does not hold back [001 §4.1.1]:
-    // it goes on from where it was. Not where objects move: what they may have pushed is the proxy.
+    // The frictionless place is a god-object of its own, which friction does not hold back [001 §4.1.1]: it
+    // resumes from its last place. Not where objects move, since they may have pushed the proxy.
     if (state.friction != FrictionState::Free && input.objects.empty())
         proxy.resumeFrom(state.frictionless);
     stopwatch.lap(Stage::Contact);
 
-    // 3. Proxy solve: as near to the goal as free space allows; and 4. force shading: the same solve against
-    // the interpolated planes.
+    // 3. Proxy solve: as near to the goal as free space allows. 4. Force shading: the same solve against the
+    // interpolated planes.
     if (effects && anyTwoPass(scene.plan, settings)) {
         solveShaded(scene, motions, settings, hip, glm::length(state.travel) / workspaceFromReference.scale,
                     proxy, state, stopwatch);
     } else {
-        state.shaded = false; // what was felt before it was switched off is no place to start from again
+        state.shaded = false; // after shading is switched off, its last goal is not a valid start
         proxy.moveTowards(hip);
         stopwatch.lap(Stage::Proxy);
     }
@@ -103,8 +103,8 @@ template <class Solver, class Stopwatch>
         output.force *= felt.share;
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
-    // What is touched now carries the proxy from here on. A proxy that is walled in by more triangles than a
-    // tick can hold feels nothing until the hand is in the open again.
+    // The object touched now becomes the reference object. A proxy surrounded by more triangles than a tick
+    // can hold feels nothing until the hand is in free space again.
     if (felt.object >= 0 && !input.objects.empty())
         changeReference(state, motions, felt.object);
     if (rest.contactCount == 0 && has(rest.flags, TickFlag::CandidatesFull))
@@ -112,15 +112,15 @@ template <class Solver, class Stopwatch>
     stopwatch.lap(Stage::Force);
 }
 
-/// Touch begins again where the hand is next seen.
+/// Touch begins again where the hand is next sampled.
 [[gnu::noinline]] void beginTouch(DeviceState& state, bool mustLeave) {
     state.forgetTouch();
     state.mustLeave = mustLeave;
 }
 
-/// A tick without a sample in a scene that moves: the proxy goes on with the objects, as if the hand stood. A
-/// watch that touches goes with its reference object; one in the free would have to know where every object
-/// was when the hand was last seen, and begins again.
+/// A tick without a sample in a moving scene: the proxy moves with the objects as if the hand were at rest. A
+/// neighbourhood watch in contact moves with its reference object; one in free space would need every
+/// object's pose at the last sample, so it restarts.
 void followUnseen(const HapticScene& scene, const HapticSettings& settings, ObjectMotions motions,
                   DeviceState& state, uint32_t& flags) {
     if (!state.placed || state.reference < 0)
@@ -135,9 +135,8 @@ void followUnseen(const HapticScene& scene, const HapticSettings& settings, Obje
     ProxySolver::followObjects(scene, motions, settings, state, flags);
 }
 
-/// The contact models that are there to be compared with the sweep. False where the tick is the sweep's after
-/// all: since they miss what they need, or one of them has just been switched off. Out of line: the sweep
-/// pays one branch.
+/// The comparison solvers. False where the sweep solves the tick: the data that they need is missing, or one
+/// of them has just been switched off. Out of line: the sweep pays one branch.
 template <class Stopwatch>
 [[gnu::noinline]] bool touchOtherwise(const HapticScene& scene, const HapticSettings& settings,
                                       const TickInput& input, DeviceState& state, HapticOutput& output,
@@ -152,7 +151,7 @@ template <class Stopwatch>
     return false;
 }
 
-/// The contact model that the settings name.
+/// Solves with the contact model that the settings select.
 template <class Stopwatch>
 void touchWithModel(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                     DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
@@ -191,7 +190,7 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         else if (!input.objects.empty())
             followUnseen(scene, settings, input.objects, state, output.flags);
 
-        // 8. Safety: the only thing that may reach a device.
+        // 8. Safety: the only stage that sends commands to a device.
         const SafetyInputs safety{.limits = scene.limits,
                                   .dt = input.dt,
                                   .inputValid = sampled,
@@ -205,9 +204,9 @@ void hapticStep(const HapticScene& scene, const HapticSettings& settings, const 
         output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
                                              state.limiter, output.flags);
         output.energyBalance = state.limiter.passivity.balance;
-        // A hand that was gone for as long as a full force takes to fade may come back anywhere: it is not
-        // pulled to where it was, but begins anew.
-        // One that never was out of sight (a mouse that is lifted, a recorded path) may go on where it is.
+        // A hand that was absent for as long as a full force takes to fade may return anywhere: touch begins
+        // again instead of pulling it back. A hand that stayed in sight (a lifted mouse, a recorded path) may
+        // resume where it is.
         if (state.unsampled >= kForceRampOutTime)
             beginTouch(state, !sample.inSight);
         output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());

@@ -1,5 +1,5 @@
 #pragma once
-// One tick of touch. Read haptic_step.cpp: it tells the whole story in order.
+// One tick of touch. haptic_step.cpp contains all stages in order.
 
 #include "engine/device_io/device_io.h"
 #include "engine/math/object_motion.h"
@@ -20,23 +20,23 @@ namespace touchstone {
 
 class HapticScene;
 
-/// Everything that comes from outside in one tick. The step reads no clock.
+/// All external input of one tick. The step reads no clock.
 struct TickInput {
     uint64_t tick = 0;
     double time = 0.0;                     ///< s since start
     double dt = 1e-3;                      ///< s, > 0
     bool late = false;                     ///< the previous tick ended after its next deadline
     std::span<const DeviceSample> devices; ///< one per device
-    /// Poses at this tick; empty: every object rests where HapticScene placed it.
+    /// Poses at this tick; empty: every object is at rest where HapticScene placed it.
     ObjectMotions objects;
 };
 
-/// What touch itself changes (persistent textures, field edits). Written by the servo only.
+/// State that touch itself changes (persistent textures, field edits). Written by the servo only.
 struct WorldState {};
 
-/// What one device gets from one tick. Workspace frame, SI, unless said otherwise.
+/// Output of one tick for one device. Workspace frame, SI, unless stated otherwise.
 struct HapticOutput {
-    double zoom = 1.0;           ///< m in the workspace for one m of the device
+    double zoom = 1.0;           ///< workspace metres for one device metre
     glm::dvec3 hip{0.0};         ///< haptic interface point
     glm::dvec3 hipVelocity{0.0}; ///< m/s, filtered
     glm::dvec3 proxy{0.0};       ///< centre of the proxy sphere (IHIP, god-object)
@@ -55,14 +55,15 @@ struct HapticOutput {
     uint32_t planeCount = 0;
     glm::dvec3 stictionPoint{0.0}; ///< valid while friction is not Free
     double height = 0.0;           ///< felt height H, m
-    /// J, passivity observer: above zero the device gave the hand more than it took. Zero with passivity=off.
+    /// J, passivity observer: above zero the device gave the hand more energy than it took. Zero with
+    /// passivity=off.
     double energyBalance = 0.0;
 };
 
 /// One tick: sample, contact, proxy, shading, texture, friction, force, safety (docs/architecture.md, One
 /// tick). Deterministic; no clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per
-/// device of `input`. Stopwatch: StageTracer on the servo and wherever its bits are to be met again,
-/// StageStopwatch, SplitStopwatch and NoStopwatch where cost is studied.
+/// device of `input`. Stopwatch: StageTracer on the servo and wherever its results must be reproduced to the
+/// last bit; StageStopwatch, SplitStopwatch and NoStopwatch where cost is studied.
 template <class Stopwatch>
 void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
                 WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,

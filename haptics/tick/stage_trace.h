@@ -1,5 +1,5 @@
 #pragma once
-// What the early stages left behind: so that a recording can name the stage in which a replay first differs.
+// Intermediate results of the early stages, so that a replay can name the first stage that differs.
 
 #include "haptics/state/device_state.h"
 #include "haptics/tick/stopwatch.h"
@@ -10,7 +10,7 @@
 
 namespace touchstone {
 
-/// HapticOutput tells where the proxy ended; this tells how it came there. Zero where a stage was not
+/// HapticOutput reports the final proxy; this reports the proxy after each stage. Zero where a stage was not
 /// reached.
 struct StageTrace {
     /// After contact query (carried by its object, placed), proxy solve and force shading: frame of the
@@ -19,12 +19,12 @@ struct StageTrace {
     int reference = -1; ///< HapticScene::objects
 };
 
-/// What the servo, `touch` and a replay pass as Stopwatch. One instantiation for all three, since the
-/// compiler may round differently in another one (fused multiply-adds): whether it also takes the time is
-/// asked as it goes, and changes no bit of what is felt. For one device.
+/// The Stopwatch of the servo, `touch` and the replay. All three use one instantiation, since the compiler
+/// may round differently in another one (fused multiply-adds). Whether it reads a clock is decided at run
+/// time and changes no bit of the result. For one device.
 class StageTracer {
   public:
-    /// `clock`: takes the time of each stage; null: nobody reads a clock.
+    /// `clock`: measures each stage; null: no clock is read.
     StageTracer(const DeviceState& state, StageTrace& trace, StageStopwatch* clock = nullptr) noexcept
         : state_(state), trace_(trace), clock_(clock) {}
 
@@ -43,7 +43,7 @@ class StageTracer {
     }
 
   private:
-    // Out of line: the step keeps its registers.
+    // Out of line, so that the step keeps its registers.
     [[gnu::noinline]] void startClock() noexcept { clock_->start(); }
     [[gnu::noinline]] void readClock(Stage stage) noexcept { clock_->lap(stage); }
 

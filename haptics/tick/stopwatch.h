@@ -20,7 +20,7 @@ struct NoStopwatch {
     void lap(Stage) noexcept {}
 };
 
-/// Nanoseconds by stage of the last step, for studies and benchmarks. Reading the clock costs 20..30 ns a
+/// Nanoseconds per stage of the last step, for studies and benchmarks. Reading the clock costs 20..30 ns a
 /// lap.
 struct StageStopwatch {
     std::array<int64_t, kStageCount> nanoseconds{};
@@ -40,8 +40,8 @@ struct StageStopwatch {
 };
 
 /// Nanoseconds from the start of the last step to the end of one stage. Reading the clock at every stage
-/// keeps the processor from beginning the next one meanwhile, some 10 ns each beside the reading; so a study
-/// reads it at one stage a tick, and tells stages by the differences between ticks.
+/// keeps the processor from overlapping consecutive stages, which costs some 10 ns each beside the reading. A
+/// study therefore reads it at one stage a tick and obtains each stage as a difference between ticks.
 struct SplitStopwatch {
     Stage until = Stage::Safety;
     int64_t nanoseconds = 0;

@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kBare = "forceShading=off texture=off friction=off stiffness=600 damping=0";
 constexpr std::string_view kUntextured = "texture=off friction=off stiffness=600 damping=0";
 
-/// Without the limit of tilts, which the closed form does not know.
+/// Without the tilt limit, which the closed form does not model.
 constexpr std::string_view kBump = "friction=off stiffness=600 damping=0 textureTiltLimit=90";
 
 constexpr std::array kAblations{

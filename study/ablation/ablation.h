@@ -1,6 +1,5 @@
 #pragma once
-// The ablations: which ways to compute each stage there are, as data. A configuration more is a line more
-// (ablation.cpp).
+// The ablations: the alternatives of each stage, as data. A new configuration is one line (ablation.cpp).
 
 #include "haptics/settings/haptic_settings.h"
 
@@ -15,25 +14,23 @@ class HapticScene;
 
 namespace touchstone::study {
 
-/// With what the configurations of an ablation are compared.
+/// The reference of an ablation.
 enum class Against : uint8_t {
-    Shape,   ///< the frictionless rest on the true shape: closed form, else the oracle on the mesh
-    Smooth,  ///< the same, but what smooth normals mean has no truth on a mesh: there the most exact
-             ///< configuration
-    Bump,    ///< what the height map means in closed form, where that is known; else the most exact
-             ///< configuration
-    Coulomb, ///< ideal friction on what is felt without friction
+    Shape,   ///< the frictionless solve on the true shape: closed form, else the oracle on the mesh
+    Smooth,  ///< the same; smooth normals have no truth on a mesh, so there the most exact configuration
+    Bump,    ///< the closed form of the height map where known; else the most exact configuration
+    Coulomb, ///< ideal friction on the frictionless result
 };
 
-/// A stage with a choice. Settings as `--set` takes them, separated by spaces.
+/// A stage with alternatives. Settings as `--set` takes them, separated by spaces.
 struct Ablation {
     std::string_view name, question;
-    std::string_view base;  ///< settings under every configuration: what other stages would add is off
-    std::string_view exact; ///< on top of `base`: the most exact settings that there are
+    std::string_view base;  ///< settings under every configuration: they disable what other stages would add
+    std::string_view exact; ///< on top of `base`: the most exact settings available
     Against against = Against::Shape;
 };
 
-/// What a scene must have for a configuration to make sense.
+/// What a scene must have for a configuration to be meaningful.
 enum class Need : uint8_t { Nothing, SmoothNormals, Bump, HeightMap };
 
 struct ConfigurationLine {
@@ -41,7 +38,7 @@ struct ConfigurationLine {
     Need need = Need::Nothing;
 };
 
-/// An ablation whose configurations are every choice of one configuration from each of `axes`.
+/// An ablation whose configurations are the Cartesian product of `axes`.
 struct Product {
     std::string_view ablation;
     std::vector<std::string_view> axes; ///< ablations
@@ -51,25 +48,24 @@ struct Product {
 [[nodiscard]] std::span<const ConfigurationLine> rungLines();
 [[nodiscard]] std::span<const Product> products();
 
-/// Applies "NAME=VALUE NAME=VALUE". Throws Error where one is no setting.
+/// Applies "NAME=VALUE NAME=VALUE". Throws Error for an invalid setting.
 void applySettings(HapticSettings& settings, std::string_view assignments);
 
-/// A configuration that is to be measured on a scene.
+/// A configuration to be measured on a scene.
 struct PlannedConfiguration {
     const Ablation* ablation = nullptr;
     std::string name;
-    std::string text;        ///< all that --set takes
+    std::string text;        ///< everything that --set takes
     HapticSettings settings; ///< the same
-    HapticSettings exact;    ///< the ablation's most exact settings with this configuration's radius
-    bool isDefault = false;  ///< chooses what the program does by itself
+    HapticSettings exact;    ///< the ablation's most exact settings, with this configuration's radius
+    bool isDefault = false;  ///< the program's default
 };
 
-/// The configurations of one ablation that make a difference on the scene; what is left out is said in
-/// `notes`.
+/// The configurations of one ablation that differ on the scene; `notes` lists what is left out.
 [[nodiscard]] std::vector<PlannedConfiguration>
 planAblation(const Ablation& ablation, const HapticScene& scene, std::vector<std::string>& notes);
 
-/// Settings without what nothing in the scene asks for: two that are equal so are felt alike.
+/// Settings without those that have no effect on the scene: two that are equal render the same force.
 [[nodiscard]] HapticSettings inEffect(HapticSettings settings, const HapticScene& scene);
 
 } // namespace touchstone::study

@@ -1,4 +1,4 @@
-// Which configurations of an ablation a scene can tell apart (declared in ablation.h).
+// Selects the configurations of an ablation that a scene can distinguish (declared in ablation.h).
 
 #include "engine/core/error.h"
 #include "haptics/scene/haptic_scene.h"
@@ -125,7 +125,7 @@ HapticSettings inEffect(HapticSettings settings, const HapticScene& scene) {
     if (!scene.plan.anyShading)
         settings.forceShading = ShadingMode::Off;
     else if (settings.forceShading == ShadingMode::Material && !scene.plan.oneFacetShading)
-        settings.forceShading = ShadingMode::TwoPass; // what each of them says
+        settings.forceShading = ShadingMode::TwoPass; // both select two-pass shading
     if (settings.forceShading == ShadingMode::Off)
         settings.shadingTiltLimit = defaults.shadingTiltLimit;
     if (!has(scene, Need::Bump))
@@ -153,7 +153,7 @@ std::vector<PlannedConfiguration> planAblation(const Ablation& ablation, const H
         notes.push_back(std::string(ablation.name) + ", " + name + ": left out, " + why);
     };
     size_t same = 0;
-    std::map<Need, std::pair<size_t, std::string>> missing; ///< how many configurations, and the first
+    std::map<Need, std::pair<size_t, std::string>> missing; ///< number of configurations, and the first
     for (const Choice& choice : choicesOf(ablation.name)) {
         if (!has(scene, choice.need)) {
             auto& [count, first] = missing[choice.need];

@@ -9,7 +9,7 @@ namespace {
 
 using truth::FeltTick;
 
-/// By nearest rank, as Samples has it.
+/// By nearest rank, as in Samples.
 Spread spreadOf(std::vector<double>& values) {
     if (values.empty())
         return {};

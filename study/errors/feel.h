@@ -1,5 +1,5 @@
 #pragma once
-// Lives the ticks of a path and keeps what was felt.
+// Runs the ticks of a path and records the result.
 
 #include "haptics/settings/haptic_settings.h"
 #include "study/truth/truth_path.h"
@@ -10,12 +10,11 @@ namespace touchstone::study {
 
 struct FeltPath {
     std::vector<truth::FeltTick> ticks;
-    int object = 0; ///< HapticScene::objects, touched in most ticks
-    double facetAngle =
-        0.0; ///< rad, mean over the changes from one facet to another that is not level with it
+    int object = 0;          ///< HapticScene::objects, touched in the most ticks
+    double facetAngle = 0.0; ///< rad, mean over the changes between facets that are not coplanar
 };
 
-/// One tick a HIP, as the servo steps it, to the same bits. Calling thread; its float mode is the servo's.
+/// One tick per HIP, bitwise equal to the servo's. Calling thread, in the servo's float mode.
 [[nodiscard]] FeltPath feel(const HapticScene& scene, const HapticSettings& settings,
                             std::span<const glm::dvec3> hips);
 

@@ -1,11 +1,11 @@
 #pragma once
-// Differences that people just notice, beside which an error is small or large.
+// Just-noticeable differences, the scale of the errors.
 
 #include "study/result/result.h"
 
 namespace touchstone::study {
 
-/// Each with its source; those that are only read of at second hand say so.
+/// Each with its source; second-hand citations are marked as such.
 [[nodiscard]] std::vector<JustNoticeable> noticeableDifferences();
 
 } // namespace touchstone::study

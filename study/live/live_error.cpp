@@ -79,7 +79,7 @@ void LiveError::drain() {
 void LiveError::work() {
     enterFloatMode(); // as the servo: the same bits
     constexpr int kYielding = 10;
-    setpriority(PRIO_PROCESS, 0, kYielding); // of this thread: what is felt and seen goes first
+    setpriority(PRIO_PROCESS, 0, kYielding); // this thread only: servo and window have priority
     std::vector<Tick> batch;
     std::unique_lock lock(mutex_);
     for (;;) {

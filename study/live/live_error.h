@@ -1,5 +1,5 @@
 #pragma once
-// The reference on a thread of its own, beside a servo that runs.
+// The reference on its own thread, beside a running servo.
 
 #include "engine/time/samples.h"
 #include "study/live/reference_touch.h"
@@ -14,39 +14,40 @@
 
 namespace touchstone::study {
 
-/// What the last seconds differed by. SI.
+/// Errors over the last seconds. SI.
 struct LiveErrorFigures {
     struct Pair {
         double p50 = 0.0, p99 = 0.0;
     };
     Pair position;                      ///< m
     Pair force;                         ///< N, of the magnitude
-    Pair forceShare;                    ///< of the reference's
+    Pair forceShare;                    ///< relative to the reference's
     Pair direction;                     ///< rad
-    uint64_t inContact = 0;             ///< ticks of them in which both touch: what the figures are over
-    uint64_t lost = 0, invented = 0;    ///< ticks of them in which only the reference touches; only the servo
-    double comparedShare = 0.0;         ///< of the ticks lived in them; below one the reference is too slow
-    double stepNs = 0.0;                ///< mean time of a step of the reference
-    uint64_t compared = 0, dropped = 0; ///< ticks since the start; dropped found the queue full
+    uint64_t inContact = 0;             ///< ticks in which both touch: the basis of the figures
+    uint64_t lost = 0, invented = 0;    ///< ticks in which only the reference touches; only the servo
+    double comparedShare = 0.0;         ///< fraction of the ticks that were compared; below one the reference
+                                        ///< is too slow
+    double stepNs = 0.0;                ///< mean time of a reference step
+    uint64_t compared = 0, dropped = 0; ///< ticks since the start; dropped: the queue was full
 };
 
-/// All from one thread (the main one); the work is done on another.
+/// All methods on one thread (the main thread); a worker does the comparison.
 class LiveError {
   public:
-    /// `seconds` that the figures look back on at `rateHz`; `capacity`: ticks that may wait.
+    /// `seconds`: length of the window of the figures at `rateHz`; `capacity`: ticks that may wait.
     explicit LiveError(double rateHz, double seconds = 2.0, size_t capacity = 4096);
     ~LiveError();
     LiveError(const LiveError&) = delete;
     LiveError& operator=(const LiveError&) = delete;
 
-    /// Before the first record that names it: ServoLoop::offerScene's number and arguments.
+    /// Call before the first record with this number: ServoLoop::offerScene's number and arguments.
     void sceneOffered(uint32_t number, std::shared_ptr<const HapticScene> scene, ScenePtr source);
-    /// Every tick in order, with its settings; handed over by flush, where there is room.
+    /// Every tick in order, with its settings; flush passes it on where there is room.
     void take(const TickRecord& record, const HapticSettings& settings);
     void flush();
 
     [[nodiscard]] LiveErrorFigures figures() const;
-    /// Waits until all that was handed over is compared (tests, offline).
+    /// Waits until all ticks passed on are compared (tests, offline).
     void drain();
 
   private:
@@ -59,7 +60,7 @@ class LiveError {
         std::shared_ptr<const HapticScene> scene;
         ScenePtr source;
     };
-    /// One tick of the newest `window_`.
+    /// One tick of the latest `window_`.
     struct Entry {
         bool compared = false;
         TickError error;

@@ -8,7 +8,7 @@ namespace touchstone::study {
 
 namespace {
 
-/// Zero to the last bit between equal vectors, which a cross product is not; neither is zero.
+/// Exactly zero between equal vectors, which a cross product is not; neither vector is zero.
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 u = a / glm::length(a), v = b / glm::length(b);
     return 2.0 * std::atan2(glm::length(u - v), glm::length(u + v));
@@ -35,7 +35,7 @@ TickError errorOf(const HapticOutput& felt, const HapticOutput& exact) {
 } // namespace
 
 HapticSettings referenceOf(const HapticSettings& settings) {
-    constexpr int kToTheEnd = 1000; // the most that --set takes
+    constexpr int kToTheEnd = 1000; // the maximum that --set takes
     HapticSettings exact = settings;
     exact.contact = ContactMethod::Sweep;
     exact.proxyRadius = feltRadius(settings);
@@ -64,19 +64,19 @@ void ReferenceTouch::adopt(const TickRecord& record, const HapticSettings& setti
     state_.velocity = felt.hipVelocity;
     state_.travel = glm::dvec3(0.0);
     state_.unsampled = 0.0;
-    // Where objects move, what is touched carries the proxy from there on.
+    // Where objects move, the proxy moves with the touched object from there on.
     const int reference = felt.object >= 0 && moving_.moving() ? felt.object : record.trace.reference;
     if (!state_.sampled || has(felt.flags, TickFlag::StartedInside) || reference < 0 ||
         static_cast<size_t>(reference) >= motions.size())
-        return; // it is placed anew in the next tick
+        return; // the next tick places it at its HIP
     const Similarity& workspaceFromReference = motions[static_cast<size_t>(reference)].workspaceFromObject;
     state_.reference = reference;
     state_.placed = true;
     state_.clearance = feltRadius(settings);
     state_.proxy = workspaceFromReference.inversePoint(felt.proxy);
     if (settings.contact == ContactMethod::Neighbourhood) {
-        // A walk's proxy stands on the facet itself, where the sweep has no side: a little off it, and what
-        // stuck there is let go (neighbourhood_watch.cpp, leaveWatch).
+        // The proxy of a walk stands on the facet itself, where the sweep has no side: it is moved slightly
+        // off, and the stiction point is released (neighbourhood_watch.cpp, leaveWatch).
         const HapticObject& object = *scene_->objects[static_cast<size_t>(reference)];
         for (uint32_t i = 0; i < felt.planeCount; ++i)
             state_.proxy += kWeldTolerance * object.diagonal *
@@ -110,9 +110,8 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
     input.devices = {&record.sample, 1};
     input.objects = moved;
     StageTrace trace;
-    StageTracer tracer(
-        state_,
-        trace); // the servo's instantiation: where the configurations are the same, so are the bits
+    StageTracer tracer(state_,
+                       trace); // the servo's instantiation: equal configurations give equal bits
     hapticStep(*scene_, referenceOf(settings), input, world_, {&state_, 1}, {&output_, 1}, tracer);
     error = errorOf(record.output, output_);
     return true;

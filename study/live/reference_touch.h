@@ -1,6 +1,6 @@
 #pragma once
-// How far what is felt is from the best that this program knows: the same hand on the same scene, touched a
-// second time with the most exact configuration of every ablation.
+// The error against the best solution of this program: the same hand on the same scene, computed a second
+// time with the most exact configuration of every ablation.
 
 #include "haptics/scene/moving_objects.h"
 #include "haptics/servo/servo_loop.h"
@@ -10,14 +10,14 @@
 
 namespace touchstone::study {
 
-/// What is felt with `settings`, as exactly as it can be: every choice of method at its most exact
-/// configuration, every choice of what is to be felt as it is. Method: contact (the sweep, in double), the
-/// proxy's moves (to the end), shading (two-pass wherever the material does not say off; `off` and the
-/// one-facet models are cheaper configurations of it). To be felt: stiffness, damping, friction and its law,
+/// The most exact settings that render the same effects as `settings`: every choice of method at its most
+/// exact configuration, every choice of effect unchanged. Methods: contact (the sweep, in double), the
+/// proxy's moves (until it converges), shading (two-pass wherever the material does not disable it; `off` and
+/// the one-facet models are cheaper configurations of it). Effects: stiffness, damping, friction and its law,
 /// texture and its law, tilt limits, the proxy's radius (of a point method none).
 [[nodiscard]] HapticSettings referenceOf(const HapticSettings& settings);
 
-/// One tick beside the reference. Workspace, SI.
+/// The error of one tick. Workspace, SI.
 struct TickError {
     /// Lost: only the reference touches. Invented: only the servo does.
     enum class Contact : uint8_t { None, Both, Lost, Invented };
@@ -30,27 +30,27 @@ struct TickError {
     double forceDifference = 0.0; ///< N, |F - F_ref|: where either touches
 };
 
-/// The reference's hand. It runs free, on the servo's samples: in the air both are the same again, and what
-/// it cannot know (before its first tick, behind a gap in the records) it takes from the servo. One thread;
-/// allocates.
+/// The hand of the reference. It runs free on the servo's samples: in the air both states are equal again.
+/// What it cannot know (before its first tick, after a gap in the records) it copies from the servo. One
+/// thread; allocates.
 ///
-/// Free, and not put back where the servo is from tick to tick: an error that builds up over a contact, as
-/// with a proxy that lags behind, is what the hand feels, and would not be seen. The price: where a law
-/// slips, the two may slip at other moments (docs/accuracy.md).
+/// It is not reset to the servo's state at every tick: the hand feels an error that builds up over a contact,
+/// such as a lagging proxy, and a reset would hide it. The cost: with stick-slip, the two may slip at
+/// different moments (docs/accuracy.md).
 class ReferenceTouch {
   public:
-    /// The scene of the records that follow; null: none.
+    /// The scene of the following records; null: none.
     void enter(std::shared_ptr<const HapticScene> scene, ScenePtr source);
 
-    /// The next tick in order, or a later one. False where there is nothing to compare with: no scene, or the
-    /// tick that the reference begins with.
+    /// The next tick in order, or a later one. False without a comparison: no scene, or the first tick of the
+    /// reference.
     [[nodiscard]] bool compare(const TickRecord& record, const HapticSettings& settings, TickError& error);
 
-    /// What the reference felt in the tick compared last.
+    /// The reference's output of the tick compared last.
     [[nodiscard]] const HapticOutput& output() const { return output_; }
 
   private:
-    /// The state after `record`, as far as it tells.
+    /// The state after `record`, as far as the record contains it.
     void adopt(const TickRecord& record, const HapticSettings& settings, ObjectMotions motions);
 
     std::shared_ptr<const HapticScene> scene_;

@@ -1,5 +1,5 @@
 #pragma once
-// A simulated device in a hand against the whole haptic step: position to force to motion, offline.
+// A simulated device in a hand with the whole haptic step: position to force to motion, offline.
 
 #include "devices/plant/hand_impedance.h"
 #include "haptics/scene/haptic_scene.h"
@@ -10,30 +10,30 @@
 
 namespace touchstone::study {
 
-/// Limits that no force of a study comes near: what is studied is the loop and not its safety.
+/// Limits beyond any force of a study: the subject is the loop and not its safety stage.
 [[nodiscard]] DeviceLimits noLimits();
 
 class ClosedLoop {
   public:
-    /// The safety stage takes `limits` for the device's.
+    /// The safety stage uses `limits` as the device's.
     ClosedLoop(const HapticScene& scene, const HapticSettings& settings, const PlantParameters& plant,
                double rateHz, const DeviceLimits& limits);
     ClosedLoop(const ClosedLoop&) = delete;
     ClosedLoop& operator=(const ClosedLoop&) = delete;
 
-    /// Leads the device from `outside` to `position`, without a force on it, and keeps it there until the
-    /// safety stage has faded its own in.
+    /// Moves the device from `outside` to `position` without force, and holds it there until the safety stage
+    /// has faded the force in.
     void hold(const glm::dvec3& outside, const glm::dvec3& position);
-    /// Lets it go from there.
+    /// Releases it there.
     void release(const glm::dvec3& position, const glm::dvec3& velocity);
-    /// Sample, haptic step, force. The first without `hold` places the hand where it wants to be.
+    /// Sample, haptic step, force. The first tick without `hold` places the hand at its intention.
     const HapticOutput& tick();
 
     std::function<glm::dvec3(double)> intention = [](double) {
         return glm::dvec3(0.0);
     };                      ///< of s; workspace m
     glm::dvec3 weight{0.0}; ///< N, constant, on the device
-    int64_t stepNs = 0;     ///< of the last tick's step, with what reading the clock takes
+    int64_t stepNs = 0;     ///< of the last tick's step, clock reading included
     [[nodiscard]] const Plant& plant() const { return hand_.plant(); }
 
   private:

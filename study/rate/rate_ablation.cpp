@@ -44,7 +44,7 @@ const Subject& stroked() {
     return subject;
 }
 
-/// Lowest and highest place.
+/// Lowest and highest position.
 struct Range {
     double low = INFINITY, high = -INFINITY;
     void take(double value) {
@@ -55,13 +55,13 @@ struct Range {
 };
 
 struct Stroke {
-    double busy = 0.0;   ///< share of a processor
+    double busy = 0.0;   ///< fraction of a processor
     double energy = 0.0; ///< J
 };
 
-/// The mean of the stretches, but for those that took so long that another program had the processor in them.
+/// The mean of the stretches, without those so long that another program must have taken the processor.
 double undisturbedMean(std::vector<double> stretches) {
-    constexpr double kDisturbed = 4.0; // medians; work differs by less from stretch to stretch
+    constexpr double kDisturbed = 4.0; // medians; the work varies by less from stretch to stretch
     const auto middle = stretches.begin() + static_cast<std::ptrdiff_t>(stretches.size() / 2);
     std::nth_element(stretches.begin(), middle, stretches.end());
     const double most = kDisturbed * *middle;
@@ -128,7 +128,7 @@ bool pressedWallSettles(const PlantParameters& device, const HapticSettings& wal
         else if (i >= ticks / 4 && i < ticks / 2)
             early.take(y);
     }
-    // What is left of a swing that has died is rounding.
+    // The residual of a decayed oscillation is rounding.
     return late.width() < std::max(early.width(), 1e-12);
 }
 

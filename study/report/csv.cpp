@@ -10,8 +10,8 @@ namespace touchstone::study {
 
 namespace {
 
-/// A row of column names or of values. What consists of fields is spread over columns: `position_error_p99_m`
-/// is the field p99 of position_error in metres.
+/// A row of column names or of values. A structure becomes several columns: `position_error_p99_m` is the
+/// field p99 of position_error in metres.
 class Row {
   public:
     explicit Row(bool names) : names_(names) {}
@@ -21,14 +21,14 @@ class Row {
         if constexpr (requires { visitFields(*this, value); }) {
             const std::string outerPrefix = prefix_;
             const std::string outerUnit = unit_;
-            // The errors' names say enough by themselves.
+            // The names of the errors need no prefix.
             prefix_ += name == "errors" ? "" : std::string(name) + "_";
             unit_ += unit;
             visitFields(*this, value);
             prefix_ = outerPrefix;
             unit_ = outerUnit;
         } else if (names_) {
-            // The middle of an estimate or of a spread needs no word of its own.
+            // The median of an estimate or of a spread has no suffix.
             std::string column = prefix_ + std::string(name);
             if (name == "value")
                 column = prefix_.substr(0, prefix_.size() - 1);

@@ -1,6 +1,6 @@
 #pragma once
-// The fields of a study's result, said once for all that write and read them. A visitor is called with name,
-// unit ("" where there is none, or where the value says it itself) and the value.
+// The fields of a study's result, defined once for all readers and writers. A visitor gets name, unit (""
+// where there is none, or where the value contains it) and the value.
 
 #include "study/result/result.h"
 
@@ -41,7 +41,7 @@ void visitFields(Visitor& visit, Errors& e) {
     visit("truth_failed", "", e.truthFailed);
 }
 
-/// The stages as an object of their names.
+/// The stages as an object keyed by their names.
 struct StageFields {
     std::array<Estimate, kStageCount>& stages;
 };

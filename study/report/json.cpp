@@ -50,7 +50,7 @@ class Writer {
             array.push_back(jsonOf(value));
         return array;
     }
-    /// JSON knows no infinity: a figure that nothing could be measured for is a word.
+    /// JSON has no infinity: a figure without a measurement is a string.
     static Json leaf(double value) {
         if (std::isfinite(value))
             return value;
@@ -66,7 +66,7 @@ class Writer {
     Json object_ = Json::object();
 };
 
-/// Fills a value from a JSON object, and knows where it stands. `file` outlives it.
+/// Fills a value from a JSON object, with the path in the file for errors. `file` outlives it.
 class Reader {
   public:
     Reader(const std::string& file, std::string place, const Json& object)

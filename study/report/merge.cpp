@@ -8,7 +8,7 @@ namespace touchstone::study {
 
 namespace {
 
-/// What two results must share to be compared at all.
+/// What two results must share to be comparable.
 std::string measuredBy(const Provenance& p) {
     return p.machine + ", " + p.processor + ", " + p.compiler + ", " + p.buildType + ", commit " + p.commit;
 }

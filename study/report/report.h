@@ -1,5 +1,5 @@
 #pragma once
-// Writes down what a study measured, and reads it again.
+// Writes and reads the results of a study.
 
 #include "study/result/result.h"
 
@@ -10,30 +10,28 @@
 
 namespace touchstone::study {
 
-/// One row a configuration; the unit stands in the column's name, numbers are as exact as in memory. The
-/// rates and what the whole study has in common are in the JSON alone. Throws Error where the file cannot be
-/// written.
+/// One row per configuration; the column's name contains the unit, numbers have full precision. The rates and
+/// the provenance are in the JSON only. Throws Error where the file cannot be written.
 void writeStudyCsv(const StudyResult& result, const std::filesystem::path& file);
 
-/// Everything. What `readStudyJson` makes of it equals `result` to the bit (but for names that are not
-/// UTF-8). Throws Error where the file cannot be written.
+/// Everything. `readStudyJson` restores `result` bitwise (except names that are not UTF-8). Throws Error
+/// where the file cannot be written.
 void writeStudyJson(const StudyResult& result, const std::filesystem::path& file);
 
-/// Throws Error that names the file and the place in it where it is not what `writeStudyJson` writes.
+/// Throws Error with the file and the place in it where it deviates from the format of `writeStudyJson`.
 [[nodiscard]] StudyResult readStudyJson(const std::filesystem::path& file);
 
-/// What the shards of a study found, as one. Provenance is that of the first; `problems` tells where another
-/// was measured on another machine or by another build, and which configurations came twice (the first one
-/// counts).
+/// Merges the shards of a study. Provenance is that of the first; `problems` lists shards of another machine
+/// or build, and duplicate configurations (the first one counts).
 [[nodiscard]] StudyResult mergeStudies(std::span<const StudyResult> shards);
 
 struct PlotsWritten {
     std::vector<std::filesystem::path> files; ///< SVG
     std::vector<std::string> problems;        ///< with a remedy each
 };
-/// Pictures of a study, in DIR/plots: for each NAME.svg, and NAME.gp and NAME.dat out of which `gnuplot
-/// NAME.gp` makes it again. What cannot be drawn is a problem told, a missing gnuplot too. Throws Error where
-/// the folder cannot be written. `gnuplot`: the program to run.
+/// Plots of a study, in DIR/plots: for each NAME.svg also NAME.gp and NAME.dat, from which `gnuplot NAME.gp`
+/// redraws it. A plot that fails is reported in `problems`, a missing gnuplot too. Throws Error where the
+/// folder cannot be written. `gnuplot`: the program to run.
 PlotsWritten writeStudyPlots(const StudyResult& result, const std::filesystem::path& dir,
                              const std::string& gnuplot = "gnuplot");
 

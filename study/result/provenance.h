@@ -6,10 +6,10 @@
 
 namespace touchstone::study {
 
-/// The processor's name as /proc/cpuinfo has it; "unknown" where there is none.
+/// The processor's name from /proc/cpuinfo; "unknown" where there is none.
 [[nodiscard]] std::string processorName();
 
-/// This machine, this build, now. `command`: how the study was asked for.
+/// This machine, this build, now. `command`: the command line of the study.
 [[nodiscard]] Provenance provenanceOf(const std::string& command);
 
 } // namespace touchstone::study

@@ -19,12 +19,12 @@ constexpr double kDepth = 1e-3;                    // m below the surface
 constexpr double kApproach = 0.02, kDescent = 0.1; // m, m/s
 constexpr double kRing = 0.060, kTube = 0.025;     // m, the torus of the issues
 constexpr double kBall = 0.050, kRod = 0.025;      // m, radii
-constexpr double kSheet = 0.2;                     // m, side of what is flat
+constexpr double kSheet = 0.2;                     // m, side of the flat shapes
 constexpr double kAmplitude = 1e-3, kWave = 0.02;  // m
 constexpr double kSlope = kPi / 6.0;               // of the wedge: 120 degrees between its faces
 constexpr const char* kStroke = "stroke 1 mm deep, 0.1 m/s";
 
-/// The side of a square of cells that makes about so many triangles.
+/// The side of a square of cells that yields about the given number of triangles.
 uint32_t sideFor(size_t triangles, double perCell = 2.0) {
     return static_cast<uint32_t>(
         std::max(3L, std::lround(std::sqrt(static_cast<double>(triangles) / perCell))));
@@ -41,7 +41,7 @@ Subject subjectOf(std::string_view shape, assets::Shape mesh, BenchStroke stroke
     return subject;
 }
 
-/// A grid over the sheet's square with heights and normals of its own, vertices on the surface.
+/// A grid over the sheet's square with its own heights and normals, vertices on the surface.
 template <class Height>
 assets::Shape sheet(uint32_t columns, uint32_t rows, Height height) {
     assets::Shape shape;
@@ -62,7 +62,7 @@ assets::Shape sheet(uint32_t columns, uint32_t rows, Height height) {
     return shape;
 }
 
-/// Back and forth between -1 and 1, a triangle wave of period 4.
+/// A triangle wave between -1 and 1, of period 4.
 double backAndForth(double way) {
     const double turn = way - 4.0 * std::floor(0.25 * way);
     return turn < 1.0 ? turn : turn < 3.0 ? 2.0 - turn : turn - 4.0;
@@ -80,12 +80,12 @@ Subject planeSubject(size_t triangles) {
         truth::smoothPlane());
 }
 
-/// The plane with a height map of two crossed waves, 32 texels long: what filters and gradients make of it is
-/// compared with the waves themselves.
+/// The plane with a height map of two crossed waves, 32 texels long: filters and gradients are compared with
+/// the waves themselves.
 Subject reliefSubject(size_t triangles) {
     constexpr int kTexels = 256, kWaves = 8;
-    constexpr double kScale = 0.5e-3; // m, from the lowest place to the highest
-    // A texel's middle lies on every crest and in every trough, so that the map knows the lowest place.
+    constexpr double kScale = 0.5e-3; // m, from the lowest point to the highest
+    // A texel's centre lies on every crest and in every trough, so that the map contains the minimum.
     const auto phase = [](double u) { return 2.0 * kPi * kWaves * (u - 0.5 / kTexels); };
     const uint32_t side = triangles <= 2 ? 1 : sideFor(triangles);
     Subject subject = planeSubject(triangles);
@@ -120,7 +120,7 @@ Subject sphereSubject(size_t triangles) {
 /// A helix that turns back before the ends.
 Subject cylinderSubject(size_t triangles) {
     constexpr double kLength = 0.12;
-    // Of 2 * rows * sides on the mantle; squares at 2 pi radius : length.
+    // Of 2 * rows * sides on the lateral surface; squares at 2 pi radius : length.
     const uint32_t sides = sideFor(triangles, 2.0 * kLength / (2.0 * kPi * kRod));
     const uint32_t rows = std::max(1u, static_cast<uint32_t>(triangles / (2 * static_cast<size_t>(sides))));
     return subjectOf(
@@ -142,7 +142,7 @@ Subject torusSubject(size_t triangles) {
     return subject;
 }
 
-/// Across the waves at one depth below them, drifting along the crests.
+/// Across the waves at constant depth, drifting along the crests.
 Subject wavesSubject(size_t triangles) {
     const double wave = 2.0 * kPi / kWave;
     // Cells four times as long along the crests as across.
@@ -165,9 +165,10 @@ Subject wavesSubject(size_t triangles) {
 /// Over the ridge and back, 1 mm below either face, drifting along it.
 Subject wedgeSubject(size_t triangles) {
     const double fall = std::tan(kSlope);
-    const uint32_t side = sideFor(triangles, 2.0), columns = side + side % 2; // the ridge is an edge
+    const uint32_t side = sideFor(triangles, 2.0), columns = side + side % 2; // the ridge is an edge of the
+                                                                              // mesh
     assets::Shape mesh = sheet(columns, side, [&](double x) { return std::pair{-std::fabs(x) * fall, 0.0}; });
-    mesh.normals.clear(); // a ridge is no smooth surface
+    mesh.normals.clear(); // a ridge is not smooth
     return subjectOf(
         "wedge", std::move(mesh),
         [fall](double metres, double lift) {
@@ -216,7 +217,7 @@ Subject loadSubject(const std::filesystem::path& file, const std::string& name) 
         throw Error(file.string(), "", "nothing in it can be touched", "study a model that has triangles");
     auto path = std::make_shared<const StrokePath>(strokeOver(*scene, fit, stroke));
     subject.bench.stroke = [path, speed = stroke.speed](double metres, double) {
-        return path->position(metres / speed); // comes down by itself
+        return path->position(metres / speed); // the path includes its descent
     };
     if (playedAnimation(*scene) != nullptr)
         subject.notes.emplace_back("what moves stays in rest pose: so it has a truth");

@@ -1,5 +1,5 @@
 #pragma once
-// What is studied: a scene, a path of the hand over it and, where there is one, its shape in closed form.
+// The subject of a study: a scene, a path of the hand over it and, where known, its shape in closed form.
 
 #include "study/timing/bench_scene.h"
 #include "study/truth/truth_path.h"
@@ -15,27 +15,26 @@ namespace touchstone::study {
 struct Subject {
     BenchScene bench; ///< its name is the scene's
     std::string shape, path;
-    double speed = 0.1;           ///< m/s, with which bench.stroke is taken
-    truth::SmoothShapePtr smooth; ///< null: the mesh is all there is
-    truth::Bump bump;             ///< what its height map means; empty: none, or no more than its texels say
+    double speed = 0.1;           ///< m/s, along bench.stroke
+    truth::SmoothShapePtr smooth; ///< null: no closed form
+    truth::Bump bump;             ///< closed form of its height map; empty: none, or none beyond its texels
     std::vector<std::string> notes;
 
-    /// Where the hand is at `time`, s: it comes down from above.
+    /// Position of the hand at `time`, s; it descends from above.
     [[nodiscard]] glm::dvec3 hand(double time) const;
 };
 
-/// A shape in closed form that can be cut into any number of triangles.
+/// A closed-form shape with arbitrary tessellation.
 struct ShapeKind {
     std::string_view name, what;
-    size_t triangles; ///< by default
-    bool round;       ///< so that more triangles come nearer to it
+    size_t triangles; ///< default
+    bool round;       ///< curved: more triangles approximate it better
     Subject (*make)(size_t triangles);
 };
 [[nodiscard]] std::span<const ShapeKind> shapeKinds();
 
-/// A glTF file, fitted to the workspace and stroked as `run` strokes it. Throws Error where it cannot be
-/// loaded or touched. Moving objects stay in rest pose. `name`: what the results call it; empty: the file's
-/// name.
+/// A glTF file, fitted to the workspace and stroked as in `run`. Throws Error where it cannot be loaded or
+/// touched. Moving objects stay in rest pose. `name`: its name in the results; empty: the file's name.
 [[nodiscard]] Subject loadSubject(const std::filesystem::path& file, const std::string& name = "");
 
 /// 64800 as "64,800".

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kRing = 0.060, kTube = 0.025, kBall = 0.050, kSide = 0.1, kDepth = 1e-3; // m
 
-/// Shapes without normals get one a facet, and corners of their own with it, as the loader does.
+/// Shapes without normals get one per facet, with unshared corners, as in the loader.
 Mesh meshOf(assets::Shape shape) {
     Mesh mesh;
     mesh.indices = std::move(shape.indices);
@@ -56,7 +56,7 @@ Scene plainScene() {
     return scene;
 }
 
-/// 256 x 256 pixels of 8 bits, `channels` each; `at` gives 0..1 for a pixel's middle.
+/// 256 x 256 pixels of 8 bits, `channels` each; `at` gives 0..1 for a pixel's centre.
 int addImage(Scene& scene, int channels, const std::function<glm::dvec3(double u, double v)>& at) {
     constexpr int kSide256 = 256;
     Image image;
@@ -73,7 +73,7 @@ int addImage(Scene& scene, int channels, const std::function<glm::dvec3(double u
     return static_cast<int>(scene.images.size()) - 1;
 }
 
-/// One material that asks for everything.
+/// One material with every effect.
 Scene richScene() {
     constexpr double kTurn = 6.283185307179586;
     Scene scene = plainScene();
@@ -107,7 +107,7 @@ Scene richScene() {
     return scene;
 }
 
-/// Adds one mesh at each of the places.
+/// Adds one mesh at each of the positions.
 Scene sceneOf(assets::Shape shape, const std::vector<glm::dvec3>& places, Scene scene = plainScene()) {
     scene.meshes.push_back(meshOf(std::move(shape)));
     for (const glm::dvec3& at : places)
@@ -115,7 +115,7 @@ Scene sceneOf(assets::Shape shape, const std::vector<glm::dvec3>& places, Scene 
     return scene;
 }
 
-/// The scene itself is let go of: of ten million triangles the hand's half is enough.
+/// The render scene is freed: for ten million triangles the haptic scene suffices.
 std::shared_ptr<const HapticScene> compile(assets::Shape shape, const std::vector<glm::dvec3>& places,
                                            Scene scene = plainScene()) {
     return compileHapticScene(sceneOf(std::move(shape), places, std::move(scene)), Similarity{});
@@ -171,7 +171,7 @@ BenchStroke onBox() {
 }
 
 BenchScene coarseTorus() {
-    // Six facets around the tube: 1 mm below the middle of a facet is 4.4 mm below an edge.
+    // Six facets around the tube: 1 mm below the centre of a facet is 4.4 mm below an edge.
     constexpr uint32_t kAroundTube = 6;
     const double middle = kTube * std::cos(kPi / kAroundTube);
     return {"object 2", compile(assets::torus(kRing, kTube, 38, kAroundTube), {glm::dvec3(0.0)}),

@@ -1,5 +1,5 @@
 #pragma once
-// What the benchmarks touch: shapes in closed form, made in the program, and a hand that strokes each.
+// The benchmark scenes: procedural closed-form shapes, each with a stroke.
 
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
@@ -17,15 +17,15 @@ struct Shape;
 
 namespace touchstone {
 
-/// Where the hand is after `metres` of its stroke, `lift` m above the depth that it strokes at. Workspace.
+/// Position of the hand after `metres` of its stroke, `lift` m above the depth of the stroke. Workspace.
 using BenchStroke = std::function<glm::dvec3(double metres, double lift)>;
 
-/// A scene with a stroke 1 mm below its surface. Shapes are in metres and are touched as large as they are.
+/// A scene with a stroke 1 mm below its surface. Shapes are in metres and not rescaled.
 struct BenchScene {
     std::string name;
     std::shared_ptr<const HapticScene> haptic;
     BenchStroke stroke;
-    ScenePtr animated; ///< with the animation that its objects move by; null: at rest
+    ScenePtr animated; ///< with the animation of its objects; null: static
 
     [[nodiscard]] size_t triangles() const;
     [[nodiscard]] size_t vertices() const; ///< after welding
@@ -39,25 +39,25 @@ struct BenchScene {
 /// The torus of the issues, 60 mm and 25 mm, of about `triangles` triangles.
 [[nodiscard]] BenchScene torusScene(size_t triangles);
 
-/// Any shape, as large as it is, with a stroke of one's own.
+/// Any shape, unscaled, with a given stroke.
 [[nodiscard]] BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke);
 
-/// A height over texture coordinates of 0..1, 0..1 of `scale`.
+/// A height over texture coordinates in 0..1, 0..1, as a fraction of `scale`.
 using BenchHeight = std::function<double(double u, double v)>;
 
 /// The same with a height map of `side` x `side` float texels, white `scale` m above black.
 [[nodiscard]] BenchScene reliefScene(std::string name, assets::Shape shape, BenchStroke stroke, int side,
                                      double scale, const BenchHeight& height);
 
-/// The same torus with every effect that a material can ask for: smooth normals, a normal map, a height map,
-/// friction and viscous friction with a friction map, damping with a map and a stiffness map.
+/// The same torus with every effect of a material: smooth normals, a normal map, a height map, friction and
+/// viscous friction with a friction map, damping with a map and a stiffness map.
 [[nodiscard]] BenchScene torusWithAllEffects(size_t triangles);
 
-/// `count` spheres of 1800 triangles on a grid, 0.2 mm from each other; the one in the middle is stroked.
+/// `count` spheres of 1800 triangles on a grid, with gaps of 0.2 mm; the stroke is on the central one.
 [[nodiscard]] BenchScene sphereGridScene(size_t count);
 
-/// The same, and every sphere turns about an axis of its own, once in 2 s, while its centre goes round a
-/// circle of 50 µm: all of them move in every tick.
+/// The same with motion: every sphere rotates about its own axis, once in 2 s, while its centre moves on a
+/// circle of 50 µm, so that all of them move in every tick.
 [[nodiscard]] BenchScene movingGridScene(size_t count);
 
 /// Two objects of about `triangles` triangles each, 6 mm apart, close on the hand between them at 20 mm/s

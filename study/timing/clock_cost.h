@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-/// What reading the clock twice costs, ns: part of every time that is measured so.
+/// Time of two clock readings, ns: part of every time measured with them.
 [[nodiscard]] int64_t clockCostNs();
 
 } // namespace touchstone

@@ -18,13 +18,11 @@ constexpr double kTick = 1e-3;     // s
 constexpr double kApproach = 0.02; // m, above the stroke's depth when it begins
 constexpr double kDescent = 0.1;   // m/s
 
-/// Ticks in a row that are timed alike, so that the processor finds its code and its branches as it left
-/// them.
+/// Consecutive ticks timed alike, so that the processor finds code and branch predictions unchanged.
 constexpr uint64_t kAlike = 4;
 
-/// The stage at whose end the clock is read in a tick, or none: in every third four. Each twelve fours begin
-/// elsewhere in the row, or a path that comes back after a multiple of them would read one stage at one
-/// place.
+/// The stage at whose end the clock is read in a tick, or none: in every third group of four. Each twelve
+/// groups start at another stage; otherwise a periodic path could read one stage at one place only.
 std::optional<Stage> splitOf(uint64_t tick) {
     constexpr uint64_t kRow = 3 * kStageCount / 2,
                        kGolden = 0x9e3779b97f4a7c15u; // 2^64 over the golden ratio
@@ -35,7 +33,7 @@ std::optional<Stage> splitOf(uint64_t tick) {
     return static_cast<Stage>(2 * (turn / 3) + turn % 3 - 1);
 }
 
-/// One configuration with what it remembers from turn to turn.
+/// One configuration with its state between turns.
 class Turn {
   public:
     Turn(const TimedConfiguration& configuration, double start)
@@ -44,7 +42,7 @@ class Turn {
             moving_ = MovingObjects(configuration.scene->animated, *configuration.scene->haptic);
     }
 
-    /// Ticks that nobody times.
+    /// Ticks without timing.
     void live(uint64_t ticks) {
         ConfigurationTimes untimed;
         for (uint64_t i = 0; i < ticks; ++i)
@@ -154,10 +152,10 @@ class Turn {
             times.ray.add(monotonicNs() - begin);
         }
         [[maybe_unused]] static volatile float sink;
-        sink = sum; // so that no ray is left out
+        sink = sum; // keeps the compiler from removing the rays
     }
 
-    /// Where a floor ray goes, and where the object was.
+    /// Target of a floor ray, and the object's pose.
     struct Touched {
         glm::dvec3 proxy, hip;
         int object;
@@ -178,7 +176,7 @@ class Turn {
     MovingObjects moving_;
     ObjectMotions motions_;
     std::vector<glm::dvec3> hands_;
-    HapticOutput output_; ///< one for all ticks, as the servo has it
+    HapticOutput output_; ///< one for all ticks, as in the servo
     std::vector<Touched> touched_;
     uint64_t number_ = 0;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// Times ticks so that a drifting machine cannot fake a difference: every configuration takes its turn in
-// every round.
+// Times ticks robustly against a drifting machine: every configuration takes a turn in every round.
 
 #include "engine/time/samples.h"
 #include "haptics/settings/haptic_settings.h"
@@ -16,7 +15,7 @@
 
 namespace touchstone {
 
-/// One way to touch one scene.
+/// One configuration on one scene.
 struct TimedConfiguration {
     std::string name;
     const BenchScene* scene = nullptr;
@@ -24,23 +23,24 @@ struct TimedConfiguration {
     double speed = 0.1; ///< m/s
 };
 
-/// One turn of a configuration: its ticks in contact, ns; reading the clock twice is part of each.
+/// One turn of a configuration: its contact ticks, ns; each includes two clock readings.
 struct RoundTimes {
-    std::vector<double> whole;                           ///< the steps that nothing was read in
-    std::array<std::vector<double>, kStageCount> upTo{}; ///< others, from their start to the end of a stage
+    std::vector<double> whole;                           ///< steps without intermediate readings
+    std::array<std::vector<double>, kStageCount> upTo{}; ///< other steps, from their start to the end of a
+                                                         ///< stage
 };
 
-/// What its ticks in contact took, ns; reading the clock twice (`clockCostNs`) is part of each.
+/// Times of the contact ticks, ns; each includes two clock readings (`clockCostNs`).
 struct ConfigurationTimes {
     Samples step;
     Samples ray;     ///< the floor: one Embree ray from proxy to HIP for each of those ticks
-    Samples poses;   ///< where objects move: sampling the animation, of all ticks and beside the step
-    Samples longest; ///< the longest step of each round, contact or not
-    uint64_t pinchedTicks = 0; ///< TickFlag::Jammed, contact or not
+    Samples poses;   ///< with moving objects: sampling the animation, over all ticks and outside the step
+    Samples longest; ///< the longest step of each round, with or without contact
+    uint64_t pinchedTicks = 0; ///< TickFlag::Jammed, with or without contact
     uint64_t ticks = 0;
     uint64_t contactTicks = 0;
-    uint64_t iterations = 0;        ///< of all ticks in contact
-    uint64_t flaggedTicks = 0;      ///< in contact, with a flag of the solver
+    uint64_t iterations = 0;        ///< over all contact ticks
+    uint64_t flaggedTicks = 0;      ///< in contact, with a solver flag
     uint64_t allocations = 0;       ///< and deallocations, in all ticks
     std::vector<double> medians;    ///< ns, step, of each round
     std::vector<RoundTimes> rounds; ///< with BenchPlan::stages
@@ -57,22 +57,22 @@ struct ConfigurationTimes {
 struct BenchPlan {
     int rounds = 20;
     int ticksPerRound = 1000;
-    /// In eight ticks of twelve the clock is read at the end of one stage, of each in turn; what is told of
-    /// whole steps is of the others.
+    /// In eight ticks of twelve the clock is read at the end of one stage, each in turn; figures of whole
+    /// steps use the other ticks.
     bool stages = false;
-    /// 0: every configuration comes down from above where its own stretch begins. Else all begin where the
-    /// path does, and each has lived, untimed, this many ticks more than the one before when its turns begin.
+    /// 0: every configuration descends at the start of its own stretch. Else all start with the path, and
+    /// each has run this many more untimed ticks than the previous one when its turns start.
     uint64_t ahead = 0;
 };
 
-/// Strokes with each configuration in turn, `ticksPerRound` ticks a turn. Each configuration strokes a
-/// stretch of its own, so that none finds in the cache what another one has fetched. Calling thread;
-/// `progress` gets 0..1.
+/// Strokes with each configuration in turn, `ticksPerRound` ticks per turn. Each configuration strokes its
+/// own stretch, so that none finds data in the cache that another one fetched. Calling thread; `progress`
+/// gets 0..1.
 [[nodiscard]] std::vector<ConfigurationTimes>
 timeConfigurations(std::span<const TimedConfiguration> configurations, const BenchPlan& plan,
                    const std::function<void(double)>& progress);
 
-/// The median over the rounds of `above`'s median by `below`'s.
+/// The median over the rounds of `above`'s median divided by `below`'s.
 [[nodiscard]] double medianRatio(const ConfigurationTimes& above, const ConfigurationTimes& below);
 
 } // namespace touchstone

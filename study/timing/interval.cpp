@@ -29,7 +29,7 @@ Estimate bootstrap(std::span<const double> rounds, Statistic statistic) {
     if (rounds.empty())
         return {};
     std::mt19937 random(1);
-    // Not std::uniform_int_distribution: what it draws is not the same in every library.
+    // Not std::uniform_int_distribution, whose sequence depends on the library.
     const auto draw = [&] { return rounds[random() % rounds.size()]; };
     std::vector<double> sample(rounds.begin(), rounds.end());
     Estimate estimate;

@@ -10,10 +10,10 @@ namespace touchstone::study {
 
 namespace {
 
-constexpr size_t kFewestWhole = 20, kFewestSplit = 4; // ticks in contact that a round must have to be one
+constexpr size_t kFewestWhole = 20, kFewestSplit = 4; // minimum contact ticks of a round
 constexpr double kKept = 0.99;
 
-/// The time that the share kKept of the ticks of all rounds does not exceed.
+/// The time that the fraction kKept of the ticks of all rounds does not exceed.
 template <class Pick>
 double slowestKept(std::span<const RoundTimes> rounds, Pick pick) {
     std::vector<double> all;
@@ -44,7 +44,7 @@ double medianIn(std::vector<double> ticks) {
     return 0.5 * (ticks[(ticks.size() - 1) / 2] + ticks[ticks.size() / 2]);
 }
 
-/// What each stage took in one round; nothing where one of them was not met often enough.
+/// Time of each stage in one round; nullopt where one of them has too few ticks.
 std::optional<std::array<double, kStageCount>>
 stagesOf(const RoundTimes& round, const std::array<double, kStageCount>& slowest, double clock) {
     std::array<double, kStageCount> stages{};

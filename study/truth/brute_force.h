@@ -1,5 +1,5 @@
 #pragma once
-// The oracle's eye: the distance of a point from a triangle in long double; shares no code with haptics/.
+// Distance queries of the oracle: point to triangle in long double; shares no code with haptics/.
 
 #include "haptics/shape/mesh/haptic_object.h"
 
@@ -22,9 +22,9 @@ struct BruteContact {
     size_t triangle = 0;
 };
 
-/// Distance of `p` from one triangle, which may be as thin as it likes.
+/// Distance of `p` from one triangle of any aspect ratio.
 [[nodiscard]] BruteContact distanceFrom(const Corners& corners, const LVec3& p);
-/// The least over all triangles of the object, one by one; object frame.
+/// The minimum over all triangles of the object, one by one; object frame.
 [[nodiscard]] BruteContact bruteNearest(const HapticObject& object, const LVec3& p);
 /// All triangles within `reach` of `p`, one by one; object frame.
 [[nodiscard]] std::vector<BruteContact> bruteWithin(const HapticObject& object, const LVec3& p,

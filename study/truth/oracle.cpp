@@ -7,14 +7,14 @@ namespace touchstone::truth {
 
 namespace {
 
-/// Finer than the solver under test by two orders of magnitude in every respect.
+/// Two orders of magnitude finer than the solver under test in every respect.
 constexpr long double kGap = 1e-14L;
 constexpr long double kTouch = 3e-14L;
 constexpr long double kStill = 1e-14L;
-/// What rounding may take off the gap in one move.
+/// Rounding may reduce the gap by this much in one move.
 constexpr long double kErosion = 1e-16L;
 
-/// Nearest point to `wish` in the cone of directions that no plane forbids (n . x >= 0), by enumeration of
+/// Nearest point to `target` in the cone of directions that no plane forbids (n . x >= 0), by enumeration of
 /// all sets of up to three planes.
 LVec3 nearestAllowed(const LVec3& target, const std::vector<LVec3>& n) {
     const auto allowed = [&](const LVec3& x) {
@@ -26,7 +26,7 @@ LVec3 nearestAllowed(const LVec3& target, const std::vector<LVec3>& n) {
     if (allowed(target))
         return target;
     LVec3 best(0.0L);
-    long double least = glm::dot(target, target); // staying put is always allowed
+    long double least = glm::dot(target, target); // staying is always allowed
     const auto consider = [&](const LVec3& x) {
         const long double away = glm::dot(x - target, x - target);
         if (away < least && allowed(x)) {
@@ -43,13 +43,12 @@ LVec3 nearestAllowed(const LVec3& target, const std::vector<LVec3>& n) {
             if (squared > 1e-30L)
                 consider(glm::dot(target, line) / squared * line);
         }
-    return best; // with three independent planes only the corner itself is left, which is staying put
+    return best; // with three independent planes only the corner is left, that is, staying
 }
 
-/// First touch of the sphere with one triangle along from + t * move by bisection on the convex distance:
-/// find the least distance, and if it is below `reach`, the crossing before it. A surface that touches
-/// already is one that the move does not go into but for rounding: it stops the move only where that eats
-/// into the gap.
+/// Time of impact of the sphere with one triangle along from + t * move, by bisection on the convex distance:
+/// find the minimum distance, and if it is below `reach`, the crossing before it. A surface in contact
+/// already stops the move only where that reduces the gap; the move does not enter it except for rounding.
 long double touchTime(const Corners& triangle, const BruteContact& start, const LVec3& from,
                       const LVec3& move, long double radius, long double limit) {
     const auto distance = [&](long double t) { return distanceFrom(triangle, from + t * move).distance; };
@@ -63,7 +62,7 @@ long double touchTime(const Corners& triangle, const BruteContact& start, const 
         const long double a = low + (high - low) / 3.0L, b = high - (high - low) / 3.0L;
         const long double atA = distance(a), atB = distance(b);
         (atA < atB ? high : low) = atA < atB ? b : a;
-        if (std::min(atA, atB) < reach) { // any place beyond the crossing will do
+        if (std::min(atA, atB) < reach) { // any point beyond the crossing will do
             low = high = atA < atB ? a : b;
             break;
         }
@@ -79,13 +78,12 @@ long double touchTime(const Corners& triangle, const BruteContact& start, const 
     return low;
 }
 
-/// A triangle and a distance that it is surely not nearer than; so far triangles are not looked at in every
-/// move.
+/// A triangle and a lower bound of its distance, so that far triangles are skipped in most moves.
 struct Near {
     Corners corners;
-    int oneSided = -1; ///< its object, if it shows only its front
+    int oneSided = -1; ///< its object, if one-sided
     long double atLeast = 0.0L;
-    bool there = true; ///< for the move that begins now
+    bool there = true; ///< for the current move
 
     BruteContact look(const LVec3& p) {
         const BruteContact contact = distanceFrom(corners, p);
@@ -94,8 +92,8 @@ struct Near {
     }
 };
 
-/// What shows only its front is there for a sphere that is in front of it and clear of it, and not coming
-/// through another triangle of the same object while it is lower than its radius over this one's plane.
+/// A one-sided surface is solid for a sphere in front of it and clear of it, unless the sphere comes through
+/// another triangle of the same object while it is lower than its radius over this one's plane.
 void tellWhatIsThere(std::vector<Near>& near, const LVec3& p, long double radius) {
     constexpr long double kNotClear = 1e-8L;
     std::vector<int> comingThrough;
@@ -125,7 +123,7 @@ OracleRest oracleRest(const Soup& soup, const LVec3& from, const LVec3& goal, lo
                       int maxMoves) {
     OracleRest rest;
     rest.proxy = from;
-    // Only triangles that the way could meet: the proxy never leaves the ball through itself around the goal.
+    // Only triangles that the move can meet: the proxy never leaves the ball around the goal through itself.
     const long double reach = glm::length(goal - from) + radius + kTouch;
     std::vector<Near> near;
     for (const size_t t : soup.near(goal, reach))

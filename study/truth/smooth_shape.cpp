@@ -6,7 +6,7 @@ namespace touchstone::truth {
 
 namespace {
 
-/// At `foot` on a surface that shows outwards along `normal`; `height` of the HIP over it.
+/// At `foot` on a surface with outward `normal`; `height` of the HIP over it.
 SmoothRest restOver(const LVec3& hip, const LVec3& foot, const LVec3& normal, long double height,
                     long double radius) {
     if (height >= radius)
@@ -21,7 +21,7 @@ class Plane final : public SmoothShape {
     }
 };
 
-/// What lies at one distance from a centre: of a sphere a point, of a cylinder the axis, of a torus the ring.
+/// Offset surfaces of a centre: of a sphere the point, of a cylinder the axis, of a torus the ring.
 SmoothRest restAround(const LVec3& hip, const LVec3& centre, long double size, long double radius) {
     const LVec3 out = hip - centre;
     const long double distance = glm::length(out);
@@ -71,7 +71,7 @@ class Waves final : public SmoothShape {
           wave_(2.0L * 3.14159265358979323846264338327950288L / static_cast<long double>(length)) {}
 
     [[nodiscard]] SmoothRest rest(const LVec3& hip, long double radius, const LVec3& last) const override {
-        // The sphere's centre moves on a curve parallel to the cosine: their feet are the same.
+        // The sphere's centre moves on a curve parallel to the cosine: their foot points are the same.
         const long double x = foot(hip, foot(last, last.x));
         const long double slope = -amplitude_ * wave_ * std::sin(wave_ * x);
         const long double steep = std::sqrt(1.0L + slope * slope);
@@ -84,7 +84,7 @@ class Waves final : public SmoothShape {
     [[nodiscard]] long double height(long double x) const { return amplitude_ * std::cos(wave_ * x); }
 
     /// Newton on half the derivative of the squared distance, (x - p.x) + (f - p.y) f'; where the distance is
-    /// not convex it steps downhill by as much.
+    /// not convex it takes a descent step of the same size.
     [[nodiscard]] long double foot(const LVec3& p, long double x) const {
         constexpr int kSteps = 200;
         constexpr long double kDone = 1e-18L; // m
@@ -111,9 +111,9 @@ class Wedge final : public SmoothShape {
     explicit Wedge(double slope)
         : cos_(std::cos(static_cast<long double>(slope))), sin_(std::sin(static_cast<long double>(slope))) {}
 
-    /// A sphere on one face stays there until its foot has passed the ridge, though the other face may long
-    /// be nearer; a HIP within the body then always has its foot on the other face, since that is at an angle
-    /// of more than 90 degrees.
+    /// A sphere on one face stays there until its foot has passed the ridge, even if the other face has long
+    /// been nearer. A HIP within the body then always has its foot on the other face, since the faces meet at
+    /// more than 90 degrees.
     [[nodiscard]] SmoothRest rest(const LVec3& hip, long double radius, const LVec3& last) const override {
         long double side = last.x < 0.0L ? -1.0L : 1.0L;
         if (run(hip, side) < 0.0L)
@@ -127,7 +127,7 @@ class Wedge final : public SmoothShape {
     }
 
   private:
-    /// How far from the ridge the HIP's foot on a face is.
+    /// Distance of the HIP's foot on a face from the ridge.
     [[nodiscard]] long double run(const LVec3& hip, long double side) const {
         return side * cos_ * hip.x - sin_ * hip.y;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Surfaces in closed form, and where the virtual proxy's sphere rests on them without friction: what a mesh
-// of the shape only comes near. Shares no code with haptics/.
+// Surfaces in closed form with the frictionless equilibrium of the virtual proxy's sphere, which a mesh of
+// the shape approximates. Shares no code with haptics/.
 
 #include "study/truth/brute_force.h"
 
@@ -9,19 +9,19 @@
 namespace touchstone::truth {
 
 struct SmoothRest {
-    LVec3 proxy{0.0L};  ///< the sphere's centre; the HIP itself where there is no contact
-    LVec3 normal{0.0L}; ///< unit, of the surface at the rest; zero without contact
+    LVec3 proxy{0.0L};  ///< the sphere's centre; the HIP itself without contact
+    LVec3 normal{0.0L}; ///< unit, of the surface at the contact; zero without contact
     bool contact = false;
 };
 
-/// Lengths in m of the workspace; each shape's frame is that of its mesh in assets/shapes.h.
+/// Lengths in m of the workspace; the frame of each shape is that of its mesh in assets/shapes.h.
 class SmoothShape {
   public:
     virtual ~SmoothShape() = default;
 
-    /// Where a sphere of `radius` that was at `last`, free, rests when it is drawn to `hip`: the local
-    /// minimum of the distance that continues from there, not a nearer one behind a crest. Exact to 1e-15 m;
-    /// closed forms where there are any.
+    /// The equilibrium of a sphere of `radius` that was at `last`, free, and is pulled to `hip`: the local
+    /// minimum of the distance continued from there, not a nearer one behind a crest. Exact to 1e-15 m;
+    /// closed forms where they exist.
     [[nodiscard]] virtual SmoothRest rest(const LVec3& hip, long double radius, const LVec3& last) const = 0;
 };
 
@@ -29,7 +29,7 @@ using SmoothShapePtr = std::shared_ptr<const SmoothShape>;
 
 /// y = 0, free above.
 [[nodiscard]] SmoothShapePtr smoothPlane();
-/// About the origin.
+/// Centred at the origin.
 [[nodiscard]] SmoothShapePtr smoothSphere(double radius);
 /// About the y axis, without ends.
 [[nodiscard]] SmoothShapePtr smoothCylinder(double radius);

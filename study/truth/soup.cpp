@@ -9,18 +9,18 @@ namespace touchstone::truth {
 namespace {
 
 constexpr uint32_t kLeaf = 8;
-/// Boxes are computed in the same long double as the triangles: this is far above its rounding.
+/// Boxes are computed in the same long double as the triangles; this is far above its rounding.
 constexpr long double kBoxMargin = 1e-16L;
 
-/// A triangle's distance is convex along a line. Both tangents bound it from below, and where they cannot
-/// exclude a value below `enough`, the interval of the minimum is cut by thirds.
+/// The distance to a triangle is convex along a line. The tangents at both ends bound it from below; where
+/// they cannot exclude a value below `enough`, the interval of the minimum is reduced by ternary search.
 long double clearanceOf(const Corners& corners, const LVec3& p, const LVec3& move, long double enough) {
     const BruteContact start = distanceFrom(corners, p), end = distanceFrom(corners, p + move);
     const long double ends = std::min(start.distance, end.distance);
     const long double fall = glm::dot(start.normal, move), rise = glm::dot(end.normal, move);
-    if (fall >= 0.0L || rise <= 0.0L) // it only grows, or only shrinks
+    if (fall >= 0.0L || rise <= 0.0L) // monotonic
         return ends;
-    // Where the tangents meet.
+    // Intersection of the tangents.
     const long double t = (end.distance - rise - start.distance) / (fall - rise);
     const long double bound = start.distance + fall * std::clamp(t, 0.0L, 1.0L);
     if (bound >= enough)
@@ -55,7 +55,7 @@ long double Soup::Box::distance(const LVec3& p) const {
 }
 
 Soup::Soup(const HapticScene& scene, int frame) {
-    // Seen from the frame's own origin: far from the workspace's, even long double would lose digits.
+    // In the frame's own origin: far from the workspace's, even long double would lose digits.
     LSimilarity fromFrame(scene.objects[static_cast<size_t>(frame)]->workspaceFromObject);
     const LVec3 origin = fromFrame.translation;
     fromFrame.translation = LVec3(0.0L);
@@ -64,9 +64,9 @@ Soup::Soup(const HapticScene& scene, int frame) {
         LSimilarity fromObject(object.workspaceFromObject);
         fromObject.translation -= origin;
         const auto base = static_cast<uint32_t>(vertices_.size());
-        for (size_t v = 0; v + 1 < object.vertices.size(); ++v) { // the last one is Embree's spare
+        for (size_t v = 0; v + 1 < object.vertices.size(); ++v) { // the last one is Embree's padding
             const LVec3 p(object.vertices[v]);
-            // The frame's own object is taken as it is, to the last bit.
+            // The frame's own object is copied bitwise.
             vertices_.push_back(static_cast<int>(k) == frame ? p
                                                              : fromFrame.inversePoint(fromObject.point(p)));
         }

@@ -31,17 +31,17 @@ class Soup {
     /// False where two corners are the same vertex after welding: neighbours cover such a triangle.
     [[nodiscard]] bool counts(size_t triangle) const;
 
-    /// The object of a triangle that shows only its front; -1 for the others.
+    /// The object of a one-sided triangle; -1 for the others.
     [[nodiscard]] int oneSided(size_t triangle) const { return oneSided_[triangle]; }
 
-    /// Every triangle whose box comes within `reach` of `p`, those that do not count left out.
+    /// Every triangle whose box comes within `reach` of `p`, except those that do not count.
     [[nodiscard]] std::vector<size_t> near(const LVec3& p, long double reach) const;
     /// The triangles within `reach` of `p`, as contacts.
     [[nodiscard]] std::vector<BruteContact> within(const LVec3& p, long double reach) const;
-    /// The least distance over all triangles.
+    /// The minimum distance over all triangles.
     [[nodiscard]] BruteContact nearest(const LVec3& p) const;
-    /// The least distance of the straight way from `p` to `q` from any triangle, where it is below `enough`;
-    /// otherwise some value that is at least `enough`.
+    /// The minimum distance of the segment from `p` to `q` from any triangle, where it is below `enough`;
+    /// otherwise some value of at least `enough`.
     [[nodiscard]] long double clearance(const LVec3& p, const LVec3& q, long double enough) const;
 
   private:

@@ -26,7 +26,7 @@ RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dv
     const Soup soup(scene, frame);
     const HapticObject& object = *scene.objects[static_cast<size_t>(frame)];
     const LSimilarity workspaceFromObject(object.workspaceFromObject);
-    // What is thinner than what was welded is no thinner: so is the solver's point.
+    // Features below the welding tolerance are ignored, as by the solver's point.
     const long double reach = std::max(static_cast<long double>(radius) / workspaceFromObject.scale,
                                        static_cast<long double>(0.5 * kWeldTolerance * object.diagonal));
     LVec3 at = hips.empty() ? LVec3(0.0L) : workspaceFromObject.inversePoint(LVec3(hips[0]));
@@ -45,7 +45,8 @@ RestPath oraclePath(const HapticScene& scene, int frame, std::span<const glm::dv
         at = rest.proxy;
         const LVec3 proxy = workspaceFromObject.point(at);
         path.proxies.emplace_back(proxy);
-        // Where it rests, the way to the HIP is a sum of the inward normals; a touch without load tells one.
+        // At rest, the displacement to the HIP is a combination of the inward normals; a contact without load
+        // contributes one.
         const LVec3 way = proxy - LVec3(hip);
         const bool loaded = glm::length(way) > 1e-12L * static_cast<long double>(object.diagonal);
         path.normals.emplace_back(rest.touching.empty() ? LVec3(0.0L)

@@ -1,5 +1,5 @@
-// What a tick costs against Embree's floor: the bounds that the solver promises, and how cost grows with the
-// triangles, in the form of [000 Table I].
+// The cost of a tick relative to Embree's floor: the bounds that the solver promises, and growth with the
+// number of triangles, in the form of [000 Table I].
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
@@ -41,7 +41,7 @@ std::string number(const char* format, double value) {
 std::string microseconds(double ns) {
     return number("%.2f", 1e-3 * ns);
 }
-/// Ticks a second, in kHz.
+/// Ticks per second, in kHz.
 std::string kilohertz(double ns) {
     return number("%.0f", 1e6 / ns);
 }
@@ -86,7 +86,7 @@ Json rungJson(const TimedConfiguration& configuration, const ConfigurationTimes&
             {"allocations_in_tick", times.allocations}};
 }
 
-/// A figure against its bound.
+/// Figures against their bounds.
 struct Verdicts {
     size_t missed = 0;
     const char* word(bool met) {
@@ -95,7 +95,7 @@ struct Verdicts {
     }
 };
 
-/// A stroke on the torus for which CHAI3D was measured and a bound is promised.
+/// A stroke on the torus with measurements of CHAI3D and a promised bound.
 struct FastCase {
     size_t triangles;
     double radius, speed; // m, m/s
@@ -116,7 +116,7 @@ constexpr double kTailBound = 3.0;    // p99 over median
 constexpr double kObjectsBound = 2.0; // a thousand objects over one
 constexpr size_t kObjects = 1000;
 constexpr size_t kEffectTriangles = 64'800;
-/// Proxy radius (m), and what all effects together may take on top of a bare tick, in rays.
+/// Proxy radius (m), and the bound on the cost of all effects together beyond a bare tick, in rays.
 constexpr std::array<std::pair<double, double>, 2> kEffectBounds{{{0.0, 4.0}, {0.5e-3, 8.0}}};
 
 void printFast(const FastCase& fast, const ConfigurationTimes& times, Verdicts& verdicts) {
@@ -140,7 +140,7 @@ void printObjects(const TimedConfiguration& configuration, const ConfigurationTi
                 times.inRays(), times.p99() / times.median(), peer);
 }
 
-/// All effects at once over the same ticks without any, in rays.
+/// Cost of all effects at once, minus the same ticks without any, in rays.
 void printEffects(const TimedConfiguration& configuration, const ConfigurationTimes& with,
                   const ConfigurationTimes& without, double bound, Verdicts& verdicts) {
     const double above = (with.median() - without.median()) / without.rayMedian();
@@ -180,7 +180,7 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
             configurations.push_back({scene->name, scene, bare(radius), 0.1});
 
     const size_t effectConfigurations = configurations.size();
-    // The bare tick knows of no effect at all: not even a stiffness map, which no setting switches off.
+    // The bare scene has no effect at all, not even a stiffness map, which no setting disables.
     scenes.push_back(torusScene(kEffectTriangles));
     scenes.push_back(torusWithAllEffects(kEffectTriangles));
     for (const auto& [radius, bound] : kEffectBounds) {
@@ -224,7 +224,7 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
     return json;
 }
 
-/// A column of [000 Table I], or one beyond it.
+/// A column of [000 Table I], or an additional one.
 struct GrowthColumn {
     BenchScene scene;
     const char* seedRate; ///< kHz on a Dual Pentium II, 300 MHz
@@ -313,8 +313,8 @@ Json benchGrowth(const BenchOptions& options) {
     return json;
 }
 
-/// The worst tick: what the longest of a round takes in half of the rounds, so that a tick from which the
-/// machine was taken away does not count.
+/// The worst tick: the median over the rounds of the longest tick, so that a tick that lost the processor
+/// does not count.
 double worst(const ConfigurationTimes& times) {
     return static_cast<double>(times.longest.percentile(0.5));
 }

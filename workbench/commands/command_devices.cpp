@@ -1,4 +1,4 @@
-// What is plugged in, and a trial of one device.
+// Lists the plugged-in devices and tests one device.
 
 #include "devices/choice/device_choice.h"
 #include "engine/core/error.h"
@@ -30,7 +30,7 @@ const char* accessName(HidAccess access) {
     return "";
 }
 
-/// What a person has to know about a node besides its name and access.
+/// Remarks on a node besides its name and access.
 std::string remark(const HidNode& node, const std::vector<DeviceOffer>& offers) {
     const auto offer = std::find_if(offers.begin(), offers.end(), [&](const DeviceOffer& candidate) {
         return candidate.choice == node.path;

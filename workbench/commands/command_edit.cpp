@@ -1,4 +1,4 @@
-// Changes what materials feel like, and saves it into the model's file.
+// Edits haptic materials and saves them into the model's file.
 
 #include "engine/core/error.h"
 #include "engine/load/scene_loader.h"
@@ -15,7 +15,7 @@ namespace touchstone {
 
 namespace {
 
-/// "0 rubber, 1 steel": what the file has.
+/// "0 rubber, 1 steel": the materials of the file.
 std::string materialList(const Scene& scene, size_t count) {
     constexpr size_t kMax = 20;
     std::string list;
@@ -25,7 +25,8 @@ std::string materialList(const Scene& scene, size_t count) {
     return count > kMax ? list + ", ..." : list;
 }
 
-/// Those that an index, a name or "all" means. The scene's first materials are the file's, in their order.
+/// The materials that an index, a name or "all" selects. The scene's first materials are the file's, in their
+/// order.
 std::vector<size_t> materialsNamed(const Scene& scene, size_t count, const std::string& wanted) {
     std::vector<size_t> found;
     for (size_t m = 0; m < count; ++m)

@@ -1,4 +1,4 @@
-// Prints what a model is and would feel like.
+// Prints a model's contents and haptic properties.
 
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
@@ -93,7 +93,7 @@ int inspectCommand(const InspectOptions& options) {
     const Model model = loadModelToTouch(options.scene, Fit::Workspace, DeviceLimits{});
     const Json json = inspectionOf(model);
     printInspection(json);
-    // A name that is not UTF-8 must not cost the answer: it is replaced.
+    // A name that is not UTF-8 is replaced, so that the output stays valid.
     if (!options.json.empty())
         writeFile(options.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     return 0;

@@ -24,14 +24,14 @@ GpuOptions wholeMachine(const std::string& gpu) {
 
 ViewMode viewModeOf(const std::string& name) {
     const auto found = std::find(kViewModeNames.begin(), kViewModeNames.end(), name);
-    return static_cast<ViewMode>(found - kViewModeNames.begin()); // the command line let only these through
+    return static_cast<ViewMode>(found - kViewModeNames.begin()); // the command line admits only these
 }
 
 } // namespace
 
 int renderCommand(const RenderOptions& options) {
     const ViewMode mode = viewModeOf(options.view);
-    // The plan is the hand's half of the model.
+    // The plan belongs to the haptic scene.
     const Model model = mode == ViewMode::Effects
                             ? loadModel(options.scene, Fit::Workspace, DeviceLimits{})
                             : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded);

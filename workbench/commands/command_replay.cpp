@@ -1,4 +1,4 @@
-// Touches again what a recording says, as fast as it goes, and says whether the same came out.
+// Recomputes a recording as fast as possible and compares the result.
 
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
@@ -18,7 +18,7 @@ namespace touchstone {
 
 namespace {
 
-/// The scene's file: the one given in its place, where it was, or beside the recording.
+/// The scene's file: the given replacement, the recorded path, or beside the recording.
 std::filesystem::path scenePath(const ReplayOptions& options, const SceneIdentity& recorded, size_t index) {
     if (!options.scenes.empty())
         return options.scenes[std::min(index, options.scenes.size() - 1)];
@@ -28,7 +28,7 @@ std::filesystem::path scenePath(const ReplayOptions& options, const SceneIdentit
                 "the scene that was touched is not there", "say with --scene where it is now");
 }
 
-/// Loads what the recording touched, and tells where it is no longer that.
+/// Loads the recorded scenes and reports changes.
 class SceneFinder {
   public:
     explicit SceneFinder(const ReplayOptions& options) : options_(options) {}

@@ -1,4 +1,4 @@
-// The same loops as in the window, without one: the simulated hand strokes the model in real time.
+// The window's loops without a window: the simulated hand strokes the model in real time.
 
 #include "devices/device/mapped_device.h"
 #include "devices/plant/hand_impedance.h"
@@ -40,7 +40,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFrameRate = 30.0;
 
-/// A view from a little above and to the right, so that depth can be seen.
+/// A view from slightly above and to the right, to show depth.
 View frontView(const Model& model, const glm::ivec2& size) {
     const double aspect = static_cast<double>(size.x) / size.y;
     OrbitCamera camera;
@@ -50,7 +50,7 @@ View frontView(const Model& model, const glm::ivec2& size) {
     return viewOf(camera, model.workspaceFromScene, aspect);
 }
 
-/// Takes every tick that the servo has made since the last call.
+/// Takes every tick since the last call.
 class TickReader {
   public:
     TickReader(const Model& model, const RunOptions& options)
@@ -100,8 +100,8 @@ class TickReader {
 struct Frames {
     uint64_t count = 0;
     double seconds = 0.0;
-    uint64_t late = 0;      ///< frames that were not ready for the next one's turn
-    glm::ivec2 smallest{0}; ///< pixels: the picture shrinks while frames are late
+    uint64_t late = 0;      ///< frames that missed the start of the next one
+    glm::ivec2 smallest{0}; ///< pixels: the resolution decreases while frames are late
 };
 
 TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Model& model) {
@@ -109,7 +109,7 @@ TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Mo
             .frictionCoefficient = frictionCoefficientAt(tick, settings, *model.scene, *model.haptic)};
 }
 
-/// Draws at the frame rate until the time is over; the servo ticks beside it.
+/// Draws at the frame rate until the time is over, beside the servo.
 Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
                   TickReader& reader, RecordingController& controller) {
     View view = frontView(model, options.size);
@@ -174,7 +174,7 @@ int runCommand(const RunOptions& options) {
         loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : simulatedLimits);
     printWarnings(model);
     prepareFor(model, options.settings);
-    model.haptic->buildRays(); // the report's proxy gap is measured with Embree, in the middle of the run
+    model.haptic->buildRays(); // the report measures the proxy gap with Embree during the run
     SimulatedHand path(
         std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options.stroke)));
     HandImpedance yielding(path, options.plant);
@@ -186,7 +186,7 @@ int runCommand(const RunOptions& options) {
         report.emplace(options.json);
     TickReader reader(model, options);
 
-    // The device comes before the servo thread; the first frame compiles the pipelines.
+    // The device is created before the servo thread; the first frame compiles the pipelines.
     const std::unique_ptr<Gpu> gpu = Gpu::headless(gpuOptions(options.gpu));
     SceneRenderer renderer(*gpu);
     lightWith(options.environment, renderer);
@@ -210,7 +210,7 @@ int runCommand(const RunOptions& options) {
     controller.finish();
 
     if (!options.screenshot.empty()) {
-        Overlay overlay; // of the last tick that touched: a hand in the air shows nothing
+        Overlay overlay; // of the last tick in contact: a hand in the air has none
         const TickRecord& shown = reader.lastContact.value_or(reader.last);
         drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
         View view = frontView(model, options.size);

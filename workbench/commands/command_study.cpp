@@ -1,4 +1,4 @@
-// What accuracy costs in time, on our shapes and on anybody's models: the command around study/.
+// The cost of accuracy, on our shapes and on the user's models: the command around study/.
 
 #include "engine/core/error.h"
 #include "study/ablation/ablation.h"
@@ -24,7 +24,7 @@ namespace {
 
 using namespace study;
 
-/// A bar on a terminal, nothing in a log.
+/// A progress bar on a terminal, nothing in a log.
 class Bar {
   public:
     Bar() : shown_(isatty(STDERR_FILENO) != 0) {}
@@ -49,7 +49,7 @@ class Bar {
     bool shown_;
 };
 
-/// What is no shape but is studied like one: the servo's rate.
+/// A subject that is not a shape: the servo rate.
 constexpr const char* kRate = "rate";
 
 const ShapeKind* kindNamed(const std::string& name) {
@@ -85,7 +85,7 @@ void printAblations() {
                     std::string(kind.what).c_str(), grouped(kind.triangles).c_str());
 }
 
-/// The models in a folder and in those within it.
+/// The models in a folder and its subfolders.
 std::vector<std::string> modelsIn(const std::filesystem::path& folder) {
     std::vector<std::string> models;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(
@@ -101,12 +101,12 @@ std::vector<std::string> modelsIn(const std::filesystem::path& folder) {
     return models;
 }
 
-/// A model, shape or "rate", and what the results call it.
+/// A model, shape or "rate", and its name in the results.
 struct Asked {
     std::string what, name;
 };
 
-/// Files are called by their names, and by the way to them where several have the same.
+/// Files are named by their file names, and by their paths where several share one.
 std::vector<Asked> named(const std::vector<std::string>& what) {
     std::map<std::string, int> files;
     const auto fileName = [](const std::string& path) {
@@ -120,7 +120,7 @@ std::vector<Asked> named(const std::vector<std::string>& what) {
     return asked;
 }
 
-/// What is asked for, in a fixed order, and of it the part of this shard.
+/// The subjects in a fixed order, restricted to this shard.
 std::vector<Asked> share(const StudyCommandOptions& options) {
     std::vector<std::string> what;
     for (const std::string& asked : options.what) {
@@ -210,7 +210,7 @@ void printTable(const StudyResult& result) {
         "the sum of the stages differs from the whole step.\n");
 }
 
-/// Into the folder `out`, and what there is to say about it. Without `plots` where a part is to be merged.
+/// Writes the results and messages to the folder `out`. Without `plots` for a shard to be merged.
 void publish(const StudyResult& result, const std::filesystem::path& out, bool plots) {
     std::filesystem::create_directories(out);
     writeStudyCsv(result, out / "study.csv");
@@ -264,7 +264,7 @@ int studyCommand(const StudyCommandOptions& options) {
             };
             try {
                 studyOne(mine[i], plan, tessellate, result, progress);
-            } catch (const std::exception& error) { // one of thousands may be broken, or too large
+            } catch (const std::exception& error) { // one of thousands may be invalid, or too large
                 if (options.shards == 1 && mine.size() == 1)
                     throw;
                 const std::string what = error.what();
@@ -274,7 +274,7 @@ int studyCommand(const StudyCommandOptions& options) {
     }
     printTable(result);
     publish(result, options.out, options.shards == 1);
-    // A share without work is done; one of which nothing came has failed.
+    // A shard without subjects succeeds; one without results fails.
     return mine.empty() || !result.configurations.empty() || !result.rates.empty() ? 0 : 1;
 }
 

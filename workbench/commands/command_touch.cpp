@@ -1,4 +1,4 @@
-// Offline and deterministic: a path of the hand in, every tick out, as fast as it goes.
+// Offline and deterministic: reads a path of the hand and writes every tick, as fast as possible.
 
 #include "devices/plant/hand_impedance.h"
 #include "devices/simulated/replay_device.h"
@@ -33,7 +33,7 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kBlock =
-    4096; // ticks stepped before they are written: the disk stays out of the step's time
+    4096; // ticks computed before they are written, which keeps disk access out of the step's time
 
 struct PlannedTick {
     double time = 0.0; // s, as in the path
@@ -49,10 +49,10 @@ struct OfflineTick {
     HapticOutput output;
     int64_t stepNs = 0;
     Similarity touched; // workspaceFromObject of the touched object
-    double gap = 0.0;   // m, of the proxy; in contact and where a report was asked for
+    double gap = 0.0;   // m, of the proxy; in contact, if a report was requested
 };
 
-/// A stroke over the model as a path: once round, or as long as was asked for.
+/// A stroke over the model as a path: one period, or the given duration.
 HipPath pathOf(const StrokePath& stroke, const TouchOptions& options) {
     const double rate = options.rateHz > 0.0 ? options.rateHz : 1000.0;
     const double seconds = options.seconds > 0.0 ? options.seconds : stroke.period();
@@ -65,7 +65,7 @@ HipPath pathOf(const StrokePath& stroke, const TouchOptions& options) {
     return path;
 }
 
-/// The ticks that the path asks for: one a row, or at a rate of its own straight between the rows.
+/// The ticks of the path: one per row, or at a fixed rate with linear interpolation.
 std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
     std::vector<PlannedTick> ticks;
     if (rateHz <= 0.0) {
@@ -91,7 +91,7 @@ std::vector<PlannedTick> plannedTicks(const HipPath& path, double rateHz) {
     return ticks;
 }
 
-/// Only what a servo could be is heard.
+/// Sound requires a rate possible for a servo.
 void requireSound(const std::filesystem::path& file, const std::vector<PlannedTick>& ticks) {
     for (const PlannedTick& tick : ticks)
         if (!(tick.dt >= WrittenSound::kShortest && tick.dt <= WrittenSound::kLongest))
@@ -101,7 +101,7 @@ void requireSound(const std::filesystem::path& file, const std::vector<PlannedTi
                         "resample the path: --rate 1000");
 }
 
-/// Is where the path is in the tick that comes next.
+/// Its position is the path's in the next tick.
 class PlannedHand final : public Device {
   public:
     [[nodiscard]] std::string name() const override { return "path"; }
@@ -112,7 +112,7 @@ class PlannedHand final : public Device {
     DeviceSample next;
 };
 
-/// What `--record` asks for: the state before the first tick, then every tick.
+/// `--record`: the state before the first tick, then every tick.
 class OfflineRecorder {
   public:
     static constexpr uint32_t kScene = 1;
@@ -146,7 +146,7 @@ class OfflineRecorder {
     SceneIdentity identity_;
 };
 
-/// The state that one offline run carries from tick to tick.
+/// State of an offline run.
 class OfflineTouch {
   public:
     OfflineTouch(const Model& model, const TouchOptions& options)
@@ -184,7 +184,7 @@ class OfflineTouch {
         takeCheckpoint(device_, checkpoint);
         return checkpoint;
     }
-    /// Of the last step.
+    /// After the last step.
     [[nodiscard]] ObjectMotions objects() const { return objects_; }
     [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
 
@@ -201,7 +201,7 @@ class OfflineTouch {
     uint64_t number_ = 0;
 };
 
-/// The ray from proxy to HIP in every tick in contact, each timed as the step is.
+/// The ray from proxy to HIP in every contact tick, each timed like the step.
 void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks, Samples& rays) {
     float sum = 0.0f;
     for (const OfflineTick& tick : ticks) {
@@ -212,10 +212,10 @@ void timeFloorRays(const HapticScene& scene, std::span<const OfflineTick> ticks,
         rays.add(monotonicNs() - begin);
     }
     [[maybe_unused]] static volatile float sink;
-    sink = sum; // so that no ray is left out
+    sink = sum; // keeps the compiler from removing the rays
 }
 
-/// Where the time from the program's start to the first tick went.
+/// Breakdown of the time from the program's start to the first tick.
 nlohmann::ordered_json loadJson(const std::vector<StageTime>& stages, uint64_t peak) {
     nlohmann::ordered_json json{
         {"s", 0.0}, {"cpu_s", 0.0}, {"peak_bytes", peak}, {"stages", nlohmann::ordered_json::array()}};
@@ -230,7 +230,7 @@ nlohmann::ordered_json loadJson(const std::vector<StageTime>& stages, uint64_t p
     return json;
 }
 
-/// Nulls where no tick was in contact.
+/// Nulls without contact.
 nlohmann::ordered_json floorJson(const Samples& rays) {
     nlohmann::ordered_json json{{"count", rays.count()}, {"p50_ns", nullptr}, {"p99_ns", nullptr}};
     if (!rays.empty()) {
@@ -346,7 +346,7 @@ int touchCommand(const TouchOptions& options) {
     out.commit();
     std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
                 static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
-    if (stroke) // a path of the user's own may well be one through the air
+    if (stroke) // a user's path may stay in the air
         requireTouch(options.scene, options.stroke, stroke->period(),
                      path->times.back() - path->times.front() + planned.front().dt,
                      statistics.contactTicks());

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTick = 1e-3;     // s
 constexpr double kPushTime = 0.5;  // s along each axis and back
-constexpr double kForceRise = 0.1; // s from none to the whole of the force
+constexpr double kForceRise = 0.1; // s, rise of the force
 
 /// x, -x, y, -y, z, -z in turn.
 glm::dvec3 pushAt(double time, double force) {
@@ -77,7 +77,7 @@ DeviceTestFigures testDevice(LinkedDevice& device, double seconds, double force)
         uint32_t flags = 0;
         const DeviceCommand command =
             ForceLimiter::limit(pushAt(time, force), glm::dvec3(0.0), safety, {}, limiter, flags);
-        if (force > 0.0) // without an order its I/O thread keeps it at zero force
+        if (force > 0.0) // without an order its I/O thread keeps the force at zero
             device.apply(command);
         figures.ordered = std::max(figures.ordered, glm::length(command.force()));
         if (!sample.valid)

@@ -1,5 +1,5 @@
 #pragma once
-// Tries one device: what it says, how often, how old it is by then, and, if asked, whether it pushes.
+// Tests one device: its samples, their rate and age, and optionally its force.
 
 #include "devices/link/linked_device.h"
 
@@ -16,13 +16,12 @@ struct DeviceTestFigures {
     std::vector<double> ages;                  ///< s, of every valid tick, sorted
     glm::dvec3 low{0.0}, high{0.0}, last{0.0}; ///< m, of the valid ticks
     uint32_t buttonsSeen = 0;
-    double ordered = 0.0; ///< N, the largest force that was asked for
+    double ordered = 0.0; ///< N, maximum commanded force
     LinkReport report;
 };
 
-/// Samples the device a thousand times a second for `seconds`, or until interrupted. With `force` > 0 (N)
-/// pushes the hand that hard along each axis in turn, through the same limiter as a scene's force. Owner
-/// thread.
+/// Samples the device a thousand times a second for `seconds`, or until interrupted. With `force` > 0 (N) it
+/// pushes the hand along each axis in turn, through the limiter of the safety stage. Owner thread.
 [[nodiscard]] DeviceTestFigures testDevice(LinkedDevice& device, double seconds, double force);
 
 [[nodiscard]] std::string describe(const DeviceTestFigures& figures, const LinkedDevice& device);

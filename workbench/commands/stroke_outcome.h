@@ -1,5 +1,5 @@
 #pragma once
-// What `run` and `touch` make of a stroke that met nothing.
+// Result of a stroke without contact, for `run` and `touch`.
 
 #include "devices/stroke/stroke_library.h"
 
@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-/// Nothing where the simulated hand touched. Throws Error where it went once round (`seconds` of the stroke's
-/// `period`) and never did; a shorter run gets a note on stderr.
+/// Does nothing if the simulated hand was in contact. Throws Error where it completed a round (`seconds` of
+/// the stroke's `period`) without contact; a shorter run gets a note on stderr.
 void requireTouch(const std::filesystem::path& scene, const StrokeRequest& stroke, double period,
                   double seconds, uint64_t ticksInContact);
 

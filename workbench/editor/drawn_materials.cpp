@@ -19,7 +19,7 @@ void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool
     try {
         if (preparing_.valid() && preparing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
             const std::shared_ptr<const PreparedScene> prepared = preparing_.get();
-            if (prepared->scene == scene) { // else another change came meanwhile
+            if (prepared->scene == scene) { // else another change arrived meanwhile
                 redrawn_ = prepared->scene;
                 renderer.beginScene(prepared);
             }
@@ -30,7 +30,7 @@ void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool
         throw;
     } catch (...) {
         redrawn_.reset();
-        drawn_ = scene; // not again until something else is changed
+        drawn_ = scene; // not again until the next change
         throw;
     }
 }

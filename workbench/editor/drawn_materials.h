@@ -7,28 +7,28 @@
 
 namespace touchstone {
 
-/// Keeps what the eye sees up to edited materials. The eye needs them only where it shows what is felt; a
-/// worker prepares them, and the renderer takes them in by slices as it does a new model. Main thread.
+/// Updates the rendered scene after material edits. Rendering needs them only in views of haptic quantities;
+/// a worker prepares them, and the renderer uploads them in slices as for a new model. Main thread.
 class DrawnMaterials {
   public:
-    /// The renderer has this scene.
+    /// The renderer shows this scene.
     void shown(ScenePtr scene);
-    /// The images of what is shown are others: draw them whatever the view.
+    /// The images of the shown scene have changed: update them whatever the view.
     void renew() { drawn_.reset(); }
-    /// Another renderer draws from now on, and has nothing.
+    /// A new renderer without data.
     void takeDevice() {
         drawn_.reset();
         redrawn_.reset();
     }
-    /// Another model is being taken in.
+    /// Another model is being uploaded.
     void interrupt() { redrawn_.reset(); }
-    /// In every frame in which no other model is taken in. Throws what stopped it, once for a change.
+    /// Every frame in which no other model is uploaded. Throws a failure once per change.
     void update(SceneRenderer& renderer, const ScenePtr& scene, bool showsWhatIsFelt);
 
   private:
-    ScenePtr drawn_;                                              // what the renderer has
+    ScenePtr drawn_;                                              // the scene in the renderer
     std::future<std::shared_ptr<const PreparedScene>> preparing_; // of the edited materials
-    ScenePtr redrawn_;                                            // that the renderer is taking in for them
+    ScenePtr redrawn_;                                            // being uploaded for them
 };
 
 } // namespace touchstone

@@ -54,7 +54,7 @@ template <auto Map>
 const TextureRef* getMap(const HapticStatement& statement) {
     return statement.*Map ? &(*(statement.*Map)).texture : nullptr;
 }
-/// Another texture lies over the surface as the one before did.
+/// Another texture keeps the texture coordinates and transform of the previous one.
 template <auto Map>
 void setMap(HapticStatement& statement, const TextureRef& texture) {
     auto& map = statement.*Map;

@@ -1,5 +1,5 @@
 #pragma once
-// The fields of TOUCHSTONE_materials_haptic as data: for the panel, the command line and the documentation.
+// The fields of TOUCHSTONE_materials_haptic as data: for panel, command line and documentation.
 
 #include "engine/scene/scene.h"
 
@@ -11,21 +11,21 @@
 
 namespace touchstone {
 
-/// A number. `map.part` names a part of a map, which is there only where the map is.
+/// A number. `map.part` names a part of a map, which exists only with the map.
 struct NumberField {
     std::string_view name, label, unit;
-    float least, most;      ///< that the extension allows
-    float low, high;        ///< ends of a slider; a value beyond them may be typed
+    float least, most;      ///< range of the extension
+    float low, high;        ///< ends of a slider; a value beyond them can be typed
     bool logarithmic;       ///< slider
-    std::string_view unset; ///< what holds when nobody says it
+    std::string_view unset; ///< effective value where it is not stated
     std::string_view meaning;
     std::optional<float> (*get)(const HapticStatement&);
-    /// False: there is no map that it could be a part of. Nothing: back to what holds when left out.
+    /// False: the map that it belongs to is missing. Nullopt resets to the default.
     bool (*set)(HapticStatement&, std::optional<float>);
 };
 [[nodiscard]] std::span<const NumberField> numberFields();
 
-/// One of several words; `unset` is the index of the one that holds when left out.
+/// One of several words; `unset` is the index of the default.
 struct ChoiceField {
     std::string_view name, label;
     std::span<const std::string_view> choices;
@@ -36,29 +36,29 @@ struct ChoiceField {
 };
 [[nodiscard]] std::span<const ChoiceField> choiceFields();
 
-/// A map out of one of the file's textures.
+/// A map: one of the file's textures.
 struct MapField {
     std::string_view name, label, meaning;
-    /// Null: there is none.
+    /// Null: no map.
     const TextureRef* (*get)(const HapticStatement&);
-    /// A reference without image removes the map. A new height map is kNewHeight from black to white.
+    /// A reference without image removes the map. A new height map spans kNewHeight from black to white.
     void (*set)(HapticStatement&, const TextureRef&);
 };
 [[nodiscard]] std::span<const MapField> mapFields();
 inline constexpr float kNewHeight = 0.001f; ///< model metres
 
 /// Sets a field by name: a number, a choice's word, a texture's index or name for a map, "none" to remove
-/// one. Returns what is wrong and what to do about it; empty: nothing.
+/// one. Returns the problem with its remedy; empty: none.
 [[nodiscard]] std::string setHapticField(HapticStatement& statement, const Scene& scene,
                                          std::string_view name, std::string_view value);
-/// Takes a field out. False: there is none of that name.
+/// Removes a field. False: the statement does not contain it.
 bool resetHapticField(HapticStatement& statement, std::string_view name);
 
-/// What is wrong with the name of a field; empty: nothing.
+/// The problem with a field name; empty: none.
 [[nodiscard]] std::string hapticFieldProblem(std::string_view name);
-/// Every name that setHapticField takes.
+/// Every name accepted by setHapticField.
 [[nodiscard]] std::vector<std::string_view> hapticFieldNames();
-/// One line a field, for --help.
+/// One line per field, for --help.
 [[nodiscard]] std::string hapticFieldHelp();
 
 } // namespace touchstone

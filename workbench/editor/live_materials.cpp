@@ -19,7 +19,7 @@ bool sameMaps(const HapticStatement& a, const HapticStatement& b) {
            same(a.dampingMap, b.dampingMap);
 }
 
-/// An image that touch would need of it and that nobody has decoded.
+/// True if the material needs an image for haptics that has not been decoded.
 bool lacksImage(const Material& material, const std::vector<Image>& images) {
     const auto lacks = [&](const TextureRef& texture) {
         if (!texture)
@@ -51,7 +51,7 @@ bool sameSides(const std::vector<Material>& before, const std::vector<Material>&
         [](const Material& m) { return m.haptic.sides; });
 }
 
-/// The scene of the file with the changes in it, as it will be when they are saved.
+/// Loads the file's scene with the changes applied, as it will be once saved.
 void readAnew(const MaterialJob& job, MadeMaterials& made) {
     LoadOptions options;
     options.edits = job.edits;

@@ -1,5 +1,5 @@
 #pragma once
-// Edited materials made touchable on a worker, while the hand goes on touching what it touches.
+// Recompiles edited materials on a worker while the servo continues.
 
 #include "haptics/scene/haptic_scene.h"
 #include "workbench/editor/material_edits.h"
@@ -12,36 +12,37 @@
 
 namespace touchstone {
 
-/// What a worker is to make touchable.
+/// The job of the worker.
 struct MaterialJob {
-    Model model; ///< as it is touched now
-    /// What its haptic scene was compiled from, where that is not what its scene has; empty: it is.
+    Model model; ///< the current model
+    /// The materials that its haptic scene was compiled from, if they differ from its scene's; empty: they do
+    /// not.
     std::vector<Material> compiledFrom;
     std::vector<HapticStatement> statements;
-    std::string edits;          ///< MaterialPatches as text, from the file
-    std::filesystem::path path; ///< the file as it is now: it may have been saved under another name
+    std::string edits;          ///< MaterialPatches as text, relative to the file
+    std::filesystem::path path; ///< the current file: it may have been saved under another name
     FileStamp stamp;
     uint64_t revision = 0;  ///< of the edits
-    bool forTheEye = false; ///< the eye's scene too
+    bool forTheEye = false; ///< also for the rendered scene
 };
 
 struct MadeMaterials {
     std::shared_ptr<HapticScene> haptic;
-    std::vector<Material> materials; ///< that it was compiled from
-    ScenePtr scene;                  ///< with those materials; null: was not asked for
-    bool read = false;               ///< the file was read anew, since maps came that nobody had needed
-    bool touchGoesOn = true;         ///< no other geometry: SceneSwap::SameGeometry
+    std::vector<Material> materials; ///< those it was compiled from
+    ScenePtr scene;                  ///< with those materials; null: not requested
+    bool read = false;               ///< the file was reloaded, for maps that had not been decoded
+    bool touchGoesOn = true;         ///< geometry unchanged: SceneSwap::SameGeometry
     uint64_t feltHash = 0;
     std::string edits;
     uint64_t revision = 0;
-    double seconds = 0.0; ///< that it took
+    double seconds = 0.0; ///< duration
 };
 
-/// Does the whole job on the caller's thread; throws Error. Reads the file anew only where a map changes or
-/// an image is needed that was not decoded; else geometry and maps are shared.
+/// Runs the whole job on the caller's thread; throws Error. Reloads the file only where a map changes or an
+/// image is needed that was not decoded; otherwise geometry and maps are shared.
 [[nodiscard]] MadeMaterials makeMaterials(const MaterialJob& job);
 
-/// One job at a time on a thread of its own. Main thread.
+/// One job at a time on a worker thread. Main thread.
 class LiveMaterials {
   public:
     LiveMaterials() = default;
@@ -51,9 +52,9 @@ class LiveMaterials {
 
     [[nodiscard]] bool busy() const { return worker_.joinable(); }
     void start(MaterialJob job); ///< only while not busy
-    /// What has become ready; rethrows what went wrong.
+    /// The finished result; rethrows an exception of the worker.
     [[nodiscard]] std::optional<MadeMaterials> take();
-    void discard(); ///< waits for the worker and forgets what it made
+    void discard(); ///< waits for the worker and discards its result
 
   private:
     std::thread worker_;

@@ -10,7 +10,7 @@ void MaterialController::open(const Model& model, bool generated) {
     live_.discard();
     tell("", false);
     if (saving_.valid())
-        finishSaving(); // what went wrong with it stays said
+        finishSaving(); // keeps the notice of a failure
     wanted_.clear();
     edits_ = MaterialEdits(*model.scene);
     materials_ = model.scene->materials;
@@ -47,7 +47,7 @@ std::optional<MadeMaterials> MaterialController::update(const Model& model) {
         made = live_.take();
     } catch (const std::exception& error) {
         tell(error.what(), true);
-        touched_ = seen_ = edits_.revision(); // not again until something else is changed
+        touched_ = seen_ = edits_.revision(); // not again until the next change
     }
     if (made) {
         materials_ = made->materials;
@@ -55,7 +55,7 @@ std::optional<MadeMaterials> MaterialController::update(const Model& model) {
         if (made->scene != nullptr)
             seen_ = made->revision;
         seconds_ = made->seconds;
-        return made; // the caller's model is what the next job starts from
+        return made; // the next job starts from the caller's model
     }
     const bool behind = touched_ != edits_.revision() || (!edits_.inGesture() && seen_ != edits_.revision());
     if (live_.busy() || saving_.valid())
@@ -72,8 +72,8 @@ void MaterialController::saveAs(const std::filesystem::path& target) {
     wanted_ = target;
 }
 
-/// Only when the last change is felt: the worker may be reading the file, and a recording is told that the
-/// file holds what is touched.
+/// Only once the last change is in effect: the worker may be reading the file, and a recording is informed
+/// that the file holds what is touched.
 void MaterialController::startSaving(const std::filesystem::path& target) {
     savingStatements_ = edits_.all();
     target_ = target;

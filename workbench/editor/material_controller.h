@@ -1,5 +1,5 @@
 #pragma once
-// The editor of materials without its widgets: what is edited, what is being made touchable, what is saved.
+// The material editor without its user interface: edits, recompilation, saving.
 
 #include "workbench/editor/live_materials.h"
 #include "workbench/editor/material_edits.h"
@@ -11,36 +11,36 @@
 
 namespace touchstone {
 
-/// Main thread. Owns the workers that it needs; none of its calls waits for one, but `open` and the end.
+/// Main thread. Owns its workers; no call waits for one, except `open` and the destructor.
 class MaterialController {
   public:
-    /// Another model: what was edited before is gone. `generated`: the program's own scene, which is not to
-    /// be written over.
+    /// Another model; discards all edits. `generated`: a procedural scene of ours, which must not be
+    /// overwritten.
     void open(const Model& model, bool generated);
 
-    /// Every frame: what has become ready to be touched in place of `model`, if anything has.
+    /// Every frame: the compiled materials that replace those of `model`, if ready.
     [[nodiscard]] std::optional<MadeMaterials> update(const Model& model);
 
     [[nodiscard]] MaterialEdits& edits() { return edits_; }
     [[nodiscard]] const MaterialEdits& edits() const { return edits_; }
-    /// What the scene that is touched, or is about to be, was made of; for showing what holds.
+    /// The materials of the current or next scene; for displaying effective values.
     [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
     [[nodiscard]] bool working() const { return live_.busy(); }
-    [[nodiscard]] double seconds() const { return seconds_; } ///< that the last change took to be touchable
+    [[nodiscard]] double seconds() const { return seconds_; } ///< duration of the last recompilation
 
-    /// Into the file that is open, or another one, which then is the one that is open; once the last change
-    /// is felt and the save before has ended.
+    /// To the open file, or to another one, which then becomes the open one; once the last change is in
+    /// effect and the previous save has finished.
     void save() { saveAs(path_); }
     void saveAs(const std::filesystem::path& target);
     [[nodiscard]] bool saving() const { return saving_.valid() || !wanted_.empty(); }
     [[nodiscard]] bool canSaveInPlace() const { return !generated_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// The file as it was saved; once after each save.
+    /// The file as saved; once after each save.
     [[nodiscard]] std::optional<FileStamp> takeSaved() { return std::exchange(saved_, std::nullopt); }
 
-    /// What went wrong or well last, for the user; empty: nothing.
+    /// Result of the last operation, for the user; empty: none.
     [[nodiscard]] const std::string& notice() const { return notice_; }
-    [[nodiscard]] bool failed() const { return failed_; } ///< the notice tells of a problem
+    [[nodiscard]] bool failed() const { return failed_; } ///< the notice reports a problem
 
   private:
     void tell(std::string notice, bool failed);
@@ -51,10 +51,10 @@ class MaterialController {
     MaterialEdits edits_;
     LiveMaterials live_;
     std::vector<Material> materials_;
-    uint64_t touched_ = 0, seen_ = 0; // revisions that the hand and the eye have
+    uint64_t touched_ = 0, seen_ = 0; // revisions of the haptic and of the rendered scene
     double seconds_ = 0.0;
 
-    std::filesystem::path path_, target_, wanted_; ///< wanted_: to be saved to as soon as may be
+    std::filesystem::path path_, target_, wanted_; ///< wanted_: to be saved to as soon as possible
     FileStamp stamp_;
     bool generated_ = false;
     std::future<FileStamp> saving_;

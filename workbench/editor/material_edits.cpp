@@ -36,7 +36,7 @@ void partsOf(const FactorMap& map, Json& json) {
     json["max"] = unless(map.max, FactorMap{}.max);
 }
 
-/// All of a map, absent parts as null.
+/// All members of a map, missing ones as null.
 template <class Map>
 Json jsonOfMap(const Map& map) {
     Json json{{"index", map.texture.texture}};
@@ -59,7 +59,7 @@ void patchMap(const char* name, const std::optional<Map>& from, const std::optio
         for (const auto& [part, value] : before.items())
             if (whole[part] == value)
                 whole.erase(part);
-        // KHR_texture_transform may name a set of its own, which goes before.
+        // KHR_texture_transform may name its own set, which takes precedence.
         if (from->texture.texCoord != to->texture.texCoord)
             whole["extensions"]["KHR_texture_transform"]["texCoord"] = nullptr;
     }
@@ -100,7 +100,7 @@ void MaterialEdits::change(size_t material, HapticStatement next, std::string wh
     if (next == now_[material])
         return;
     ++revision_;
-    steps_.resize(at_); // what was undone is gone
+    steps_.resize(at_); // discards undone steps
     if (open_ && at_ > 0 && steps_.back().material == material && steps_.back().what == what) {
         steps_.back().after = next;
     } else {

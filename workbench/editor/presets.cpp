@@ -7,9 +7,8 @@ namespace touchstone {
 
 namespace {
 
-// Stiffness: a device gives 1 to 3 kN/m before it buzzes, while a real plate of glass has a thousand times
-// that, so what is hard is as hard as the device can (it cuts to its limit), and only what is soft can be
-// told apart.
+// Stiffness: a device renders 1 to 3 kN/m before it vibrates, while a real glass plate has a thousand times
+// that. So hard materials use the device's maximum (it clamps to its limit), and only soft ones differ.
 constexpr std::array kPresets{
     MaterialPreset{"glass", 3000.0f, 0.0f, 0.15f, 0.12f, 0.0f, 0.0f,
                    "as hard as the device can; friction as derived for a mirror (roughness 0); polished: no "

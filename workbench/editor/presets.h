@@ -1,5 +1,5 @@
 #pragma once
-// Materials to begin with. Numbers only: they bring no maps, and leave those that a material has.
+// Material presets. Numbers only: they leave a material's maps unchanged.
 
 #include "engine/scene/material.h"
 
@@ -15,17 +15,17 @@ struct MaterialPreset {
     float staticFriction, dynamicFriction; ///< 1
     float viscousFriction;                 ///< N·s/m; 0: none
     float normalTextureInfluence;          ///< 0..1
-    std::string_view reason;               ///< where the numbers come from
+    std::string_view reason;               ///< source of the numbers
 };
 
 /// glass, wood, rubber, sandpaper, felt, ice.
 [[nodiscard]] std::span<const MaterialPreset> materialPresets();
-/// Null: there is none of that name.
+/// Null for an unknown name.
 [[nodiscard]] const MaterialPreset* findPreset(std::string_view name);
 
-/// What is stated with the preset's numbers; those that say what holds anyway are left out.
+/// The statement with the preset's numbers; values equal to the defaults are omitted.
 [[nodiscard]] HapticStatement withPreset(HapticStatement statement, const MaterialPreset& preset);
-/// The preset whose numbers these are; null: none.
+/// The preset with these numbers; null: none.
 [[nodiscard]] const MaterialPreset* presetOf(const HapticStatement& statement);
 
 } // namespace touchstone

@@ -15,7 +15,7 @@ namespace {
 constexpr double kTick = 1e-3;                 // s
 constexpr double kStep = 1e-4;                 // m, 0.1 m/s
 constexpr double kAbove = 2e-3, kBelow = 1e-3; // m
-constexpr size_t kSpots = 16;                  // triangles that are stroked
+constexpr size_t kSpots = 16;                  // number of stroked triangles
 constexpr int kTicksAtSpot = 150;
 
 /// A triangle to stroke.
@@ -48,7 +48,7 @@ std::vector<StrokeSpot> largestTriangles(const HapticScene& scene, int material)
     return spots;
 }
 
-/// Down onto the triangle's middle and from there towards its corners in turn.
+/// Down onto the triangle's centroid and from there towards its corners in turn.
 glm::dvec3 handAt(const HapticScene& scene, const StrokeSpot& spot, int tick) {
     const HapticObject& object = *scene.objects[spot.object];
     const Triangle triangle = triangleOf(object, spot.triangle);
@@ -71,7 +71,7 @@ glm::dvec3 handAt(const HapticScene& scene, const StrokeSpot& spot, int tick) {
     return from + height * normal;
 }
 
-/// One way to feel the scene, timed tick by tick.
+/// One configuration of the scene, timed tick by tick.
 struct Touch {
     const HapticScene& scene;
     DeviceState state{};
@@ -106,7 +106,7 @@ EffectCost costOf(const HapticScene& scene, const HapticScene& without, int mate
         plain.state.forgetTouch();
         for (int i = 0; i < kTicksAtSpot && spent < longestNs; ++i, ++tick) {
             const glm::dvec3 hand = handAt(scene, spot, i);
-            // Who goes first finds the caches colder.
+            // The first one finds colder caches.
             Touch& first = tick % 2 == 0 ? with : plain;
             Touch& second = tick % 2 == 0 ? plain : with;
             first.step(hand, tick);

@@ -56,7 +56,7 @@ std::string shown(const Scene& scene, const FactorMap& map) {
            number(static_cast<double>(map.max));
 }
 
-/// The haptic fields that the file or its PBR material gives, each with where it comes from.
+/// The haptic fields from the file or its PBR material, each with its origin.
 Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
     Json fields = Json::object();
     const auto add = [&](const char* name, const auto& field, const char* unit) {
@@ -152,8 +152,8 @@ Json vectorJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// Strokes the model for two seconds of its own time and tells the median cost of each stage of a tick, over
-/// the ticks in contact. Null where no stroke can be laid (all triangles without area, for one) or it met
+/// Strokes the model for two seconds of simulated time and returns the median cost of each stage over the
+/// contact ticks. Null where no stroke can be laid (for example, all triangles have zero area) or it met
 /// nothing.
 Json tickCostJson(const Model& model) {
     std::shared_ptr<const StrokePath> path;
@@ -195,7 +195,7 @@ Json tickCostJson(const Model& model) {
     return json;
 }
 
-/// What contact=neighbourhood would cost this model: nothing of it is there unless that is asked for.
+/// The cost of contact=neighbourhood for this model; the structures are built only on request.
 Json neighbourhoodJson(const Model& model) {
     const long long begin = monotonicNs();
     model.haptic->buildNeighbourhoods();

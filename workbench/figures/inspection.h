@@ -1,5 +1,5 @@
 #pragma once
-// What a model is, what it would feel like, what that costs, and what is wrong with it.
+// A model's contents, haptic properties, costs and problems.
 
 #include "workbench/model/model.h"
 
@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-/// What `inspect --json` writes (docs/commands.md). Strokes the model and times the ticks on the calling
+/// The output of `inspect --json` (docs/commands.md). Strokes the model and times the ticks on the calling
 /// thread, whose float mode it sets; some 10 ms for each effect of the plan.
 [[nodiscard]] nlohmann::ordered_json inspectionOf(const Model& model);
 

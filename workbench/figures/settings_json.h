@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-/// Every setting as `--set` would take it.
+/// Every setting in the syntax of `--set`.
 [[nodiscard]] nlohmann::ordered_json settingsJson(const HapticSettings& settings);
 /// The parameters of a simulated device in a hand, and its energies in J.
 [[nodiscard]] nlohmann::ordered_json plantJson(const Plant& plant);

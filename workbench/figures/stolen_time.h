@@ -5,16 +5,16 @@
 
 namespace touchstone {
 
-/// Time that the machine under this one took away (steal in /proc/stat), of all processors together: what no
-/// thread of ours could use, however it was scheduled. One thread.
+/// Time taken by the hypervisor (steal in /proc/stat), over all processors: unavailable to our threads
+/// whatever their scheduling. One thread.
 class StolenTime {
   public:
     StolenTime() : start_(now()) {}
 
-    /// s since construction; nothing where the kernel does not tell.
+    /// s since construction; nullopt where the kernel does not report it.
     [[nodiscard]] std::optional<double> seconds() const;
 
-    /// From the text of /proc/stat, in ticks of the kernel's clock.
+    /// From the text of /proc/stat, in kernel clock ticks.
     [[nodiscard]] static std::optional<unsigned long long> parse(std::string_view stat);
 
   private:

@@ -7,13 +7,13 @@
 
 namespace touchstone {
 
-/// TICKS.csv's header line (docs/commands.md, touch).
+/// Header line of TICKS.csv (docs/commands.md, touch).
 inline constexpr std::string_view kTickCsvHeader =
     "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,force_x,force_y,force_z,contacts,"
     "friction_state,penetration,step_ns,command_x,command_y,command_z\n";
 
-/// Appends one row: SI units, workspace frame, every double in the shortest form that reads back to the same
-/// bits; friction_state is 0 free, 1 sticking, 2 sliding.
+/// Appends one row: SI units, workspace frame, every double in the shortest form that reads back bitwise
+/// equal; friction_state is 0 free, 1 sticking, 2 sliding.
 void appendTickRow(std::string& text, double time, const HapticOutput& output, int64_t stepNs);
 
 } // namespace touchstone

@@ -54,7 +54,7 @@ nlohmann::ordered_json histogramJson(const Samples& samples) {
 }
 
 void TickStatistics::addLive(const TickRecord& record) {
-    // Records were dropped, or the loop stood still: what the hand did meanwhile is not known.
+    // Records were dropped, or the loop stalled: the hand's motion in between is unknown.
     if (record.step != nextStep_ || record.tick == 0) {
         work_.gap();
         commandWork_.gap();

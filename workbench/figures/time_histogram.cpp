@@ -13,10 +13,10 @@ namespace touchstone {
 namespace {
 
 constexpr ImU32 kBar = IM_COL32(110, 185, 255, 255);
-constexpr ImU32 kLate = IM_COL32(240, 110, 90, 255); // a period at 1 kHz and more
+constexpr ImU32 kLate = IM_COL32(240, 110, 90, 255); // a period at 1 kHz or more
 constexpr ImU32 kLabel = IM_COL32(140, 147, 155, 255);
 
-/// The end of bin `i` as it is said: 500, 1ms, and > for what is over the last.
+/// Label of the end of bin `i`: 500, 1ms, and > for the last.
 std::string endOf(size_t i) {
     if (i >= kHistogramEndsUs.size())
         return ">";
@@ -35,7 +35,7 @@ void showTimeHistogram(const char* title, const char* note, const std::vector<ui
     uint64_t most = 1;
     for (const uint64_t count : bins)
         most = std::max(most, count);
-    const double top = std::log10(static_cast<double>(most)) + 1.0; // one tick is a bar of its own
+    const double top = std::log10(static_cast<double>(most)) + 1.0; // one tick has a visible bar
     for (size_t i = 0; i < bins.size(); ++i) {
         const float x = corner.x + static_cast<float>(i) * width, base = corner.y + height;
         if (bins[i] > 0) {

@@ -5,8 +5,8 @@
 
 namespace touchstone {
 
-/// A tooltip with the bins of histogramOf (tick_statistics.h), by the logarithm of their counts, so that one
-/// late tick in thousands is seen. Main thread, between ImGui's frames. `title` and `note`: a line above and
+/// A tooltip with the bins of histogramOf (tick_statistics.h) on a logarithmic count scale, so that one late
+/// tick in thousands is visible. Main thread, within an ImGui frame. `title` and `note`: a line above and
 /// below.
 void showTimeHistogram(const char* title, const char* note, const std::vector<uint64_t>& bins, float scale);
 

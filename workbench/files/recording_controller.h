@@ -1,5 +1,5 @@
 #pragma once
-// What `run` and the window share of recording: the options, where files go, and what a person is told.
+// Shared by `run` and the window: options of recording, file locations, and messages.
 
 #include "haptics/recording/servo_recorder.h"
 #include "workbench/options/commands.h"
@@ -15,8 +15,8 @@ namespace touchstone {
 /// Main thread; the servo outlives it.
 class RecordingController {
   public:
-    /// Starts what the options ask for. `tell` gets every message for a person, and so does stderr. Throws
-    /// Error where `--record` cannot be done; without a flight recorder it goes on and says so.
+    /// Starts the requested recordings. `tell` and stderr get every message for the user. Throws Error where
+    /// `--record` fails; a failed flight recorder is only reported.
     RecordingController(ServoLoop& servo, const RecordingOptions& options, std::string command,
                         std::function<void(const std::string&)> tell = {});
 
@@ -27,7 +27,7 @@ class RecordingController {
     /// After the last record.
     void finish();
 
-    /// Starts a recording in the state folder, or ends the one that runs (the window's button).
+    /// Starts a recording in the state folder, or ends the running one (the window's button).
     void toggle();
     [[nodiscard]] bool failed() const { return recorder_.failed(); }
     [[nodiscard]] nlohmann::ordered_json json() const;

@@ -9,7 +9,7 @@ std::filesystem::path stateFolder() {
         const char* value = std::getenv(name);
         return std::filesystem::path(value != nullptr ? value : "");
     };
-    // The specification has relative paths ignored.
+    // The specification requires that relative paths are ignored.
     if (const std::filesystem::path state = variable("XDG_STATE_HOME"); state.is_absolute())
         return state / "touchstone";
     if (const std::filesystem::path home = variable("HOME"); home.is_absolute())

@@ -4,8 +4,8 @@
 
 namespace touchstone {
 
-/// Where the program keeps what it makes unasked: $XDG_STATE_HOME/touchstone, else ~/.local/state/touchstone,
-/// else in the system's temporary folder. Not made here.
+/// Folder of automatically written files: $XDG_STATE_HOME/touchstone, else ~/.local/state/touchstone, else in
+/// the system's temporary folder. Not created here.
 [[nodiscard]] std::filesystem::path stateFolder();
 
 } // namespace touchstone

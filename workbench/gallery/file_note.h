@@ -7,10 +7,10 @@
 
 namespace touchstone {
 
-/// What a glTF file says about itself in `asset.extras.description`: a line; empty where it says nothing, is
-/// broken or has more than 16 MiB of JSON. Reads no more than the JSON. Any thread.
+/// The description in a glTF file's `asset.extras.description`: one line; empty where there is none, the file
+/// is invalid or has more than 16 MiB of JSON. Reads only the JSON. Any thread.
 [[nodiscard]] std::string fileNote(const std::filesystem::path& model);
-/// Of each.
+/// For each of them.
 [[nodiscard]] std::vector<std::string> notesOf(std::span<const std::filesystem::path> models);
 
 } // namespace touchstone

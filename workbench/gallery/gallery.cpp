@@ -33,7 +33,7 @@ GalleryState stateOf(ThumbnailFate fate) {
 
 void Gallery::fill(std::span<const std::filesystem::path> samples,
                    std::span<const std::filesystem::path> recent) {
-    // What was in a place is shown until it is known anew.
+    // The previous entry stays until it is updated.
     const std::vector<GalleryEntry> before = std::exchange(entries_, {});
     const auto add = [&](const std::filesystem::path& file, bool sample) {
         const size_t place = entries_.size();
@@ -50,7 +50,7 @@ void Gallery::fill(std::span<const std::filesystem::path> samples,
     for (const std::filesystem::path& file : recent)
         add(file, false);
     recent_.assign(recent.begin(), recent.end());
-    if (maker_ == nullptr) // what runs, also where another build has taken its place
+    if (maker_ == nullptr) // the running program, even if another build has replaced its file
         maker_ = std::make_unique<ThumbnailMaker>("/proc/" + std::to_string(getpid()) + "/exe",
                                                   ThumbnailCache(ThumbnailCache::usualFolder()));
     maker_->cancel();
@@ -69,7 +69,7 @@ void Gallery::update(bool open, std::span<const std::filesystem::path> samples,
     }
     if (opened || !std::ranges::equal(recent_, recent))
         fill(samples, recent);
-    // One a frame: reaching the device takes a while.
+    // One per frame: the upload takes time.
     const std::optional<Thumbnail> made = maker_->take();
     if (!made)
         return;

@@ -11,12 +11,12 @@ namespace touchstone {
 
 class WindowTarget;
 
-/// What the gallery offers: our own scenes, then what was opened before, as many as the window has places for
-/// pictures. Entry i has picture i. Main thread.
+/// Contents of the gallery: our own scenes, then the recent ones, as many as the window has picture slots.
+/// Entry i has picture i. Main thread.
 class Gallery {
   public:
-    /// Once a frame. Looks at the files when it is opened, and anew when what was opened before changes;
-    /// while it is closed nothing is drawn.
+    /// Every frame. Checks the files when it is opened, and again when the recent files change; while it is
+    /// closed nothing is drawn.
     void update(bool open, std::span<const std::filesystem::path> samples,
                 std::span<const std::filesystem::path> recent, WindowTarget& target);
     [[nodiscard]] std::span<const GalleryEntry> entries() const { return entries_; }
@@ -25,9 +25,9 @@ class Gallery {
     void fill(std::span<const std::filesystem::path> samples, std::span<const std::filesystem::path> recent);
 
     std::vector<GalleryEntry> entries_;
-    std::vector<std::filesystem::path> recent_; // that entries_ were made of
+    std::vector<std::filesystem::path> recent_; // the list that entries_ was built from
     bool open_ = false;
-    std::unique_ptr<ThumbnailMaker> maker_; // from the first time that it is opened
+    std::unique_ptr<ThumbnailMaker> maker_; // created when it is first opened
 };
 
 } // namespace touchstone

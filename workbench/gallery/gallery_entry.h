@@ -8,10 +8,10 @@ namespace touchstone {
 
 enum class GalleryState : uint8_t { Waiting, Shown, NoPicture, Broken, Missing };
 
-/// A file that the gallery offers.
+/// A file in the gallery.
 struct GalleryEntry {
     std::filesystem::path file;
-    std::string note; ///< what there is to feel, a line; may be empty
+    std::string note; ///< one line; may be empty
     bool sample = false;
     GalleryState state = GalleryState::Waiting;
 };

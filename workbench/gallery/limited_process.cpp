@@ -17,19 +17,19 @@ struct Start {
     char* const* arguments;
     ProcessLimits limits;
     pid_t parent;
-    sigset_t signals; ///< as the caller has them
+    sigset_t signals; ///< the caller's
 };
 
 void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
     const rlimit both{most, most};
-    setrlimit(what, &both); // where less is allowed already it stays so
+    setrlimit(what, &both); // a lower existing limit is kept
 }
 
-/// In the child, which has our memory until it is another program: system calls only.
+/// In the child, which shares our memory until exec: system calls only.
 [[noreturn]] void become(const Start& start) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != start.parent)
-        _exit(kCannotStart); // it died before it could be told
+        _exit(kCannotStart); // the parent ended before this call
     limit(RLIMIT_CPU, start.limits.processorSeconds);
     limit(RLIMIT_DATA, start.limits.memory);
     limit(RLIMIT_CORE, 0);
@@ -46,7 +46,7 @@ void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
     _exit(kCannotStart);
 }
 
-/// Apart, so that no variable lives across vfork.
+/// A separate function, so that no variable is live across vfork.
 [[gnu::noinline]] pid_t begin(const Start& start) {
     const pid_t child = vfork();
     if (child == 0)
@@ -60,7 +60,7 @@ pid_t startLimited(const std::string& program, const std::vector<std::string>& a
                    const ProcessLimits& limits) {
     std::vector<char*> raw;
     for (const std::string& argument : arguments)
-        raw.push_back(const_cast<char*>(argument.c_str())); // exec promises not to write
+        raw.push_back(const_cast<char*>(argument.c_str())); // exec does not write to them
     raw.push_back(nullptr);
     Start start{program.c_str(), raw.data(), limits, getpid(), {}};
     // No handler of ours may run in the child.

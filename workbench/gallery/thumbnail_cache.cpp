@@ -14,7 +14,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kVersion = 1; ///< of how thumbnails look: another one finds none of the old
+constexpr int kVersion = 1; ///< version of the thumbnails' style: another one ignores older files
 
 } // namespace
 

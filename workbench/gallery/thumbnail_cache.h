@@ -5,22 +5,22 @@
 
 namespace touchstone {
 
-/// Pictures of models, kept from run to run in $XDG_CACHE_HOME/touchstone/thumbnails (~/.cache/…): one PNG
-/// for what a file was, by its path, time and size, so a file that has changed has none. Any one thread.
+/// Thumbnails of models, kept between runs in $XDG_CACHE_HOME/touchstone/thumbnails (~/.cache/…): one PNG
+/// keyed by a file's path, time and size, so a changed file has none. Any one thread.
 class ThumbnailCache {
   public:
-    /// The newest that are kept: some 12 kB each.
+    /// Number of thumbnails kept: some 12 kB each.
     static constexpr size_t kMax = 200;
 
     explicit ThumbnailCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
-    /// Where the system wants it.
+    /// The system's default folder.
     [[nodiscard]] static std::filesystem::path usualFolder();
 
-    /// Where the picture of `model` is or is to be; empty where there is no such file.
+    /// Path of the thumbnail of `model`, existing or not; empty where the model does not exist.
     [[nodiscard]] std::filesystem::path pictureOf(const std::filesystem::path& model) const;
-    /// Makes the folder and forgets the oldest pictures. False where nothing can be kept there.
+    /// Creates the folder and removes the oldest thumbnails. False where nothing can be stored.
     [[nodiscard]] bool makeRoom() const;
-    /// Whether a file as large as pictures are can be written there now.
+    /// Whether a file of a thumbnail's size can be written there now.
     [[nodiscard]] bool takes(const std::filesystem::path& picture) const;
 
   private:

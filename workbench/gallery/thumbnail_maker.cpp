@@ -18,7 +18,7 @@ namespace touchstone {
 
 namespace {
 
-/// The PNG file's pixels; none where it is not one of our size.
+/// The PNG file's pixels; empty where it does not have our size.
 PixelData readPicture(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -32,11 +32,11 @@ PixelData readPicture(const std::filesystem::path& file) {
     return ours ? std::move(image.pixels) : PixelData{};
 }
 
-/// What the end of the process that drew says about the file, if there is no picture.
+/// The fate of the file from the exit status of the process, where there is no picture.
 ThumbnailFate fateOf(int status) {
     if (WIFEXITED(status))
         return WEXITSTATUS(status) == kCannotStart ? ThumbnailFate::None : ThumbnailFate::Broken;
-    // It was ended by the system, which was short of something; other signals are its own doing.
+    // Killed by the system for lack of a resource; other signals are the process's own fault.
     const bool ended = WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU);
     return ended ? ThumbnailFate::None : ThumbnailFate::Broken;
 }
@@ -78,7 +78,7 @@ std::optional<Thumbnail> ThumbnailMaker::take() {
 }
 
 void ThumbnailMaker::work(const std::stop_token& stop) {
-    // Of this thread and of what it starts. Where it is refused, drawing merely competes with the window.
+    // For this thread and its children. If refused, drawing competes with the window.
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     for (;;) {
         Task task;
@@ -92,7 +92,7 @@ void ThumbnailMaker::work(const std::stop_token& stop) {
         Thumbnail made;
         try {
             made = make(task);
-        } catch (const std::exception&) { // no memory: a file without a picture
+        } catch (const std::exception&) { // out of memory: no picture for this file
             made.file = task.file;
             made.fate = ThumbnailFate::None;
         }
@@ -119,13 +119,13 @@ Thumbnail ThumbnailMaker::make(const Task& task) const {
     if (!made.picture.bytes.empty())
         made.fate = ThumbnailFate::Drawn;
     else if (made.fate != ThumbnailFate::None && !cache_.takes(picture))
-        made.fate = ThumbnailFate::None; // it may be the disk's fault
+        made.fate = ThumbnailFate::None; // possibly a disk error
     return made;
 }
 
 ThumbnailFate ThumbnailMaker::draw(const Task& task, const std::filesystem::path& picture) const {
     const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
-    // Absolute, so that no name is taken for an option.
+    // Absolute, so that no name is parsed as an option.
     const pid_t child = startLimited(program_.string(),
                                      {"touchstone", "render", std::filesystem::absolute(task.file).string(),
                                       "--size", size, "--out", picture.string()},

@@ -17,38 +17,38 @@
 namespace touchstone {
 
 enum class ThumbnailFate : uint8_t {
-    None, ///< there is no picture, for reasons that may not be the file's: no time, memory or disk
+    None, ///< no picture, possibly not the file's fault: time, memory or disk
     Drawn,
     Broken, ///< it cannot be drawn
-    Missing ///< there is no such file
+    Missing ///< the file does not exist
 };
 
-/// What became of a file.
+/// Result for a file.
 struct Thumbnail {
     std::filesystem::path file;
-    std::string note;  ///< what the file says about itself; may be empty
+    std::string note;  ///< the file's description; may be empty
     PixelData picture; ///< kWidth x kHeight, RGBA; empty where there is none
     ThumbnailFate fate = ThumbnailFate::None;
 };
 
-/// Makes pictures of models, one after the other, on a worker that comes after everybody else. What is not in
-/// the cache a process of our own draws (`touchstone render`): a file that ends it, or takes all that it may
-/// have, ends nothing else, and its device is not the window's. Owner thread.
+/// Renders thumbnails, one after the other, on a low-priority worker. Those not in the cache are rendered in
+/// a child process (`touchstone render`): a file that crashes it, or exhausts its limits, affects nothing
+/// else, and its device is not the window's. Owner thread.
 class ThumbnailMaker {
   public:
     static constexpr int kWidth = 208, kHeight = 130;
-    /// Among our own threads and the system's: behind the window, as the loader.
+    /// Below the window's threads and other processes, as the loader.
     static constexpr int kNiceness = 10;
 
-    /// `program`: what draws, a touchstone.
+    /// `program`: the touchstone that renders.
     ThumbnailMaker(std::filesystem::path program, ThumbnailCache cache, const ProcessLimits& limits = {});
-    /// Stops what is being drawn.
+    /// Stops the current rendering.
     ~ThumbnailMaker();
     ThumbnailMaker(const ThumbnailMaker&) = delete;
     ThumbnailMaker& operator=(const ThumbnailMaker&) = delete;
 
     void request(const std::filesystem::path& file);
-    /// Forgets what was requested and what has come of it, and ends what is being drawn.
+    /// Discards requests and results, and stops the current rendering.
     void cancel();
     [[nodiscard]] std::optional<Thumbnail> take();
 
@@ -56,7 +56,7 @@ class ThumbnailMaker {
     struct Task {
         std::filesystem::path file;
         std::stop_token stop;
-        uint64_t cancels = 0; ///< when it began: another number now, and nobody wants it
+        uint64_t cancels = 0; ///< value of cancels_ at its start: if it differs now, the result is discarded
     };
 
     void work(const std::stop_token& stop);
@@ -69,8 +69,8 @@ class ThumbnailMaker {
     std::atomic<uint64_t> cancels_ = 0; // changed with mutex_
     std::mutex mutex_;
     std::condition_variable_any wanted_;
-    std::deque<std::filesystem::path> requests_; // mutex_
-    std::deque<Thumbnail> done_;                 // mutex_
+    std::deque<std::filesystem::path> requests_; // guarded by mutex_
+    std::deque<Thumbnail> done_;                 // guarded by mutex_
     std::jthread worker_;                        // last: it uses all of the above
 };
 

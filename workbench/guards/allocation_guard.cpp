@@ -1,6 +1,6 @@
-// Counts what must not happen: allocating or freeing inside a tick. Replaces malloc and its kin for the whole
-// program, which operator new and every library end up in, and passes on to glibc's own. Costs one
-// thread-local test a call. Under a sanitizer, which owns the allocator, its hooks are used instead.
+// Counts allocations and deallocations inside a tick, of which there must be none. Interposes malloc and
+// related functions for the whole program, including operator new and libraries, and forwards to glibc. Costs
+// one thread-local test per call. Under a sanitizer, which owns the allocator, uses its hooks instead.
 
 #include "engine/core/realtime_guard.h"
 

@@ -1,5 +1,5 @@
-// Compiled for any x86-64, and run before every other static initialiser of the program: the rest is built
-// for x86-64-v3 and would die of an illegal instruction before it could say why.
+// Compiled for any x86-64 and run before all other static initialisers: the rest is built for x86-64-v3 and
+// would crash with an illegal instruction before it could report the reason.
 
 #include <unistd.h>
 

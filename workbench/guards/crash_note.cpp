@@ -12,12 +12,12 @@ namespace touchstone {
 
 namespace {
 
-// Two places in turn, so that a handler never reads what is being written.
+// Double buffer, so that a handler never reads a text being written.
 std::array<std::array<char, 1024>, 2> texts;
 std::atomic<const char*> current{nullptr};
 std::atomic<size_t> length{0};
 
-// Only what a handler may call. The signal comes again with its usual end (SA_RESETHAND).
+// Async-signal-safe calls only. The signal is raised again with its default action (SA_RESETHAND).
 extern "C" void onCrash(int signal) {
     const char* text = current.load();
     if (text != nullptr) {

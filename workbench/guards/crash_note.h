@@ -4,8 +4,8 @@
 
 namespace touchstone {
 
-/// What a process that crashes (a signal that is nobody's wish: SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT)
-/// says on stderr before it dies as it would have; empty: nothing any more. Main thread.
+/// Sets the text that a crashing process (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) prints on stderr before
+/// the signal's default action; empty: none. Main thread.
 void leaveCrashNote(const std::string& note);
 
 } // namespace touchstone

@@ -13,9 +13,9 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kMaxInterrupts = 3; // the last one kills, should the end hang
+constexpr int kMaxInterrupts = 3; // the last one kills, in case the shutdown hangs
 
-// Handlers run on any thread, several at a time; they may only use what has no lock.
+// Handlers run on any thread, concurrently; they may use lock-free data only.
 std::atomic<int> came{0}, handling{0};
 std::atomic<ForceSwitch*> force{nullptr};
 std::atomic<bool> mayHang{false};
@@ -55,7 +55,7 @@ InterruptedForce::InterruptedForce(ForceSwitch& given) noexcept {
 
 InterruptedForce::~InterruptedForce() {
     force.store(nullptr);
-    while (handling.load() != 0) // on another thread, with the switch in hand
+    while (handling.load() != 0) // on another thread, using the switch
         std::this_thread::yield();
 }
 

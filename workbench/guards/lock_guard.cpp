@@ -1,6 +1,6 @@
-// Counts what must not happen: asking for a lock inside a tick. Stands before the C library's own for the
-// whole program, std::mutex and every library included, and passes on to them. Not under a sanitizer, which
-// stands there itself.
+// Counts lock acquisitions inside a tick, of which there must be none. Interposes the C library's functions
+// for the whole program, including std::mutex and libraries, and forwards to them. Not under a sanitizer,
+// which interposes them itself.
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
@@ -18,7 +18,7 @@ struct Announce {
     Announce() { touchstone::realtime::announceLockInterposer(); }
 } const announce;
 
-/// The function of a name behind ours. Found at its first use, which may be before any constructor here.
+/// The next function of that name. Resolved at its first use, which may precede any constructor here.
 template <class... Arguments>
 class Behind {
   public:

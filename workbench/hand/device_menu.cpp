@@ -15,7 +15,7 @@ void DeviceMenu::renew(double now) {
     try {
         offers_ = deviceOffers(listHidNodes(), deviceFiles());
         std::erase_if(offers_, [](const DeviceOffer& offer) { return offer.doubtful; });
-    } catch (const Error& error) { // a device file with a mistake
+    } catch (const Error& error) { // an invalid device file
         offers_.clear();
         problem_ = error.what();
     }

@@ -8,18 +8,18 @@
 
 namespace touchstone {
 
-/// What may be held instead of the mouse, and what is. Main thread.
+/// The available devices and the one in use. Main thread.
 class DeviceMenu {
   public:
-    /// Looks again for what is plugged in, every kRenewal s. `now`: s, any steady clock.
+    /// Searches for plugged-in devices, every kRenewal s. `now`: s, any steady clock.
     void renew(double now);
     [[nodiscard]] const std::vector<DeviceOffer>& offers() const { return offers_; }
 
-    /// Opens what `choice` names (openDevice); empty lets go of what is held. What cannot be opened is said
-    /// by `status` and nothing is held.
+    /// Opens the device of `choice` (openDevice); empty: releases the current one. On failure `status` gives
+    /// the reason and nothing is held.
     std::shared_ptr<LinkedDevice> choose(const std::string& choice);
     [[nodiscard]] const std::string& chosen() const { return chosen_; }
-    /// How it is with the chosen device: where it is, or what is wrong and the remedy.
+    /// State of the chosen device: its location, or the problem with its remedy.
     [[nodiscard]] std::string status() const;
 
   private:
@@ -32,8 +32,8 @@ class DeviceMenu {
 };
 
 /// Opens the device of `--device` for a command without a window; null for the simulated hand ("hand", and
-/// "auto" where nothing is plugged in). Throws Error, also when the device may not be used. One that is not
-/// plugged in yet is waited for while the command runs, which stderr says.
+/// "auto" where nothing is plugged in). Throws Error, also without permission for the device. The command
+/// waits for a device that is not plugged in yet and reports so on stderr.
 [[nodiscard]] std::unique_ptr<LinkedDevice> openDeviceOrHand(const std::string& choice);
 
 } // namespace touchstone

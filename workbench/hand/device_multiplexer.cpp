@@ -40,7 +40,7 @@ void DeviceMultiplexer::apply(const DeviceCommand& command) noexcept {
     }
 }
 
-/// What another hand feels, or one on its way, is not the mouse's.
+/// The mouse does not receive what another hand, or a gliding one, feels.
 void DeviceMultiplexer::feel(const TouchFeedback& felt) noexcept {
     if (followed_ == nullptr && !gliding_)
         mouse_.feel(felt);
@@ -48,15 +48,15 @@ void DeviceMultiplexer::feel(const TouchFeedback& felt) noexcept {
         mouse_.feel({.objects = felt.objects});
 }
 
-/// What a glide feels is not where the device is, and what is left of the force of the hand before is not the
-/// device's either: it gets none of both, and the force comes by and by once it is where the hand is.
+/// During a glide the device is elsewhere, and the remaining force of the previous hand does not belong to
+/// it: it receives neither. Its force fades in once it is where the hand is.
 void DeviceMultiplexer::couple(DeviceSample& sample, double time) noexcept {
     const double dt = std::clamp(time - lastTime_, 0.0, WorkspaceMap::kLongestStep);
     coupling_ = driven_ == nullptr ? 1.0 : away_ ? 0.0 : std::min(1.0, coupling_ + dt / kCouplingTime);
     sample.mapping.coupling *= coupling_;
 }
 
-/// Turns to another hand, or to another path.
+/// Switches to another hand or another path.
 void DeviceMultiplexer::follow(const StrokePath* path, double time) noexcept {
     const void* follows = driven_ != nullptr ? static_cast<const void*>(driven_) : path;
     const uint32_t left = leaves_.load(std::memory_order_acquire);
@@ -72,17 +72,17 @@ void DeviceMultiplexer::follow(const StrokePath* path, double time) noexcept {
     centre_ = path != nullptr ? path->place() : glm::dvec3(0.0);
     const Similarity before = map_.mapping().workspaceFromDevice;
     map_.begin(followed_ != nullptr ? target() : WorkspaceWish{}, centre_);
-    centred_ = centres_.load(std::memory_order_relaxed); // it begins there
+    centred_ = centres_.load(std::memory_order_relaxed); // starts there
     const Similarity& now = map_.mapping().workspaceFromDevice;
-    // It comes from where the HIP was. In the new hand's frame that is another place, and between the two
-    // lies no way: nothing is known for a tick.
+    // The HIP starts from its last position. In the new hand's frame that is another position without a
+    // displacement between them: the tick has no history.
     changed_ = !sameFrame(before, now);
     if (started_)
         glideFrom_ = now.inversePoint(lastHip_);
 }
 
-/// Touch begins where the hand comes to be: a device that is taken up may be inside the model, to where the
-/// glide has pulled the proxy along. On its way nothing else begins.
+/// Touch starts at the hand's new position: a device that is taken up may be inside the model, where the
+/// glide has pulled the proxy. During the glide touch does not restart.
 void DeviceMultiplexer::begin(DeviceSample& sample) noexcept {
     if (followed_ != nullptr || gliding_)
         sample.begins = false;
@@ -113,7 +113,7 @@ DeviceSample DeviceMultiplexer::sample(double time) noexcept {
     follow(driven_ != nullptr ? nullptr : path, time);
     if (driven_ != nullptr) {
         sample = driven_->sample(time);
-    } else if (path != nullptr) { // it begins where it begins, once the hand is there
+    } else if (path != nullptr) { // starts at its first position, once the hand is there
         sample.position = path->positionIn(std::max(0.0, time - glideStart_ - kGlideTime), time);
         sample.age = 0.0;
         sample.valid = true;

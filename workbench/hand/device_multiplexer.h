@@ -12,40 +12,40 @@
 
 namespace touchstone {
 
-/// The window's hand: the mouse, a simulated hand on a path that comes with the model, or a device. Changing
-/// over glides from where the hand is to where the other one is, so that nothing is hit at the speed of a
-/// jump. A device that is taken up gets no force until the hand is where it is. Device and simulated hand
-/// have clutch and zoom (WorkspaceMap), the mouse is where the pointer says.
+/// The window's hand: the mouse, a simulated hand on the model's path, or a device. Switching glides from the
+/// old position to the new one, so that nothing is hit at the speed of a jump. A device that is taken up
+/// receives no force until the hand has reached it. Device and simulated hand have clutch and zoom
+/// (WorkspaceMap); the mouse follows the pointer.
 class DeviceMultiplexer final : public Device {
   public:
-    /// s that changing over takes.
+    /// s, duration of a switch.
     static constexpr double kGlideTime = kHandGlideTime;
-    /// s, then, from no force to all of it.
+    /// s, for the force to fade in after it.
     static constexpr double kCouplingTime = kHandCouplingTime;
 
     /// Owner thread.
     void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }
     [[nodiscard]] bool simulated() const noexcept { return simulated_.load(std::memory_order_relaxed); }
     void offerPath(std::shared_ptr<const StrokePath> path) { path_.offer(std::move(path)); }
-    /// Null: back to the mouse or the simulated hand. A device that is let go gets zero force
-    /// at once, before the servo knows.
+    /// Null: back to the mouse or the simulated hand. A released device receives zero force at once, before
+    /// the servo notices.
     void hold(std::shared_ptr<LinkedDevice> device);
-    /// How the user looks at the workspace: LinkedDevice::face.
+    /// Orientation of the user's view of the workspace: LinkedDevice::face.
     void face(const glm::dquat& deviceFromView);
-    /// Besides the device's own button. No effect on the mouse.
+    /// In addition to the device's own button. No effect on the mouse.
     void workspace(const WorkspaceWish& target) noexcept {
         zoom_.store(target.zoom, std::memory_order_relaxed);
         clutch_.store(target.clutch, std::memory_order_relaxed);
     }
-    /// The device's origin becomes the workspace's again, at once and without touch.
+    /// Maps the device's origin to the workspace's again, at once and without contact.
     void centre() noexcept { centres_.fetch_add(1, std::memory_order_relaxed); }
-    /// Another model, or the same built again, is where the hand is: the mouse is lifted off until its next
-    /// goal, a stroke begins again. Before that model is offered to the servo.
+    /// Another model, or the same one rebuilt, is around the hand: the mouse is lifted off until its next
+    /// goal, a stroke restarts. Call before that model is offered to the servo.
     void leave() noexcept {
         mouse_.release();
         leaves_.fetch_add(1, std::memory_order_release);
     }
-    /// Frees what the servo has let go.
+    /// Frees what the servo no longer uses.
     void collect() { held_.collect(); }
     [[nodiscard]] MouseDevice& mouse() { return mouse_; }
 
@@ -82,13 +82,14 @@ class DeviceMultiplexer final : public Device {
     glm::dvec3 lastHip_{0.0}, glideFrom_{0.0}; // workspace; device
     double glideStart_ = 0.0;
     WorkspaceMap map_;
-    glm::dvec3 centre_{0.0}; // of what is followed
+    glm::dvec3 centre_{0.0}; // of the followed hand
     double lastTime_ = 0.0;
     uint32_t centred_ = 0, left_ = 0; // of centres_, leaves_
-    bool changed_ = false; // another hand, in another place of the workspace: nothing is known in this tick
+    bool changed_ = false;            // the hand's frame changed: this tick has no history
     bool started_ = false, gliding_ = false;
-    bool begins_ = false; // where the hand comes to be: touch begins there
-    bool away_ = false; // the device is not where the hand is, or what comes is left of another hand's force
+    bool begins_ = false; // the hand reaches its position: touch starts there
+    bool away_ = false;   // the device is not at the hand's position, or the force is a remainder of the
+                          // previous hand's
     double coupling_ = 1.0;
 };
 

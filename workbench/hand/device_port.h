@@ -5,7 +5,7 @@
 
 namespace touchstone {
 
-/// Plugs a device into the servo; the device outlives the loop.
+/// Connects a device to the servo; the device outlives the loop.
 [[nodiscard]] inline DevicePort portOf(Device& device) {
     return {
         .context = &device,

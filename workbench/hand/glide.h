@@ -1,5 +1,5 @@
 #pragma once
-// Going over from one hand to another. Pure.
+// Switching from one hand to another. Pure.
 
 #include "engine/math/similarity.h"
 
@@ -9,17 +9,17 @@
 
 namespace touchstone {
 
-inline constexpr double kHandGlideTime = 0.4;      ///< s that going over takes
-inline constexpr double kHandCouplingTime = 0.050; ///< s, from no force to all of it once it is there
+inline constexpr double kHandGlideTime = 0.4;      ///< s, duration of a switch
+inline constexpr double kHandCouplingTime = 0.050; ///< s, for the force to fade in after it
 
-/// From one place to another without a jump of the velocity; `share` of kHandGlideTime.
+/// From one position to another with continuous velocity; `share`: fraction of kHandGlideTime.
 [[nodiscard]] inline glm::dvec3 glide(const glm::dvec3& from, const glm::dvec3& to, double share) {
     const double t = std::clamp(share, 0.0, 1.0);
     return glm::mix(from, to, t * t * (3.0 - 2.0 * t));
 }
 
-/// Whether a place keeps its meaning: else between it and the one before lies no way, and no energy is to be
-/// booked for one.
+/// Whether positions are comparable: otherwise there is no displacement between consecutive ones and no
+/// energy to account for.
 [[nodiscard]] inline bool sameFrame(const Similarity& a, const Similarity& b) {
     return a.scale == b.scale && a.translation == b.translation;
 }

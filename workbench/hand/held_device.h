@@ -8,21 +8,21 @@
 
 namespace touchstone {
 
-/// Who holds what: takes up the device that was chosen. A device is driven only by a scene with its own
-/// limits: it waits until the servo has adopted that; meanwhile nothing is held. Main thread.
+/// Takes up the chosen device. A device is driven only with a scene compiled for its limits: it waits until
+/// the servo has adopted that scene; meanwhile no device is in use. Main thread.
 class HeldDevice {
   public:
     explicit HeldDevice(DeviceMultiplexer& hand) : hand_(hand) {}
 
-    /// In every frame. `choice` becomes what is really chosen: empty where it cannot be opened. True where
-    /// the scene has to be offered anew with `limits`.
+    /// Every frame. `choice` becomes the actual choice: empty where it cannot be opened. True where the scene
+    /// must be offered again with `limits`.
     [[nodiscard]] bool choose(std::string& choice);
-    /// The servo touches a scene that was made with `limits`, or none.
+    /// The servo touches a scene compiled for `limits`, or none.
     void limitsHold();
-    /// Lets go of what was chosen last.
+    /// Releases the last choice.
     void drop(std::string& choice);
 
-    /// Of what is held or will be next.
+    /// Of the current or next device.
     [[nodiscard]] DeviceLimits limits() const;
     [[nodiscard]] DeviceMenu& menu() { return menu_; }
     [[nodiscard]] const DeviceMenu& menu() const { return menu_; }

@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-/// The most that a map makes of a factor; where a surface has no coordinates for it, 1.
+/// The maximum of a factor over its map; 1 where a surface has no coordinates for it.
 double mostOf(const HapticFactor& factor) {
     return factor.map.empty() ? 1.0 : std::max({1.0, factor.min, factor.max});
 }
@@ -20,7 +20,7 @@ double mostOf(const std::vector<float>& attribute, double stated) {
     return attribute.empty() ? stated : static_cast<double>(*std::ranges::max_element(attribute));
 }
 
-/// Static over dynamic coefficient; finite, also where nothing holds what slides.
+/// Ratio of static to dynamic coefficient; finite, also for zero friction.
 double gripOf(double holds, double slides) {
     constexpr double kMax = 1e3;
     return std::clamp(holds / std::max(slides, holds / kMax), 1.0, kMax);
@@ -40,7 +40,7 @@ Picker::Hardest Picker::hardestOf(const HapticScene& scene) {
         hardest.friction =
             std::max(hardest.friction, rougher * mostOf(object->friction, material.staticFriction));
         hardest.frictionFactor = std::max(hardest.frictionFactor, rougher);
-        // An attribute is the static coefficient, and the dynamic one keeps its ratio to it.
+        // The attribute is the static coefficient; the dynamic one keeps its ratio to it.
         const double least = object->friction.empty()
                                  ? material.staticFriction
                                  : static_cast<double>(std::ranges::min(object->friction));

@@ -12,26 +12,26 @@
 
 namespace touchstone {
 
-/// What the pointer points at: the scene as the hand has it, where its objects are. Main thread.
+/// Ray casts into the haptic scene at the current pose of its objects. Main thread.
 class Picker {
   public:
-    /// `source`: whose animation moves the objects.
+    /// `source`: its animation moves the objects.
     void show(std::shared_ptr<const HapticScene> scene, ScenePtr source);
-    /// What a line of sight (workspace) meets first at `time` (s, the servo's), how stiff it will be, and how
-    /// stiff and rough anything is.
+    /// The first hit of a line of sight (workspace) at `time` (s, of the servo), its stiffness, and the
+    /// maximum stiffness and friction of the scene.
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, double time,
                                                      const HapticSettings& settings);
-    /// From where an object of the scene (HapticScene::objects) is at `time` to where it is in the rest pose,
-    /// both in the workspace.
+    /// Transform of an object (HapticScene::objects) from its pose at `time` to its rest pose, both in the
+    /// workspace.
     [[nodiscard]] Similarity restFromNow(int object, double time);
 
   private:
-    /// The most of what each touched material can be, whatever the session's settings.
+    /// Maxima over the touched materials, whatever the session's settings.
     struct Hardest {
-        double stiffness = 0.0, stiffnessFactor = 0.0; // N/m as stated, and what maps make of it
+        double stiffness = 0.0, stiffnessFactor = 0.0; // N/m as stated, and with the maximum of the maps
         double friction = 0.0, frictionFactor = 0.0;   // static, likewise
-        double grip = 1.0;                             // static over dynamic
-        double sliding = INFINITY;                     // the least dynamic
+        double grip = 1.0;                             // static over dynamic coefficient
+        double sliding = INFINITY;                     // the minimum dynamic coefficient
     };
     [[nodiscard]] static Hardest hardestOf(const HapticScene& scene);
     void hardestWith(const HapticSettings& settings, PointedSurface& surface) const;

@@ -14,7 +14,7 @@ void StrokeController::show(ScenePtr scene, const Similarity& workspaceFromScene
     touched_.reset();
     problem_.clear();
     ++model_;
-    laid_ = StrokeRequest{}; // the tour is what came with it
+    laid_ = StrokeRequest{}; // the tour came with the model
 }
 
 std::shared_ptr<const StrokePath> StrokeController::update(const StrokeRequest& wanted,
@@ -26,7 +26,7 @@ std::shared_ptr<const StrokePath> StrokeController::update(const StrokeRequest& 
             return nullptr;
         try {
             std::shared_ptr<const StrokePath> path = worker_.get();
-            if (laying_ == model_) // else another model came meanwhile
+            if (laying_ == model_) // else another model was shown meanwhile
                 return path;
         } catch (const std::exception& error) {
             if (laying_ == model_)

@@ -6,7 +6,7 @@ namespace touchstone {
 
 void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
     if (!renderer.hasScene())
-        return; // it is still being taken in
+        return; // still being uploaded
     if (const Animation* animation = playedAnimation(scene))
         renderer.setInstancePoses(sceneFromMeshAt(scene, animation, loopedTime(*animation, time)));
 }

@@ -5,8 +5,8 @@
 
 namespace touchstone {
 
-/// Puts what the eye sees where the hand felt it in the tick at `time`, s. Does nothing where nothing moves.
-/// Main thread.
+/// Moves the rendered objects to their poses in the tick at `time`, s. Does nothing for a static scene. Main
+/// thread.
 void poseAt(double time, const Scene& scene, SceneRenderer& renderer);
 
 } // namespace touchstone

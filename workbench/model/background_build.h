@@ -8,13 +8,13 @@
 
 namespace touchstone {
 
-/// What contact=neighbourhood walks on, what contact=rays casts into and the slopes of
-/// textureGradient=precomputed, built on a worker when they are first asked for. Until they are there the
-/// servo sweeps, or works the slopes out. Main thread.
+/// Builds on a worker, at first use: the adjacency for contact=neighbourhood, the ray structure for
+/// contact=rays and the slopes for textureGradient=precomputed. Until then the servo sweeps, or computes the
+/// slopes per tick. Main thread.
 class BackgroundBuild {
   public:
-    /// In every frame: begins what `settings` ask of `scene` and is not there. Throws what stopped the last
-    /// one, once.
+    /// Every frame: starts building what `settings` require of `scene` and is missing. Throws the last error
+    /// once.
     void update(const std::shared_ptr<const HapticScene>& scene, const HapticSettings& settings);
 
   private:

@@ -5,13 +5,13 @@
 
 namespace touchstone {
 
-/// The doughnut: beside the build tree that this program was built in, or where the project was configured.
+/// The doughnut: beside the build tree of this program, or where the project was configured.
 [[nodiscard]] std::filesystem::path defaultScene();
 
-/// Our own scenes, sorted by name; to be opened from the menu.
+/// Our own scenes, sorted by name, for the menu.
 [[nodiscard]] std::vector<std::filesystem::path> sampleScenes();
 
-/// One of our own scenes, which nobody saves over by accident.
+/// True for one of our own scenes, which must not be overwritten by accident.
 [[nodiscard]] bool isSample(const std::filesystem::path& path);
 
 } // namespace touchstone

@@ -1,5 +1,5 @@
 #pragma once
-// The panorama that --environment names, as the light of the picture.
+// The panorama of --environment as the light of the picture.
 
 #include "renderer/environment.h"
 #include "renderer/scene_renderer.h"
@@ -13,8 +13,8 @@
 
 namespace touchstone {
 
-/// Read and prefiltered by a worker; until it is there, and where the file is bad, the surroundings in closed
-/// form are the light. Main thread.
+/// A worker reads and prefilters it; until then, and for an invalid file, the closed-form surroundings are
+/// the light. Main thread.
 class EnvironmentLight {
   public:
     EnvironmentLight() = default;
@@ -22,11 +22,11 @@ class EnvironmentLight {
     EnvironmentLight(const EnvironmentLight&) = delete;
     EnvironmentLight& operator=(const EnvironmentLight&) = delete;
 
-    /// Once. An empty path is no environment.
+    /// Once. Empty path: no environment.
     void start(const std::filesystem::path& file);
-    /// In every frame: gives the renderer what is ready. Once, what is wrong with the file.
+    /// Every frame: passes the result to the renderer. Returns the problem with the file, once.
     [[nodiscard]] std::optional<std::string> update(SceneRenderer& renderer);
-    /// The renderer is another one and knows nothing.
+    /// A new renderer without an environment.
     void takeDevice() { given_ = false; }
 
   private:
@@ -36,8 +36,8 @@ class EnvironmentLight {
     std::future<std::shared_ptr<const Environment>> loading_; ///< last: it reads cancel_ until it ends
 };
 
-/// The same for a picture without a window: waits for it, and throws Error where the file is bad: the picture
-/// would be another one than was asked for.
+/// For a picture without a window: waits for the result. Throws Error for an invalid file, since the picture
+/// would differ from the request.
 void lightWith(const std::filesystem::path& file, SceneRenderer& renderer);
 
 } // namespace touchstone

@@ -9,7 +9,7 @@ namespace touchstone {
 
 Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
                 const LoadOptions& options) {
-    constexpr double kReading = 0.25; // of a million triangles on two cores
+    constexpr double kReading = 0.25; // fraction of the time to load a million triangles on two cores
     const Progress whole(&options.progress, options.cancel);
     LoadOptions loading = options;
     loading.progress = [&](double fraction, const char* what) { whole.report(kReading * fraction, what); };
@@ -49,7 +49,7 @@ Bounds workspaceBounds(const Model& model) {
     Bounds bounds;
     if (model.scene->bounds.empty())
         return bounds;
-    // Fitting turns nothing, so the box stays a box.
+    // Fitting does not rotate, so the box stays a box.
     bounds.include(model.workspaceFromScene.point(model.scene->bounds.low));
     bounds.include(model.workspaceFromScene.point(model.scene->bounds.high));
     return bounds;

@@ -1,5 +1,5 @@
 #pragma once
-// A model as both eye and hand have it.
+// A model for both rendering and haptics.
 
 #include "engine/load/scene_loader.h"
 #include "engine/time/stage_clock.h"
@@ -13,29 +13,28 @@ namespace touchstone {
 
 struct Model {
     ScenePtr scene;
-    std::shared_ptr<const HapticScene> haptic; ///< null where only the eye was asked for
+    std::shared_ptr<const HapticScene> haptic; ///< null for a model to see only
     Similarity workspaceFromScene;
 };
 
-/// Loads and compiles for a device, without the rays (HapticScene::buildRays). Any thread; throws Error, and
-/// Cancelled.
+/// Loads and compiles for a device, without the ray structure (HapticScene::buildRays). Any thread; throws
+/// Error, and Cancelled.
 [[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
                               const LoadOptions& options = {});
-/// For who touches and draws nothing: what only the eye would need is not decoded.
-/// `clock` may be null.
+/// For haptics only: does not decode what only rendering needs. `clock` may be null.
 [[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
                                      StageClock* clock = nullptr);
-/// The eye's half only; `falseColor`: it wants to see what the hand would feel.
+/// For rendering only; `falseColor`: with the data for false colours.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor);
 
-/// Builds what these settings call for besides the plan, so that the first tick has it, and says on stderr
-/// what they ask for that cannot be had.
+/// Builds what these settings need beyond the plan, before the first tick, and prints on stderr what is not
+/// available.
 void prepareFor(const Model& model, const HapticSettings& settings);
 
-/// The scene's bounds as they stand in the workspace (rest pose).
+/// The scene's bounds in the workspace (rest pose).
 [[nodiscard]] Bounds workspaceBounds(const Model& model);
 
-/// Every warning of the model on stderr, one a line.
+/// Prints every warning of the model on stderr, one per line.
 void printWarnings(const Model& model);
 
 } // namespace touchstone

@@ -10,7 +10,7 @@
 namespace touchstone {
 
 namespace {
-constexpr int kNiceness = 10; ///< on few cores the window comes first
+constexpr int kNiceness = 10; ///< on few cores the window has priority
 }
 
 ModelLoader::~ModelLoader() {
@@ -34,7 +34,7 @@ void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& l
 
 namespace {
 
-/// Null where the simulated hand finds no place to press: a person may still touch the model.
+/// Null where the simulated hand finds no place to press: the model may still be touched.
 std::shared_ptr<const StrokePath> tourOver(const Model& model) {
     try {
         return std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, {}));
@@ -52,8 +52,7 @@ void ModelLoader::begin(const Request& request) {
     result_.reset();
     failure_ = nullptr;
     worker_ = std::thread([this, request] {
-        // Of this thread and those that it starts; where it is refused, loading merely competes with the
-        // picture.
+        // For this thread and those that it starts; if refused, loading competes with rendering.
         (void)::setpriority(PRIO_PROCESS, 0, kNiceness);
         LoadOptions options;
         options.cancel = &cancelled_;
@@ -62,7 +61,7 @@ void ModelLoader::begin(const Request& request) {
             activity_.store(what, std::memory_order_relaxed);
         };
         try {
-            // Of a million triangles on two cores; the simplification is by far the longest.
+            // For a million triangles on two cores; the simplification is by far the longest.
             const Progress whole(&options.progress, &cancelled_);
             LoadOptions loading = options;
             loading.progress = [&](double fraction, const char* what) {

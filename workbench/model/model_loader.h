@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-/// A model with the path on which the simulated hand strokes it (null where there is nothing to touch).
+/// A model with the stroke of the simulated hand (null where there is nothing to touch).
 struct LoadedModel {
     Model model;
     std::shared_ptr<const StrokePath> path;
@@ -22,8 +22,8 @@ struct LoadedModel {
     std::shared_ptr<const PreparedScene> prepared; ///< for the renderer
 };
 
-/// Loads models on a worker thread, one at a time: a new request cancels the one before and begins when that
-/// has let go. Main thread only; only the end waits for the worker.
+/// Loads models on a worker thread, one at a time: a new request cancels the current one and starts when that
+/// has ended. Main thread only; only the destructor waits for the worker.
 class ModelLoader {
   public:
     ModelLoader() = default;
@@ -33,15 +33,15 @@ class ModelLoader {
 
     void start(const std::filesystem::path& path, const DeviceLimits& limits);
 
-    /// Gives up what is being loaded; `loading` goes on until the worker has noticed.
+    /// Cancels loading; `loading` stays true until the worker has ended.
     void abandon();
 
-    /// In every frame: the model once it is there; throws the Error that stopped it, once. Nothing of what
-    /// was abandoned.
+    /// Every frame: the model once it is ready; throws the worker's Error once. Nothing for a cancelled
+    /// model.
     [[nodiscard]] std::optional<LoadedModel> take();
 
     [[nodiscard]] bool loading() const { return worker_.joinable(); }
-    /// There is something to take.
+    /// True if there is a result to take.
     [[nodiscard]] bool finished() const {
         return worker_.joinable() && finished_.load(std::memory_order_acquire) &&
                !cancelled_.load(std::memory_order_relaxed);
@@ -58,7 +58,7 @@ class ModelLoader {
     void begin(const Request& request);
 
     std::filesystem::path path_;
-    std::optional<Request> next_; // when the worker has let go
+    std::optional<Request> next_; // started when the worker has ended
     std::thread worker_;
     std::atomic<bool> cancelled_{false}, finished_{false};
     std::atomic<double> fraction_{0.0};

@@ -20,7 +20,7 @@ std::optional<LoadedModel> Opening::update(SceneRenderer& renderer) {
         uploading_->prepared.reset();
         return std::exchange(uploading_, std::nullopt);
     } catch (const DeviceLost&) {
-        throw; // it goes on with another one
+        throw; // continues on another device
     } catch (...) {
         uploading_.reset();
         throw;

@@ -1,5 +1,5 @@
 #pragma once
-// A model on its way from its file to the screen.
+// Opens a model: from its file to the screen.
 
 #include "renderer/scene_renderer.h"
 #include "workbench/model/model_loader.h"
@@ -10,21 +10,21 @@
 
 namespace touchstone {
 
-/// A worker reads the model and compiles it for the hand; then the renderer takes it in, a slice a frame.
-/// What is shown stays until the new one is there. Main thread.
+/// A worker reads the model and compiles it for haptics; then the renderer uploads it, a slice per frame. The
+/// current model stays until the new one is ready. Main thread.
 class Opening {
   public:
-    /// A second one replaces the first.
+    /// A second call replaces the first.
     void start(const std::filesystem::path& path, const DeviceLimits& limits, SceneRenderer& renderer);
-    /// In every frame: the model in the frame in which the renderer shows it. Throws what stopped it, Error
-    /// or std::bad_alloc; then it is over, but for DeviceLost.
+    /// Every frame: returns the model in the frame in which the renderer shows it. Throws the failure, Error
+    /// or std::bad_alloc, which ends the opening; DeviceLost does not.
     [[nodiscard]] std::optional<LoadedModel> update(SceneRenderer& renderer);
     void cancel(SceneRenderer& renderer);
-    /// Another renderer draws from now on: what the one before was taking in begins again.
+    /// A new renderer: an upload in progress restarts.
     void takeDevice(SceneRenderer& renderer);
 
     [[nodiscard]] bool busy() const { return loader_.loading() || uploading_.has_value(); }
-    /// It has been read: the next updates will show it.
+    /// Loaded: the next updates will show it.
     [[nodiscard]] bool arriving() const { return loader_.finished() || uploading_.has_value(); }
     [[nodiscard]] bool uploading() const { return uploading_.has_value(); }
     [[nodiscard]] const std::filesystem::path& path() const { return loader_.path(); }
@@ -36,7 +36,7 @@ class Opening {
     std::optional<LoadedModel> uploading_; // not shown yet
 };
 
-/// s of a frame in which the renderer takes a scene in.
+/// s per frame for uploading a scene.
 inline constexpr double kUploadTime = 0.008;
 
 } // namespace touchstone

@@ -41,7 +41,7 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
         ->type_name("S")
         ->check(CLI::Range(0.1, 3600.0))
         ->needs(test);
-    constexpr double kMaxForce = 2.0; // N; a hand that holds the device loosely keeps it
+    constexpr double kMaxForce = 2.0; // N; a loosely held device stays in the hand
     app.add_option(
            "--force", options.force,
            "Push this hard along each axis in turn; without it no force is ever sent. Hold the device!")
@@ -55,7 +55,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     addScene(app, options.scene)
         ->description("glTF model or recording (.tsrec) to open in a window; without it the doughnut");
     addSettings(app, [&options](std::string_view name, std::string_view value) {
-        HapticSettings tried; // whether it is one; it goes over what the last run left
+        HapticSettings tried; // tests validity; applied over the settings of the last run
         options.settings.emplace_back(name, value);
         return setSetting(tried, name, value);
     });

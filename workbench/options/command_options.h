@@ -1,6 +1,6 @@
 #pragma once
-// What each command can be told: one function a command, which adds its options to its part of the command
-// line and lets them fill `options`, which outlives the parsing.
+// Options of each command: one function per command, which adds its options to its part of the command line
+// and binds them to `options`, which outlives the parsing.
 
 #include "workbench/options/commands.h"
 

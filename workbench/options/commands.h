@@ -1,6 +1,6 @@
 #pragma once
-// What the command line can ask for, one struct and one function a command. The functions return the exit
-// status and throw Error for bad input (status 1).
+// The commands of the command line, one struct and one function each. The functions return the exit status
+// and throw Error for bad input (status 1).
 
 #include "devices/plant/plant_parameters.h"
 #include "devices/stroke/stroke_library.h"
@@ -16,9 +16,9 @@
 
 namespace touchstone {
 
-/// What `run` and the window record.
+/// Recording options of `run` and the window.
 struct RecordingOptions {
-    std::filesystem::path record;       ///< from the start; empty: not asked for
+    std::filesystem::path record;       ///< from the start; empty: not requested
     bool flight = true;                 ///< with a flight recorder
     std::filesystem::path flightFolder; ///< empty: in the state folder
     double flightSeconds = 10.0;
@@ -27,19 +27,19 @@ struct RecordingOptions {
 /// touchstone [SCENE]
 struct WindowOptions {
     std::filesystem::path scene; ///< empty: the default scene
-    /// NAME and VALUE of settings (setSetting), in order, over what the last run left; valid ones.
+    /// NAME and VALUE of settings (setSetting), in order, applied over those of the last run; valid ones.
     std::vector<std::pair<std::string, std::string>> settings;
     double rateHz = 1000.0;
-    bool sound = false;         ///< start with sound, whatever the last run did
+    bool sound = false;         ///< start with sound, whatever the last run used
     bool simulatedHand = false; ///< start with the simulated hand instead of the mouse
     StrokeRequest stroke;       ///< of the simulated hand
-    double zoom = 1.0;          ///< m in the workspace for one m of a device or the simulated hand
+    double zoom = 1.0;          ///< workspace metres for one metre of a device or the simulated hand
     std::string device;         ///< start with this device (devices/choice/device_choice.h); empty: none
     glm::ivec2 size{1280, 800}; ///< screen coordinates
-    std::filesystem::path statusJson; ///< written twice a second when given
+    std::filesystem::path statusJson; ///< written twice a second if given
     RecordingOptions recording;
     std::filesystem::path
-        environment; ///< a panorama that lights the picture; empty: the surroundings in closed form
+        environment; ///< a panorama that lights the picture; empty: the closed-form surroundings
     std::string gpu; ///< part of a Vulkan device's name
 };
 int windowCommand(const WindowOptions& options);
@@ -52,11 +52,11 @@ struct RunOptions {
     double seconds = 10.0;
     glm::ivec2 size{800, 450};
     std::string device =
-        "hand"; ///< what is held: the simulated hand, or what devices/choice/device_choice.h names
-    std::filesystem::path json, screenshot, recordTicks; ///< empty: not asked for
+        "hand"; ///< the hand in use: the simulated hand, or a device of devices/choice/device_choice.h
+    std::filesystem::path json, screenshot, recordTicks; ///< empty: not requested
     RecordingOptions recording;
     StrokeRequest stroke;              ///< of the simulated hand
-    double zoom = 1.0;                 ///< m in the workspace for one m of what is held
+    double zoom = 1.0;                 ///< workspace metres for one metre of the hand in use
     bool openLoop = false;             ///< the hand follows its path whatever the force
     PlantParameters plant;             ///< in the closed loop
     std::filesystem::path environment; ///< as in the window
@@ -68,15 +68,15 @@ int runCommand(const RunOptions& options);
 struct TouchOptions {
     std::filesystem::path scene, out;
     std::filesystem::path path;   ///< empty: the stroke
-    StrokeRequest stroke;         ///< in place of a path
-    double seconds = 0.0;         ///< of the stroke; 0: one round
-    std::filesystem::path json;   ///< empty: not asked for
-    std::filesystem::path record; ///< empty: not asked for
-    std::filesystem::path sound;  ///< WAV; empty: not asked for
+    StrokeRequest stroke;         ///< instead of a path
+    double seconds = 0.0;         ///< of the stroke; 0: one period
+    std::filesystem::path json;   ///< empty: not requested
+    std::filesystem::path record; ///< empty: not requested
+    std::filesystem::path sound;  ///< WAV; empty: not requested
     Fit fit = Fit::None;
     HapticSettings settings;
-    double rateHz = 0.0;     ///< 0: one tick a row of the path
-    bool closedLoop = false; ///< the path is what the hand intends; it holds a device that yields
+    double rateHz = 0.0;     ///< 0: one tick per row of the path
+    bool closedLoop = false; ///< the path is the hand's intention; the hand is compliant and holds a device
     PlantParameters plant;   ///< in the closed loop
 };
 int touchCommand(const TouchOptions& options);
@@ -84,8 +84,8 @@ int touchCommand(const TouchOptions& options);
 /// touchstone replay FILE
 struct ReplayOptions {
     std::filesystem::path recording;
-    std::filesystem::path out, json;           ///< empty: not asked for
-    std::vector<std::filesystem::path> scenes; ///< in place of the recorded ones, in their order
+    std::filesystem::path out, json;           ///< empty: not requested
+    std::vector<std::filesystem::path> scenes; ///< instead of the recorded ones, in their order
 };
 /// Status 1 where a tick differs or the file is damaged.
 int replayCommand(const ReplayOptions& options);
@@ -96,7 +96,7 @@ struct EditOptions {
     std::filesystem::path out;          ///< empty: the scene's own file
     std::vector<std::string> materials; ///< names or indices, or "all"; empty: the only one
     std::string preset;                 ///< workbench/editor/presets.h; empty: none
-    bool reset = false;                 ///< first of all, whatever the file says is taken out
+    bool reset = false;                 ///< first removes everything that the file states
     std::vector<std::string> resetFields;
     std::vector<std::pair<std::string, std::string>> fields; ///< name and value, in order
 };
@@ -115,14 +115,14 @@ int renderCommand(const RenderOptions& options);
 /// touchstone inspect SCENE
 struct InspectOptions {
     std::filesystem::path scene;
-    std::filesystem::path json; ///< empty: not asked for
+    std::filesystem::path json; ///< empty: not requested
 };
 int inspectCommand(const InspectOptions& options);
 
 /// touchstone bench [fast|growth]
 struct BenchOptions {
     std::string what;           ///< empty: all of it
-    std::filesystem::path json; ///< empty: not asked for
+    std::filesystem::path json; ///< empty: not requested
     size_t largestTriangles = 1'000'000;
     int rounds = 20;    ///< of 1000 ticks for each configuration
     bool check = false; ///< status 1 where a bound is missed
@@ -134,11 +134,11 @@ struct StudyCommandOptions {
     std::vector<std::string> what;      ///< shapes by name, files and folders; empty: every shape
     std::filesystem::path out;          ///< a folder
     std::vector<std::string> ablations; ///< empty: all
-    int rounds = 0; ///< turns of each configuration; 0: as many as make intervals of a few per cent
+    int rounds = 0; ///< turns of each configuration; 0: enough for intervals of a few per cent
     bool quick = false;
-    bool list = false;         ///< the ablations and shapes, and nothing else
-    int shard = 1, shards = 1; ///< every `shards`-th of what is asked for, from the `shard`-th
-    std::string commandLine;   ///< as it was typed, for who reads the results
+    bool list = false;         ///< list the ablations and shapes only
+    int shard = 1, shards = 1; ///< every `shards`-th of the subjects, starting with the `shard`-th
+    std::string commandLine;   ///< as typed, for the provenance
 };
 int studyCommand(const StudyCommandOptions& options);
 
@@ -155,15 +155,15 @@ struct StudyMergeOptions {
     std::vector<std::filesystem::path> parts; ///< folders with a study.json, or such files
     std::filesystem::path out;                ///< a folder
 };
-/// Makes one study of its shards, and draws it.
+/// Merges the shards of a study and plots the result.
 int studyMerge(const StudyMergeOptions& options);
 
 /// touchstone devices
 struct DevicesOptions {
-    std::string test; ///< the device to try, as --device names it; empty: list what there is
+    std::string test; ///< the device to test, as in --device; empty: list all
     double seconds = 3.0;
-    double force = 0.0;         ///< N to push with while trying; 0: none is sent
-    std::filesystem::path json; ///< empty: not asked for
+    double force = 0.0;         ///< N, push force of the test; 0: no force is sent
+    std::filesystem::path json; ///< empty: not requested
 };
 int devicesCommand(const DevicesOptions& options);
 

@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-/// The options of a Vulkan device picked by a part of its name (empty: the best).
+/// Options for a Vulkan device chosen by a part of its name (empty: the best).
 [[nodiscard]] inline GpuOptions gpuOptions(const std::string& name) {
     GpuOptions options;
     options.device = name;

@@ -13,7 +13,7 @@ namespace touchstone {
 
 namespace {
 
-/// One a stage; neighbours differ in hue and lightness, so that they part without colour, too.
+/// One per stage; neighbours differ in hue and lightness, so that they remain distinct without colour.
 constexpr std::array<ImU32, kStageCount> kColors{
     IM_COL32(126, 136, 150, 255), // sample
     IM_COL32(66, 135, 245, 255),  // contact
@@ -28,7 +28,7 @@ constexpr ImU32 kEmpty = IM_COL32(38, 42, 47, 255);
 constexpr ImU32 kLabel = IM_COL32(150, 157, 165, 255);
 constexpr ImU32 kText = IM_COL32(228, 231, 234, 255);
 
-/// The next of 1, 2, 5, 10 … µs that holds `most`.
+/// The next of 1, 2, 5, 10 … µs not below `most`.
 double niceCeiling(double most) {
     const double decade = std::pow(10.0, std::floor(std::log10(std::max(most, 1.0))));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -89,7 +89,7 @@ class Strips {
         y_ += line + widgets_.units(5.0f);
     }
 
-    /// The period that the servo has, and what of it the 99th percentile takes.
+    /// The servo's period, and the fraction that the 99th percentile takes.
     void whole(float line) {
         const double period = servo_.rateHz > 0.0 ? 1e6 / servo_.rateHz : 1000.0;
         const float height = widgets_.units(5.0f);
@@ -118,7 +118,7 @@ class Strips {
     float y_ = 0.0f;
 };
 
-/// Swatch, name, p50 and p99 of each stage, down two columns.
+/// Swatch, name, p50 and p99 of each stage, in two columns.
 void drawLegend(const ServoView& servo, Widgets& widgets) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float column = 0.5f * ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight(),

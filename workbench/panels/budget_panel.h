@@ -5,7 +5,7 @@
 
 namespace touchstone {
 
-/// What a tick costs by stage: a strip of medians above one of 99th percentiles on one scale of µs, the whole
+/// Time of a tick by stage: a strip of medians above one of 99th percentiles on a common scale in µs, the
 /// budget of the period beneath, and a legend with both figures. Marks "budget" and "budgetLegend".
 void drawBudget(const ServoView& servo, Widgets& widgets);
 

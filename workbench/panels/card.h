@@ -6,17 +6,17 @@
 
 namespace touchstone {
 
-/// Of what lies over the picture: as large as what it says, where it is put.
+/// Windows over the picture: sized to their content, at a given position.
 inline constexpr ImGuiWindowFlags kCardFlags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
     ImGuiWindowFlags_NoFocusOnAppearing;
 
-/// Of a card that waits for an answer: it takes the keyboard and comes before the others, once.
+/// A card that waits for an answer: it takes the keyboard and comes to the front, once.
 inline constexpr ImGuiWindowFlags kAnsweredCard = kCardFlags & ~ImGuiWindowFlags_NoFocusOnAppearing;
 
-/// Begins one, with an edge that tells it from what is beneath. ImGui::End follows whatever it returns.
-/// `flags`: kCardFlags, or kAnsweredCard for what is to lie over everything when it comes.
+/// Begins a card, with a border that separates it from what is beneath. ImGui::End follows whatever it
+/// returns. `flags`: kCardFlags, or kAnsweredCard for a card on top of everything.
 inline bool beginCardWindow(const char* name, const Widgets& widgets, ImGuiWindowFlags flags = kCardFlags) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, widgets.units(6.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);

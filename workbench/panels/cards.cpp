@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// A card on the picture: `x`, `y` say where on it and which of its own points lies there, 0..1.
+/// A card on the picture: `x`, `y` give its anchor on the picture and on the card itself, 0..1.
 bool beginCard(const char* name, const WidgetRect& picture, float x, float y, const Widgets& widgets,
                ImGuiWindowFlags flags = kCardFlags) {
     const float margin = widgets.units(14.0f);
@@ -35,7 +35,7 @@ void loading(const PanelInput& input, PanelState& state, const WidgetRect& pictu
     ImGui::End();
 }
 
-/// Before edited materials are lost.
+/// The prompt for unsaved materials.
 void unsaved(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
     if (!state.leaving)
         return;
@@ -74,7 +74,7 @@ void problem(const PanelInput& input, PanelState& state, const WidgetRect& pictu
     ImGui::End();
 }
 
-/// Three lines, until they were read; they wait while something else lies where they would.
+/// Three lines until dismissed; hidden while another card occupies their place.
 void introduction(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets) {
     if (state.introduced || input.loading || input.scene == nullptr || state.editMaterials || state.gallery ||
         state.timeline.looking || state.view.mode != ViewMode::Shaded)

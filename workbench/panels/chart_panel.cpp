@@ -26,8 +26,8 @@ struct Chart {
     const char *name, *unit;
     ImU32 color;
     double (*value)(const Entry&);
-    double least;  ///< the scale reaches at least so far
-    bool fromZero; ///< else as far below zero as above
+    double least;  ///< minimum end of the scale
+    bool fromZero; ///< otherwise symmetric about zero
 };
 constexpr std::array<Chart, 4> kCharts{{
     {"force", "N", IM_COL32(245, 190, 70, 255), [](const Entry& e) { return static_cast<double>(e.force); },
@@ -77,7 +77,7 @@ class Charts {
         return left_ + width() * static_cast<float>((time - begin()) / length);
     }
 
-    /// The tick under the pointer, where it is over the charts.
+    /// The tick under the pointer, while it is over the charts.
     void findCursor() {
         cursor_ = std::numeric_limits<size_t>::max();
         const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -89,8 +89,8 @@ class Charts {
                            static_cast<size_t>(share * static_cast<double>(history_.size() - 1) + 0.5));
     }
 
-    /// One point a pixel column: the most of its ticks, so that no peak is lost; of a signed quantity the
-    /// one furthest from zero.
+    /// One point per pixel column: the maximum of its ticks, so that no peak is lost; of a signed quantity
+    /// the one farthest from zero.
     void one(const Chart& chart, float y, float height) {
         draw_.AddRectFilled(ImVec2(left_, y), ImVec2(right(), y + height), kBackground, 3.0f);
         const auto columns = static_cast<size_t>(width());
@@ -117,7 +117,7 @@ class Charts {
         label(chart, y, height, top);
     }
 
-    /// Name, and the value at the cursor or else the newest; how far the scale reaches.
+    /// Name, and the value at the cursor, else the latest; end of the scale.
     void label(const Chart& chart, float y, float height, double top) {
         const float line = ImGui::GetTextLineHeight(), middle = y + 0.5f * (height - line);
         draw_.AddText(ImVec2(corner_.x, middle), chart.color, chart.name);
@@ -134,7 +134,7 @@ class Charts {
         draw_.AddText(at, kLabel, text);
     }
 
-    /// Seconds back from the newest tick, and when a recording ran.
+    /// Seconds before the latest tick, and the recorded intervals.
     void times(float y) {
         const float bar = widgets_.units(3.0f);
         draw_.AddRectFilled(ImVec2(left_, y), ImVec2(right(), y + bar), kGrid, 1.0f);

@@ -1,5 +1,5 @@
 #pragma once
-// What lamps, news and marks mean by their colour.
+// Colours of status lamps, notices and marks.
 
 #include <imgui.h>
 

@@ -9,7 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// A choice of an effect's way while it is on; `first` is the enumerator of the first label.
+/// Combo of an effect's mode while it is on; `first` is the enumerator of the first label.
 template <class Mode, size_t N>
 void way(Widgets& widgets, const char* name, Mode& mode, Mode off, Mode first,
          const std::array<const char*, N>& labels) {
@@ -79,7 +79,7 @@ void drawConfigurations(PanelState& state, Widgets& widgets) {
         std::array{"texture: displacement law", "texture: Blinn's normal",
                    "texture: Minsky's lateral force"});
     if (settings.texture != TextureMode::Off) {
-        // No value of these is off: the one before the first.
+        // These have no value for off: the one before the first.
         way(widgets, "textureFilter", settings.textureFilter, static_cast<TextureFilter>(0xFF),
             TextureFilter::Nearest,
             std::array{"filter: nearest", "filter: bilinear", "filter: bicubic", "filter: mip, by speed"});

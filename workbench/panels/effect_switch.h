@@ -4,14 +4,14 @@
 
 namespace touchstone {
 
-/// An effect that may have several ways of being on: it comes back in the way it was.
+/// Switch of an effect with several modes: it returns to its last mode.
 template <class Mode>
 struct EffectSwitch {
     Mode HapticSettings::*mode;
     Mode off, usual; ///< `usual`: where it was never on
 
     [[nodiscard]] bool on(const PanelState& state) const { return state.settings.*mode != off; }
-    /// In every frame, so that a way chosen elsewhere is known, too.
+    /// Every frame, so that a mode chosen elsewhere is remembered, too.
     void remember(PanelState& state) const {
         if (on(state))
             state.chosen.*mode = state.settings.*mode;

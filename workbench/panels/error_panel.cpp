@@ -36,7 +36,7 @@ const Noticeable& noticeable() {
     return kFound;
 }
 
-/// `just`: 0 where nothing is known of what people notice.
+/// `just`: the just-noticeable difference; 0: unknown.
 void row(const char* name, const LiveErrorFigures::Pair& error, double unit, double just,
          const char* format) {
     ImGui::TableNextRow();

@@ -5,11 +5,11 @@
 
 namespace touchstone {
 
-/// How far from the most exact configurations the touch of the last seconds was, beside the differences that
-/// people just notice. Marks "error".
+/// Errors of the last seconds against the most exact configurations, with the just-noticeable differences.
+/// Marks "error".
 void drawError(const study::LiveErrorFigures& error, Widgets& widgets);
 
-/// Whether nobody is expected to notice what `error` holds, at its 99th percentile; true without contact.
+/// Whether `error` is imperceptible at its 99th percentile; true without contact.
 [[nodiscard]] bool belowPerception(const study::LiveErrorFigures& error);
 
 } // namespace touchstone

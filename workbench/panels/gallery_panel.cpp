@@ -13,12 +13,12 @@ namespace touchstone {
 
 namespace {
 
-// Units of layout. A picture is as large as it is made, so that no filter blurs it.
+// Layout units. A picture has its native size, so that no filter blurs it.
 constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 50.0f, kGap = 14.0f, kInset = 4.0f,
                 kMargin = 24.0f;
 constexpr ImU32 kGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255);
 
-/// How the entries lie: our own first, a new row begins with what was opened before.
+/// Layout of the entries: our own first; the recent ones start a new row.
 struct Grid {
     size_t columns = 1, samples = 0, count = 0;
 
@@ -61,10 +61,10 @@ void choose(const GalleryEntry& entry, PanelState& state) {
         return;
     }
     state.open = entry.file;
-    state.gallery = false; // also where it is first asked what becomes of unsaved materials
+    state.gallery = false; // also where it first prompts for unsaved materials
 }
 
-/// In place of a picture.
+/// Text in place of a missing picture.
 const char* signOf(const GalleryEntry& entry) {
     switch (entry.state) {
     case GalleryState::Waiting:
@@ -81,7 +81,7 @@ const char* signOf(const GalleryEntry& entry) {
     return "";
 }
 
-/// What there is to feel, or where it lies.
+/// Its note or its location.
 std::string lineOf(const GalleryEntry& entry) {
     return !entry.note.empty() ? entry.note : entry.sample ? "" : entry.file.parent_path().string();
 }
@@ -186,7 +186,7 @@ void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& p
             if (keyPressed(GLFW_KEY_DELETE) && !input.gallery[state.galleryAt].sample)
                 state.forget = input.gallery[state.galleryAt].file;
         }
-        ImGui::GetIO().WantCaptureKeyboard = true; // the arrows are not the camera's in this frame
+        ImGui::GetIO().WantCaptureKeyboard = true; // the arrows do not move the camera in this frame
     }
     ImGui::End();
 }

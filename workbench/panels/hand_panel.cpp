@@ -17,7 +17,7 @@ void letGo(PanelState& state, bool simulate) {
     state.device.clear();
 }
 
-/// What is plugged in.
+/// Plugged-in devices.
 void devices(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const char* shown = state.device.empty() ? "hold a device" : state.device.c_str();
     for (const DeviceOffer& offer : input.devices)
@@ -34,7 +34,7 @@ void devices(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::PopItemWidth();
 }
 
-/// Which stroke, how fast and how deep.
+/// Stroke, speed and depth.
 void strokes(const PanelInput& input, PanelState& state, Widgets& widgets) {
     StrokeRequest& stroke = state.stroke;
     const StrokeInfo& chosen = *findStroke(stroke.name);
@@ -56,7 +56,7 @@ void strokes(const PanelInput& input, PanelState& state, Widgets& widgets) {
         const auto high = static_cast<float>(most * unit);
         ImGui::SliderFloat((std::string("##") + name).c_str(), &shown, kLeastOfMost * high, high, format,
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-        // Laid anew when it is let go, not at every pixel of the way.
+        // Laid again on release, not at every pixel of the drag.
         float& dragged = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(name), shown);
         if (ImGui::IsItemActive())
             dragged = shown;
@@ -71,7 +71,7 @@ void strokes(const PanelInput& input, PanelState& state, Widgets& widgets) {
         ImGui::TextWrapped("%s", input.strokeNotice.c_str());
 }
 
-/// Clutch and zoom of what has a workspace of its own.
+/// Clutch and zoom of hands with a workspace map.
 void workspace(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const DeviceMapping& mapping = input.servo->last.sample.mapping;
     auto zoom = static_cast<float>(state.workspace.zoom);

@@ -69,7 +69,7 @@ void drawTopics(std::span<const Topic> topics, const Widgets& widgets) {
         ImGui::TextDisabled("%s", topic.title);
         for (const Line& line : topic.lines) {
             ImGui::TextUnformatted(line.key);
-            ImGui::SameLine(widgets.units(150.0f)); // from where the group begins
+            ImGui::SameLine(widgets.units(150.0f)); // from the start of the group
             ImGui::TextDisabled("%s", line.meaning);
         }
         ImGui::Dummy(ImVec2(0.0f, widgets.units(6.0f)));
@@ -84,7 +84,7 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
         return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-    // In a window too small for all of it, it scrolls.
+    // Scrolls in a window too small for all of it.
     ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), display);
     ImGui::SetNextWindowBgAlpha(1.0f);
     if (beginCardWindow("help", widgets, kAnsweredCard | ImGuiWindowFlags_HorizontalScrollbar)) {

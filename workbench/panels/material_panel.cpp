@@ -21,7 +21,7 @@ namespace {
 constexpr ImU32 kEdited = IM_COL32(240, 180, 60, 255), kStated = IM_COL32(215, 220, 226, 255),
                 kUnset = IM_COL32(120, 126, 133, 255);
 
-/// Why a number holds that the extension does not state.
+/// The origin of a value that the extension does not state.
 const char* originOf(HapticSource source) {
     switch (source) {
     case HapticSource::Mpeg:
@@ -57,7 +57,7 @@ class MaterialPanel {
                   Widgets& widgets)
         : in_(input), controller_(controller), edits_(controller.edits()), state_(state), widgets_(widgets),
           m_(state.material), now_(edits_.now(m_)), was_(edits_.inFile(m_)) {
-        // What would hold with the statement as it is shown; the scene's copy may be a few frames behind.
+        // Effective values with the statement as shown; the scene's copy may be a few frames old.
         HapticLayers says = materialOf(m_).says;
         says.ours = now_;
         haptic_ = settledHaptics(says, in_.scene->images);
@@ -66,7 +66,7 @@ class MaterialPanel {
     void draw() {
         chooser();
         preset();
-        // The fields scroll; what is done with them stays in sight, whatever the window's height.
+        // The fields scroll; the buttons stay visible at any window height.
         ImGui::BeginChild("fields", ImVec2(0.0f, -std::max(1.0f, state_.footer)));
         fields();
         ImGui::EndChild();
@@ -99,7 +99,7 @@ class MaterialPanel {
         return std::to_string(index) + "  " + (name.empty() ? "unnamed" : name);
     }
 
-    /// Of the file, under the probe; -1: none.
+    /// The file's material under the probe; -1: none.
     [[nodiscard]] int probed() const {
         return in_.probed >= 0 ? in_.scene->materials[static_cast<size_t>(in_.probed)].fileIndex : -1;
     }
@@ -164,7 +164,7 @@ class MaterialPanel {
         ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x - widgets_.units(26.0f));
     }
 
-    /// Takes a field out of the extension; drawn at the end of its row, where there is something to take.
+    /// Button that removes a field from the extension; at the end of its row, where the field is stated.
     void reset(std::string_view name, bool stated) {
         ImGui::PopItemWidth();
         if (!stated)
@@ -274,7 +274,7 @@ class MaterialPanel {
         reset(field.name, stated.has_value());
     }
 
-    /// Kept for later work: shown, and can be taken out.
+    /// Reserved: displayed and removable.
     void shader() {
         if (now_.shader.is_null())
             return;
@@ -377,7 +377,7 @@ class MaterialPanel {
     MaterialPanelState& state_;
     Widgets& widgets_;
     const size_t m_;
-    const HapticStatement now_, was_; // of this frame: copies, since a widget changes the desk's
+    const HapticStatement now_, was_; // of this frame: copies, since a widget changes the controller's
     HapticMaterial haptic_;
 };
 

@@ -9,23 +9,23 @@
 
 namespace touchstone {
 
-/// What the editor shows besides the desk. Pointers live for the call.
+/// Input of the editor besides the controller. Pointers are valid during the call.
 struct MaterialPanelInput {
     const Scene* scene = nullptr;   ///< null: no model yet
     int probed = -1;                ///< Scene::materials under the probe; -1: none
     double deviceStiffness = 600.0; ///< N/m, where a material states none
 };
 
-/// What the editor remembers from frame to frame.
+/// State of the editor between frames.
 struct MaterialPanelState {
     size_t material = 0;     ///< of the file
-    bool followProbe = true; ///< show what is touched
+    bool followProbe = true; ///< show the touched material
     std::string target;      ///< of "Save as"
     bool askTarget = false;
-    float footer = 0.0f; ///< window coordinates that the last frame's buttons took
+    float footer = 0.0f; ///< window coordinates, height of the last frame's buttons
 };
 
-/// Draws the editor into the current ImGui window and makes the changes at the desk. Widgets are called
+/// Draws the editor into the current ImGui window and applies edits to the controller. Widget names:
 /// "edit.material", "edit.preset", "edit.FIELD", "reset.FIELD", "undo", "redo", "resetMaterial", "save",
 /// "saveAs". Main thread, within an ImGui frame.
 void drawMaterialPanel(const MaterialPanelInput& input, MaterialController& controller,

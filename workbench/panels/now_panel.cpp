@@ -25,7 +25,7 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
     if (has(tick.flags, TickFlag::InputInvalid))
         return {"No hand", kGrey};
     const double coupling = input.servo->last.sample.mapping.coupling;
-    const bool mouse = state.device.empty() && !state.simulatedHand; // has no clutch, but hovers
+    const bool mouse = state.device.empty() && !state.simulatedHand; // no clutch, but hovers
     if (coupling < 1.0 && !mouse)
         return {coupling > 0.0 ? "Clutch: the force fades" : "Clutched: the hand stays here", kAmber};
     if (has(tick.flags, TickFlag::ForceRamping) && tick.contacts > 0 && coupling == 1.0)
@@ -53,7 +53,7 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const glm::dvec3 along = tick.force - glm::dot(tick.force, tick.normal) * tick.normal;
     ImGui::BeginGroup();
     ImGui::TextDisabled("%.2f mm deep", 1e3 * tick.penetration);
-    // A recorded tick that cannot be touched again has no normal.
+    // A recorded tick that cannot be recomputed has no normal.
     if (tick.contacts > 0 && tick.normal == glm::dvec3(0.0))
         ImGui::TextDisabled("its direction is not recorded");
     else

@@ -1,5 +1,5 @@
 #pragma once
-// One function and one file a panel; layout.cpp puts them in their places.
+// One function and one file per panel; layout.cpp arranges them.
 
 #include "workbench/panels/panel_state.h"
 
@@ -8,37 +8,37 @@ namespace touchstone {
 /// File and view menus, effects, force, record, servo lamp, help.
 void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets);
 
-/// What is held: mouse, simulated hand, a device.
+/// The hand in use: mouse, simulated hand, device.
 void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets);
-/// The simulated hand's next stroke; -1: the one before. It becomes the hand.
+/// Selects the simulated hand's next stroke (-1: previous) and switches to that hand.
 void nextStroke(PanelState& state, int step);
-/// "clutch", "force comes back", "zoom 2.0x", both or nothing.
+/// "clutch", "force comes back", "zoom 2.0x", both or empty.
 [[nodiscard]] std::string workspaceText(const DeviceMapping& mapping);
-/// The model's nodes, what is touched among them, and what was wrong with the file.
+/// The model's nodes with the touched one, and the file's warnings.
 void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets);
-/// What the touched material is felt as, and which effects it has and why.
+/// Effective properties of the touched material, and its effects with reasons.
 void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);
 
-/// The force and depth of now, and in what state the touch is.
+/// Current force and depth, and the state of touch.
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets);
-/// Sound on and off, its volume and what became of it.
+/// Sound on and off, volume and status.
 void drawSound(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Every choice of method.
 void drawConfigurations(PanelState& state, Widgets& widgets);
-/// How punctual the servo is, and the picture.
+/// Timing of the servo and of rendering.
 void drawServo(const PanelInput& input, Widgets& widgets);
 
-/// Force, depth, energy and time of a step over the last seconds, and what of them is recorded.
+/// Force, depth, energy and step time over the last seconds, with the recorded intervals.
 void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets);
 
-/// What lies over the picture: loading, what went wrong, how to touch.
+/// Cards over the picture: loading, problems, introduction.
 void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets);
-/// Pictures of our own scenes and of what was opened before, to open one; over all but the bar.
+/// Pictures of our own and of recent scenes, to open one; over everything but the bar.
 void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& place, Widgets& widgets);
-/// Every key and what the pointer does.
+/// All keys and pointer actions.
 void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets);
 
-/// The state of the touch as a person would say it.
+/// The state of touch for the user.
 struct TouchLamp {
     const char* text;
     unsigned color; ///< ImU32

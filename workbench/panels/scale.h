@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-/// Where a chart's scale ends: the next of 1, 2, 5, 10 … times a power of ten that holds `most` > 0.
+/// End of a chart's scale: the next of 1, 2, 5, 10 … times a power of ten not below `most` > 0.
 inline double niceCeiling(double most) {
     const double decade = std::pow(10.0, std::floor(std::log10(most)));
     for (const double factor : {1.0, 2.0, 5.0})

@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kMaxNodes = 300; // in the tree; more are told by their number
+constexpr size_t kMaxNodes = 300; // in the tree; the rest is counted
 
 /// The Scene node that is touched, or -1.
 int touchedNode(const PanelInput& input) {

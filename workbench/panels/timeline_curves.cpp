@@ -26,8 +26,8 @@ constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52
                 kGap = IM_COL32(235, 75, 65, 220), kScene = IM_COL32(120, 205, 130, 220),
                 kSettings = IM_COL32(190, 150, 240, 230), kNote = IM_COL32(228, 231, 234, 220);
 
-constexpr double kMinTop = 0.5;       // N, so that noise in the air does not fill the picture
-constexpr float kLabelWidth = 108.0f; // units, as that of the charts
+constexpr double kMinTop = 0.5;       // N, so that noise in the air does not fill the strip
+constexpr float kLabelWidth = 108.0f; // units, the same as in the charts
 
 ImU32 colorOf(TimelineMark::Kind kind) {
     switch (kind) {
@@ -43,17 +43,17 @@ ImU32 colorOf(TimelineMark::Kind kind) {
     return kNote;
 }
 
-/// A stretch of the recording on a strip of the window.
+/// An interval of the recording in a strip of the window.
 class Strip {
   public:
-    /// `near`: forces that are never near zero fill the strip.
+    /// `near`: the scale follows the visible forces.
     Strip(TimelineController& controller, double begin, double end, bool near, float height, Widgets& widgets)
         : controller_(controller), line_(controller.timeline()), widgets_(widgets),
           draw_(*ImGui::GetWindowDrawList()), corner_(ImGui::GetCursorScreenPos()),
           left_(corner_.x + widgets.units(kLabelWidth)), right_(corner_.x + ImGui::GetContentRegionAvail().x),
           height_(height), begin_(begin), end_(std::max(end, begin + 1e-6)), near_(near) {}
 
-    /// Curve, contact, marks and cursor; scrubs. True while it is being dragged.
+    /// Curve, contact, marks and cursor; scrubs. True during a drag.
     bool draw(const char* name) {
         draw_.AddRectFilled(ImVec2(left_, top()), ImVec2(right_, bottom()), kBackground, 3.0f);
         draw_.PushClipRect(ImVec2(left_, top()), ImVec2(right_, bottom()), true);
@@ -73,7 +73,7 @@ class Strip {
                           text);
         return scrub(name);
     }
-    /// A line of the column on the left, from above.
+    /// A line of the left column, from the top.
     void label(int row, ImU32 color, const char* text) const {
         draw_.AddText(ImVec2(corner_.x, top() + static_cast<float>(row) * ImGui::GetTextLineHeight()), color,
                       text);
@@ -100,7 +100,7 @@ class Strip {
     }
     [[nodiscard]] int columns() const { return static_cast<int>(width()); }
 
-    /// The ticks of a column of pixels; an empty range where it has none.
+    /// The ticks of a pixel column; an empty range where there are none.
     [[nodiscard]] std::pair<size_t, size_t> ticksOf(int column) const {
         const auto from = [&](int c) {
             const double seconds = secondsAt(left_ + static_cast<float>(c));
@@ -118,7 +118,7 @@ class Strip {
                 all = {std::min(all.least, column->least), std::max(all.most, column->most)};
         most_ = niceCeiling(std::max(kMinTop, static_cast<double>(all.most)));
         least_ = 0.0;
-        // Nothing but contact: the differences are what is looked at.
+        // Forces that are never near zero: the scale shows their differences.
         constexpr double kSteps = 4.0;
         if (!near_ || static_cast<double>(all.least) < 0.3 * most_)
             return;
@@ -128,8 +128,7 @@ class Strip {
         most_ = step * std::ceil(static_cast<double>(all.most) / step + 1e-6);
     }
 
-    /// What was felt again, by column. Of more ticks than this in a strip it is not drawn: the near view has
-    /// it.
+    /// The replayed force by column. Not drawn in a strip with more ticks than this: the near view has it.
     void feltAgain() {
         constexpr size_t kMaxTicks = 200'000;
         const TouchAgain& again = controller_.again();
@@ -163,7 +162,7 @@ class Strip {
                 draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), kLoopEdge, 1.5f);
     }
 
-    /// From the least to the most of each column: no peak is lost, however long it is.
+    /// From the minimum to the maximum of each column: no peak is lost, however long the interval.
     void curve() {
         float before = yOf(least_);
         for (int c = 0; c < columns(); ++c) {
@@ -176,7 +175,7 @@ class Strip {
             const MinMax force = line_.force().over(first, last);
             const float low = yOf(static_cast<double>(force.least)),
                         high = yOf(static_cast<double>(force.most));
-            // Joined to the column before, and at least a pixel high.
+            // Joined to the previous column, and at least one pixel high.
             draw_.AddRectFilled(ImVec2(x, std::min(high, before)),
                                 ImVec2(x + 1.0f, std::max(low, before) + 1.0f), kForce);
             before = 0.5f * (low + high);
@@ -202,7 +201,7 @@ class Strip {
         }
     }
 
-    /// Where what the mark says begins to hold; a gap from the last tick that is known.
+    /// At the tick where the mark takes effect; a gap from the last known tick.
     void marks() {
         const float flag = widgets_.units(4.0f);
         std::array<float, 4> last{-1e9f, -1e9f, -1e9f, -1e9f}; // of each kind
@@ -271,7 +270,7 @@ class Strip {
     float left_, right_, height_;
     double begin_, end_;
     std::vector<std::optional<MinMax>> again_;
-    bool near_;                       // the scale fits what is shown
+    bool near_;                       // the scale fits the visible range
     double least_ = 0.0, most_ = 1.0; // N, at its lower and its upper edge
 };
 
@@ -295,7 +294,7 @@ void drawNear(TimelineController& controller, TimelinePanelState& state, float h
     const double length = controller.timeline().length();
     constexpr double kMinSpan = 0.02, kMaxSpan = 20.0; // s
     state.span = std::clamp(state.span, kMinSpan, kMaxSpan);
-    // It stands still until the cursor leaves it: nothing runs under the eye.
+    // It stays until the cursor leaves it, so that the view does not scroll continuously.
     const double offset = (at.seconds() - state.nearBegin) / state.span;
     const bool dragged = ImGui::IsMouseDown(0) && offset >= 0.0 && offset <= 1.0;
     if (!dragged && (offset < 0.02 || offset > 0.98))

@@ -7,10 +7,10 @@ namespace touchstone {
 class TimelineController;
 struct TimelinePanelState;
 
-/// The whole recording in `height` window coordinates: the force, where it touches, marks, cursor. Scrubs.
+/// The whole recording in `height` window coordinates: force, contact, marks, cursor. Scrubs.
 void drawOverview(TimelineController& controller, float height, Widgets& widgets);
 
-/// What is near the cursor, with what was felt again over it. Scrubs; the wheel changes how much is shown.
+/// The interval around the cursor, with the replayed force. Scrubs; the wheel zooms.
 void drawNear(TimelineController& controller, TimelinePanelState& state, float height, Widgets& widgets);
 
 } // namespace touchstone

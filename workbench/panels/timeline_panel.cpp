@@ -23,7 +23,7 @@ constexpr double kShiftStep = 0.1; // s
 void beside(float width) {
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SameLine();
-    // On the first line the arrow that folds the panel stands last.
+    // The arrow that folds the panel is the last item of the first line.
     if (ImGui::GetContentRegionAvail().x < width + spacing + ImGui::GetFrameHeight())
         ImGui::NewLine();
 }
@@ -107,7 +107,7 @@ struct News {
     ImU32 color;
 };
 
-/// What came of it, or what is to be known.
+/// The result of a replay, or a notice.
 News newsOf(const TimelineController& controller) {
     const TouchAgain::Means means = controller.again().means();
     char text[160];
@@ -128,7 +128,7 @@ News newsOf(const TimelineController& controller) {
             ImGui::GetColorU32(ImGuiCol_TextDisabled)};
 }
 
-/// As many lines as it needs, two at most: what is more is cut off, and in the tooltip.
+/// As many lines as needed, two at most; the rest is cut off and shown in the tooltip.
 float heightOf(const News& news) {
     const float wrap = ImGui::GetContentRegionAvail().x;
     return std::min(ImGui::CalcTextSize(news.text.c_str(), nullptr, false, wrap).y,
@@ -276,7 +276,7 @@ void timelineKeys(TimelineController& controller) {
         else
             at.step(direction);
     };
-    if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) // again and again while it is held
+    if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) // repeats while held
         stepOnce(-1);
     if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT))
         stepOnce(1);

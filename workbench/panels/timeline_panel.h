@@ -9,29 +9,30 @@ namespace touchstone {
 
 class TimelineController;
 
-/// What a person has chosen about how a recording is shown.
+/// View state of a recording.
 struct TimelinePanelState {
-    bool shown = false;     ///< the panel below has the recording, not the live charts
-    bool list = false;      ///< the recordings that there are, also while one is looked at
-    bool looking = false;   ///< as the desk was in the last frame
-    double span = 2.0;      ///< s that the near view shows
-    double nearBegin = 0.0; ///< s, where it begins
-    /// Asked for in this frame; whoever does it takes it back.
+    bool shown = false;     ///< the panel shows the recording, not the live charts
+    bool list = false;      ///< the list of recordings, also while one is open
+    bool looking = false;   ///< the controller's state in the last frame
+    double span = 2.0;      ///< s, width of the near view
+    double nearBegin = 0.0; ///< s, its start
+    /// Requests of this frame; cleared by the code that handles them.
     std::optional<std::filesystem::path> open;
 };
 
-/// What is looked at is shown, and what is left is not. True where somebody has just begun to look.
+/// Shows a recording when it is opened and hides it when it is closed. True in the frame in which it was
+/// opened.
 bool followController(const TimelineController& controller, TimelinePanelState& state);
 
-/// The recording's timeline, or the list of recordings where none is looked at. What is pressed and dragged
-/// is done at once. Main thread, within an ImGui window.
+/// The recording's timeline, or the list of recordings where none is open. Applies input at once. Main
+/// thread, within an ImGui window.
 void drawTimeline(TimelineController& controller, TimelinePanelState& state, Widgets& widgets);
 
-/// On the picture while a recording is looked at: that the force is off, and the way back. `picture`: its
-/// place.
+/// On the picture while a recording is open: a notice that the force is off, and the way back. `picture`: its
+/// rectangle.
 void drawLookingCard(TimelineController& controller, const WidgetRect& picture, Widgets& widgets);
 
-/// K, arrows, Home and End, A and B. Within an ImGui frame in which nobody types.
+/// K, arrows, Home and End, A and B. Within an ImGui frame without text input.
 void timelineKeys(TimelineController& controller);
 
 } // namespace touchstone

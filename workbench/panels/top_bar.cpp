@@ -16,7 +16,7 @@ void beneath() {
     ImGui::SetNextWindowPos(ImVec2(ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + 4.0f));
 }
 
-/// A file as a line of a menu.
+/// A file as a menu item.
 void fileItem(const std::filesystem::path& file, const std::string& beside, PanelState& state) {
     ImGui::PushID(file.c_str());
     const std::string name = file.filename().string();
@@ -143,7 +143,7 @@ void record(const PanelInput& input, PanelState& state, Widgets& widgets) {
                                                             : input.recordingFile.c_str());
 }
 
-/// Right in the bar: the servo's rate and its 99th percentile, and the help.
+/// Right end of the bar: the servo's rate and its 99th percentile, and help.
 void servoLamp(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const ServoView& servo = *input.servo;
     char text[64];

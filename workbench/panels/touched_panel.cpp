@@ -10,7 +10,7 @@ namespace touchstone {
 
 namespace {
 
-/// Scene material under the probe; in the air the only one there is, else -1.
+/// Scene material under the probe; in the air the only one of the scene, else -1.
 int touchedMaterial(const PanelInput& input) {
     const auto& objects = input.haptic->objects;
     const int object = input.tick->output.object;
@@ -37,7 +37,7 @@ void figures(const HapticMaterialData& material, const Widgets& widgets) {
         row(widgets, "viscous", "%.2f N s/m", material.viscousFriction);
 }
 
-/// What is on with its reason beneath; of what is off, the reason where the pointer rests.
+/// Active effects with their reasons beneath; reasons of inactive ones as tooltips.
 void effects(const EffectPlan& plan, int material) {
     for (const bool on : {true, false})
         for (const PlannedEffect& effect : plan.effects) {

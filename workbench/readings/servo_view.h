@@ -14,11 +14,10 @@
 
 namespace touchstone {
 
-/// The servo's figures as a person can read them: percentiles over the last seconds, renewed twice a second.
-/// Main thread.
+/// The servo's figures for display: percentiles over the last seconds, updated twice a second. Main thread.
 class ServoView {
   public:
-    /// Takes the ticks made since the last call. `now`: s, any steady clock.
+    /// Takes the ticks since the last call. `now`: s, any steady clock.
     void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, study::LiveError& liveError,
                double now);
 
@@ -33,7 +32,7 @@ class ServoView {
     double contactP50Us = 0.0, contactP99Us = 0.0;              ///< of their whole step
     study::LiveErrorFigures error;
     std::vector<uint64_t> wakeHistogram, stepHistogram; ///< by kHistogramEndsUs
-    /// Share of one processor that the host took away since the last renewal; nothing where it does not tell.
+    /// Fraction of one processor that the host took away since the last update; nullopt where unknown.
     std::optional<double> stolenShare;
 
   private:

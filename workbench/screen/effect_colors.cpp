@@ -9,8 +9,7 @@ namespace touchstone {
 
 namespace {
 
-/// Okabe and Ito's colours ("Color universal design", 2008), which people who see few colours can tell apart;
-/// sRGB.
+/// Okabe and Ito's colours ("Color universal design", 2008), distinguishable for colour-blind users; sRGB.
 constexpr std::array<glm::vec3, 8> kPalette{glm::vec3(0.60f, 0.60f, 0.60f), glm::vec3(0.34f, 0.71f, 0.91f),
                                             glm::vec3(0.90f, 0.62f, 0.00f), glm::vec3(0.00f, 0.62f, 0.45f),
                                             glm::vec3(0.94f, 0.89f, 0.26f), glm::vec3(0.80f, 0.47f, 0.65f),
@@ -36,7 +35,7 @@ EffectColors effectColors(const EffectPlan& plan, size_t materials) {
     });
     kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
     EffectColors colors;
-    // Grey stands for no effect and nothing else.
+    // Grey is reserved for materials without effects.
     const size_t first = !kinds.empty() && kinds.front().empty() ? 0 : 1;
     std::map<std::set<Effect>, glm::vec3> colorOf;
     for (size_t k = 0; k < kinds.size(); ++k) {

@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// Which materials feel alike: one colour for each set of effects that some material's plan switches on.
+/// Classifies materials: one colour for each set of effects in some material's plan.
 struct EffectColors {
     struct Kind {
         std::string effects; ///< "force shading, friction"
@@ -19,7 +19,7 @@ struct EffectColors {
     std::vector<glm::vec3> materials; ///< the colour of each material, sRGB
 };
 
-/// Pure. More kinds than there are colours (8) share the last one's.
+/// Pure. Kinds beyond the number of colours (8) share the last one.
 [[nodiscard]] EffectColors effectColors(const EffectPlan& plan, size_t materials);
 
 } // namespace touchstone

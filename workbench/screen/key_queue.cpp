@@ -11,13 +11,13 @@ namespace touchstone {
 
 namespace {
 
-KeyQueue* installed = nullptr; // GLFW's callbacks carry the window only
+KeyQueue* installed = nullptr; // GLFW's callbacks have no user data
 
 bool isModifier(int key) {
     return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
 }
 
-/// Its character goes into a text field; the key itself means nothing there.
+/// True if the key types a character into a text field.
 bool writes(int key, int modifiers) {
     return key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 &&
            (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
@@ -30,7 +30,7 @@ KeyQueue::KeyQueue(GLFWwindow* window, std::function<void(int, int)> pressed)
     installed = this;
     nextKey_ = glfwSetKeyCallback(window, [](GLFWwindow*, int key, int scancode, int action, int modifiers) {
         if (action == GLFW_REPEAT)
-            return; // ImGui counts the time that a key is held itself
+            return; // ImGui itself measures how long a key is held
         if (action == GLFW_PRESS && installed->pressed_)
             installed->pressed_(key, modifiers);
         installed->waiting_.push_back(
@@ -61,7 +61,7 @@ bool KeyQueue::fits(const Event& event, Frame& frame) const {
         frame.released.push_back(event.key);
         return true;
     }
-    // ImGui looks once a frame at what is down: a key that came up and went down again in between was held.
+    // ImGui polls once per frame: a key released and pressed again in between would count as held.
     const bool cameUp = std::ranges::find(frame.released, event.key) != frame.released.end();
     if (frame.pressed || frame.wrote || cameUp)
         return false;

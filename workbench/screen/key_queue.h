@@ -8,14 +8,14 @@ struct GLFWwindow;
 
 namespace touchstone {
 
-/// Keys and characters between GLFW and Dear ImGui, which looks at the keys once a frame only and would not
-/// see one that is down for less. They wait here in their order, and a frame takes as many as it can tell
-/// apart: up to the second key that goes down, and not the release of the one that did. What writes into a
-/// text field is taken at once, but not past an editing key. Main thread.
+/// Queues keys and characters between GLFW and Dear ImGui, which polls the keys once per frame and would miss
+/// a shorter press. Events wait in order; a frame takes as many as it can distinguish: up to the second key
+/// press, and not the release of the first. Characters for a text field are passed on at once, but not past
+/// an editing key. Main thread.
 class KeyQueue {
   public:
-    /// `pressed` is called when the event is handled, before the frame that takes it. After the callbacks of
-    /// ImGui's backend are installed, whose place it takes. One at a time.
+    /// `pressed` is called when the event is handled, before the frame that takes it. Construct after the
+    /// callbacks of ImGui's backend are installed, which it replaces. One at a time.
     KeyQueue(GLFWwindow* window, std::function<void(int key, int modifiers)> pressed);
     ~KeyQueue();
     KeyQueue(const KeyQueue&) = delete;
@@ -31,9 +31,9 @@ class KeyQueue {
         unsigned int codepoint = 0;
     };
     struct Frame {
-        int down = 0; ///< the key that went down in it
+        int down = 0; ///< the key that was pressed in it
         bool pressed = false, wrote = false;
-        std::vector<int> released; ///< keys that came up in it
+        std::vector<int> released; ///< keys that were released in it
     };
     [[nodiscard]] bool fits(const Event& event, Frame& frame) const;
     void pass(const Event& event);

@@ -17,7 +17,7 @@
 #include <system_error>
 #include <utility>
 
-// Not in every libglfw: that for Wayland has the same soname and not this function.
+// Not in every libglfw: the Wayland build has the same soname without this function.
 extern "C" __attribute__((weak)) unsigned long glfwGetX11Window(GLFWwindow* window);
 
 namespace touchstone {
@@ -26,19 +26,19 @@ namespace {
 
 using Event = std::unique_ptr<xcb_generic_event_t, decltype(&std::free)>;
 
-constexpr uint8_t kEventType = 0x7f; // the other bit: sent by another client
+constexpr uint8_t kEventType = 0x7f; // the top bit marks events sent by another client
 constexpr uint16_t kNotPlain = XCB_MOD_MASK_CONTROL | XCB_MOD_MASK_1 | XCB_MOD_MASK_4;
 
 } // namespace
 
-/// XCB and not Xlib: no error handler of the whole process, and a lost connection ends no process.
+/// XCB and not Xlib: no process-wide error handler, and a lost connection does not end the process.
 struct KeyWatch::Connection {
     xcb_connection_t* server = nullptr;
     xcb_window_t window = 0;
     xcb_keycode_t key = 0;
     int stop = -1; // an eventfd
     bool down = false;
-    std::optional<xcb_timestamp_t> released; // when it came up after it had been down
+    std::optional<xcb_timestamp_t> released; // time of the last release
 
     ~Connection() {
         if (server != nullptr)
@@ -61,16 +61,16 @@ struct KeyWatch::Connection {
         return refused == nullptr;
     }
 
-    /// Waits for something to happen; false where the watch is to end.
+    /// Waits for an event; false where the watch is to end.
     [[nodiscard]] bool wait() const {
         std::array<pollfd, 2> files{{{xcb_get_file_descriptor(server), POLLIN, 0}, {stop, POLLIN, 0}}};
         const int ready = poll(files.data(), files.size(), -1);
         return (ready >= 0 || errno == EINTR) && files[1].revents == 0;
     }
 
-    /// Whether the key has gone down. The server repeats a key that is held by a release and a press of the
-    /// same time. A release of a key that is up means nothing: xdotool sends one before each press, often in
-    /// the same millisecond.
+    /// Whether the key was pressed. The server repeats a held key as a release and a press of the same time.
+    /// A release of a released key means nothing: xdotool sends one before each press, often in the same
+    /// millisecond.
     [[nodiscard]] bool isPress(const xcb_generic_event_t& event) {
         const auto& input = reinterpret_cast<const xcb_key_press_event_t&>(event);
         const auto type = event.response_type & kEventType;
@@ -99,7 +99,7 @@ KeyWatch::KeyWatch(GLFWwindow* window, int glfwKey, std::function<void(bool)> pr
     alive_ = true;
     try {
         thread_ = std::thread([this] { watch(); });
-    } catch (const std::system_error&) { // no thread to be had: the window's own events do
+    } catch (const std::system_error&) { // no thread: the window's own events remain
         alive_ = false;
         connection_.reset();
     }

@@ -11,23 +11,23 @@ struct GLFWwindow;
 
 namespace touchstone {
 
-/// Watches one key of a window on a thread and a connection to the X server of its own, which neither draw
-/// nor wait for what draws: the key is seen while the main thread stands still, and whatever widget has the
-/// focus. (X delivers a key to every client that selects it on the window.)
+/// Watches one key of a window on its own thread and X connection, independently of rendering: the key is
+/// seen while the main thread is blocked, and whatever widget has the focus. (X delivers a key to every
+/// client that selects it on the window.)
 ///
-/// On Wayland a second connection sees no keys of the window: there `alive` is false.
+/// On Wayland a second connection receives no keys of the window: there `alive` is false.
 class KeyWatch {
   public:
-    /// Main thread. `pressed` is called on the thread of the watch when the key goes down, not when it is
-    /// repeated; `plain`: without Ctrl, Alt and Super.
+    /// Main thread. `pressed` is called on the watch thread on a press, not on its repetitions; `plain`:
+    /// without Ctrl, Alt and Super.
     KeyWatch(GLFWwindow* window, int glfwKey, std::function<void(bool plain)> pressed);
     ~KeyWatch();
     KeyWatch(const KeyWatch&) = delete;
     KeyWatch& operator=(const KeyWatch&) = delete;
 
-    /// Any thread: false where there is no X server or the connection is lost.
+    /// Any thread: false without an X server or after a lost connection.
     [[nodiscard]] bool alive() const { return alive_.load(std::memory_order_acquire); }
-    /// How often the key went down; nothing while not alive. Any thread.
+    /// Number of presses; nullopt while not alive. Any thread.
     [[nodiscard]] std::optional<uint32_t> presses() const {
         return alive() ? std::optional(presses_.load(std::memory_order_acquire)) : std::nullopt;
     }

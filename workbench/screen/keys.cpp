@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kSigns = 128;
 using KeyTable = std::array<int, kSigns>;
 
-/// GLFW names its keys by what they write in America.
+/// GLFW names its keys by the US layout.
 int americanKey(char sign) {
     return sign >= 'a' && sign <= 'z' ? sign - 'a' + GLFW_KEY_A : static_cast<int>(sign);
 }
@@ -33,7 +33,7 @@ KeyTable readKeyboard() {
     return table;
 }
 
-/// Of this frame: the user may change the layout at any time.
+/// Rebuilt every frame: the user may change the layout at any time.
 const KeyTable& keyboard() {
     static KeyTable table = readKeyboard();
     static int frame = -1;
@@ -48,7 +48,7 @@ bool anyDown(std::initializer_list<int> keys) {
     return std::any_of(keys.begin(), keys.end(), [](int key) { return ImGui::IsKeyDown(key); });
 }
 
-/// With Ctrl: what a text field does itself.
+/// Text field shortcuts with Ctrl.
 bool editsText(int key) {
     constexpr std::string_view kEditing = "acvxyz";
     return std::any_of(kEditing.begin(), kEditing.end(), [key](char sign) { return keyOf(sign) == key; }) ||

@@ -24,7 +24,7 @@ void Magnifier::drawFrame(const glm::vec2& corner, float size, float scale) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const ImVec2 low(corner.x, corner.y), high(corner.x + size, corner.y + size);
     draw.AddRect(low, high, IM_COL32(225, 229, 233, 255), 0.0f, 0, 2.0f * scale);
-    // A bar of 2 mm.
+    // A scale bar of 2 mm.
     const float bar = size * static_cast<float>(2e-3 / kField), y = high.y - 10.0f * scale,
                 x = low.x + 10.0f * scale;
     draw.AddLine(ImVec2(x, y), ImVec2(x + bar, y), IM_COL32(255, 255, 255, 255), 2.0f * scale);

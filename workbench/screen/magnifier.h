@@ -5,15 +5,15 @@
 
 namespace touchstone {
 
-/// The small view that follows the probe. Pure.
+/// The magnified inset that follows the probe. Pure.
 struct Magnifier {
-    static constexpr double kField = 12e-3; ///< m of the workspace that it shows from edge to edge
+    static constexpr double kField = 12e-3; ///< m of the workspace, its field of view
 
-    /// Looks along `main` at `probe`.
+    /// Looks at `probe` in the direction of `main`.
     [[nodiscard]] static OrbitCamera camera(const OrbitCamera& main, const glm::dvec3& probe);
     /// A square in the upper right corner of a picture, pixels.
     [[nodiscard]] static PixelRect place(const PixelRect& picture);
-    /// The frame around it with a bar for its scale, in ImGui's background. Window coordinates.
+    /// Its frame with a scale bar, in ImGui's background. Window coordinates.
     static void drawFrame(const glm::vec2& corner, float size, float scale);
 };
 

@@ -8,8 +8,9 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kMagnifierOverlayScale = 0.22; ///< of the overlays' sizes in it
-constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames: the CPU transforms every vertex for it once more
+constexpr double kMagnifierOverlayScale = 0.22; ///< scale of the overlays in it
+constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames between updates: the CPU transforms every vertex
+                                                ///< for it again
 
 } // namespace
 

@@ -8,34 +8,33 @@
 
 namespace touchstone {
 
-/// The picture of the model and all that belongs on it: overlays of the newest tick, legend, magnifier. Main
-/// thread.
+/// The picture of the model with the overlays of the latest tick, legend and magnifier. Main thread.
 class ModelPicture {
   public:
-    /// Pictures that are saved go into `folder`.
+    /// Saved pictures go into `folder`.
     explicit ModelPicture(std::filesystem::path folder) : controller_(std::move(folder)) {}
 
     struct Frame {
         const Model& model; ///< its scene may be null
         const TickRecord& tick;
-        bool tickBelongs = true; ///< to the model; else nothing of it is drawn
+        bool tickBelongs = true; ///< to the model; otherwise nothing of it is drawn
         const HapticSettings& settings;
         const OrbitCamera& camera;
         ViewOptions& options;
         PixelRect place;             ///< of the framebuffer
-        glm::ivec2 sceneSize{1};     ///< pixels that are drawn for it
-        double allowedError = 0.0;   ///< of these, by which simplified meshes may differ
-        float pixelsPerPoint = 1.0f; ///< framebuffer pixels for one window coordinate
-        float scale = 1.0f;          ///< window coordinates for one unit of the layout
-        bool software = false;       ///< the device computes on the CPU
+        glm::ivec2 sceneSize{1};     ///< resolution of the scene image
+        double allowedError = 0.0;   ///< of these, tolerance of simplified meshes
+        float pixelsPerPoint = 1.0f; ///< framebuffer pixels per window coordinate
+        float scale = 1.0f;          ///< window coordinates per layout unit
+        bool software = false;       ///< software device
     };
-    /// Draws into the renderer's images, and the legend into the ImGui frame at hand. Returns where the
+    /// Draws into the renderer's images, and the legend into the current ImGui frame. Returns where the
     /// images belong.
     [[nodiscard]] EyePlaces draw(const Frame& frame, SceneRenderer& renderer);
-    /// Another renderer draws from now on.
+    /// A new renderer.
     void takeDevice() { colored_.reset(); }
 
-    /// After endFrame: keeps the picture that `options` asked for. True when there is news in `message`.
+    /// After endFrame: saves the picture requested in `options`. True when `message` has changed.
     bool save(WindowTarget& target, const Frame& frame);
     [[nodiscard]] const std::string& message() const { return controller_.message(); }
 
@@ -46,7 +45,7 @@ class ModelPicture {
     PictureController controller_;
     Overlay overlay_;
     ViewLegend legend_;
-    std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan the colours show
+    std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan gave the colours
     EffectColors colors_;
     int magnifierAge_ = 0; ///< frames since it was drawn
 };

@@ -11,10 +11,10 @@ namespace {
 
 // Sizes in the workspace, m: a model is fitted to 150 mm.
 constexpr double kHipRadius = 1.6e-3;
-constexpr double kMinProxyRadius = 2.6e-3; // a god-object has none, but must be seen
+constexpr double kMinProxyRadius = 2.6e-3; // a god-object has radius zero and must be visible
 constexpr double kStictionRadius = 1.1e-3;
 constexpr double kPlaneRadius = 9e-3;
-constexpr double kForceLength = 0.04; // m of arrow for one newton
+constexpr double kForceLength = 0.04; // m of arrow per newton
 constexpr double kMaxForceLength = 0.1;
 constexpr double kArrowRadius = 0.8e-3;
 constexpr double kNormalLength = 0.018;
@@ -34,12 +34,12 @@ double drawnRadius(const HapticSettings& settings, double scale) {
     return std::max(settings.proxyRadius, scale * kMinProxyRadius);
 }
 
-/// Rim and some of the sides of a cone that opens from `tip` along unit `axis`; `slope` is the tangent of its
-/// half angle.
+/// Rim and some generators of a cone with apex `tip` along unit `axis`; `slope` is the tangent of its half
+/// angle.
 void drawCone(const glm::dvec3& tip, const glm::dvec3& axis, double slope, double length, Overlay& overlay) {
     const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
     const glm::dvec3 u = glm::normalize(glm::cross(other, axis)), v = glm::cross(axis, u);
-    // A wide cone is as long along its sides as a narrow one.
+    // Cones have the same slant length.
     const double along = length / std::sqrt(1.0 + slope * slope);
     const auto rim = [&](int side) {
         const double angle = glm::two_pi<double>() * side / kConeSides;
@@ -82,7 +82,7 @@ void drawTick(const TickRecord& record, const HapticSettings& settings, const Ti
     if (!look.shown.friction || tick.friction == FrictionState::Free)
         return;
     overlay.spheres.push_back({tick.stictionPoint, scale * kStictionRadius, kStictionColor});
-    // Where several planes hold the hand there is a cone on each, and friction has the sum of them.
+    // Each plane that holds the hand has a cone; the friction force is their sum.
     if (look.frictionCoefficient > 0.0 && tick.planeCount <= 1 && glm::length(tick.normal) > 0.5)
         drawCone(tick.stictionPoint, tick.normal, look.frictionCoefficient, scale * kConeLength, overlay);
 }

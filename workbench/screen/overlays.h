@@ -13,19 +13,19 @@ struct TickLook {
     ShownOverlays shown;
     double frictionCoefficient =
         0.0;            ///< of the touched material: tangent of the cone's half angle; 0: no cone
-    double scale = 1.0; ///< of all sizes but the proxy's own radius; a magnifier wants less than 1
+    double scale = 1.0; ///< of all sizes except the proxy's own radius; less than 1 in a magnifier
 };
 
-/// What a tick looks like: HIP, proxy, force arrow, active planes, stiction point with the friction cone (a
-/// force inside it sticks), felt normal. Main thread.
+/// Overlays of a tick: HIP, proxy, force arrow, active planes, stiction point with the friction cone (a force
+/// inside it sticks), felt normal. Main thread.
 void drawTick(const TickRecord& record, const HapticSettings& settings, const TickLook& look,
               Overlay& overlay);
 
-/// The ball that is drawn for the proxy, as what casts a shadow.
+/// The proxy's drawn ball as a shadow caster.
 [[nodiscard]] ProbeShadow probeShadow(const TickRecord& record, const HapticSettings& settings);
 
-/// The static coefficient where the tick touches: the session's, else the material's, without its map or
-/// vertices; 0 where no friction is felt.
+/// The static friction coefficient at the touched point: the session's, else the material's, without its map
+/// or vertices; 0 without friction.
 [[nodiscard]] double frictionCoefficientAt(const TickRecord& record, const HapticSettings& settings,
                                            const Scene& scene, const HapticScene& haptic);
 

@@ -36,7 +36,7 @@ bool PictureController::update(WindowTarget& target) {
             saving_ = std::async(std::launch::async, saved, folder_, stem_, cropped(*pixels, *part_));
             part_.reset();
         } else {
-            target.requestCapture(); // no frame yet, another desk took it, or it was lost with its device
+            target.requestCapture(); // no frame yet, captured by another caller, or lost with its device
         }
     }
     if (!saving_.valid() || saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)

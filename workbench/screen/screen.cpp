@@ -22,7 +22,7 @@ Screen::Screen(Window& window, const GpuOptions& options)
       renderer_(std::make_unique<SceneRenderer>(*gpu_)) {}
 
 Screen::~Screen() {
-    drop(); // which the layer may have something to say about
+    drop(); // the validation layer may report on this
     for (const std::string& message : options_.log->messages())
         std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What draws the window.
+// The window's Vulkan device, target and renderer.
 
 #include "renderer/device_losses.h"
 #include "renderer/gpu.h"
@@ -11,9 +11,9 @@
 
 namespace touchstone {
 
-/// The device with the window's target and the model's renderer on it. A device may be lost (DeviceLost, from
-/// whatever uses it): then another is taken, and what was drawn on the lost one must be taken in again. Main
-/// thread; what touches does not notice.
+/// The device with the window's target and the model's renderer. When a device is lost (DeviceLost, from any
+/// use), another is created, and everything drawn must be uploaded again. Main thread; the servo is not
+/// affected.
 class Screen {
   public:
     Screen(Window& window, const GpuOptions& options);
@@ -27,12 +27,12 @@ class Screen {
     [[nodiscard]] const WindowTarget& target() const { return target_; }
     [[nodiscard]] SceneRenderer& renderer() { return *renderer_; }
 
-    /// After `lost`, at `now`, s: with an empty renderer. Throws Error where no device can be had, or the
-    /// third one within ten seconds was lost.
+    /// After `lost`, at `now`, s: with an empty renderer. Throws Error where no device is available, or on
+    /// the third loss within ten seconds.
     void renew(const DeviceLost& lost, double now);
-    /// Of all devices so far.
+    /// Over all devices so far.
     [[nodiscard]] size_t validationMessages() const { return options_.log->messages().size(); }
-    /// s of the device's time that the last finished frame took; 0 where it cannot measure that.
+    /// s of device time of the last finished frame; 0 where it cannot be measured.
     [[nodiscard]] double busy() const;
 
   private:

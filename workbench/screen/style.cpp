@@ -43,8 +43,8 @@ void applyColors(ImGuiStyle& style) {
 
 void applyStyle(float scale) {
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // the layout is ours
-    // Where widgets are walked through by keys, Enter presses them: space takes the force away, always.
+    io.IniFilename = nullptr; // no saved ImGui layout
+    // With keyboard navigation Enter presses widgets: space always switches the force off.
     io.KeyMap[ImGuiKey_Space] = GLFW_KEY_ENTER;
     if (std::filesystem::exists(kFont)) {
         static const ImWchar kRanges[] = {0x20, 0xFF, 0x2013, 0x2026, 0x03BC, 0x03BC, 0, 0};

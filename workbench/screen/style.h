@@ -2,9 +2,9 @@
 
 namespace touchstone {
 
-/// Colours, spacing and the fonts: the usual one, and the last in the atlas, a large one (Inter where it is
-/// installed), `scale` window coordinates for one unit of layout. After the ImGui context exists and before
-/// its first frame. Main thread.
+/// Colours, spacing and fonts: the default font, and, last in the atlas, a large one (Inter where installed);
+/// `scale`: window coordinates per layout unit. After the ImGui context exists and before its first frame.
+/// Main thread.
 void applyStyle(float scale);
 
 } // namespace touchstone

@@ -21,13 +21,13 @@ constexpr double kZoomPerNotch = 0.9;
 constexpr double kZoomPerPixel = 0.99;
 constexpr double kKeyOrbit = 1.2;                      // rad/s
 constexpr double kKeyPan = 400.0;                      // pixels/s
-constexpr double kKeyZoom = 0.4;                       // of the distance that is left after a second
-constexpr double kTurntable = 0.5;                     // rad/s: once round in 12.6 s
-constexpr double kProbeDistance = 0.6;                 // scene radii, when the probe is framed
-constexpr double kClearance = 0.012;                   // m between model and resting hand
-constexpr double kFirstYaw = 0.45, kFirstPitch = 0.35; // rad: from the right and above, so depth shows
+constexpr double kKeyZoom = 0.4;                       // fraction of the distance left after one second
+constexpr double kTurntable = 0.5;                     // rad/s: one turn in 12.6 s
+constexpr double kProbeDistance = 0.6;                 // scene radii, for the view of the probe
+constexpr double kClearance = 0.012;                   // m between model and hand at rest
+constexpr double kFirstYaw = 0.45, kFirstPitch = 0.35; // rad: from the right and above, to show depth
 
-/// The move that a key asks for, as Blender has them: 1, 3, 7, and with Ctrl the opposite side.
+/// The camera move of a key, as in Blender: 1, 3, 7, and with Ctrl the opposite side.
 std::optional<CameraMove> keyMove(bool homeIsTaken) {
     const bool opposite = ImGui::GetIO().KeyCtrl;
     const auto side = [&](char digit, int pad) {
@@ -77,7 +77,7 @@ void ViewControl::lookAt(const Bounds& bounds, double aspect) {
     hand_ = MouseHand(centre + glm::dvec3(0.0, 0.0, 0.5 * bounds.extent().z + kClearance));
     over_ = hand_.goal();
     pressed_ = {.press = 0.0};
-    lift(); // from where the model before was touched
+    lift(); // from where the previous model was touched
     pressing_ = armed_ = false;
 }
 
@@ -153,7 +153,7 @@ void ViewControl::turnWithKeys(const Situation& now) {
         camera_.pan(kKeyPan * now.seconds * glm::dvec2(-right, up), now.area.y);
     else
         camera_.orbit(kKeyOrbit * now.seconds * right, kKeyOrbit * now.seconds * up);
-    // On an American keyboard plus is written with Shift on the key of the equals sign.
+    // On a US keyboard plus is Shift with the key of the equals sign.
     const double nearer = keyAxis({keyOf('-'), GLFW_KEY_KP_SUBTRACT},
                                   {keyOf('+') == '+' ? keyOf('=') : keyOf('+'), GLFW_KEY_KP_ADD});
     if (nearer != 0.0)
@@ -164,7 +164,7 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 moved(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
     const auto notches = static_cast<double>(io.MouseWheel);
-    // Alt lends the left button to the camera, for those who have no other.
+    // Alt with the left button moves the camera, for mice with one button.
     const bool leftIsHand = now.mouseIsHand && !io.KeyAlt;
     if (io.MouseDown[1] || io.MouseDown[2] || (io.MouseDown[0] && !leftIsHand)) {
         if (io.KeyShift)
@@ -190,7 +190,7 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
         pointHand(now, options);
 }
 
-/// Left drag moves the hand in the plane of the view, the wheel in depth.
+/// Dragging with the left button moves the hand in the plane of the view, the wheel in depth.
 void ViewControl::moveFreeHand(const Situation& now) {
     const ImGuiIO& io = ImGui::GetIO();
     const ViewAxes axes{camera_.right(), camera_.up(), camera_.forward()};
@@ -214,7 +214,7 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
     if (const std::optional<PointedSurface> seen = now.look(picker)) {
         const PointedSurface surface = withRoom(now, *seen);
         liftWhereBlocked(now, MouseHand::hoverOver(surface));
-        // It comes back in the air, before it presses.
+        // It returns in the air before it presses.
         pressing_ = io.MouseDown[0] && armed_ && !putDown_;
         pressed_ = {.object = surface.object,
                     .press = pressing_ ? options.press : 0.0,
@@ -230,9 +230,9 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
     liftWhereBlocked(now, hand_.goal());
 }
 
-/// Before a surface that another one faces the hand stays in the middle.
+/// Between two facing surfaces the hand stays in the middle.
 PointedSurface ViewControl::withRoom(const Situation& now, const PointedSurface& surface) {
-    constexpr double kOff = 1e-6; // m: not the surface itself
+    constexpr double kOff = 1e-6; // m: excludes the surface itself
     PointedSurface with = surface;
     const Ray out{surface.point + kOff * surface.normal, surface.normal};
     if (const std::optional<PointedSurface> facing = now.look(out))
@@ -240,9 +240,9 @@ PointedSurface ViewControl::withRoom(const Situation& now, const PointedSurface&
     return with;
 }
 
-/// A pointer is at once where a hand has a way to go. Where the straight way leads through the model, round
-/// an edge or from one part to another, the hand is lifted off and put down there: for long enough that touch
-/// begins anew. Dragged through, it would stay held on the side that it came from.
+/// The pointer jumps, but a hand must travel. Where the straight path leads through the model, round an edge
+/// or from one part to another, the hand is lifted off and put down at the new point, for long enough that
+/// touch restarts. Dragged through, it would stay on the side that it came from.
 void ViewControl::liftWhereBlocked(const Situation& now, const glm::dvec3& to) {
     const glm::dvec3 from = std::exchange(over_, to), way = to - from;
     const double length = glm::length(way);

@@ -11,16 +11,16 @@
 
 namespace touchstone {
 
-/// What pointer and keys do over the picture (docs/window.md): they move the camera and, where the mouse is
-/// the hand, the hand. Main thread.
+/// Pointer and keys over the picture (docs/window.md): they move the camera and, where the mouse is the hand,
+/// the hand. Main thread.
 class ViewControl {
   public:
-    /// m of depth of the free hand for one notch of the wheel; a tenth of it with Shift.
+    /// m of depth of the free hand per notch of the wheel; a tenth of it with Shift.
     static constexpr double kWheelDepth = 2e-3;
-    /// By how much a notch makes the hand press harder, and the least and most that it presses with, N.
+    /// Factor of the press per notch, and its minimum and maximum, N.
     static constexpr double kWheelPress = 1.25, kMinPress = 0.05, kMaxPress = 5.0;
 
-    /// A new model: looks at all of it and rests the hand in front of it.
+    /// A new model: fits the camera and places the hand in front of it.
     void lookAt(const Bounds& bounds, double aspect);
 
     struct Situation {
@@ -28,15 +28,15 @@ class ViewControl {
         glm::dvec2 area{1.0};    ///< its size
         glm::dvec3 probe{0.0};   ///< workspace, m
         double seconds = 0.0;    ///< since the last call
-        bool mouseIsHand = true; ///< else the left button and the wheel are the camera's, too
-        bool looksBack = false;  ///< at a recording: left, right and Home are its cursor's
-        bool covered = false;    ///< by something that has the keys
-        /// What a line of sight meets first; null: there is no model.
+        bool mouseIsHand = true; ///< otherwise left button and wheel belong to the camera, too
+        bool looksBack = false;  ///< a recording is shown: left, right and Home move its cursor
+        bool covered = false;    ///< by an item that has the keyboard
+        /// The first hit of a line of sight; null: no model.
         std::function<std::optional<PointedSurface>(const Ray&)> look;
     };
-    /// The button that pressed came up over a panel or in another window: nobody presses any more.
+    /// The pressed button was released over a panel or in another window: ends the press.
     void letGo();
-    /// Once a frame, within an ImGui frame. Does what `options` ask for and what keys and pointer do.
+    /// Every frame, within an ImGui frame. Applies the requests in `options`, keys and pointer.
     void update(const Situation& now, ViewOptions& options);
 
     [[nodiscard]] const OrbitCamera& camera() const { return camera_; }
@@ -44,9 +44,9 @@ class ViewControl {
     [[nodiscard]] glm::dquat workspaceFromView() const {
         return glm::quat_cast(glm::dmat3(camera_.right(), camera_.up(), -camera_.forward()));
     }
-    /// None while the hand is lifted off the model.
+    /// Nullopt while the hand is lifted off the model.
     [[nodiscard]] std::optional<MouseGoal> handGoal() const;
-    /// The model has been built again where the hand is: it is lifted off and put down in sight of it.
+    /// The model was rebuilt around the hand: lifts it off and puts it down on the visible side.
     void lift() { lifted_ = kLifted; }
 
   private:
@@ -61,16 +61,16 @@ class ViewControl {
     OrbitCamera camera_;
     Bounds bounds_;
     MouseHand hand_{glm::dvec3(0.0, 0.0, 0.1)};
-    glm::dvec3 over_{0.0}; ///< where the hand last hovered, or would have if it did not press
-    /// s; kForceRampOutTime is 0.05: the force has faded when the hand is put down.
+    glm::dvec3 over_{0.0}; ///< where the hand last hovered, or would without its press
+    /// s; kForceRampOutTime is 0.05: the force has faded out before the hand is put down.
     static constexpr double kLifted = 0.08;
 
     bool pressing_ = false;
-    bool armed_ = true;    ///< the button has been up since the model was opened
-    MouseGoal pressed_;    ///< but for its position: what the hand points at, and how hard
-    Similarity pointedAt_; ///< workspaceFromObject of pressed_.object, when it was pointed at
-    bool putDown_ = false; ///< in this frame, having been lifted
-    double lifted_ = 0.0;  ///< s for which the hand is still gone
+    bool armed_ = true;    ///< the button was released since the model was opened
+    MouseGoal pressed_;    ///< without its position: the target and its press
+    Similarity pointedAt_; ///< workspaceFromObject of pressed_.object, at the time of the pick
+    bool putDown_ = false; ///< in this frame, after a lift
+    double lifted_ = 0.0;  ///< s until the hand is put down
 };
 
 } // namespace touchstone

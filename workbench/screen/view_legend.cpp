@@ -16,7 +16,7 @@ ImU32 colorOf(const glm::vec3& c) {
     return ImGui::GetColorU32(ImVec4(c.x, c.y, c.z, 1.0f));
 }
 
-/// One line: a swatch of colour and what it stands for.
+/// One line: a colour swatch and its meaning.
 struct Entry {
     glm::vec3 color;
     std::string text;
@@ -44,7 +44,7 @@ void drawBar(ImDrawList& draw, const FalseColorScale& scale, ImVec2 at, float wi
                            ImVec2(at.x + width * static_cast<float>(i + 1) / kSteps, at.y + height),
                            colorOf(falseColor((i + 0.5) / kSteps)));
     }
-    // Numbers at both ends and in the middle.
+    // Labels at both ends and in the middle.
     for (const double t : {0.0, 0.5, 1.0}) {
         const std::string text = scaleLabel(scale.low + t * (scale.high - scale.low), scale.unit);
         const float textWidth = ImGui::CalcTextSize(text.c_str()).x, x = at.x + width * static_cast<float>(t);

@@ -6,9 +6,9 @@
 
 namespace touchstone {
 
-/// How the model is looked at, as ImGui widgets in the window or menu at hand: view, overlays, camera,
-/// magnifier, picture. `mark` is called after each widget with its name ("view", "savePicture", "magnifier",
-/// …). Main thread.
+/// The view options as ImGui widgets in the current window or menu: view, overlays, camera, magnifier,
+/// picture. `mark` is called after each widget with its name ("view", "savePicture", "magnifier", …). Main
+/// thread.
 void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& mark);
 
 } // namespace touchstone

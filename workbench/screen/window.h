@@ -20,16 +20,16 @@ class Window {
 
     [[nodiscard]] GLFWwindow* handle() const { return window_; }
     [[nodiscard]] bool shouldClose() const;
-    /// Handles what happened; waits up to `seconds` for something to happen.
+    /// Handles pending events; waits up to `seconds` for one.
     void waitEvents(double seconds);
-    /// Window coordinates for one unit of layout: 1 on plain screens, 2 on dense ones whose coordinates are
-    /// pixels (X11), 1 where the desktop scales the coordinates itself (Wayland).
+    /// Window coordinates per layout unit: 1 on plain screens, 2 on dense ones whose coordinates are pixels
+    /// (X11), 1 where the desktop scales the coordinates itself (Wayland).
     [[nodiscard]] float layoutScale() const;
-    /// The file that was dropped on the window since the last call.
+    /// The file dropped on the window since the last call.
     [[nodiscard]] std::optional<std::filesystem::path> takeDropped();
     [[nodiscard]] glm::ivec2 size() const; ///< screen coordinates
-    void stayOpen();                       ///< not shouldClose after all
-    void close();                          ///< shouldClose from now on
+    void stayOpen();                       ///< revokes shouldClose
+    void close();                          ///< sets shouldClose
     void setTitle(const std::string& title);
 
   private:

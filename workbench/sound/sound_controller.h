@@ -6,17 +6,17 @@
 
 namespace touchstone {
 
-/// The window's sound: a tap behind the hand, and a sound card while one is wanted. Main thread.
+/// The window's sound: a tap on the hand, and a sound card while sound is on. Main thread.
 class SoundController {
   public:
     /// `hand` outlives it.
     explicit SoundController(Device& hand) : hand_(hand, feed_) {}
 
-    /// What the servo is to hold; the servo is gone before this is.
+    /// The device for the servo; the servo must end before this object.
     [[nodiscard]] Device& hand() { return hand_; }
-    /// Once a frame.
+    /// Every frame.
     void update(const SoundChoice& choice) { card_.update(choice.on, choice.level()); }
-    /// Another world is about to be touched.
+    /// Another model is about to be touched.
     void interrupt() { card_.interrupt(); }
     [[nodiscard]] SoundStatus status() const;
 

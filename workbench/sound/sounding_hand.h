@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-/// What a tick is to the ear. `dt`: s since the one before.
+/// A tick as input of the sound. `dt`: s since the previous one.
 [[nodiscard]] inline SoundTick soundTick(double dt, const DeviceSample& sample,
                                          const DeviceCommand& command) {
     const glm::dvec3 place = sample.inWorkspace();
@@ -15,12 +15,11 @@ namespace touchstone {
     return {.dt = dt,
             .position = place,
             .force = sample.mapping.workspaceFromDevice.direction(command.force()),
-            .handKnown = sample.valid && finite}; // a place that is none would be heard for ever
+            .handKnown = sample.valid && finite}; // a non-finite position would contaminate all later output
 }
 
-/// A hand whose force is heard, too: the servo holds it in the place of `hand`, and what goes to that goes to
-/// `feed` as well. So sound is where a device is, behind the tick, and hears what a device is told to push
-/// with.
+/// A hand whose force is audible: the servo uses it instead of `hand`, and it forwards to `hand` and `feed`.
+/// So sound comes after the tick, like a device, and renders the force commanded to the device.
 class SoundingHand final : public Device {
   public:
     /// Both outlive it.
@@ -37,7 +36,7 @@ class SoundingHand final : public Device {
         hand_.apply(command);
         const double dt = sampled_ - applied_;
         applied_ = sampled_;
-        if (dt > 0.0 && dt < kLongest) // else the servo has begun anew, or ended
+        if (dt > 0.0 && dt < kLongest) // otherwise the servo has restarted or ended
             feed_.add(soundTick(dt, last_, command));
     }
 

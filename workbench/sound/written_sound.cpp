@@ -11,7 +11,7 @@ void WrittenSound::add(const SoundTick& tick) {
         early_ = static_cast<size_t>(std::lround((tick.dt + Loudness::kLookAhead) * kRate));
     last_ = tick;
     seconds_ += tick.dt;
-    (void)synthesizer_.push(tick); // all that came before has been rendered
+    (void)synthesizer_.push(tick); // all previous ticks have been rendered
     render();
 }
 
@@ -25,7 +25,7 @@ void WrittenSound::render() {
     }
 }
 
-/// What is still to be heard of the last ticks needs some more, which change nothing.
+/// Renders the tail of the last ticks by repeating the last one, which adds no change.
 void WrittenSound::commit() {
     const auto whole = static_cast<size_t>(std::lround(seconds_ * kRate));
     while (seconds_ > 0.0 && written_ < whole) {

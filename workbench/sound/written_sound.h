@@ -8,14 +8,14 @@
 
 namespace touchstone {
 
-/// The sound of an offline touch as a WAV file: second t of it is second t of the path. Full scale is full
+/// The sound of an offline run as a WAV file: second t of it is second t of the path. Full scale is full
 /// volume.
 class WrittenSound {
   public:
-    static constexpr int kRate = 48000;                        ///< frames a second
-    static constexpr double kShortest = 1e-4, kLongest = 0.05; ///< s that a tick may last
+    static constexpr int kRate = 48000;                        ///< frames per second
+    static constexpr double kShortest = 1e-4, kLongest = 0.05; ///< s, range of a tick's duration
 
-    /// Throws Error that names the file.
+    /// Throws Error with the file's name.
     explicit WrittenSound(const std::filesystem::path& file) : file_(file, kRate), frames_(kBlock) {}
 
     void add(const SoundTick& tick);

@@ -1,5 +1,5 @@
 #pragma once
-// One piece of work at a time beside the window's thread.
+// One job at a time on a worker thread.
 
 #include <sys/resource.h>
 
@@ -13,13 +13,13 @@
 
 namespace touchstone {
 
-/// Thrown by JobProgress::at; BackgroundJob takes it as the end that was asked for.
+/// Thrown by JobProgress::at; BackgroundJob treats it as a cancellation.
 struct JobCancelled {};
 
-/// What a worker tells while it works. Any thread.
+/// Progress and cancellation of a worker. Any thread.
 class JobProgress {
   public:
-    /// Throws JobCancelled where nobody wants the result any more. `fraction`: 0..1.
+    /// Throws JobCancelled after abandon(). `fraction`: 0..1.
     void at(double fraction) {
         fraction_.store(fraction, std::memory_order_relaxed);
         if (cancelled_.load(std::memory_order_relaxed))
@@ -34,14 +34,14 @@ class JobProgress {
     std::atomic<double> fraction_{0.0};
 };
 
-/// Main thread only, but for what `start` is given.
+/// Main thread only, except the function given to `start`.
 template <class Result>
 class BackgroundJob {
   public:
     using Work = std::function<Result(JobProgress&)>;
 
     BackgroundJob() = default;
-    /// Waits until the worker has noticed that nobody wants it.
+    /// Waits until the worker has noticed the cancellation.
     ~BackgroundJob() {
         abandon();
         if (worker_.joinable())
@@ -50,11 +50,11 @@ class BackgroundJob {
     BackgroundJob(const BackgroundJob&) = delete;
     BackgroundJob& operator=(const BackgroundJob&) = delete;
 
-    /// Only while not `busy`. Throws std::system_error where there is no thread to be had.
+    /// Only while not `busy`. Throws std::system_error if no thread can be created.
     void start(Work work) {
         auto shared = std::make_shared<Shared>();
         worker_ = std::thread([shared, work = std::move(work)] {
-            constexpr int kNiceness = 10; // on few cores the window comes first
+            constexpr int kNiceness = 10; // on few cores the window has priority
             (void)::setpriority(PRIO_PROCESS, 0, kNiceness);
             try {
                 shared->result = work(shared->progress);
@@ -67,13 +67,13 @@ class BackgroundJob {
         });
         shared_ = std::move(shared);
     }
-    /// Nothing comes of it; `busy` goes on until the worker has noticed.
+    /// Cancels the job; `busy` stays true until the worker has ended.
     void abandon() {
         if (shared_ != nullptr)
             shared_->progress.cancelled_.store(true, std::memory_order_relaxed);
     }
     [[nodiscard]] bool busy() const { return shared_ != nullptr; }
-    /// There is nothing to wait for: `take` and the destructor return at once.
+    /// True where `take` and the destructor return at once.
     [[nodiscard]] bool finished() const {
         return !busy() || shared_->progress.finished_.load(std::memory_order_acquire);
     }
@@ -84,7 +84,7 @@ class BackgroundJob {
         return busy() ? shared_->progress.fraction_.load(std::memory_order_relaxed) : 0.0;
     }
 
-    /// The result once it is there; throws what stopped it, once. Nothing of what was abandoned.
+    /// The result once it is ready; throws the worker's exception once. Nothing for a cancelled job.
     [[nodiscard]] std::optional<Result> take() {
         if (!busy() || !shared_->progress.finished_.load(std::memory_order_acquire))
             return std::nullopt;

@@ -29,7 +29,8 @@ MinMaxPyramid::MinMaxPyramid(std::vector<float> values) : values_(std::move(valu
     }
 }
 
-/// From both ends inwards: what does not fill a parent is taken one by one, then the same a level higher.
+/// From both ends inwards: entries that do not fill a parent are taken one by one, then the same one level
+/// higher.
 MinMax MinMaxPyramid::over(size_t first, size_t last) const {
     MinMax all{values_[first], values_[first]};
     const auto entry = [&](size_t level, size_t i) {

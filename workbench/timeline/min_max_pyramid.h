@@ -11,8 +11,8 @@ struct MinMax {
     bool operator==(const MinMax&) const = default;
 };
 
-/// Least and most of any range of a long curve in logarithmic time: no peak is lost, however few pixels there
-/// are. Each level holds the extremes of kBranch entries of the one below. Immutable; any thread.
+/// Minimum and maximum of any range of a long curve in logarithmic time: no peak is lost, however few pixels
+/// there are. Each level holds the extremes of kBranch entries of the one below. Immutable; any thread.
 class MinMaxPyramid {
   public:
     MinMaxPyramid() = default;
@@ -20,7 +20,7 @@ class MinMaxPyramid {
 
     [[nodiscard]] size_t size() const { return values_.size(); }
     [[nodiscard]] float operator[](size_t i) const { return values_[i]; }
-    /// Of [first, last), which must not be empty and lie within the curve.
+    /// Of [first, last), which must be non-empty and within the curve.
     [[nodiscard]] MinMax over(size_t first, size_t last) const;
 
   private:

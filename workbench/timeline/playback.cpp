@@ -22,7 +22,7 @@ void Playback::step(long ticks) {
 void Playback::stepSeconds(double seconds) {
     const size_t from = cursor_;
     seek(timeline_->seconds(from) + seconds);
-    // Also over a gap, and where ticks are further apart.
+    // Also over a gap, and where ticks are far apart.
     if (seconds > 0.0 && cursor_ <= from)
         moveTo(from + 1);
     if (seconds < 0.0 && cursor_ >= from)
@@ -62,7 +62,7 @@ void Playback::advance(double seconds) {
     if (position_ >= end)
         position_ = begin + std::fmod(position_ - begin, std::max(1e-9, end - begin));
     cursor_ = std::clamp(timeline_->indexAt(position_), first(), last());
-    // Nothing happens in a gap.
+    // There are no ticks in a gap.
     if (cursor_ < last() && timeline_->seconds(cursor_ + 1) - position_ > kLongestPause)
         moveTo(cursor_ + 1);
 }

@@ -14,7 +14,7 @@ double RecordedPath::lap() const noexcept {
     const double once = length() + PlaybackDevice::kGlideTime;
     if (!(options_.period > 0.0))
         return once;
-    constexpr double kExact = 1e-9; // of a period: a lap that is a multiple but for rounding is not longer
+    constexpr double kExact = 1e-9; // of a period: a lap that is a multiple up to rounding is not extended
     return std::max(1.0, std::ceil(once / options_.period - kExact)) * options_.period;
 }
 
@@ -50,7 +50,7 @@ DeviceSample RecordedPath::at(double time) const noexcept {
     return out;
 }
 
-/// What the recorded hand feels, or one on its way, is not one's own.
+/// The user's hand does not receive what the recorded or gliding hand feels.
 void PlaybackDevice::feel(const TouchFeedback& felt) noexcept {
     if (followed_ == nullptr && !gliding_)
         own_.feel(felt);
@@ -72,11 +72,11 @@ DeviceSample PlaybackDevice::sample(double time) noexcept {
     }
     DeviceSample sample = path != nullptr ? path->at(time) : own;
     if (gliding_) {
-        // In the workspace: one's own hand may have it clutched and zoomed.
+        // In the workspace: the live hand may have it clutched and zoomed.
         const glm::dvec3 hip = glide(glideFrom_, sample.inWorkspace(), (time - glideStart_) / kGlideTime);
         sample.position = sample.mapping.workspaceFromDevice.inversePoint(hip);
         gliding_ = time - glideStart_ < kGlideTime;
-        // One's own hand may be anywhere by now, inside the model too: touch begins where it is.
+        // The live hand may be anywhere by now, also inside the model: touch starts where it is.
         sample.begins = path == nullptr && !gliding_;
     }
     const Similarity& now = sample.mapping.workspaceFromDevice;

@@ -1,5 +1,5 @@
 #pragma once
-// The hand of a recording, once more, through the servo that touches now.
+// Replays the hand of a recording through the running servo.
 
 #include "devices/device/device.h"
 #include "engine/exchange/handover.h"
@@ -14,18 +14,18 @@
 
 namespace touchstone {
 
-/// Where a recorded hand was, in time. Immutable but for when it began; the servo reads it.
+/// The recorded hand's path in time. Immutable except its start time; the servo reads it.
 class RecordedPath {
   public:
     struct Sample {
-        double seconds = 0.0; ///< since the first one; grows
+        double seconds = 0.0; ///< since the first one; increasing
         glm::dvec3 position{0.0};
         bool valid = false;
     };
     struct Options {
-        bool repeats = false; ///< goes round for ever, gliding from its end to its begin
-        /// Of what moves in the scene: s after which it is where it was, 0 where nothing moves, and where in
-        /// that the recording began. The path then begins when the model is where it was.
+        bool repeats = false; ///< periodic, gliding from its end to its start
+        /// Of a moving scene: its period, s (0: static), and the phase at which the recording started. The
+        /// path then starts at the same phase.
         double period = 0.0, phase = 0.0;
     };
     /// At least one sample.
@@ -33,18 +33,18 @@ class RecordedPath {
     RecordedPath(std::vector<Sample> samples, const Options& options);
 
     [[nodiscard]] double length() const noexcept { return samples_.back().seconds; } ///< s
-    /// From one round to the next, s: with what moves, a multiple of its period, so that every round finds
-    /// it where it was; the hand rests at the path's begin until then.
+    /// Duration of one round, s: in a moving scene a multiple of its period, so that every round meets the
+    /// same phase; the hand rests at the path's start until then.
     [[nodiscard]] double lap() const noexcept;
     [[nodiscard]] bool repeats() const noexcept { return options_.repeats; }
-    /// s since the first sample, of what is touched `time`; below zero before it began, beyond `length` while
+    /// s since the first sample, for the servo's `time`; negative before the start, beyond `length` while
     /// gliding back or after the end.
     [[nodiscard]] double secondsAt(double time) const noexcept;
 
     /// Servo thread.
     void begin(double earliest) const noexcept;
     [[nodiscard]] DeviceSample at(double time) const noexcept;
-    /// On the servo's clock, s; infinite until it is taken up. Any thread.
+    /// Start on the servo's clock, s; infinite until it has started. Any thread.
     [[nodiscard]] double begun() const noexcept { return begun_.load(std::memory_order_relaxed); }
 
   private:
@@ -53,20 +53,19 @@ class RecordedPath {
     mutable std::atomic<double> begun_{std::numeric_limits<double>::infinity()};
 };
 
-/// Stands before the window's hand: while a recording is touched again its samples take the place of the
-/// hand's own, and the device that is held gets no force, since it is somewhere else: the samples say that
-/// nothing is coupled (DeviceMapping), and the safety stage takes the force away and gives it back as it does
-/// for the clutch. Going over glides.
+/// In front of the window's hand: while a recording is touched again, its samples replace the hand's own. A
+/// held device then receives no force, since it is elsewhere: the samples declare no coupling
+/// (DeviceMapping), and the safety stage fades the force out and in as for the clutch. Switching glides.
 class PlaybackDevice final : public Device {
   public:
     static constexpr double kGlideTime = kHandGlideTime;       ///< s
-    static constexpr double kCouplingTime = kHandCouplingTime; ///< s, from no force to all of it
+    static constexpr double kCouplingTime = kHandCouplingTime; ///< s, for the force to fade in after it
 
     explicit PlaybackDevice(Device& own) : own_(own) {}
 
-    /// Owner thread. Null: the own hand.
+    /// Owner thread. Null: the live hand.
     void follow(std::shared_ptr<const RecordedPath> path) { path_.offer(std::move(path)); }
-    /// Frees what the servo has let go.
+    /// Frees what the servo no longer uses.
     void collect() { path_.collect(); }
 
     [[nodiscard]] std::string name() const override { return own_.name(); }

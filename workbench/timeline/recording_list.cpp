@@ -12,7 +12,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kFirstChunks = 8; // in which origin and scene stand
+constexpr int kFirstChunks = 8; // these contain origin and scene
 
 std::string localDate(std::time_t time) {
     std::tm local{};
@@ -22,7 +22,7 @@ std::string localDate(std::time_t time) {
     return text.data();
 }
 
-/// Of "2026-03-01T14:05:00Z"; empty where it says none.
+/// From "2026-03-01T14:05:00Z"; empty where there is no date.
 std::string dateOf(const std::string& iso) {
     std::tm utc{};
     return strptime(iso.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc) != nullptr ? localDate(timegm(&utc)) : "";
@@ -34,7 +34,7 @@ std::string dateOf(std::filesystem::file_time_type changed) {
         std::chrono::time_point_cast<std::chrono::system_clock::duration>(system)));
 }
 
-/// How many ticks the last chunk says there are; nothing where it was cut off.
+/// Number of ticks according to the last chunk; nullopt for a truncated file.
 std::optional<uint64_t> ticksAtTheEnd(RecordingReader& reader) {
     constexpr uint64_t kEnd = kChunkHeaderSize + sizeof(uint64_t);
     if (reader.size() < kFileHeaderSize + kEnd)

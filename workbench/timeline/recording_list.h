@@ -9,15 +9,15 @@
 
 namespace touchstone {
 
-/// What a list says of a recording.
+/// List entry of a recording.
 struct RecordingFacts {
     std::filesystem::path file;
-    std::string date;         ///< "2026-03-01 14:05", local time; of the file where the recording says none
-    std::string model;        ///< "doughnut.glb"; empty: none was touched
+    std::string date;         ///< "2026-03-01 14:05", local time; the file's where the recording has none
+    std::string model;        ///< "doughnut.glb"; empty: no model
     std::string madeBy;       ///< "window", "run", "touch", "flight recorder of window"
-    double seconds = 0.0;     ///< its length, from its ticks; where it was cut off, from its size
-    bool wholeLength = false; ///< it ended as it should
-    std::string problem;      ///< why it cannot be opened; empty: it can
+    double seconds = 0.0;     ///< its length, from its ticks; of a truncated file, from its size
+    bool wholeLength = false; ///< not truncated
+    std::string problem;      ///< why it cannot be opened; empty: no problem
     std::filesystem::file_time_type changed;
     uint64_t bytes = 0;
 };
@@ -25,20 +25,20 @@ struct RecordingFacts {
 /// Reads the first chunks and the last one. Any thread; does not throw.
 [[nodiscard]] RecordingFacts recordingFacts(const std::filesystem::path& file);
 
-/// Those of `folders`, newest first, at most `most`; `known` are not read again where they have not changed.
-/// A folder that is not there has none. What a flight recorder is writing (live-*) is left out.
+/// Recordings in `folders`, newest first, at most `most`; unchanged entries of `known` are not read again. A
+/// missing folder is empty. Files that a flight recorder is writing (live-*) are skipped.
 [[nodiscard]] std::vector<RecordingFacts> recordingsIn(const std::vector<std::filesystem::path>& folders,
                                                        const std::vector<RecordingFacts>& known, size_t most);
 
-/// Kept up to date on a worker while somebody looks. Main thread.
+/// Updated on a worker while it is shown. Main thread.
 class RecordingList {
   public:
     explicit RecordingList(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
-    /// Once a frame while the list is shown. `now`: s, any steady clock.
+    /// Every frame in which the list is shown. `now`: s, any steady clock.
     void update(double now);
     [[nodiscard]] const std::vector<RecordingFacts>& recordings() const { return recordings_; }
-    [[nodiscard]] bool read() const { return read_; } ///< the list has been made once
+    [[nodiscard]] bool read() const { return read_; } ///< the list has been read once
 
   private:
     static constexpr double kRenewal = 2.0; // s

@@ -11,7 +11,7 @@ namespace {
 
 using Scenes = std::map<uint32_t, FoundScene>;
 
-/// Feeds the chunks of a segment to `take`, those that say what its ticks name and the ticks.
+/// Passes the chunks of a segment to `take`: the definitions that its ticks refer to, and the ticks.
 template <class Take>
 void readSegment(const Timeline& timeline, size_t number, const JobProgress& progress, const Take& take) {
     const TimelineSegment& segment = timeline.segments()[number];
@@ -56,7 +56,7 @@ class SegmentReader {
     void touchAgain(const JobProgress& progress) {
         result_->outputs.resize(result_->ticks.size());
         result_->equal.resize(result_->ticks.size());
-        size_t begin = 0; // of the block that is being touched
+        size_t begin = 0; // of the block being recomputed
         const RecordedTicks* block = nullptr;
         const Replayer::Each each = [&](const RecordedTick& tick, const HapticOutput& output, int64_t,
                                         bool equal) {
@@ -122,7 +122,7 @@ bool ReplayCache::wants(size_t segment) const {
     const auto found = std::ranges::find_if(kept_, [&](const auto& s) { return s->number == segment; });
     if (found == kept_.end())
         return true;
-    // Read before its model was there.
+    // Read before its model was loaded.
     return !(*found)->tried && timeline_->segments()[segment].checkpoint &&
            std::ranges::all_of((*found)->ticks,
                                [&](const auto& t) { return t.scene == 0 || scenes_.contains(t.scene); });
@@ -146,7 +146,7 @@ void ReplayCache::look(size_t cursor) {
     const size_t number = timeline_->segmentOf(cursor);
     if (wants(number))
         read(number);
-    else if (number + 1 < timeline_->segments().size() && wants(number + 1)) // what plays comes there next
+    else if (number + 1 < timeline_->segments().size() && wants(number + 1)) // playback reaches it next
         read(number + 1);
 }
 

@@ -15,36 +15,35 @@
 
 namespace touchstone {
 
-/// The ticks of a TimelineSegment, and what came of them when they were touched again: a recording keeps
-/// inputs, place and force, and the rest (planes, stiction point, normal, energy) is made anew from the
-/// checkpoint before.
+/// The ticks of a TimelineSegment, with the outputs of recomputing them. A recording keeps inputs, proxy and
+/// force; the rest (planes, stiction point, normal, energy) is recomputed from the previous checkpoint.
 struct LensSegment {
     size_t number = 0, first = 0;
     std::vector<RecordedTick> ticks;
     std::vector<HapticOutput> outputs; ///< as many, or none
-    std::vector<uint8_t> equal;        ///< 1: touched again, and equal to the last bit in every stage
-    bool tried = false;                ///< with the scenes that its ticks name
+    std::vector<uint8_t> equal;        ///< 1: recomputed, and bitwise equal in every stage
+    bool tried = false;                ///< with the scenes of its ticks
 };
 
-/// Reads what lies around the cursor on a worker, a segment (a second, as a rule) at a time, and touches it
-/// again where its model is there. Main thread.
+/// Reads the segments around the cursor on a worker, one (usually a second) at a time, and recomputes them
+/// where the model is available. Main thread.
 class ReplayCache {
   public:
     ReplayCache(std::shared_ptr<const Timeline> timeline, std::shared_ptr<RecordedSceneShelf> shelf)
         : timeline_(std::move(timeline)), shelf_(std::move(shelf)) {}
 
-    /// Once a frame. Throws what stopped the reading (the file has changed under it), once for a segment,
-    /// which is not read again; the others are.
+    /// Every frame. Throws a read error (the file changed) once per segment, which is not read again; the
+    /// others are.
     void look(size_t cursor);
 
-    /// What is known of the tick; false while it is being read: then `record` stays what it was.
+    /// The data of a tick; false while it is being read: then `record` is unchanged.
     bool show(size_t index, TickRecord& record) const;
-    /// It was touched again, and came out as it was recorded.
+    /// It was recomputed, with the recorded result.
     [[nodiscard]] bool complete(size_t index) const;
-    /// Why its ticks cannot be touched again; empty: they can, or nobody has tried.
+    /// Why its ticks cannot be recomputed; empty: no problem, or not tried.
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
-    /// Nothing is being worked on: it may go without keeping anybody waiting.
+    /// No work in progress: destruction does not wait.
     [[nodiscard]] bool finished() const { return sceneJob_.finished() && segmentJob_.finished(); }
 
   private:
@@ -57,7 +56,7 @@ class ReplayCache {
 
     std::shared_ptr<const Timeline> timeline_;
     std::shared_ptr<RecordedSceneShelf> shelf_;
-    std::vector<std::shared_ptr<const LensSegment>> kept_; // the newest last
+    std::vector<std::shared_ptr<const LensSegment>> kept_; // the most recent last
     std::map<uint32_t, FoundScene> scenes_;
     std::set<uint32_t> failed_; // scenes that cannot be loaded
     std::set<size_t> failedSegments_;

@@ -11,10 +11,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr size_t kLongestSegment = 4096; // ticks, where no checkpoint ends it
-constexpr double kLongestStep = 3600.0;  // s between two ticks; more is a clock that was set
-constexpr float kMaxShown = 1e6f;        // N and m: what is no number or beyond is drawn there
-constexpr size_t kMaxMarks = 20000;      // of a recording whose settings change in every tick
+constexpr size_t kLongestSegment = 4096; // ticks, without a checkpoint
+constexpr double kLongestStep = 3600.0;  // s between two ticks; a longer step is a clock change
+constexpr float kMaxShown = 1e6f;        // N and m: non-finite and larger values are drawn there
+constexpr size_t kMaxMarks = 20000;      // for a recording whose settings change in every tick
 
 std::string fileName(const SceneIdentity& scene) {
     return std::filesystem::path(scene.path).filename().string();
@@ -26,7 +26,7 @@ float shown(double value) {
 
 } // namespace
 
-/// Takes the items in the order of the file.
+/// Processes the items in file order.
 class TimelineMaker {
   public:
     void take(const RecordingReader::Item& item) {
@@ -65,7 +65,7 @@ class TimelineMaker {
     Timeline line_;
     std::vector<float> force_, depth_;
     uint64_t offset_ = 0;
-    double time_ = 0.0; // of the tick before
+    double time_ = 0.0; // of the previous tick
     bool touching_ = false;
 };
 
@@ -87,7 +87,7 @@ void TimelineMaker::take(const RecordedTick& tick) {
     line_.seconds_.push_back(line_.seconds_.empty() ? 0.0 : line_.seconds_.back() + (goesOn ? step : own));
     time_ = tick.time;
     force_.push_back(shown(glm::length(tick.force)));
-    // Where no sample was usable there is no HIP to be deep.
+    // Without a valid sample there is no HIP and no penetration.
     depth_.push_back(tick.contacts > 0 ? shown(glm::distance(tick.proxy, tick.sample.inWorkspace())) : 0.0f);
     if ((tick.contacts > 0) != touching_) {
         line_.contactEdges_.push_back(line_.size() - 1);
@@ -166,7 +166,7 @@ size_t Timeline::indexAt(double seconds) const {
 }
 
 bool Timeline::touches(size_t first, size_t last) const {
-    // The edge behind `first` ends a contact that has begun before it, or begins one.
+    // The edge after `first` ends a contact that started before it, or starts one.
     const auto next = std::upper_bound(contactEdges_.begin(), contactEdges_.end(), first);
     const bool within = (next - contactEdges_.begin()) % 2 != 0;
     return first < last && (within || (next != contactEdges_.end() && *next < last));

@@ -1,5 +1,5 @@
 #pragma once
-// A recording as a person looks at it: its curves over time, and what happened where.
+// A recording for display: its curves over time and its events.
 
 #include "haptics/recording/recording_reader.h"
 #include "workbench/timeline/background_job.h"
@@ -16,72 +16,71 @@
 
 namespace touchstone {
 
-/// Something that happened before a tick.
+/// An event before a tick.
 struct TimelineMark {
     enum class Kind : uint8_t { Settings, Scene, Gap, Note };
-    size_t index = 0; ///< of the tick that comes next; the number of ticks where none does
+    size_t index = 0; ///< of the next tick; the number of ticks where there is none
     Kind kind = Kind::Note;
     std::string text;
 };
 
-/// A stretch of the recording that is read at once.
+/// A unit of reading.
 struct TimelineSegment {
     size_t first = 0;        ///< tick
     uint64_t offset = 0;     ///< byte of the first chunk
-    bool checkpoint = false; ///< begins with one: its ticks can be touched again
+    bool checkpoint = false; ///< starts with a checkpoint: its ticks can be recomputed
 };
 
-/// 17 bytes a tick, an hour at 1 kHz 61 MB; the ticks themselves stay in the file. Immutable once loaded; any
-/// thread.
+/// 17 bytes per tick, 61 MB per hour at 1 kHz; the ticks themselves stay in the file. Immutable once loaded;
+/// any thread.
 class Timeline {
   public:
-    /// Reads the file to its end. Worker; throws Error where nothing can be shown, JobCancelled.
+    /// Reads the whole file. Worker; throws Error where nothing can be shown, JobCancelled.
     [[nodiscard]] static Timeline load(const std::filesystem::path& file, JobProgress& progress);
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] const RecordingOrigin& origin() const { return origin_; }
-    [[nodiscard]] size_t size() const { return seconds_.size(); } ///< ticks, one at least
+    [[nodiscard]] size_t size() const { return seconds_.size(); } ///< ticks, at least one
 
-    /// s since the first tick. Grows from tick to tick, also where a servo that was started again began to
-    /// count anew.
+    /// s since the first tick. Increases from tick to tick, also where a restarted servo reset its count.
     [[nodiscard]] double seconds(size_t index) const { return seconds_[index]; }
     [[nodiscard]] double length() const { return seconds_.back(); } ///< s
-    /// The last tick that is not after `seconds`; the first where none is.
+    /// The last tick not after `seconds`; the first where there is none.
     [[nodiscard]] size_t indexAt(double seconds) const;
 
     [[nodiscard]] const MinMaxPyramid& force() const { return force_; } ///< N, magnitude of stage 7
     [[nodiscard]] const MinMaxPyramid& depth() const { return depth_; } ///< m, |proxy - HIP|
-    /// A tick of [first, last) is in contact.
+    /// True if a tick of [first, last) is in contact.
     [[nodiscard]] bool touches(size_t first, size_t last) const;
 
     [[nodiscard]] const std::vector<TimelineMark>& marks() const { return marks_; }
     [[nodiscard]] const std::map<uint32_t, RecordedScene>& scenes() const { return scenes_; }
     [[nodiscard]] const std::map<uint32_t, HapticSettings>& settings() const { return settings_; }
-    /// Of the tick; 0: nothing was there to be touched.
+    /// Of the tick; 0: no scene.
     [[nodiscard]] uint32_t sceneOf(size_t index) const;
     [[nodiscard]] const HapticSettings& settingsOf(size_t index) const;
 
     [[nodiscard]] size_t segmentOf(size_t index) const;
     [[nodiscard]] const std::vector<TimelineSegment>& segments() const { return segments_; }
-    /// The tick behind the segment's last.
+    /// One past the segment's last tick.
     [[nodiscard]] size_t endOf(size_t segment) const {
         return segment + 1 < segments_.size() ? segments_[segment + 1].first : size();
     }
 
-    /// What a person must know of the file: cut off, damaged, by another build. One sentence each.
+    /// Warnings about the file: truncated, damaged, written by another build. One sentence each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-    [[nodiscard]] uint64_t lost() const { return lost_; } ///< ticks that were made and not recorded
+    [[nodiscard]] uint64_t lost() const { return lost_; } ///< ticks that were not recorded
 
   private:
     friend class TimelineMaker;
     Timeline() = default;
 
-    using Runs = std::vector<std::pair<size_t, uint32_t>>; // from this tick on, this number
+    using Runs = std::vector<std::pair<size_t, uint32_t>>; // scene number from this tick on
     std::filesystem::path file_;
     RecordingOrigin origin_;
     std::vector<double> seconds_;
     MinMaxPyramid force_, depth_;
-    std::vector<size_t> contactEdges_; // ticks where contact begins and ends, in turn
+    std::vector<size_t> contactEdges_; // ticks at which contact starts and ends, alternating
     std::vector<TimelineMark> marks_;
     std::map<uint32_t, RecordedScene> scenes_;
     std::map<uint32_t, HapticSettings> settings_;
@@ -91,10 +90,11 @@ class Timeline {
     uint64_t lost_ = 0;
 };
 
-/// "friction zilles to off, stiffness 0 to 800": what the second has otherwise. Empty: nothing.
+/// "friction zilles to off, stiffness 0 to 800": the changes from the first to the second. Empty: none.
 [[nodiscard]] std::string settingsDifference(const HapticSettings& before, const HapticSettings& after);
 
-/// The file begins as a recording does, or at least its name ends like one's. False where it cannot be read.
+/// True if the file starts as a recording, or at least has the extension of one. False where it cannot be
+/// read.
 [[nodiscard]] bool isRecording(const std::filesystem::path& file);
 
 } // namespace touchstone

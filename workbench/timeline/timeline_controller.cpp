@@ -76,7 +76,7 @@ void TimelineController::look(Opened opened) {
     last_ = -1.0;
     modelWanted_.reset();
     if (const auto file = modelFile())
-        modelWanted_ = file; // update() takes it back where it is open
+        modelWanted_ = file; // update() clears it where it is open
 }
 
 void TimelineController::leave() {
@@ -87,7 +87,7 @@ void TimelineController::leave() {
 }
 
 std::optional<std::filesystem::path> TimelineController::modelFile() const {
-    // A recording may begin before there was anything to touch.
+    // A recording may start without a scene.
     size_t index = playback_->cursor();
     for (const TimelineMark& mark : timeline_->marks())
         if (timeline_->sceneOf(index) == 0 && mark.kind == TimelineMark::Kind::Scene && mark.index > index)

@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kAfterwards = 0.2; // s that the hand rests where the recording ended
+constexpr double kAfterwards = 0.2; // s that the hand rests at the end of the recording
 
 using PathPtr = std::shared_ptr<const RecordedPath>;
 
@@ -20,7 +20,7 @@ bool usable(const DeviceSample& sample) {
            std::isfinite(sample.position.z);
 }
 
-/// Where the hand was in the part's ticks.
+/// The hand's positions in the ticks of the part.
 PathPtr readPath(const Timeline& timeline, const TouchAgain::Part& part, JobProgress& progress) {
     RecordingReader reader(timeline.file());
     const TimelineSegment& segment = timeline.segments()[timeline.segmentOf(part.first)];
@@ -116,11 +116,11 @@ void TouchAgain::feel(double seconds, float force) {
     const size_t index =
         std::clamp(timeline_->indexAt(timeline_->seconds(part_.first) + seconds), part_.first, part_.last);
     const size_t at = index - part_.first;
-    if (lastFelt_ && at < *lastFelt_) { // another round
+    if (lastFelt_ && at < *lastFelt_) { // next round
         recordedSum_ = nowSum_ = 0.0;
         compared_ = 0;
     }
-    // The servo's deadlines lie between the recorded ones: now and then one is passed over.
+    // The servo's deadlines lie between the recorded ones: occasionally one is skipped.
     constexpr size_t kPassedOver = 8;
     const size_t from = lastFelt_ && at > *lastFelt_ && at - *lastFelt_ < kPassedOver ? *lastFelt_ + 1 : at;
     for (size_t i = from; i <= at; ++i)

@@ -12,8 +12,8 @@
 
 namespace touchstone {
 
-/// Sends the recorded hand through the servo once more, with the settings and materials of now, and keeps the
-/// force that comes of it beside the recorded one. Main thread.
+/// Replays the recorded hand through the servo with the current settings and materials, and keeps the
+/// resulting force for comparison with the recorded one. Main thread.
 class TouchAgain {
   public:
     explicit TouchAgain(PlaybackDevice& hand) : hand_(hand) {}
@@ -21,28 +21,28 @@ class TouchAgain {
     struct Part {
         size_t first = 0, last = 0; ///< ticks of the recording
         bool repeats = false;
-        Similarity deviceFromRecorded{}; ///< where the model that is open is fitted otherwise than it was
-        double period = 0.0;             ///< s, of what moves in the scene; 0: nothing does
+        Similarity deviceFromRecorded{}; ///< where the open model is fitted differently than in the recording
+        double period = 0.0;             ///< s, of the scene's animation; 0: static
     };
-    /// Reads the part on a worker, then the hand goes. Ends what was touched again before.
+    /// Reads the part on a worker, then starts the hand. Ends a running replay.
     void start(std::shared_ptr<const Timeline> timeline, const Part& part);
-    /// Back to the own hand; what was felt stays to be seen.
+    /// Back to the live hand; the result stays visible.
     void stop();
-    /// Forgets what was felt.
+    /// Discards the result.
     void clear();
-    /// Once a frame, with the newest ticks of the servo. Throws what stopped the reading.
+    /// Every frame, with the servo's latest ticks. Throws a read error once.
     void update(const ForceHistory& live, double servoTime);
 
-    /// The recorded hand touches, is on its way there, or is being read.
+    /// The recorded hand is in contact, gliding, or being read.
     [[nodiscard]] bool running() const { return path_ != nullptr || startWanted_ || reading_.wanted(); }
-    /// Where in the recording the hand is, s; nothing while it is on its way.
+    /// Position in the recording, s; nullopt while gliding.
     [[nodiscard]] std::optional<double> seconds() const { return seconds_; }
 
-    /// N; NaN where nothing has been felt again. For ticks first() and on.
+    /// N; NaN without a result. For ticks from first() on.
     [[nodiscard]] const std::vector<float>& force() const { return force_; }
     [[nodiscard]] size_t first() const { return part_.first; }
 
-    /// Over the ticks of this round in which both were in contact, or one was.
+    /// Over the ticks of this round in contact in either.
     struct Means {
         double recorded = 0.0, now = 0.0; ///< N
         size_t ticks = 0;
@@ -56,7 +56,7 @@ class TouchAgain {
     std::shared_ptr<const Timeline> timeline_;
     Part part_;
     BackgroundJob<std::shared_ptr<const RecordedPath>> reading_;
-    bool startWanted_ = false; // a reading that nobody wants any more must end first
+    bool startWanted_ = false; // a cancelled reading must end first
     std::shared_ptr<const RecordedPath> path_;
     std::vector<float> force_;
     std::optional<size_t> lastFelt_; // of force_, in this round

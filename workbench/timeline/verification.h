@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// What `touchstone replay` would say of a recording.
+/// The result of `touchstone replay` for a recording.
 struct Verdict {
     ReplayReport report;
     std::vector<std::string> changes; ///< of the scenes' files, one sentence each
@@ -19,7 +19,7 @@ struct Verdict {
     [[nodiscard]] std::string text() const;
 };
 
-/// Touches all of it again. Worker; throws Error, JobCancelled.
+/// Recomputes the whole recording. Worker; throws Error, JobCancelled.
 [[nodiscard]] Verdict verify(const Timeline& timeline, RecordedSceneShelf& shelf, JobProgress& progress);
 
 } // namespace touchstone

@@ -11,7 +11,7 @@ void ForceKey::pressInWindow(bool plain, std::optional<uint32_t> watched) {
         press(plain);
 }
 
-/// Both see each press, in either order. The differences are modulo 2^32.
+/// Window and watch each see every press, in either order. The differences are modulo 2^32.
 void ForceKey::compare(std::optional<uint32_t> watched) {
     const auto more = watched ? static_cast<int32_t>(inWindow_ - *watched) : 0;
     if (more > 0)
@@ -39,7 +39,7 @@ bool ForceKey::settle(bool on, bool mayGiveBack, std::optional<uint32_t> watched
         const bool onePress = presses == 1 && now.asked() - settled_.asked() == 1;
         const bool wanted = mayGiveBack && late_ == 0 && onePress && !on;
         if (wanted && !force_.giveBack(now))
-            continue; // another press came meanwhile
+            continue; // another press arrived meanwhile
         settled_ = wanted ? now.givenBack() : now;
         return wanted;
     }

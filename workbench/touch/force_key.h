@@ -7,27 +7,27 @@
 
 namespace touchstone {
 
-/// What the force key means. A press takes the force away at once, on the thread that sees it first; whether
-/// it gives the force back is decided here, once a frame: one press where the force was off, and nothing else
-/// that came since the frame before. Of several presses in a frame that takes long one meant to take the
-/// force away, by somebody who cannot see what the others came to. While a text is typed or a recording is
-/// looked at a press only takes away.
+/// Interprets the force key. A press switches the force off at once, on the thread that sees it first.
+/// Whether it switches the force on is decided here, once per frame: only a single press while the force is
+/// off, without any other since the previous frame. Of several presses in a long frame, one was meant to
+/// switch the force off by a user who cannot see the effect of the others. While a text field has the focus
+/// or a recording is shown, a press only switches the force off.
 class ForceKey {
   public:
     explicit ForceKey(ForceSwitch& force) : force_(force) {}
 
-    /// Any thread. `plain`: without Ctrl, Alt and Super; with them it only takes away.
+    /// Any thread. `plain`: without Ctrl, Alt and Super; with them it only switches off.
     void press(bool plain) noexcept { force_.takeAway(plain); }
 
-    /// Main thread: a press came through the window's own events. `watched`: presses that another thread has
-    /// seen, nothing where there is none. What that does not see within kPatience frames takes the force away
-    /// all the same: an input method may hand keys to the window alone.
+    /// Main thread: a press from the window's own events. `watched`: presses seen by the watch thread;
+    /// nullopt without one. A press that the watch does not see within kPatience frames switches the force
+    /// off all the same: an input method may deliver keys to the window alone.
     void pressInWindow(bool plain, std::optional<uint32_t> watched);
 
-    /// Main thread, at the begin of a frame. Returns whether the force is on; `on`: whether it was in the
-    /// frame before.
+    /// Main thread, at the start of a frame. Returns whether the force is on; `on`: its state in the previous
+    /// frame.
     [[nodiscard]] bool settle(bool on, bool mayGiveBack, std::optional<uint32_t> watched);
-    /// Main thread: the panels have switched the force on or off.
+    /// Main thread: the panels switched the force on or off.
     void set(bool on);
 
   private:
@@ -37,11 +37,12 @@ class ForceKey {
     ForceSwitch& force_;
     ForceSwitch::State settled_;
     uint32_t inWindow_ = 0; // presses
-    int behind_ = 0;        // frames in which the watch has seen fewer than the window; below zero: more
-    /// Frames in which nothing is given back: the watch was late or is gone, and what it still has to say of
-    /// a press that the window has told already would be taken for another one.
+    int behind_ = 0;        // number of frames in which the watch saw fewer presses than the window;
+                            // negative: more
+    /// Frames in which the force stays off: the watch was late or failed, and its delayed report of a press
+    /// already seen by the window would count as another one.
     int late_ = 0;
-    bool watching_ = false; // in the frame before
+    bool watching_ = false; // in the previous frame
 };
 
 } // namespace touchstone

@@ -26,7 +26,8 @@ LiveTouch::~LiveTouch() {
 }
 
 void LiveTouch::show(LoadedModel loaded, bool generated) {
-    loaded.model.haptic = limited(*loaded.model.haptic); // another hand may be held than when it was begun
+    loaded.model.haptic = limited(*loaded.model.haptic); // another hand may be in use than when loading
+                                                         // started
     shown_ = std::move(loaded);
     shown_.identity.generated = generated;
     offerScene();
@@ -88,16 +89,17 @@ bool LiveTouch::hold(std::string& choice) {
 
 void LiveTouch::layStroke(const StrokeRequest& stroke, const glm::dvec3& facing, bool simulated) {
     const HapticOutput& felt = tick().output;
-    // Not what a glide or a recording touches again: nothing is coupled then.
+    // Not what a glide or a replayed recording touches: nothing is coupled then.
     if (felt.contacts > 0 && tick().scene == offered_ && tick().sample.mapping.coupling > 0.0) {
-        const Similarity rest = picker_.restFromNow(felt.object, tick().time); // strokes are laid onto that
+        const Similarity rest = picker_.restFromNow(felt.object, tick().time); // strokes are laid on the rest
+                                                                               // pose
         strokes_.touched({rest.point(felt.proxy), rest.direction(felt.normal)});
     }
     if (auto path = strokes_.update(stroke, facing, simulated))
         hand_.offerPath(std::move(path));
 }
 
-/// The same scene within the hand's limits.
+/// The same scene with the hand's limits.
 std::shared_ptr<HapticScene> LiveTouch::limited(const HapticScene& scene) const {
     std::shared_ptr<HapticScene> copy = copyOf(scene);
     copy->limits = limits();
@@ -105,7 +107,7 @@ std::shared_ptr<HapticScene> LiveTouch::limited(const HapticScene& scene) const 
     return copy;
 }
 
-/// To the servo, and to what records it, sounds it and compares it.
+/// To the servo, and to recorder, sound and live error.
 void LiveTouch::offerScene(SceneSwap swap) {
     shown_.identity.limits = shown_.model.haptic->limits;
     picker_.show(shown_.model.haptic, shown_.model.scene);

@@ -24,15 +24,14 @@
 
 namespace touchstone {
 
-/// The touch of the window: the hand that is held, the servo, what records it, lets it be heard and compares
-/// it with the most exact way, and the model that all of them have. Main thread; the ticks are the servo's
-/// own.
+/// The window's touch: the hand in use, the servo, its recorder, sound and live error, and the model that
+/// they share. Main thread; the servo runs the ticks.
 class LiveTouch {
   public:
-    /// `tell` gets what a person is to know of recordings. Errors as RecordingController. The servo stands
-    /// still until `start`.
+    /// `tell` receives messages about recordings for the user. Throws as RecordingController. The servo does
+    /// not run until `start`.
     LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell);
-    /// Ends what is recorded as it should.
+    /// Ends a running recording properly.
     ~LiveTouch();
     LiveTouch(const LiveTouch&) = delete;
     LiveTouch& operator=(const LiveTouch&) = delete;
@@ -40,38 +39,39 @@ class LiveTouch {
 
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
     [[nodiscard]] const LoadedModel& shown() const { return shown_; } ///< empty before the first model
-    /// Touches another model, within the limits of the hand of now. `generated`: our own, made anew anywhere.
+    /// Touches another model, with the limits of the current hand. `generated`: a procedural scene of ours,
+    /// which can be regenerated anywhere.
     void show(LoadedModel loaded, bool generated);
-    /// Goes on with other materials of the same model; touch goes on where it may.
+    /// Continues with other materials of the same model; contact is kept where possible.
     void change(const MadeMaterials& made);
-    /// Whether the touch of the model began again since the last call: it was opened, or its geometry was
-    /// built again, or another device limits it.
+    /// True if touch was reset since the last call: a model was opened, its geometry was rebuilt, or another
+    /// device limits it.
     [[nodiscard]] bool takeBuiltAgain() { return std::exchange(builtAgain_, false); }
-    /// The model's file has been written, with these edits in it.
+    /// The model's file has been written with these edits.
     void saved(const std::filesystem::path& path, const FileStamp& stamp, std::string edits);
 
-    /// In every frame: takes what the servo has made. `now`: s, any steady clock.
+    /// Every frame: takes the servo's new ticks. `now`: s, any steady clock.
     void update(double now);
-    /// In every frame: what holds from the next tick on.
+    /// Every frame: sends the settings for the next tick.
     void send(const HapticSettings& settings);
-    /// In every frame: builds on a worker what the settings call for. Throws what stopped that, once.
+    /// Every frame: builds on a worker what the settings require. Throws an error of the worker once.
     void prepare(const HapticSettings& settings);
-    /// In every frame: takes up the device that was chosen (HeldDevice). False where there is not enough
-    /// memory for its limits; then `choice` is empty and nothing is held.
+    /// Every frame: takes up the chosen device (HeldDevice). False where memory is too short for its limits;
+    /// then `choice` is empty and nothing is held.
     [[nodiscard]] bool hold(std::string& choice);
-    /// In every frame: lays the simulated hand's stroke where the hand was last. `facing`: unit vector
+    /// Every frame: lays the simulated hand's stroke at the hand's last position. `facing`: unit vector
     /// towards the eye, workspace.
     void layStroke(const StrokeRequest& stroke, const glm::dvec3& facing, bool simulated);
 
-    /// Of the hand that is held or will be next.
+    /// Of the current or next hand.
     [[nodiscard]] DeviceLimits limits() const { return held_.limits(); }
-    /// What lies on a ray of the workspace now.
+    /// The first surface on a ray of the workspace now.
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
         return picker_.look(ray, tick().time, settings);
     }
-    [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); } ///< the newest at `update`
+    [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); } ///< the latest at `update`
     [[nodiscard]] ForceSwitch& forceSwitch() { return servo_.forceSwitch(); }
-    /// CLOCK_MONOTONIC, s, at which the time of the ticks is 0.
+    /// CLOCK_MONOTONIC, s, at time 0 of the ticks.
     [[nodiscard]] double startedAt() const { return 1e-9 * static_cast<double>(servo_.startedNs()); }
     [[nodiscard]] double rateHz() const { return servo_.rateHz(); }
     [[nodiscard]] const ServoView& figures() const { return servoView_; }
@@ -98,7 +98,7 @@ class LiveTouch {
     ForceHistory forces_;
     LoadedModel shown_;
     bool builtAgain_ = false;
-    uint32_t offered_ = 0;               // number of the newest scene
+    uint32_t offered_ = 0;               // number of the latest scene
     std::optional<HapticSettings> sent_; // to the servo
     BackgroundBuild build_;
     Picker picker_;

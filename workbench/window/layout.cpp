@@ -22,9 +22,9 @@ namespace {
 // Units of layout.
 constexpr float kBar = 42.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
 constexpr float kMinWidth = 320.0f, kMinHeight = 180.0f; // of the picture
-constexpr float kFolded = 20.0f; // what is left of a folded panel: the arrow that unfolds it
+constexpr float kFolded = 20.0f;                         // width of a folded panel: the arrow that unfolds it
 
-// Without a background: what is cleared has its colour already, and the CPU may be who fills it.
+// Without a background: the cleared colour is the same, and a software device fills slowly.
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoTitleBar |
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
@@ -34,8 +34,8 @@ struct Rect {
     float x, y, width, height;
 };
 
-/// A panel in its place, or the arrow that unfolds it. `out`, `in`: where the arrows point. True where it was
-/// pressed.
+/// A panel in its place, or the arrow that unfolds it. `out`, `in`: directions of the arrows. True where it
+/// was pressed.
 template <class Content>
 bool panel(const char* name, const Rect& rect, bool folded, ImGuiDir out, ImGuiDir in, Widgets& widgets,
            const Content& content) {
@@ -62,7 +62,7 @@ bool panel(const char* name, const Rect& rect, bool folded, ImGuiDir out, ImGuiD
     return pressed;
 }
 
-/// What is pressed on or off: where both sides do not fit, the one that comes takes the other's room.
+/// Toggles a side panel: where both sides do not fit, the opened one replaces the other.
 void foldSide(PanelFolds& folds, bool PanelFolds::*side, bool PanelFolds::*other, const PanelInput& input) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const auto fitting = [&] { return fittingFolds(folds, {display.x, display.y}, input.scale); };
@@ -83,8 +83,8 @@ void effectKeys(PanelState& state) {
 
 constexpr auto kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
 
-/// F10 gives the arrows to the panels until Escape, F10 or a click on the picture: they walk from widget to
-/// widget, Enter presses, Ctrl+Tab goes to the next panel. Space stays what takes the force away.
+/// F10 gives the keyboard to the panels until Escape, F10 or a click on the picture: arrows move between
+/// widgets, Enter presses, Ctrl+Tab goes to the next panel. Space still switches the force off.
 void walk(PanelState& state) {
     ImGuiIO& io = ImGui::GetIO();
     if (keyPressed(GLFW_KEY_F10)) {
@@ -99,7 +99,7 @@ void walk(PanelState& state) {
         io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
-/// Escape puts one thing away: what lies on top.
+/// Escape closes the topmost item.
 void escape(const PanelInput& input, PanelState& state) {
     if (!keyPressed(GLFW_KEY_ESCAPE) || ImGui::IsPopupOpen("", kAnyPopup))
         return;
@@ -119,7 +119,7 @@ void escape(const PanelInput& input, PanelState& state) {
         input.timeline->leave();
 }
 
-/// The question what becomes of unsaved materials.
+/// Keys of the prompt for unsaved materials.
 void answerKeys(const PanelInput& input, PanelState& state) {
     if (!state.leaving)
         return;
@@ -129,7 +129,7 @@ void answerKeys(const PanelInput& input, PanelState& state) {
         state.leave = PanelState::Leave::Discard;
 }
 
-/// Clutch and zoom of the hand's workspace. The clutch is held as long as its key is.
+/// Clutch and zoom of the hand's workspace. The clutch is held while its key is.
 void zoomKeys(PanelState& state) {
     constexpr double kStep = 1.25;
     const ImGuiIO& io = ImGui::GetIO();
@@ -144,7 +144,7 @@ void zoomKeys(PanelState& state) {
         zoom = std::max(zoom / kStep, kMinZoom);
 }
 
-/// What acts beneath a card that has the keys, and so rests while there is one.
+/// Keys that are inactive while a card has the keyboard.
 void coveredKeys(const PanelInput& input, PanelState& state) {
     zoomKeys(state);
     if (keyPressed(keyOf('n')) && input.canSimulate)
@@ -183,7 +183,7 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.quitPressed = true;
 }
 
-/// The bar, with the popup that Ctrl+O opens.
+/// The bar, with the popup of Ctrl+O.
 void topBar(const PanelInput& input, PanelState& state, const Rect& rect, Widgets& widgets) {
     ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
     ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
@@ -268,7 +268,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
         if (!state.walking)
             timelineKeys(*input.timeline);
     } else {
-        state.workspace.clutch = false; // its key is not looked at
+        state.workspace.clutch = false; // its key is not read
     }
     walk(state);
     if (followController(*input.timeline, state.timeline))

@@ -58,7 +58,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
     const ServoView& servo = *input.servo;
     const HapticOutput& tick = servo.last.output;
     const ForceHistory::Entry recent = input.forces->mean(static_cast<size_t>(servo.rateHz * kInterval));
-    // The mouse has no clutch; it is given nothing while it hovers.
+    // The mouse has no clutch; it receives no force while it hovers.
     const bool mouse = state.device.empty() && !state.simulatedHand;
     nlohmann::ordered_json rects = nlohmann::ordered_json::object();
     for (const auto& [name, rect] : widgets)

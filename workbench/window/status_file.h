@@ -6,13 +6,12 @@
 
 namespace touchstone {
 
-/// Keeps a JSON file up to date with what the window shows, for scripts and tests (`--status-json`). Main
-/// thread.
+/// Writes the window's state to a JSON file, for scripts and tests (`--status-json`). Main thread.
 class StatusFile {
   public:
     explicit StatusFile(std::filesystem::path target) : target_(std::move(target)) {}
 
-    /// At most twice a second, does nothing without a target. `now`: s. `widgets` in window coordinates.
+    /// At most twice a second; does nothing without a target. `now`: s. `widgets` in window coordinates.
     void update(double now, const PanelInput& input, const PanelState& state,
                 const std::map<std::string, WidgetRect>& widgets, size_t validationMessages);
 

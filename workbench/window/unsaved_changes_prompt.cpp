@@ -9,7 +9,7 @@ bool UnsavedChangesPrompt::mayLeave(const Target& target, const MaterialControll
     if (!materials.edits().edited() || discarded_ == materials.edits().revision())
         return true;
     if (!state.leaving)
-        state.gallery = state.help = false; // nothing lies over the question
+        state.gallery = state.help = false; // nothing covers the prompt
     state.leaving = target;
     return false;
 }

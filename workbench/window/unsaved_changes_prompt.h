@@ -10,27 +10,27 @@
 
 namespace touchstone {
 
-/// Asks before unsaved materials are lost to another model or to the end. Main thread.
+/// Prompts before unsaved materials are lost to another model or at exit. Main thread.
 class UnsavedChangesPrompt {
   public:
-    /// Where to go; nowhere, an empty path, is the end.
+    /// The model to open; an empty path: exit.
     using Target = std::filesystem::path;
     struct Answer {
-        bool go = false; ///< false: the user stays
+        bool go = false; ///< false: the user cancels
         Target target;
     };
 
-    /// True where it may be left for at once; else the question is put.
+    /// True where leaving is possible at once; otherwise prompts.
     [[nodiscard]] bool mayLeave(const Target& target, const MaterialController& materials, PanelState& state);
-    /// In every frame: what the user has said becomes of the materials, once that is done. A save that fails
-    /// keeps them, and `problem` says why; what is changed while it is saved is asked for anew.
+    /// Every frame: the user's answer, once it has been carried out. A failed save keeps the edits, and
+    /// `problem` gives the reason; edits made during the save prompt again.
     [[nodiscard]] std::optional<Answer> update(MaterialController& materials, PanelState& state,
                                                std::string& problem);
-    /// Another model: what was discarded of the one before says nothing of it.
+    /// Another model: forgets what was discarded of the previous one.
     void begin() { discarded_.reset(); }
 
   private:
-    bool saves_ = false;                // the user waits for a save, to go on after it
+    bool saves_ = false;                // a save is in progress, after which leaving continues
     std::optional<uint64_t> discarded_; // the revision that may be lost
 };
 

@@ -23,7 +23,7 @@ bool flag(const Json& json, const char* name, bool otherwise) {
     return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
 }
 
-/// Names and values that are no longer known are left out.
+/// Ignores names and values that are no longer known.
 HapticSettings settingsOf(const Json& json) {
     HapticSettings settings;
     for (const SettingInfo& info : settingInfos()) {

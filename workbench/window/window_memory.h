@@ -7,14 +7,13 @@
 
 namespace touchstone {
 
-/// What the window keeps from one run to the next. Not kept: the force switch, which every run begins with
-/// on, and the hand.
+/// The window's state between runs. Not kept: the force switch, which is on at every start, and the hand.
 struct WindowMemory {
     HapticSettings settings;
     PanelFolds folds;
     SoundChoice sound;
     bool introduced = false;
-    glm::ivec2 size{0};                        ///< screen coordinates; 0: not known
+    glm::ivec2 size{0};                        ///< screen coordinates; 0: unknown
     std::vector<std::filesystem::path> recent; ///< files opened, newest first
     bool operator==(const WindowMemory&) const = default;
 
@@ -23,11 +22,11 @@ struct WindowMemory {
     void forget(const std::filesystem::path& file) { std::erase(recent, file); }
 };
 
-/// What `file` holds of it; the rest as it comes. A file that is not there, is broken or of another version
-/// harms nothing.
+/// The contents of `file`; defaults for the rest. A missing or invalid file, or one of another version, gives
+/// the defaults.
 [[nodiscard]] WindowMemory readMemory(const std::filesystem::path& file);
 
-/// False where it cannot be written: then the next run does not know.
+/// False where it cannot be written: the state is lost then.
 bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory);
 
 } // namespace touchstone

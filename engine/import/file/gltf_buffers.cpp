@@ -16,7 +16,7 @@ const json* meshoptExtension(const json& object) {
     return found == extensions->end() ? nullptr : &*found;
 }
 
-/// A buffer that only stands for the decompressed bytes of its views.
+/// A buffer that only declares the size of its views' decompressed bytes.
 bool isFallback(const json& buffer) {
     const json* extension = meshoptExtension(buffer);
     return extension != nullptr && extension->is_object() &&
@@ -26,7 +26,7 @@ bool isFallback(const json& buffer) {
 std::vector<uint8_t> dataUriBytes(const ImportContext& context, const std::string& place,
                                   const std::string& uri) {
     DataUri data = decodeDataUri(context, place, uri);
-    // The two types of the specification, and none at all, which some exporters write.
+    // The two types of the specification, or none, as some exporters write.
     if (data.mediaType != "application/octet-stream" && data.mediaType != "application/gltf-buffer" &&
         !data.mediaType.empty())
         context.fail(place, "the data URI of a buffer must be application/octet-stream, not \"" +

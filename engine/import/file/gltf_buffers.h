@@ -1,6 +1,6 @@
 #pragma once
-// The bytes behind buffers and buffer views, wherever they lie: the GLB's chunk, a data URI, a file beside
-// the model, or compressed with EXT_meshopt_compression.
+// The bytes of buffers and buffer views, from any source: the GLB's chunk, a data URI, a file beside the
+// model, or compressed with EXT_meshopt_compression.
 
 #include "engine/import/file/gltf_file.h"
 
@@ -11,15 +11,15 @@ namespace touchstone {
 
 class BufferStore {
   public:
-    /// Loads every buffer and decompresses every compressed view. Throws Error for what is missing or too
-    /// short. Needs a validated file, and refers to it.
+    /// Loads every buffer and decompresses every compressed view. Throws Error for missing or too short data.
+    /// Needs a validated file, and refers to it.
     BufferStore(ImportContext& context, const GltfFile& file);
 
     /// The bytes of bufferViews[index]: exactly byteLength of them.
     [[nodiscard]] ByteSpan view(size_t index) const { return views_[index]; }
 
-    /// False for a view of a buffer that the file declares and leaves without bytes, which is legal: the
-    /// bytes may come with an extension or by other ways. `view` is then empty.
+    /// False for a view of a buffer that the file declares without bytes, which is legal: an extension may
+    /// supply them. `view` is then empty.
     [[nodiscard]] bool hasData(size_t index) const { return !views_[index].empty(); }
 
   private:

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Read, or nothing to see or touch is lost without them.
+/// Supported, or irrelevant to appearance and touch.
 constexpr std::array<std::string_view, 20> kRead = {
     "KHR_mesh_quantization",
     "KHR_texture_transform",
@@ -37,9 +37,9 @@ constexpr std::array<std::string_view, 20> kRead = {
 struct Missed {
     std::string_view name; ///< or its beginning, with a '*' at the end
     const char* loss;
-    bool geometry = false; ///< a file that requires it would have wrong geometry
+    bool geometry = false; ///< the geometry would be wrong for a file that requires it
 };
-/// The first that fits counts.
+/// The first match counts.
 constexpr Missed kMissed[] = {
     {"KHR_texture_basisu", "its compressed textures are left out"},
     {"MSFT_texture_dds", "its compressed textures are left out"},
@@ -103,7 +103,8 @@ std::set<std::string> namesIn(ImportContext& context, const json& gltf, const ch
     return names;
 }
 
-/// The names of all extensions anywhere in the file, but in its extras. Nothing of extensions' own content.
+/// The names of all extensions anywhere in the file except in its extras. Excludes the extensions' own
+/// content.
 void collectExtensions(const json& value, std::set<std::string>& names) {
     if (value.is_object()) {
         for (const auto& [name, child] : value.items())

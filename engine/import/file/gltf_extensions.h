@@ -1,5 +1,5 @@
 #pragma once
-// Which extensions are read, which may be missed, and what a file loses by it.
+// The supported extensions, the ones that may be ignored, and the consequences.
 
 #include "engine/import/file/import_context.h"
 
@@ -7,9 +7,9 @@
 
 namespace touchstone {
 
-/// Throws Error where the file requires an extension without which its geometry would be wrong. One warning
-/// for every extension that it uses or requires and that is not read, saying what is lost; one for the
-/// undeclared ones. Removes a malformed extensionsUsed from `gltf`.
+/// Throws Error where the file requires an extension without which its geometry would be wrong. Warns once
+/// for every used or required extension that is not read, with the consequence, and once for undeclared ones.
+/// Removes a malformed extensionsUsed from `gltf`.
 void checkExtensions(ImportContext& context, nlohmann::json& gltf);
 
 } // namespace touchstone

@@ -24,8 +24,8 @@ uint32_t littleEndian32(ByteSpan bytes, size_t at) {
            static_cast<uint32_t>(bytes[at + 2]) << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
-/// Counts what the JSON would build before anything is built. (The parser's own callback does the same, but
-/// at a cost that grows with the square of an array's length.)
+/// Counts the JSON's values before any is built. (The parser's own callback does the same, but at a cost that
+/// grows with the square of an array's length.)
 class JsonMeter : public json::json_sax_t {
   public:
     explicit JsonMeter(ImportContext& context) : context_(context) {}
@@ -43,8 +43,8 @@ class JsonMeter : public json::json_sax_t {
     bool binary(binary_t&) override { return value(); }
     bool key(string_t& text) override {
         countText(text);
-        // Beyond kKeysCompared keys nothing that glTF defines is looked up, and comparing all would cost the
-        // square.
+        // Only the first kKeysCompared keys are compared: no name that glTF defines is looked up in larger
+        // objects, and comparing all keys would cost the square.
         std::vector<size_t>& keys = keys_[static_cast<size_t>(depth_)];
         const size_t hash = std::hash<std::string>()(text);
         if (keys.size() < kKeysCompared && std::find(keys.begin(), keys.end(), hash) != keys.end())
@@ -187,7 +187,7 @@ std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std:
     const fs::file_status status = fs::status(path, problem);
     if (!fs::exists(status))
         throw Error(shownAs, "", "there is no such file", "check the name and the folder");
-    // Also keeps the reader off pipes and devices, where it would wait or read for ever.
+    // Also excludes pipes and devices, where the reader would wait or read forever.
     if (!fs::is_regular_file(status))
         throw Error(shownAs, "", "is not a file", "name a .gltf or .glb file");
     const uint64_t size = fs::file_size(path, problem);

@@ -1,5 +1,5 @@
 #pragma once
-// The outermost layer: bytes of a .gltf or .glb to its JSON and binary chunk.
+// The outermost layer: from the bytes of a .gltf or .glb to its JSON and binary chunk.
 
 #include "engine/import/file/import_context.h"
 
@@ -16,9 +16,9 @@ namespace touchstone {
 
 using ByteSpan = std::span<const uint8_t>;
 
-/// A glTF file taken apart. `binary` points into `bytes`.
+/// A parsed glTF file. `binary` points into `bytes`.
 struct GltfFile {
-    std::filesystem::path folder; ///< what its URIs are relative to
+    std::filesystem::path folder; ///< base of its URIs
     std::vector<uint8_t> bytes;
     nlohmann::json json; ///< an object, at most kMaxJsonDepth deep, kMaxJsonValues values
     bool isGlb = false;
@@ -30,12 +30,12 @@ enum class Comments { Refuse, Ignore };
 /// The JSON in `text`, within the limits of an import. Throws Error.
 [[nodiscard]] nlohmann::json parseJson(ImportContext& context, ByteSpan text, Comments comments);
 
-/// Reads a regular file whole. Throws Error (missing, a folder, unreadable, beyond kMaxFileBytes) and
+/// Reads a whole regular file. Throws Error (missing, a folder, unreadable, beyond kMaxFileBytes) and
 /// Cancelled.
 [[nodiscard]] std::vector<uint8_t> readWholeFile(const std::filesystem::path& path,
                                                  const std::string& shownAs, const Progress& progress = {});
 
-/// Reads and takes apart `path`. Checks the GLB header and chunk table against the file's real size.
+/// Reads and parses `path`. Checks the GLB header and chunk table against the file's actual size.
 [[nodiscard]] GltfFile readGltfFile(ImportContext& context, const std::filesystem::path& path);
 
 /// The same for bytes in memory; URIs are relative to `folder`.

@@ -21,9 +21,9 @@ const json& arrayOf(const json& gltf, const char* name) {
     return found == gltf.end() ? kNone : *found;
 }
 
-/// What a vertex attribute may be stored as (glTF 2.0, section 3.7.2.1; KHR_mesh_quantization).
+/// A permitted format of a vertex attribute (glTF 2.0, section 3.7.2.1; KHR_mesh_quantization).
 struct Format {
-    std::string_view semantic; ///< or its beginning, up to the number of the set
+    std::string_view semantic; ///< or its beginning, up to the set number
     bool quantized;            ///< with KHR_mesh_quantization only
     int componentType;
     bool normalized;
@@ -73,7 +73,7 @@ bool isSemantic(std::string_view semantic, std::string_view name) {
                        [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// What reads a buffer view, to be held against its target and stride.
+/// The users of a buffer view, for comparison with its target and stride.
 struct ViewUse {
     bool indices = false, vertices = false;
     std::set<size_t> accessors; ///< of vertices

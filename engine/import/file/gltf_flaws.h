@@ -6,9 +6,9 @@
 
 namespace touchstone {
 
-/// Warns about what the specification forbids and we read all the same: layouts of buffer views and
-/// accessors, the formats of vertex attributes, bounds that must be declared and are not. Needs
-/// validateGltf's checks of ranges.
+/// Warns about violations of the specification that the import tolerates: layouts of buffer views and
+/// accessors, the formats of vertex attributes, required bounds that are missing. Needs validateGltf's checks
+/// of ranges.
 void warnOfFlaws(ImportContext& context, const nlohmann::json& gltf);
 
 } // namespace touchstone

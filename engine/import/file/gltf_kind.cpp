@@ -129,7 +129,7 @@ void checkGltfVersion(const ImportContext& context, const json& gltf) {
     const json version = hasAsset ? asset->value("version", json()) : json();
     const bool isTwo = version.is_string() && version.get<std::string>().size() >= 3 &&
                        version.get<std::string>().starts_with("2.");
-    // glTF 1.0 keeps its objects by name and need not state its version.
+    // glTF 1.0 stores its objects by name and need not state its version.
     const bool byName = std::ranges::any_of(
         std::initializer_list<const char*>{"accessors", "bufferViews", "buffers", "meshes", "nodes"},
         [&](const char* name) {

@@ -15,7 +15,7 @@ using nlohmann::json;
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kMaxOffset =
     9007199254740991.0;                  // 2^53 - 1: exact in JSON; offsets stay far from 64-bit overflow
-constexpr double kMaxInt = 2147483647.0; // what the typed model holds in an int
+constexpr double kMaxInt = 2147483647.0; // limit of an int in the typed model
 
 enum class Type {
     Count,     // integer in [low, high]
@@ -28,7 +28,7 @@ enum class Type {
     Flag,
     Text,
     Object,  // checked with `rules`
-    Objects, // array of them
+    Objects, // array of Object
     TextureInfo,
     Other // any value, not read here or checked where it is read
 };
@@ -42,7 +42,7 @@ struct Rule {
     size_t size = 0;
     const Rule* rules = nullptr;
     size_t ruleCount = 0;
-    bool mendable = false; // what is wrong with it costs a warning and its value, not the file
+    bool mendable = false; // an error costs a warning and the value, not the file
 };
 
 /// For values that neither geometry nor safety depends on.
@@ -82,8 +82,7 @@ constexpr Rule other(const char* name) {
 }
 constexpr Rule kName = mendable(text("name"));
 
-// Zero-length buffers and views and accessors of no elements hold nothing that could be wrong; validateGltf
-// tells of them.
+// Zero-length buffers and views and accessors without elements cannot be wrong; validateGltf reports them.
 constexpr Rule kAsset[] = {text("version", true), text("minVersion"), other("generator"), other("copyright")};
 constexpr Rule kBuffer[] = {kName, text("uri"), count("byteLength", true, 0, kMaxOffset)};
 constexpr Rule kBufferView[] = {kName,
@@ -147,7 +146,7 @@ constexpr Rule kNode[] = {kName,
                           numbers("translation", 3),
                           numbers("rotation", 4),
                           numbers("scale", 3)};
-// `skeleton` changes no place (section 3.7.3.2) and is not read.
+// `skeleton` affects no position (section 3.7.3.2) and is not read.
 constexpr Rule kSkin[] = {kName,
                           other("skeleton"),
                           index("inverseBindMatrices", "accessors"),
@@ -160,9 +159,8 @@ constexpr Rule kAnimationSampler[] = {index("input", "accessors", true), index("
 constexpr Rule kAnimation[] = {kName, objects("samplers", kAnimationSampler, true),
                                objects("channels", kChannel, true)};
 
-// Geometry is refused where it is wrong. What is only looked at, or only moves, is left out where it is
-// wrong: the objects of a mendable array that do not pass become objects without properties, so that indices
-// stay.
+// Invalid geometry is refused. Invalid data for appearance or animation only is dropped: invalid objects of a
+// mendable array become objects without properties, so that indices stay valid.
 constexpr Rule kRoot[] = {object("asset", kAsset, true),
                           objects("buffers", kBuffer),
                           objects("bufferViews", kBufferView),
@@ -181,7 +179,7 @@ constexpr Rule kRoot[] = {object("asset", kAsset, true),
                           other("extensionsRequired"),
                           index("scene", "scenes")};
 
-/// Checks and mends: integers written "36.0" become integers, mendable values that do not pass go.
+/// Checks and repairs: integers written "36.0" become integers, invalid mendable values are removed.
 class SchemaCheck {
   public:
     /// `tellUnknown`: warn about properties that glTF does not define.
@@ -204,7 +202,7 @@ class SchemaCheck {
                 value.erase(found);
             }
         }
-        // Extensions that we know are checked where they are read; here only their container.
+        // Known extensions are checked where they are read; here only their container.
         if (const auto found = value.find("extensions"); found != value.end() && !found->is_object()) {
             context_.warn(place.empty() ? "extensions" : place + ".extensions",
                           "should be an object but is " + describe(*found) + "; it is ignored");
@@ -226,7 +224,7 @@ class SchemaCheck {
         }
     }
 
-    /// The size of a top-level array, 0 if it is absent (or not an array: told in its own place).
+    /// The size of a top-level array, 0 if it is absent (or not an array, which is reported separately).
     [[nodiscard]] size_t sizeOf(const char* name) const {
         const auto found = root_.find(name);
         return found != root_.end() && found->is_array() ? found->size() : 0;

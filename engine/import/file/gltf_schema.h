@@ -1,7 +1,7 @@
 #pragma once
-// The shape of the JSON: which property of which object has which type, range and target. After this check
-// the rest of the import may read the properties it knows without asking for their types again. Source: the
-// glTF 2.0 specification, section 5 (properties reference).
+// The structure of the JSON: type, range and target of every property. After this check the import may read
+// known properties without checking their types. Source: the glTF 2.0 specification, section 5 (properties
+// reference).
 
 #include "engine/import/file/import_context.h"
 
@@ -9,13 +9,13 @@
 
 namespace touchstone {
 
-/// Throws Error for a wrong type, a missing required property, a value out of range or an index that leads
-/// nowhere, where geometry depends on it. Elsewhere (names, looks, images, animations) it removes what is
-/// wrong from `gltf` and warns; objects of arrays stay, without properties. Integers written "36.0" become
+/// Throws Error for a wrong type, a missing required property, a value out of range or an index out of
+/// bounds, where geometry depends on it. Elsewhere (names, appearance, images, animations) it removes invalid
+/// data from `gltf` and warns; objects of arrays remain, without properties. Integers written "36.0" become
 /// integers.
 void checkSchema(ImportContext& context, nlohmann::json& gltf);
 
-/// Whether `number` has no fraction and is exact in JSON, |number| < 2^53.
+/// True if `number` has no fraction and is exact in JSON, |number| < 2^53.
 [[nodiscard]] bool isWhole(double number);
 
 /// Throws unless `info` is a well-formed textureInfo (also for extensions, whose JSON checkSchema never

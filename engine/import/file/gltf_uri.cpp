@@ -131,7 +131,7 @@ DataUri decodeDataUri(const ImportContext& context, const std::string& place, st
     std::transform(data.mediaType.begin(), data.mediaType.end(), data.mediaType.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
 
-    // Most payloads have no escapes: decode those without a copy.
+    // Most payloads have no escapes and are decoded without a copy.
     std::string unescaped;
     std::string_view body = payload;
     if (payload.find('%') != std::string_view::npos) {

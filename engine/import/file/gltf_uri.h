@@ -1,5 +1,5 @@
 #pragma once
-// URIs of buffers and images: data URIs, or files inside the model's own folder and nowhere else.
+// URIs of buffers and images: data URIs, or files inside the model's own folder only.
 
 #include "engine/import/file/import_context.h"
 
@@ -22,9 +22,9 @@ struct DataUri {
 [[nodiscard]] DataUri decodeDataUri(const ImportContext& context, const std::string& place,
                                     std::string_view uri);
 
-/// The file that a relative URI means, inside `folder`. Percent-escapes are decoded first and the result is
-/// checked: absolute paths, `..`, schemes and NUL are refused with Error. `\` counts as a separator, because
-/// exporters write it. The file need not exist. Symbolic links in the folder are the user's own and followed.
+/// The file of a relative URI, inside `folder`. Percent-escapes are decoded first and the result is checked:
+/// absolute paths, `..`, schemes and NUL are refused with Error. `\` counts as a separator, because exporters
+/// write it. The file need not exist. Symbolic links in the folder are the user's own and followed.
 [[nodiscard]] std::filesystem::path resolveUri(const ImportContext& context, const std::string& place,
                                                const std::filesystem::path& folder, std::string_view uri);
 

@@ -86,7 +86,7 @@ void checkAccessors(ImportContext& context, const json& gltf) {
     }
 }
 
-/// The parent of every node, -1 for roots. A child that its parent names again is taken out of the second
+/// The parent of every node, -1 for roots. A child that its parent lists twice is removed from the second
 /// place.
 std::vector<int> parentsOf(ImportContext& context, json& nodes) {
     std::vector<int> parent(nodes.size(), -1);
@@ -100,7 +100,7 @@ std::vector<int> parentsOf(ImportContext& context, json& nodes) {
             const std::string place = element("nodes", i) + "." + element("children", c);
             if (parent[child] == static_cast<int>(i)) {
                 context.warn(place, "nodes[" + std::to_string(child) + "] stands there twice");
-                children[c] = nullptr; // no index is null
+                children[c] = nullptr; // null is never an index
                 twice = true;
                 continue;
             }
@@ -134,8 +134,8 @@ void warnOfScenes(ImportContext& context, const json& gltf, const std::vector<in
     }
 }
 
-// Every node has at most one parent and no node is its own ancestor. With at most one parent each, whatever
-// cannot be reached from a root lies on a loop or hangs below one.
+// Every node has at most one parent and no node is its own ancestor. With at most one parent each, a node
+// that cannot be reached from a root lies on a loop or below one.
 void checkNodes(ImportContext& context, json& gltf) {
     if (!gltf.contains("nodes"))
         return;

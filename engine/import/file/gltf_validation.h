@@ -1,5 +1,5 @@
 #pragma once
-// What the schema cannot say: relations between objects, each checked once before anything is read.
+// Checks beyond the schema: relations between objects, each checked once before anything is read.
 
 #include "engine/import/file/import_context.h"
 
@@ -10,9 +10,9 @@
 
 namespace touchstone {
 
-/// The extensions that the file demands, node forest without loops, and that buffer views and accessors stay
-/// inside what they read. Throws Error; warns about what may stay, and takes strides of 0 and children named
-/// twice out of `gltf`. Needs checkSchema first. Bytes are not looked at.
+/// Checks required extensions, that the nodes form a forest without loops, and that buffer views and
+/// accessors stay within their bounds. Throws Error; warns about tolerable flaws, and removes strides of 0
+/// and children listed twice from `gltf`. Needs checkSchema first. Does not read the bytes.
 void validateGltf(ImportContext& context, nlohmann::json& gltf);
 
 /// Bytes of one component (5120 ... 5126), 0 if there is no such type.

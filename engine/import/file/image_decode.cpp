@@ -21,7 +21,7 @@ bool startsWith(ByteSpan bytes, std::string_view magic, size_t at = 0) {
 
 std::atomic<uint64_t> decodes{0};
 
-/// How the image is stored, and how we keep it: 8 and 16 bit as they are, everything else as float.
+/// Storage format of the image, and its format in memory: 8 and 16 bit unchanged, everything else as float.
 std::pair<ComponentType, OIIO::TypeDesc> keptAs(const OIIO::TypeDesc& stored) {
     if (stored.basetype == OIIO::TypeDesc::UINT8)
         return {ComponentType::U8, OIIO::TypeUInt8};

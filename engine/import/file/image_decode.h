@@ -1,5 +1,5 @@
 #pragma once
-// Encoded images to pixels, through OpenImageIO, out of memory.
+// Decodes images in memory to pixels, through OpenImageIO.
 
 #include "engine/import/file/gltf_file.h"
 
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// Why an image has no pixels when the limit of import_context.h is reached.
+/// The problem reported when the pixel limit of import_context.h is reached.
 inline constexpr const char* kTooManyPixels = "the model's images together need more memory than is allowed";
 
 struct DecodedImage {
@@ -17,14 +17,15 @@ struct DecodedImage {
     std::string problem; ///< why there are no pixels, as the end of a sentence
 };
 
-/// Decodes PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR, told apart by their first bytes, as stored: no
-/// colour conversion, alpha not multiplied in, no EXIF rotation. `mayTake` is asked for the pixels' bytes
-/// before they are allocated. With `headerOnly` nothing but the header is read (`pixels` then has its sizes
+/// Decodes PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR, identified by their first bytes, as stored: no
+/// colour conversion, alpha not premultiplied, no EXIF rotation. `mayTake` must approve the pixels' size in
+/// bytes before they are allocated. With `headerOnly` only the header is read (`pixels` then has its sizes
 /// and no bytes). Does not throw for broken images.
 [[nodiscard]] DecodedImage decodeImage(ByteSpan encoded, bool headerOnly,
                                        const std::function<bool(uint64_t)>& mayTake);
 
-/// Images whose pixels this process has decoded so far, broken ones too; headers do not count. Any thread.
+/// Number of images whose pixels this process has decoded so far, including broken ones; headers do not
+/// count. Any thread.
 [[nodiscard]] uint64_t imageDecodes() noexcept;
 
 /// "png", "jpeg", ... by the first bytes, empty if unknown.

@@ -6,7 +6,7 @@
 namespace touchstone {
 namespace {
 
-/// `text` with every number as one '#'. Digits at the end of a name ("TEXCOORD_1") are no number.
+/// `text` with every number replaced by one '#'. Digits at the end of a name ("TEXCOORD_1") are no number.
 std::string withoutNumbers(std::string_view text) {
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
     const auto isName = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
@@ -24,7 +24,7 @@ std::string withoutNumbers(std::string_view text) {
 } // namespace
 
 void ImportContext::warn(std::string place, const std::string& message) {
-    // The same flaw met from several places is one flaw.
+    // A flaw found through several paths counts once.
     const std::string whole = place + '\n' + message;
     const size_t hash = std::hash<std::string>()(whole);
     if (told_.contains(hash))

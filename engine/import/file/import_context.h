@@ -1,6 +1,6 @@
 #pragma once
-// What every step of an import shares: the file's name for messages, the warnings, the memory it may take.
-// One import, one thread.
+// Shared state of the steps of an import: the file's name for messages, the warnings, the memory limits. One
+// import, one thread.
 
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
@@ -30,19 +30,20 @@ inline constexpr int kMaxJsonDepth = 64;
 inline constexpr size_t kMaxJsonObjects = 400'000;
 /// Materials of the file; a typed one takes about 3 KB.
 inline constexpr size_t kMaxMaterials = 65'536;
-/// Bytes of all the file's texts together, but for data URIs, which are counted as the data that they are.
+/// Bytes of all the file's texts together, except data URIs, which count as data.
 inline constexpr size_t kMaxTextBytes = 64u << 20;
 /// Meshes placed in the scene.
 inline constexpr size_t kMaxInstances = 262'144;
 /// Copies of meshes that the nodes of any file may place together (EXT_mesh_gpu_instancing); beyond it, one
-/// for every kFileBytesPerCopy of the file's own data, which is less than a copy's translation takes.
+/// for every kFileBytesPerCopy of the file's own data, which is less than the size of a copy's translation.
 inline constexpr uint64_t kFreeCopies = 10'000;
 inline constexpr uint64_t kFileBytesPerCopy = 8;
 /// Triangles that any file may place, over all instances; beyond it, one for every byte of the file's own
-/// data. What is built from a scene (BVHs, vertex buffers) grows with them.
+/// data. Structures built from a scene (BVHs, vertex buffers) grow with them.
 inline constexpr uint64_t kFreePlacedTriangles = 5'000'000;
 /// Bytes of geometry that any file may expand to; beyond it, kGeometryExpansion times the file's own data.
-/// Sparse and absent buffer views, many primitives on one accessor and compression all make much of little.
+/// Sparse and absent buffer views, many primitives on one accessor and compression can all expand a small
+/// file.
 inline constexpr uint64_t kFreeGeometryBytes = 256ull << 20;
 inline constexpr uint64_t kGeometryExpansion = 16;
 /// Bytes of decoded pixels that any file may hold; beyond it, kPixelExpansion times the file's own data.
@@ -65,12 +66,12 @@ class ImportContext {
     }
 
     /// One warning per kind of flaw: places and messages that differ in numbers only are one warning, which
-    /// lists the next places and counts the rest. At most kMaxWarnings kinds are kept, so that a broken file
-    /// cannot drown the user (or the memory) in them.
+    /// lists the next places and counts the rest. At most kMaxWarnings kinds are kept, which bounds the
+    /// output and the memory for a broken file.
     void warn(std::string place, const std::string& message);
 
-    /// Does `work`, which reads a part that neither geometry nor safety depends on. An Error of it becomes a
-    /// warning, "PROBLEM; CONSEQUENCE", and the answer false. A cancelled import still ends.
+    /// Runs `work`, which reads a part that neither geometry nor safety depends on. If it throws Error, adds
+    /// a warning, "PROBLEM; CONSEQUENCE", and returns false. Cancellation still ends the import.
     template <class Work>
     bool attempt(const char* consequence, Work&& work) {
         try {
@@ -87,16 +88,16 @@ class ImportContext {
     void step(double fraction, const char* what) const { progress().step(fraction, what); }
     void stopIfCancelled() const { progress().stopIfCancelled(); }
     [[nodiscard]] Progress progress() const { return {&options_.progress, options_.cancel}; }
-    /// The part of the import that is being done, for reports inside it.
+    /// Sets the current part of the import, for reports inside it.
     void enter(const Progress& part) { part_ = part; }
     [[nodiscard]] const Progress& part() const { return part_; }
 
-    /// The sizes of the file's own data, from which the limits above grow.
+    /// The sizes of the file's own data, which scale the limits above.
     [[nodiscard]] uint64_t fileBytes() const { return fileBytes_; }
     void countFileBytes(uint64_t bytes) { fileBytes_ += bytes; }
-    /// Asks for memory that the geometry expands to; fails when the limit is passed.
+    /// Reserves memory that the geometry expands to; fails beyond the limit.
     void spendGeometry(uint64_t bytes, const std::string& place);
-    /// Asks for memory for pixels; false when the limit is passed.
+    /// Reserves memory for pixels; false beyond the limit.
     [[nodiscard]] bool spendPixels(uint64_t bytes);
 
     [[nodiscard]] std::vector<Warning> takeWarnings();
@@ -109,7 +110,7 @@ class ImportContext {
         size_t otherCount = 0;
     };
     static constexpr size_t kMaxWarnings = 200, kListedPlaces = 3;
-    /// Warnings that are remembered, to count a flaw met twice once. Beyond, counts may be too high.
+    /// Warnings that are remembered, so that a flaw found twice counts once. Beyond, counts may be too high.
     static constexpr size_t kMaxRemembered = 1u << 16;
     std::string file_;
     const LoadOptions& options_;

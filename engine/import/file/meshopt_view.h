@@ -9,8 +9,8 @@
 
 namespace touchstone {
 
-/// Decodes to exactly `length` bytes. `extension` is unchecked JSON; everything in it is checked here.
-/// Throws Error when it is malformed, does not fit, or is broken.
+/// Decodes to exactly `length` bytes. `extension` is unchecked JSON and is fully checked here. Throws Error
+/// when it is malformed, does not fit, or is broken.
 [[nodiscard]] std::vector<uint8_t> decodeMeshoptView(const ImportContext& context, const std::string& place,
                                                      const nlohmann::json& extension, uint64_t length,
                                                      const std::vector<ByteSpan>& buffers);

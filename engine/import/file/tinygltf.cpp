@@ -1,5 +1,5 @@
-// The one place that compiles tinygltf (engine/import/file/tinygltf.h). Its writers, which we never call,
-// want fstream even where it is told to leave files alone.
+// The only translation unit that compiles tinygltf (engine/import/file/tinygltf.h). Its unused writers need
+// fstream even where file access is disabled.
 #include <fstream>
 
 #define TINYGLTF_IMPLEMENTATION

@@ -1,7 +1,7 @@
 #pragma once
-// tinygltf without image loading, without files, and under a namespace of our own: Debian's libdraco exports
-// the symbols of another version of tinygltf, and whichever library came first would serve both with the
-// wrong structs.
+// tinygltf without image loading, without files, and in a separate namespace: Debian's libdraco exports the
+// symbols of another version of tinygltf, and the library loaded first would serve both with the wrong
+// structs.
 
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE

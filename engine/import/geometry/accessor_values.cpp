@@ -15,7 +15,7 @@ bool isMatrix(int type) {
     return type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
 }
 
-/// Many exporters print fewer digits than a float has; that is no flaw worth telling.
+/// Many exporters print fewer digits than a float has; that is not worth a warning.
 double slack(double declared) {
     return 1e-4 * std::abs(declared);
 }

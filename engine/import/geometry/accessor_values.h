@@ -4,9 +4,9 @@
 
 namespace touchstone {
 
-/// Warns about what the declared values of accessors get wrong though nothing breaks by it: numbers that are
-/// not finite, declared minima and maxima that do not hold (we compute bounds ourselves). Stops silently
-/// after reading a few times the file's own size, since accessors may overlap without end.
+/// Warns about harmless errors in declared values of accessors: numbers that are not finite, declared minima
+/// and maxima that do not hold (the import computes its own bounds). Stops silently after reading a few times
+/// the file's own size, since accessors may overlap without limit.
 void warnOfAccessorValues(ImportContext& context, const GltfDocument& document);
 
 } // namespace touchstone

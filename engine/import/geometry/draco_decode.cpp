@@ -35,7 +35,7 @@ RawAttribute copyAttribute(ImportContext& context, const draco::Mesh& mesh,
     const size_t components = static_cast<size_t>(copy.components);
     context.spendGeometry(mesh.num_points() * components * sizeof(float), place);
     copy.values.resize(mesh.num_points() * components);
-    draco::PointAttribute view; // ConvertValue divides integers by their range only if the attribute says so
+    draco::PointAttribute view; // ConvertValue divides integers by their range only if normalised
     const bool divides = source.normalized() == normalized;
     if (!divides) {
         view.CopyFrom(source);

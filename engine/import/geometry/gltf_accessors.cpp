@@ -75,7 +75,7 @@ void visitElements(ImportContext& context, const GltfDocument& document, const t
             bytesAt(sparse.indices.bufferView, sparse.indices.byteOffset) + i * componentBytes(type), type);
     };
     const bool hasView = accessor.bufferView >= 0 && accessor.count > 0;
-    std::vector<bool> replaced(hasView && replacements > 0 ? accessor.count : 0); // the view has them all
+    std::vector<bool> replaced(hasView && replacements > 0 ? accessor.count : 0); // all are in the view
     uint64_t before = 0, falls = 0;
     for (uint64_t i = 0; i < replacements; ++i) {
         const uint64_t which = target(i);

@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-/// A quaternion this far from unit length is told; less is rounding and quantisation.
+/// A quaternion this far from unit length is reported; less is rounding and quantisation.
 constexpr double kUnitTolerance = 1e-2;
 
 std::optional<AnimatedPath> pathOf(const std::string& name) {
@@ -36,8 +36,7 @@ Interpolation interpolationOf(const ImportContext& context, const std::string& n
                  "\"" + name.substr(0, 40) + "\" is not LINEAR, STEP or CUBICSPLINE");
 }
 
-/// The times of keys, and which of those in the file they are: a key that is not after the one before it is
-/// skipped.
+/// The key times, and their indices in the file: a key that is not after the preceding one is skipped.
 struct KeyTimes {
     std::vector<float> times;
     std::vector<size_t> keys;
@@ -73,7 +72,7 @@ KeyTimes readTimes(ImportContext& context, const GltfDocument& document, int acc
     return result;
 }
 
-/// Brings a rotation to unit length. Returns whether it was off it; throws Error if it has no direction.
+/// Normalises a rotation. Returns whether it was off unit length; throws Error if it has no direction.
 bool normaliseRotation(const ImportContext& context, glm::vec4& key, size_t index, const std::string& place) {
     constexpr double kNone = 1e-6;
     const double length = glm::length(glm::dvec4(key));
@@ -139,7 +138,7 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
     }
     AnimationChannel channel;
     KeyTimes at = readTimes(context, document, sampler.input, samplerPlace + ".input");
-    // Without a node an extension or nobody is meant: the specification says to ignore it.
+    // A channel without a node belongs to an extension or to nothing: the specification requires ignoring it.
     if (!path || gltf.target_node < 0)
         return std::nullopt;
     channel.node = forest.nodeOfGltf[static_cast<size_t>(gltf.target_node)];
@@ -166,7 +165,7 @@ std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument
         for (size_t c = 0; c < gltf.channels.size(); ++c) {
             context.stopIfCancelled();
             std::optional<AnimationChannel> channel;
-            // At rest the model is right without it.
+            // The static model is right without it.
             (void)context.attempt("it is not animated", [&] {
                 channel = readChannel(context, document, forest, nodes, gltf, c, element("animations", a));
             });

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
 
-/// One of the three attributes that place copies: none if the file does not state it.
+/// One of the three attributes that place copies: empty if the file does not contain it.
 struct Attribute {
     std::string place;
     int accessor = -1;

@@ -14,13 +14,14 @@
 namespace touchstone {
 namespace {
 
-/// What generateTangents works with per triangle, over the corners' welds, edges, groups and splits.
+/// Working memory of generateTangents per triangle, for the corners' welds, edges, groups and splits.
 constexpr uint64_t kTangentBytesPerTriangle = 400;
 
 /// A vertex of a line or point in the renderer's memory.
 constexpr uint64_t kDrawnVertexBytes = 64;
 
-/// Corners of triangle `i` of a strip or fan (glTF 2.0, section 3.7.2.1); a strip's odd triangles turn round.
+/// Corners of triangle `i` of a strip or fan (glTF 2.0, section 3.7.2.1); a strip's odd triangles are
+/// reversed.
 std::array<size_t, 3> triangleOf(int mode, size_t i) {
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
         return {i, i + 1 + i % 2, i + 2 - i % 2};
@@ -29,7 +30,7 @@ std::array<size_t, 3> triangleOf(int mode, size_t i) {
     return {3 * i, 3 * i + 1, 3 * i + 2};
 }
 
-/// The vertices as drawn: the indices, or 0, 1, 2, ... without them. All in range.
+/// The drawn vertices: the indices, or 0, 1, 2, ... without them. All in range.
 std::vector<uint32_t> drawnVertices(ImportContext& context, const GltfDocument& document,
                                     const tinygltf::Primitive& primitive, DracoPrimitive* draco,
                                     size_t vertexCount, const std::string& place) {
@@ -69,7 +70,7 @@ std::vector<uint32_t> triangleList(ImportContext& context, std::vector<uint32_t>
         const auto [a, b, c] = triangleOf(mode, i);
         const uint32_t va = drawn[a], vb = drawn[b], vc = drawn[c];
         if (va == vb || vb == vc || vc == va)
-            ++degenerate; // a strip's are stitches, not flaws
+            ++degenerate; // in a strip they are stitches, not flaws
         else
             indices.insert(indices.end(), {va, vb, vc});
     }
@@ -108,10 +109,10 @@ glm::vec3 unitOrUp(const glm::dvec3& v) {
     return largest > 0.0 ? glm::vec3(glm::normalize(v / largest)) : glm::vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// Gives every triangle vertices of its own and its own normal (glTF 2.0, section 3.7.2.1: "flat normals").
+/// Gives every triangle its own vertices and normal (glTF 2.0, section 3.7.2.1: "flat normals").
 void makeFlat(ImportContext& context, Mesh& mesh, const std::string& place) {
     const size_t corners = mesh.indices.size();
-    mesh.tangents = {}; // the specification: without normals the file's tangents do not count
+    mesh.tangents = {}; // by the specification the file's tangents are ignored without normals
     mesh.tangentsFromFile = false;
     context.spendGeometry(corners * bytesPerVertex(mesh), place);
     selectVertices(mesh, mesh.indices);
@@ -123,7 +124,7 @@ void makeFlat(ImportContext& context, Mesh& mesh, const std::string& place) {
         mesh.normals[i] = unitOrUp(faceNormal(mesh, i / 3));
 }
 
-/// Normals of length zero in the file: the area-weighted mean of the triangles around instead.
+/// Replaces normals of length zero by the area-weighted mean of the adjacent triangles.
 void mendNormals(Mesh& mesh) {
     const auto lost = [](const glm::vec3& n) { return n == glm::vec3(0.0f); };
     if (std::none_of(mesh.normals.begin(), mesh.normals.end(), lost))
@@ -136,8 +137,8 @@ void mendNormals(Mesh& mesh) {
             mesh.normals[v] = unitOrUp(sum[v]);
 }
 
-/// What is drawn but not felt: no flat normals, for without normals it is drawn unlit (glTF 2.0, section
-/// 3.7.2.1), and no tangents.
+/// Primitives that are drawn but not touched: no flat normals, since without normals they are drawn unlit
+/// (glTF 2.0, section 3.7.2.1), and no tangents.
 void makeDrawnOnly(ImportContext& context, std::vector<uint32_t> drawn, int mode, const std::string& place,
                    Mesh& mesh) {
     context.warn(place, "holds points or lines: they are drawn, but cannot be touched");
@@ -145,7 +146,8 @@ void makeDrawnOnly(ImportContext& context, std::vector<uint32_t> drawn, int mode
         mesh.pointIndices = std::move(drawn);
     else
         mesh.lineIndices = segmentList(context, drawn, mode, place);
-    // The renderer has a vertex for each: a few vertices under many small indices must not become gigabytes.
+    // The renderer has a vertex for each index: a few vertices with many small indices must not become
+    // gigabytes.
     context.spendGeometry((mesh.lineIndices.size() + mesh.pointIndices.size()) * kDrawnVertexBytes, place);
     mesh.tangents = {};
     mesh.tangentsFromFile = false;
@@ -189,7 +191,7 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
     const nlohmann::json& stated = document.json["meshes"][meshIndex]["primitives"][primitiveIndex];
     context.stopIfCancelled();
 
-    // A name may be most of the file, and every mesh has one, as may every material.
+    // A name may be most of the file, and every mesh and every material has a copy.
     context.spendGeometry(sizeof(Mesh) + sizeof(Material) + gltf.name.size() + material.name.size(), place);
     if (!hasData(document, primitive)) {
         context.warn(place, "its buffer is declared without data: the mesh is left out");
@@ -218,13 +220,13 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
         makeDrawnOnly(context, std::move(drawn), mode, place, mesh);
     else
         mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
-    // Flat normals, mended ones and made tangents are those of the posed surface.
+    // Flat, repaired and generated normals and tangents are those of the posed surface.
     if (pose.skin != nullptr)
         if (const auto influences = readInfluences(context, document, primitive, draco ? &*draco : nullptr,
                                                    *pose.skin, mesh.positions.size(), place))
             posed.origin = poseVertices(context, *influences, *pose.skin, place, mesh);
-    // A vertex that nothing uses would decide the frame of the touched object, its tolerances and its
-    // rounding; and placed meshes are counted by what they draw.
+    // An unused vertex would affect the frame of the touched object, its tolerances and its rounding; and
+    // placed meshes count by what they draw.
     dropUnusedVertices(mesh);
     if (mode < TINYGLTF_MODE_TRIANGLES) {
         mendNormals(mesh);

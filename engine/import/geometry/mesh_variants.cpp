@@ -27,7 +27,7 @@ const std::vector<MeshVariant>& MeshVariants::get(const ShownMesh& shown) {
     return found->second;
 }
 
-/// A variant that differs in its physics material only, and has something to draw; null if there is none.
+/// A variant that differs only in its physics material, and has something to draw; null if there is none.
 const std::vector<MeshVariant>* MeshVariants::sameShape(Made::const_iterator found) const {
     ShownMesh first = found->first;
     first.physics = std::numeric_limits<int>::min();

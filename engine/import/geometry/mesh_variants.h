@@ -1,5 +1,5 @@
 #pragma once
-// The meshes of a scene: one glTF mesh becomes several where its nodes show it in different poses or give it
+// The meshes of a scene: one glTF mesh becomes several where its nodes show it in different poses or with
 // different physics materials.
 
 #include "engine/import/geometry/skin.h"
@@ -12,7 +12,7 @@
 
 namespace touchstone {
 
-/// What makes one node show a glTF mesh otherwise than another.
+/// The properties by which nodes show a glTF mesh differently.
 struct ShownMesh {
     size_t gltfMesh = 0;
     int skin = -1;               ///< of the file; -1: rigid
@@ -25,7 +25,7 @@ struct ShownMesh {
 /// One primitive of a shown mesh.
 struct MeshVariant {
     int mesh = -1; ///< index into Scene::meshes
-    /// Where the frame of a posed skin stands in the scene; nothing for what follows its node.
+    /// The origin of a posed skin's frame in the scene; empty for a mesh that follows its node.
     std::optional<glm::dvec3> origin;
 };
 
@@ -36,10 +36,10 @@ class MeshVariants {
                  SkinPoses& skins, Scene& scene)
         : context_(context), document_(document), materials_(materials), skins_(skins), scene_(scene) {}
 
-    /// One entry for each primitive that has something to draw. Built when first asked for.
+    /// One entry for each primitive that has something to draw. Built on first use.
     const std::vector<MeshVariant>& get(const ShownMesh& shown);
 
-    /// Whether some variant of the mesh was asked for.
+    /// True if some variant of the mesh was requested.
     [[nodiscard]] bool has(size_t gltfMesh) const { return asked_[gltfMesh]; }
 
   private:

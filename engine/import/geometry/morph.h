@@ -11,14 +11,14 @@
 namespace touchstone {
 
 /// The number of morph targets of every mesh of the file; the largest, with a warning, where its primitives
-/// differ. Warns of what is wrong with a target in whatever pose it is shown: displacements without an
-/// attribute to displace, and other numbers of vertices.
+/// differ. Warns of flaws of a target that hold in any pose: displacements without an attribute to displace,
+/// and other numbers of vertices.
 [[nodiscard]] std::vector<size_t> morphTargetCounts(ImportContext& context, const GltfDocument& document);
 
-/// The weights that a mesh of `targets` targets is shown with: those of `gltfNode`, else the mesh's own, else
-/// none. Weights of targets that do not exist and zeros at the end are left out, so that equal shapes have
-/// equal weights. A negative `gltfNode` stands for no node. Warns where there are more or fewer weights than
-/// targets. Spends geometry memory.
+/// The weights of a shown mesh of `targets` targets: those of `gltfNode`, else the mesh's own, else none.
+/// Weights of targets that do not exist and trailing zeros are left out, so that equal shapes have equal
+/// weights. A negative `gltfNode` means no node. Warns where there are more or fewer weights than targets.
+/// Spends geometry memory.
 [[nodiscard]] std::vector<double> morphWeights(ImportContext& context, const GltfDocument& document,
                                                size_t gltfMesh, size_t targets, int gltfNode);
 
@@ -29,7 +29,7 @@ class MorphTargets {
     MorphTargets(ImportContext& context, const GltfDocument& document, const tinygltf::Primitive& primitive,
                  std::span<const double> weights, const std::string& place);
 
-    /// Whether some target with a weight displaces the attribute.
+    /// True if some target with a weight displaces the attribute.
     [[nodiscard]] bool displaces(const std::string& attribute) const;
 
     /// base += sum of weight * displacement, summed in double. A displacement has as many components as the

@@ -10,8 +10,8 @@ namespace {
 
 using Run = std::span<const uint32_t>;
 
-/// Appends `run` to a strip of triangles. Every second triangle of a strip turns round, so that the first of
-/// the run must come at an even place; those between have two equal corners.
+/// Appends `run` to a strip of triangles. Every second triangle of a strip is reversed, so the run must start
+/// at an even index; the triangles in between have two equal corners.
 void joinStrip(std::vector<uint32_t>& strip, Run run) {
     if (run.size() < 3)
         return;
@@ -24,7 +24,7 @@ void joinStrip(std::vector<uint32_t>& strip, Run run) {
     strip.insert(strip.end(), run.begin(), run.end());
 }
 
-/// Appends the whole primitives of `run` to a list of them, with `corners` each.
+/// Appends the complete primitives of `run`, with `corners` each, to a list.
 void joinList(std::vector<uint32_t>& list, Run run, size_t corners) {
     const Run whole = run.first(run.size() - run.size() % corners);
     list.insert(list.end(), whole.begin(), whole.end());

@@ -8,9 +8,9 @@
 
 namespace touchstone {
 
-/// Indices without the restart value, which glTF forbids and some exporters write all the same. A vertex of
-/// that number is meant where there is one. Otherwise it ends a primitive: lists lose what is incomplete
-/// before it, strips of triangles are joined by triangles without area. Warns where it is met; throws Error
+/// Indices without the restart value, which glTF forbids and some exporters write. Where a vertex of that
+/// number exists, the index refers to it. Otherwise it ends a primitive: lists lose an incomplete primitive
+/// before it, strips of triangles are joined by triangles without area. Warns where it occurs; throws Error
 /// in fans and in strips of lines, which cannot be joined. `mode` is glTF's, `place` the indices' place in
 /// the file.
 [[nodiscard]] std::vector<uint32_t> withoutRestarts(ImportContext& context, std::vector<uint32_t> indices,

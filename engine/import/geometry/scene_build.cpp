@@ -46,8 +46,8 @@ class Placement {
     Placement(ImportContext& context, const GltfDocument& document, Scene& scene)
         : context_(context), document_(document), scene_(scene) {}
 
-    /// Places what `node` shows, as many times as it has copies. Instances that are flattened are left out
-    /// with a warning.
+    /// Places the meshes of `node`, once for each of its copies. Flattened instances are left out with a
+    /// warning.
     void place(size_t node, size_t gltfNode, const glm::dmat4& sceneFromNode,
                const std::vector<MeshVariant>& meshes) {
         place_ = element("nodes", gltfNode);
@@ -69,7 +69,7 @@ class Placement {
     /// False if the copy is flattened.
     bool add(size_t node, const glm::dmat4& sceneFromNode, const glm::dmat4& nodeFromMesh, bool isCopy,
              const std::vector<MeshVariant>& meshes) {
-        attempted_ += meshes.size(); // those that are left out as flat take their time, too
+        attempted_ += meshes.size(); // instances left out as flat also take time
         if (attempted_ > kMaxInstances)
             context_.fail(place_, "places more than " + std::to_string(kMaxInstances) + " meshes",
                           "split the model into several files");
@@ -99,8 +99,8 @@ class Placement {
         return stands;
     }
 
-    /// A skin stands where its joints are. A copy of it is displaced from there as a rigid mesh is displaced
-    /// from the node's own place: by sceneFromNode * nodeFromMesh * nodeFromScene.
+    /// A skin is placed by its joints. A copy of it is displaced from there as a rigid mesh is displaced from
+    /// the node's own place: by sceneFromNode * nodeFromMesh * nodeFromScene.
     glm::dmat4 sceneFromSkin(const glm::dvec3& origin, const glm::dmat4& sceneFromNode,
                              const glm::dmat4& nodeFromMesh, bool isCopy) {
         glm::dmat4 sceneFromMesh(1.0);
@@ -129,7 +129,7 @@ class Placement {
     const GltfDocument& document_;
     Scene& scene_;
     std::string place_;
-    uint64_t copies_ = 0, placed_ = 0, attempted_ = 0; // attempted: placements, flat ones included
+    uint64_t copies_ = 0, placed_ = 0, attempted_ = 0; // attempted: placements, including flat ones
 };
 
 } // namespace
@@ -157,7 +157,8 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
             physics[gltfNode]};
         placement.place(n, gltfNode, sceneFromNode[n], variants.get(shown));
     }
-    // Meshes that nobody placed are checked like the others: a broken file should not depend on who looks.
+    // Meshes that no node places are checked as well: whether a broken file is refused does not depend on the
+    // scene shown.
     const Progress others = context.progress().part(0.79, 0.8);
     for (size_t m = 0; m < document.model.meshes.size(); ++m) {
         context.enter(
@@ -190,7 +191,7 @@ Bounds sceneBounds(const ImportContext& context, const Scene& scene) {
             bounds.include(glm::dvec3(instance.sceneFromMesh * glm::dvec4(p, 1.0)));
         };
         if (exact) {
-            // Only vertices that are drawn: exporters leave strays behind.
+            // Only drawn vertices: exporters leave stray ones behind.
             std::vector<bool> included(mesh.positions.size(), false);
             for (const auto* indices : {&mesh.indices, &mesh.lineIndices, &mesh.pointIndices})
                 for (size_t i = 0; i < indices->size(); ++i) {

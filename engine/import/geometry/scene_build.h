@@ -1,5 +1,5 @@
 #pragma once
-// Meshes, and where they stand.
+// Builds the meshes and places them in the scene.
 
 #include "engine/import/geometry/gltf_nodes.h"
 #include "engine/import/materials/gltf_materials.h"
@@ -7,8 +7,8 @@
 namespace touchstone {
 
 /// Builds every mesh of the file and places those of the shown nodes: fills scene.meshes and scene.instances.
-/// Expects scene.nodes. A mesh becomes several where colliders give its nodes different physics materials,
-/// morph weights or skins.
+/// Expects scene.nodes. A mesh becomes several where its nodes have different morph weights or skins, or
+/// colliders assign them different physics materials.
 void buildMeshesAndInstances(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
                              MaterialTable& materials, Scene& scene);
 

@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-/// Weights whose sum is off by more than this are reported; less is rounding.
+/// Weights whose sum deviates from 1 by more than this are reported; less is rounding.
 constexpr double kWeightTolerance = 1e-3;
 
 /// One pair JOINTS_n, WEIGHTS_n.
@@ -49,7 +49,7 @@ class InfluenceReader {
     }
 
   private:
-    /// A set behind a gap in the numbering would be left out, and the pose be another one.
+    /// A set after a gap in the numbering would be left out, which changes the pose.
     void refuseGaps(size_t read) const {
         for (const auto& [name, accessor] : primitive_.attributes)
             for (const std::string prefix : {"JOINTS_", "WEIGHTS_"}) {
@@ -94,7 +94,7 @@ glm::dmat4 sceneFromVertex(const VertexInfluences& influences, const SkinPose& s
     return sum / total;
 }
 
-/// Takes normal and tangent of a vertex along. Returns -1 where `linear` mirrors, else 1.
+/// Transforms normal and tangent of a vertex. Returns -1 where `linear` mirrors, else 1.
 int poseFrame(const glm::dmat3& linear, size_t vertex, Mesh& mesh) {
     double largest = 0.0;
     for (int column = 0; column < 3; ++column)
@@ -103,7 +103,7 @@ int poseFrame(const glm::dmat3& linear, size_t vertex, Mesh& mesh) {
     // Scaled first, so that products of two entries neither overflow nor vanish.
     const glm::dmat3 m = largest > 0.0 ? linear / largest : linear;
     // The inverse transpose is the cofactor matrix over the determinant, of which only the sign counts; the
-    // cofactor matrix also serves where the blend of joints has no inverse.
+    // cofactor matrix also exists where the blend of joints has no inverse.
     const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const int turn = glm::dot(m[0], cofactor[0]) < 0.0 ? -1 : 1;
     const auto unitOrZero = [](const glm::dvec3& v) {
@@ -121,15 +121,15 @@ int poseFrame(const glm::dmat3& linear, size_t vertex, Mesh& mesh) {
     return turn;
 }
 
-/// A mirrored triangle runs round the other way: its corners are exchanged. Where the joints of one triangle
-/// disagree, most of its corners decide.
+/// Exchanges two corners of each mirrored triangle. Where the joints of one triangle disagree, most of its
+/// corners decide.
 void turnMirrored(const std::vector<int8_t>& turns, Mesh& mesh) {
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         if (turns[mesh.indices[i]] + turns[mesh.indices[i + 1]] + turns[mesh.indices[i + 2]] < 0)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
 
-/// The centre of the vertices that are drawn: exporters leave strays behind.
+/// The centre of the drawn vertices: exporters leave stray ones behind.
 glm::dvec3 centreOf(const std::vector<glm::dvec3>& positions, const Mesh& mesh) {
     Bounds bounds;
     for (const auto* indices : {&mesh.indices, &mesh.lineIndices, &mesh.pointIndices})
@@ -285,7 +285,7 @@ glm::dvec3 poseVertices(ImportContext& context, const VertexInfluences& influenc
         if (!isFinite(glm::dvec3(mesh.positions[v])))
             refuse(v);
     }
-    // Frames with gaps are worth less than generated ones.
+    // Generated frames are better than frames with gaps.
     const auto lost = [](const glm::vec4& t) { return glm::vec3(t) == glm::vec3(0.0f); };
     if (std::any_of(mesh.tangents.begin(), mesh.tangents.end(), lost)) {
         mesh.tangents.clear();

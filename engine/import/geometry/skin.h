@@ -1,8 +1,8 @@
 #pragma once
-// Skins in the pose that their joints have in the file (glTF 2.0, section 3.7.3): the vertices of a skinned
-// mesh go to the scene by the weighted mean of sceneFromJoint * inverseBind, and its node's transform does
-// not count. Reading (SkinPoses, readInfluences) and posing (poseVertices) are apart, so that a skin can be
-// posed anew.
+// Skins in the pose of their joints in the file (glTF 2.0, section 3.7.3): the weighted mean of
+// sceneFromJoint * inverseBind transforms the vertices of a skinned mesh to the scene, and its node's
+// transform is ignored. Reading (SkinPoses, readInfluences) and posing (poseVertices) are separate, so that a
+// skin can be posed again.
 
 #include "engine/import/geometry/gltf_nodes.h"
 #include "engine/import/geometry/vertex_attributes.h"
@@ -19,19 +19,19 @@ struct SkinPose {
     std::vector<glm::dmat4> sceneFromMesh; ///< by joint; not finite where the file's numbers are not
 };
 
-/// The skins of a file, each read when it is first asked for.
+/// The skins of a file, each read on first use.
 class SkinPoses {
   public:
-    /// `nodes` are those of the forest, which may have given them away; `sceneFromNode` has the same order.
-    /// Refers to all of its arguments, which outlive it.
+    /// `nodes` are those of the forest, which may have been moved out of it; `sceneFromNode` has the same
+    /// order. Refers to all of its arguments, which outlive it.
     SkinPoses(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
               std::span<const Node> nodes, std::span<const glm::dmat4> sceneFromNode)
         : context_(context), document_(document), forest_(forest), nodes_(nodes),
           sceneFromNode_(sceneFromNode) {}
 
     /// skins[skin] of the file. Missing inverse bind matrices are the identity. Throws Error where there are
-    /// fewer of them than joints; warns of joints outside of the scene or without a common root and of
-    /// matrices that are not affine (their last row counts as 0, 0, 0, 1). Spends geometry memory.
+    /// fewer of them than joints; warns of joints outside the scene or without a common root and of matrices
+    /// that are not affine (their last row counts as 0, 0, 0, 1). Spends geometry memory.
     [[nodiscard]] const SkinPose& get(size_t skin);
 
   private:
@@ -44,36 +44,35 @@ class SkinPoses {
     const NodeForest& forest_;
     std::span<const Node> nodes_;
     std::span<const glm::dmat4> sceneFromNode_;
-    std::vector<int> rootOf_; ///< by index in `nodes`; made when first needed
+    std::vector<int> rootOf_; ///< by index in `nodes`; computed on first use
     std::map<size_t, SkinPose> made_;
 };
 
-/// Which joints move a vertex, and how much: `perVertex` pairs a vertex.
+/// The joints that move a vertex, with their weights: `perVertex` pairs a vertex.
 struct VertexInfluences {
     size_t perVertex = 0;
-    std::vector<uint32_t> joints; ///< below the skin's number of joints where the weight is not 0
+    std::vector<uint32_t> joints; ///< less than the skin's number of joints where the weight is not 0
     std::vector<float> weights;   ///< at least 0; their sum over a vertex is positive and not always 1
 };
 
-/// JOINTS_n and WEIGHTS_n of a primitive; nothing, with a warning, if it has neither. Negative weights count
-/// as 0 and a vertex whose weights are all 0 follows its first joint, both with a warning, as do weights
-/// whose sum is not 1. Throws Error for joints that the skin does not have and for half a pair of attributes.
+/// JOINTS_n and WEIGHTS_n of a primitive; empty, with a warning, if it has neither. Negative weights count as
+/// 0 and a vertex whose weights are all 0 follows its first joint, both with a warning, as do weights whose
+/// sum is not 1. Throws Error for joints that the skin does not have and for half a pair of attributes.
 /// Spends geometry memory.
 [[nodiscard]] std::optional<VertexInfluences>
 readInfluences(ImportContext& context, const GltfDocument& document, const tinygltf::Primitive& primitive,
                DracoPrimitive* draco, const SkinPose& skin, size_t vertexCount, const std::string& place);
 
 /// Poses the vertices of `mesh`, which are those of the file, and returns the origin of its new frame in the
-/// scene: sceneFromMesh is the translation by it. It is the centre of what is drawn, so that a float
-/// holds a vertex to 6e-8 of the object wherever the joints stand. Normals go by the cofactor matrix,
+/// scene: sceneFromMesh is the translation by it. It is the centre of the drawn vertices, so that a float
+/// holds a vertex to 6e-8 of the object wherever the joints are. Normals transform by the cofactor matrix,
 /// tangents by the matrix; both are unit afterwards, normals that vanish are 0. Where joints mirror,
-/// triangles are turned round and tangents change hands. Throws Error for vertices that are not finite.
+/// triangles are reversed and tangents change handedness. Throws Error for vertices that are not finite.
 /// Spends geometry memory.
 [[nodiscard]] glm::dvec3 poseVertices(ImportContext& context, const VertexInfluences& influences,
                                       const SkinPose& skin, const std::string& place, Mesh& mesh);
 
-/// One warning if an animation moves a joint of a skinned mesh that is shown. Needs scene.nodes and
-/// scene.animations.
+/// One warning if an animation moves a joint of a shown skinned mesh. Needs scene.nodes and scene.animations.
 void warnOfStillSkins(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
                       const Scene& scene);
 

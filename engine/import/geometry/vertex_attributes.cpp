@@ -10,7 +10,7 @@
 namespace touchstone {
 namespace {
 
-/// A unit vector this far off in length is told to the user; less is rounding and quantisation.
+/// A unit vector this far off in length is reported to the user; less is rounding and quantisation.
 constexpr float kUnitTolerance = 0.1f;
 
 class AttributeReader {
@@ -23,10 +23,10 @@ class AttributeReader {
 
     [[nodiscard]] std::string at(const char* name) const { return place_ + name; }
 
-    /// What becomes of numbers that are not finite: an Error, or 0 and a warning.
+    /// Treatment of numbers that are not finite: an Error, or 0 and a warning.
     enum class NotFinite { Refuse, Zero };
 
-    /// The values of an attribute, all finite; nothing if it is absent. `count` 0 takes any number of
+    /// The values of an attribute, all finite; empty if it is absent. `count` 0 accepts any number of
     /// vertices.
     std::optional<RawAttribute> raw(const char* name, size_t count, std::initializer_list<int> components,
                                     NotFinite notFinite = NotFinite::Refuse) {
@@ -66,7 +66,7 @@ class AttributeReader {
             return {};
         std::vector<Vector> result(attribute->values.size() / static_cast<size_t>(Vector::length()));
         static_assert(sizeof(Vector) == sizeof(float) * Vector::length());
-        if (!result.empty()) // memcpy takes no null pointer, not even for nothing
+        if (!result.empty()) // memcpy accepts no null pointer, even for zero bytes
             std::memcpy(result.data(), attribute->values.data(), attribute->values.size() * sizeof(float));
         return result;
     }
@@ -100,8 +100,8 @@ class AttributeReader {
     std::string place_;
 };
 
-/// Brings `vectors` to unit length. Those without a direction become zero and are counted. A length that
-/// morph targets changed (`displaced`) is no flaw of the file.
+/// Normalises `vectors`. Those without a direction become zero and are counted. A length changed by morph
+/// targets (`displaced`) is no flaw of the file.
 template <class Vector>
 size_t normaliseAll(ImportContext& context, std::vector<Vector>& vectors, bool displaced,
                     const std::string& place) {
@@ -145,8 +145,8 @@ void readColors(ImportContext& context, AttributeReader& reader, size_t count, b
                      std::to_string(outside) + " colours are outside 0..1 and were clamped");
 }
 
-/// Tangents whose handedness is known; none where one of them has none, since generated frames are worth more
-/// than frames with gaps.
+/// Tangents with known handedness; empty where one of them has none, since generated frames are better than
+/// frames with gaps.
 void readTangents(ImportContext& context, AttributeReader& reader, size_t count, bool displaced,
                   std::vector<glm::vec4>& tangents) {
     tangents = reader.vectors<glm::vec4>("TANGENT", count, AttributeReader::NotFinite::Zero);
@@ -173,7 +173,7 @@ void readVertexAttributes(ImportContext& context, const GltfDocument& document,
     mesh.positions = reader.vectors<glm::vec3>("POSITION", 0);
     const size_t count = mesh.positions.size();
     constexpr auto kZero = AttributeReader::NotFinite::Zero;
-    // Without them the model has the same shape.
+    // The model has the same shape without them.
     const auto optional = [&](auto&& read) { (void)context.attempt("it is left out", read); };
     optional([&] { mesh.normals = reader.vectors<glm::vec3>("NORMAL", count, kZero); });
     mesh.normalsFromFile = !mesh.normals.empty();

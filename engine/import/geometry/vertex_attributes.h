@@ -16,7 +16,7 @@ struct RawAttribute {
     std::vector<float> values;
 };
 
-/// What KHR_draco_mesh_compression holds: the attributes and the triangle list.
+/// Contents of KHR_draco_mesh_compression: the attributes and the triangle list.
 struct DracoPrimitive {
     std::map<std::string, RawAttribute> attributes;
     std::vector<uint32_t> indices;
@@ -36,8 +36,8 @@ void readVertexAttributes(ImportContext& context, const GltfDocument& document,
                           const tinygltf::Primitive& primitive, DracoPrimitive* draco,
                           const MorphTargets& morph, const std::string& place, Mesh& mesh);
 
-/// One attribute that the primitive has, of `count` vertices and the given components, all finite and as
-/// stored: not displaced. Throws Error for others. Takes it out of `draco` (may be null).
+/// One attribute of the primitive, of `count` vertices and the given components, all finite and as stored:
+/// not displaced. Throws Error otherwise. Removes it from `draco` (may be null).
 [[nodiscard]] RawAttribute readAttribute(ImportContext& context, const GltfDocument& document,
                                          const tinygltf::Primitive& primitive, DracoPrimitive* draco,
                                          const std::string& place, const std::string& name, size_t count,

@@ -32,14 +32,14 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
     }
     stripExtras(core);
     // tinygltf refuses index accessors without a buffer view, which Draco and sparse accessors may have: it
-    // gets the primitives without indices, and the model gets them back below.
+    // gets the primitives without indices, which are restored in the model below.
     if (core.contains("meshes"))
         for (json& mesh : core["meshes"])
             if (mesh.contains("primitives"))
                 for (json& primitive : mesh["primitives"])
                     primitive.erase("indices");
-    // It refuses strides that are no multiple of four, which we read and warn about: they come back below
-    // too.
+    // It also refuses strides that are no multiple of four, which the import reads with a warning: they are
+    // restored below too.
     if (core.contains("bufferViews"))
         for (json& view : core["bufferViews"])
             view.erase("byteStride");

@@ -35,7 +35,7 @@ std::optional<Choice> choiceField(const ImportContext& context, const json& obje
                  "use one of: " + known);
 }
 
-/// A misspelt field must not be mistaken for one that holds.
+/// Warns of unknown fields, so that a misspelt field does not pass unnoticed.
 void warnOfUnknown(ImportContext& context, const json& object, std::initializer_list<std::string_view> known,
                    const std::string& place) {
     for (const auto& [name, value] : object.items())
@@ -84,7 +84,7 @@ void checkShader(ImportContext& context, const json& shader, const std::string& 
     warnOfUnknown(context, shader, {"source", "parameters"}, place);
 }
 
-/// Fields of later work are kept for saving and for `inspect`.
+/// Fields reserved for later are kept for saving and for `inspect`.
 void tellUnavailable(ImportContext& context, const HapticStatement& ours, const std::string& place) {
     const auto tell = [&](const char* name, const std::string& what) {
         context.warn(place + "." + name, what + " is not yet available; felt without it");
@@ -129,7 +129,7 @@ const json* physicsMaterials(const ImportContext& context, const GltfDocument& d
     return &*found;
 }
 
-/// The node for which the collider of node `index` speaks, and its physics material, -1 without one.
+/// The node to which the collider of node `index` applies, and its physics material, -1 without one.
 std::pair<size_t, int> colliderOf(const ImportContext& context, const GltfDocument& document, size_t index,
                                   size_t materialCount) {
     const std::string place = element("nodes", index);
@@ -150,8 +150,8 @@ std::pair<size_t, int> colliderOf(const ImportContext& context, const GltfDocume
     return {target ? static_cast<size_t>(*target) : index, chosen};
 }
 
-/// For every node itself or its nearest ancestor that has a mesh, -1 if there is none. Top down, so that a
-/// long chain of nodes costs its length once.
+/// For every node: itself or its nearest ancestor that has a mesh, -1 if there is none. Top down, so that a
+/// long chain of nodes takes linear time.
 std::vector<int> nearestMeshNodes(const tinygltf::Model& model) {
     std::vector<int> nearest(model.nodes.size(), -1);
     std::vector<bool> isChild(model.nodes.size(), false);

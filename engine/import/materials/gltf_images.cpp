@@ -18,15 +18,14 @@ struct Encoded {
     std::string declaredType;
 };
 
-/// Brings the encoded bytes of images, and keeps account of what they cost: a file read again and again
-/// counts against the pixels' memory, so that no list of images makes the loader read for hours.
+/// Reads the encoded bytes of images and accounts for their cost: a file that is read repeatedly counts
+/// against the pixels' memory, so that no list of images makes the loader read for hours.
 class ImageSource {
   public:
     ImageSource(ImportContext& context, const GltfFile& file, const GltfDocument& document)
         : context_(context), file_(file), document_(document) {}
 
-    /// Sets `image.problem` when there is nothing to decode. What is wrong with an image costs the image, no
-    /// more.
+    /// Sets `image.problem` when there is nothing to decode. A flaw of an image costs only that image.
     Encoded fetch(const json& gltf, const std::string& place, Image& image) {
         Encoded encoded;
         encoded.declaredType = gltf.value("mimeType", "");
@@ -105,7 +104,7 @@ void warnOfType(ImportContext& context, const Encoded& encoded, const std::strin
         context.warn(place, "is declared as " + encoded.declaredType.substr(0, 60) + " but holds " + format);
 }
 
-/// Marks the images that somebody looks at or feels.
+/// Marks the images that are used for drawing or touch.
 class UsedImages {
   public:
     explicit UsedImages(size_t count) : used(count, false) {}
@@ -128,7 +127,7 @@ class UsedImages {
         for (const auto* factor : {&haptic.friction, &haptic.stiffnessMap, &haptic.dampingMap})
             if (factor->value)
                 map(factor->value->texture);
-        // Friction that is to be derived reads the roughness texture too.
+        // Derived friction also reads the roughness texture.
         if (!haptic.staticFriction.value || !haptic.dynamicFriction.value)
             mark(material.metallicRoughnessTexture);
     }

@@ -8,15 +8,15 @@
 
 namespace touchstone {
 
-/// Reads all images of the file: decodes those that `use` asks for and a material of the scene's instances
-/// needs, looks at the header of the others. `scene` is complete but for its images. What is missing or
-/// broken leaves `problem` and a warning. A URI that is malformed or leaves the folder throws.
+/// Reads all images of the file: decodes those that `use` selects and a material of the scene's instances
+/// needs, and reads only the headers of the others. `scene` is complete except for its images. A missing or
+/// broken image has a `problem` and a warning. A URI that is malformed or leaves the folder throws.
 [[nodiscard]] std::vector<Image> readImages(ImportContext& context, const GltfFile& file,
                                             const GltfDocument& document, const Scene& scene,
                                             const ImageUse& use);
 
-/// Lets the materials be seen without the images that could not be read: references are dropped, a lost base
-/// colour becomes grey. (What is felt: settledHaptics.)
+/// Prepares the materials for drawing without the images that could not be read: references are dropped, a
+/// lost base colour becomes grey. (For touch: settledHaptics.)
 void dropBrokenImages(const std::vector<Image>& images, std::vector<Material>& materials);
 
 /// The file's roughness of a material: factor times the mean of the texture's green channel, if the file

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 constexpr double kAny = std::numeric_limits<float>::max();
 
-/// The fields of one extension of one material. Nothing here refuses the file.
+/// The fields of one extension of one material. None of their errors refuses the file.
 class LookFields {
   public:
     LookFields(ImportContext& context, const GltfDocument& document, const json& stated, const char* name,
@@ -38,7 +38,7 @@ class LookFields {
             value = ranged(*stated, name, low, high, value);
     }
 
-    /// As many numbers as `value` has.
+    /// A vector with as many numbers as `value` has.
     template <class Vector>
     void color(const char* name, double high, Vector& value) const {
         const json* stated = find(name);
@@ -147,7 +147,7 @@ void readVolume(const LookFields& fields, Transmission& look) {
     fields.number("attenuationDistance", 0.0, kAny, look.attenuationDistance);
 }
 
-/// An unlit material has no other look, whatever the file adds (KHR_materials_unlit, "Conflicts").
+/// An unlit material ignores all other appearance extensions (KHR_materials_unlit, "Conflicts").
 void readUnlit(ImportContext& context, const json& stated, const std::string& place, Material& material) {
     material.unlit = true;
     for (const auto& [name, extension] : stated["extensions"].items())

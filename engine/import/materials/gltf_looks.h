@@ -1,5 +1,5 @@
 #pragma once
-// How a material looks beyond metallic-roughness: the KHR_materials_* extensions that the renderer draws.
+// Appearance beyond metallic-roughness: the KHR_materials_* extensions that the renderer draws.
 
 #include "engine/import/materials/gltf_document.h"
 
@@ -7,9 +7,8 @@
 
 namespace touchstone {
 
-/// Fills the parts of `material` that the extensions of the file's material `stated` at `place` give. What is
-/// wrong in them is drawn with its default or clamped, with a warning: a colour cannot make the geometry
-/// wrong.
+/// Fills the parts of `material` that the extensions of the file's material `stated` at `place` specify.
+/// Invalid values become defaults or are clamped, with a warning: a colour cannot make the geometry wrong.
 void readLookExtensions(ImportContext& context, const GltfDocument& document, const nlohmann::json& stated,
                         const std::string& place, Material& material);
 

@@ -26,7 +26,7 @@ TextureRef textureOf(ImportContext& context, const GltfDocument& document, const
     return found == owner.end() ? TextureRef{} : readTexture(context, document, *found, place + "." + name);
 }
 
-/// Colours and factors are 0..1; what lies outside is an exporter's slip that cannot hurt.
+/// Colours and factors are 0..1; a value outside is a harmless error of an exporter.
 template <class T>
 T clamped(ImportContext& context, T value, const std::string& place) {
     const T inside = glm::clamp(value, T(0.0f), T(1.0f));
@@ -181,7 +181,7 @@ int MaterialTable::indexOf(const SurfaceKey& key) {
     if (key.physics >= 0)
         readPhysics(context_, document_, static_cast<size_t>(key.physics), material.says);
     material.haptic = statedHaptics(material.says);
-    found->second = static_cast<int>(materials_.size()); // making the plain one may have come first
+    found->second = static_cast<int>(materials_.size()); // building the plain one may have added it before
     materials_.push_back(std::move(material));
     return found->second;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Materials: how a surface looks, and (gltf_haptics.h) what it feels like.
+// Materials: appearance, and (gltf_haptics.h) haptic properties.
 
 #include "engine/import/materials/gltf_document.h"
 
@@ -9,8 +9,8 @@
 
 namespace touchstone {
 
-/// What a placed primitive's surface is made of. The haptic extensions bind by mesh and by node, so one glTF
-/// material can become several of ours.
+/// The sources of a placed primitive's material. The haptic extensions bind by mesh and by node, so one glTF
+/// material can become several in the scene.
 struct SurfaceKey {
     int material = -1; ///< index into the file's materials; < 0: glTF's default material
     int mpeg = -1;     ///< index into MPEG_haptic_material's materials
@@ -20,12 +20,12 @@ struct SurfaceKey {
 };
 
 /// The scene's materials: first the file's own in their order (so that indices in messages agree), then the
-/// combinations that the extensions make, then the default material if something needs it.
+/// combinations that the extensions make, then the default material if it is needed.
 class MaterialTable {
   public:
     MaterialTable(ImportContext& context, const GltfDocument& document);
 
-    /// The index of the material for this key, made when it is new.
+    /// The index of the material for this key, created if new.
     [[nodiscard]] int indexOf(const SurfaceKey& key);
     [[nodiscard]] const Material& material(int index) const { return materials_[static_cast<size_t>(index)]; }
 
@@ -33,14 +33,14 @@ class MaterialTable {
     [[nodiscard]] std::vector<Material> take();
 
   private:
-    /// What a material of MPEG's says, and nothing else.
+    /// The statements of one MPEG material alone.
     [[nodiscard]] const HapticLayers& mpegSays(int index);
 
     ImportContext& context_;
     const GltfDocument& document_;
     std::vector<Material> materials_;
     std::map<SurfaceKey, int> made_;
-    std::map<int, HapticLayers> mpeg_; ///< by index: read once, and its JSON shared
+    std::map<int, HapticLayers> mpeg_; ///< by index: read once, with shared JSON
 };
 
 /// A textureInfo with its sampler, image and KHR_texture_transform. `info` may be unchecked JSON

@@ -89,14 +89,14 @@ MpegMaterials fromBeside(ImportContext& context, const std::filesystem::path& pa
     return materials;
 }
 
-/// The textureInfo of a map, in whichever way it is written.
+/// The textureInfo of a map, in either form.
 json textureInfoOf(const json& map) {
     const json& texture = map.is_object() && map.contains("texture") ? map["texture"] : map;
     return texture.is_number() ? json{{"index", texture}} : texture;
 }
 
 /// The first plain map of a channel: "High_Resolution" before others; "Reference" maps index signals, not
-/// values, and are no maps for us.
+/// values, and are not used.
 std::optional<FactorMap> channelMap(ImportContext& context, const GltfDocument& document,
                                     const json& material, const char* name, const std::string& place,
                                     float low, float high) {

@@ -1,12 +1,13 @@
 #pragma once
-// MPEG's haptic materials (ISO/IEC 23090-14). Its drafts and its public sample differ in where the materials
-// are and in how they are written; all of these are read:
+// MPEG's haptic materials (ISO/IEC 23090-14). Its drafts and its public sample differ in the place and the
+// notation of the materials; all of these are read:
 // - the extension is MPEG_haptic_material or MPEG_material_haptic;
 // - its root object holds `materials`, or is the array of materials itself, or is one material;
 // - the root object is in the model's file or in "extensions.gltf" beside it, which may hold comments;
 // - a mesh refers to a material by {"hapticMaterialIndex": i} or by i;
 // - a channel is an array of maps or one map; a map is {"texture": textureInfo or index, "type"} or a
-// textureInfo. What is none of it costs a warning: touch goes on without it.
+//   textureInfo.
+// Anything else costs a warning: touch continues without it.
 
 #include "engine/import/materials/gltf_document.h"
 #include "engine/scene/haptic_layers.h"
@@ -15,14 +16,14 @@
 
 namespace touchstone {
 
-/// The materials of the file, or of the one beside it; none without them.
+/// The materials of the file, or of the one beside it; empty without them.
 [[nodiscard]] MpegMaterials findMpegMaterials(ImportContext& context, const GltfFile& file);
 
-/// The MPEG material of a mesh; nothing if it has none.
+/// The MPEG material of a mesh; empty if it has none.
 [[nodiscard]] std::optional<int> mpegMaterialOf(ImportContext& context, const GltfDocument& document,
                                                 size_t mesh);
 
-/// Adds what material `index` states to `says`.
+/// Adds the statements of material `index` to `says`.
 void readMpeg(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says);
 
 } // namespace touchstone

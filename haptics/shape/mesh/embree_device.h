@@ -4,7 +4,7 @@ struct RTCDeviceTy;
 
 namespace touchstone {
 
-/// One Embree device for the process, made at the first call. Errors are read after each build. Throws Error
+/// The process's Embree device, created at the first call. Errors are read after each build. Throws Error
 /// when there is none. Not for the servo thread.
 [[nodiscard]] RTCDeviceTy* embreeDevice();
 

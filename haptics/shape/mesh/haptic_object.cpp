@@ -18,8 +18,9 @@ constexpr const char* kIndices = "welding indices";
 constexpr const char* kAttributes = "taking over attributes";
 constexpr const char* kSmoothness = "looking for smooth places";
 constexpr const char* kGradients = "following the texture over the surface";
-/// A triangle is smooth where a vertex normal leaves the face normal by more than this. Below it shading
-/// would turn the force by less than 0.11 degrees: under every published threshold of force direction.
+/// A triangle is smooth where a vertex normal deviates from the face normal by more than this. Below it
+/// shading would turn the force by less than 0.11 degrees: under every published threshold of force
+/// direction.
 constexpr double kSmoothCosine = 0.999998;
 
 void markSmoothTriangles(HapticObject& object, const Progress& progress) {
@@ -43,8 +44,8 @@ void markSmoothTriangles(HapticObject& object, const Progress& progress) {
     object.anySmooth = any.load();
 }
 
-/// Attributes of the source vertices, taken to the object frame. Normals go with the inverse transpose. A
-/// mirroring node turns the handedness of the tangent frame over.
+/// Transforms the attributes of the source vertices into the object frame. Normals transform with the inverse
+/// transpose. A mirroring node flips the handedness of the tangent frame.
 void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, const ObjectUse& use,
                     HapticObject& object, const Progress& progress) {
     const bool invertible = std::abs(glm::determinant(linear)) > 0.0;
@@ -83,7 +84,7 @@ void copyAttributes(const Mesh& mesh, const glm::dmat3& linear, bool mirrored, c
     }
 }
 
-/// What texture needs to follow a smooth surface rather than its facets; nothing where no height is felt.
+/// Adds the gradients that texture needs on a smooth surface; nothing where no height is felt.
 void addGradients(const ObjectUse& use, HapticObject& object, const Progress& progress) {
     constexpr double kTimePerTriangle = 1e-6; // s
     progress.stopIfCancelled();
@@ -103,7 +104,7 @@ void addGradients(const ObjectUse& use, HapticObject& object, const Progress& pr
     }
 }
 
-/// Welds `local`, fills the index buffers and counts what the weld did.
+/// Welds `local`, fills the index buffers and counts welded vertices and dropped triangles.
 void weldGeometry(std::vector<glm::vec3> local, HapticObject& object, const Progress& progress) {
     WeldResult weld = weldVertices(local, kWeldTolerance * object.diagonal, progress.part(0.0, 0.5));
     local = {};
@@ -129,8 +130,8 @@ void weldGeometry(std::vector<glm::vec3> local, HapticObject& object, const Prog
 std::vector<glm::vec3> placeVertices(const Mesh& mesh, const glm::dmat4& sceneFromMesh,
                                      const Similarity& workspaceFromScene, HapticObject& object,
                                      const Progress& progress) {
-    // Scene positions in double, then one centre and one scale for the float frame. They are worked out
-    // twice: kept, they would be the largest array of all.
+    // Scene positions in double, then one centre and one scale for the float frame. They are computed twice:
+    // stored, they would be the largest array of all.
     const auto inScene = [&](size_t v) {
         return glm::dvec3(sceneFromMesh * glm::dvec4(glm::dvec3(mesh.positions[v]), 1.0));
     };

@@ -1,5 +1,5 @@
 #pragma once
-// One touchable object: a welded triangle soup in its own frame, and the search trees over it.
+// One touchable object: a welded triangle soup in its own frame, and its search trees.
 
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
@@ -19,22 +19,22 @@
 
 namespace touchstone {
 
-/// Vertices of an object nearer than this fraction of its diagonal are one vertex; counted in HapticObject.
-/// A crack narrower than this is closed at any proxy radius, also at zero.
+/// Vertices of an object nearer than this fraction of its diagonal are one vertex; HapticObject counts them.
+/// A narrower crack is closed at any proxy radius, also at zero.
 inline constexpr double kWeldTolerance = 1e-6;
 
-/// What an object needs to know of its material: which attributes of the vertices its effects read (what none
-/// reads is not kept), and its sides.
+/// The properties of the material that determine what an object stores: the vertex attributes that its
+/// effects read (others are dropped), and its sides.
 struct ObjectUse {
-    bool uv[2] = {};          ///< the coordinates of a map that is felt
-    bool uvGradients[2] = {}; ///< and how they change over the surface: of a height map
+    bool uv[2] = {};          ///< coordinates of a map that is felt
+    bool uvGradients[2] = {}; ///< and their gradients over the surface: of a height map
     bool tangents = false;    ///< of a normal map
     bool normals = false;     ///< of force shading, where the surface is smooth
     bool oneSided = false;    ///< `sides` is front
     bool operator==(const ObjectUse&) const = default;
 };
 
-/// What an object keeps for effects, bytes.
+/// Memory that an object holds for effects, bytes.
 struct AttributeBytes {
     uint64_t normals = 0, tangents = 0, uv[2] = {}, bump = 0, stiffness = 0, damping = 0, friction = 0;
     [[nodiscard]] uint64_t all() const {
@@ -42,13 +42,12 @@ struct AttributeBytes {
     }
 };
 
-/// Immutable. Object frame: centred on the object, longest side 1, so that float vertices are good to 6e-8 of
-/// the object wherever it stands and however large it is. Triangle t is triangle t of the source mesh; its
-/// corners are turned over where the node mirrors, so that the winding always shows outwards.
+/// Immutable. Object frame: centred on the object, longest side 1, so that float vertices are accurate to
+/// 6e-8 of the object wherever it stands and however large it is. Triangle t is triangle t of the source
+/// mesh; its corners are reversed where the node mirrors, so that the winding always faces outwards.
 struct HapticObject {
     std::string name;
-    /// Its geometry where it is no mesh: then there is no vertex, no triangle and nothing that belongs to
-    /// them.
+    /// The geometry of an object that is not a mesh: it has no vertices, triangles or data on them.
     std::shared_ptr<const Shape> shape;
     int instance = -1;               ///< Scene::instances
     int material = 0;                ///< Scene::materials
@@ -64,20 +63,19 @@ struct HapticObject {
     float minHeight = 0.0f, greatestHeight = 0.0f;
     std::vector<GradientPair>
         uvGradients[2]; ///< per source vertex, per object unit; only of a height map's set
-    std::vector<GradientPair> heightGradients; ///< of `heights`, model metres per object unit, and nothing
-    std::vector<uint8_t> smooth;    ///< per triangle: 1 where the vertex normals differ from the face's and
-                                    ///< shading may follow them
+    std::vector<GradientPair> heightGradients; ///< of `heights`, model metres per object unit; second unused
+    std::vector<uint8_t> smooth;    ///< per triangle: 1 where vertex and face normals differ, for shading
     Similarity workspaceFromObject; ///< rest pose
-    glm::dmat4 objectFromMesh{1.0}; ///< what was baked into the vertices
+    glm::dmat4 objectFromMesh{1.0}; ///< the transform baked into the vertices
     double diagonal = 0.0;          ///< of the bounds, object units
     double boundingRadius = 0.0;    ///< about the object's origin, object units
-    uint32_t weldedVertices = 0;    ///< vertices that became another one
+    uint32_t weldedVertices = 0;    ///< vertices merged into another one
     uint32_t droppedTriangles = 0;  ///< triangles with two equal corners after welding
     bool closed = false;            ///< every edge has an even number of triangles
     bool anySmooth = false;
-    bool oneSided = false; ///< the material's `sides` is front: there only for who comes from outside
-    RayTree rays;          ///< Embree's, for rays; built when somebody needs it
-    TriangleTree tree;     ///< for what is near
+    bool oneSided = false; ///< the material's `sides` is front: felt only from outside
+    RayTree rays;          ///< Embree's, for rays; built on demand
+    TriangleTree tree;     ///< for proximity queries
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] uint64_t memoryBytes() const;          ///< without Embree's part

@@ -14,7 +14,7 @@ struct Wing {
     bool forward;    // its winding runs from the lower to the upper vertex
 };
 
-/// Angle about the edge, lower to upper vertex, at which the wing stands.
+/// Angle of the wing about the edge, which runs from lower to upper vertex.
 double wingAngle(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices, const Wing& wing,
                  const glm::dvec3& zero, const glm::dvec3& quarter) {
     const uint32_t first = wing.corner - wing.corner % 3;
@@ -23,7 +23,7 @@ double wingAngle(std::span<const glm::vec3> vertices, std::span<const uint32_t> 
     return std::atan2(glm::dot(third, quarter), glm::dot(third, zero));
 }
 
-/// Puts the wings of one edge in the order in which one meets them turning about it.
+/// Sorts the wings of one edge by their angle about it.
 void sortAround(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
                 std::span<Wing> wings) {
     const glm::dvec3 along =
@@ -32,7 +32,7 @@ void sortAround(std::span<const glm::vec3> vertices, std::span<const uint32_t> i
         std::abs(along.x) < std::abs(along.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 zero = glm::cross(along, helper);
     if (!(glm::dot(zero, zero) > 0.0))
-        return; // an edge without length: any order is as good
+        return; // an edge of zero length: any order will do
     const glm::dvec3 unit = glm::normalize(zero);
     const glm::dvec3 quarter = glm::cross(glm::normalize(along), unit);
     std::stable_sort(wings.begin(), wings.end(), [&](const Wing& a, const Wing& b) {
@@ -73,8 +73,8 @@ MeshAdjacency::MeshAdjacency(std::span<const glm::vec3> vertices, std::span<cons
         nonManifoldEdges_ += count > 2 ? 1 : 0;
         if (count > 2)
             sortAround(vertices, indices, {&wings[begin], count});
-        // Turning on from a wing leaves it on the side that its winding shows if the winding runs with the
-        // edge, and comes upon the next one from the other side.
+        // A turn away from a wing leaves it on the side that its winding faces if the winding runs with the
+        // edge, and meets the next one from the other side.
         for (size_t w = begin; w < end; ++w) {
             const Wing &from = wings[w], &to = wings[w + 1 < end ? w + 1 : begin];
             const TriangleSide leaving = 2 * (from.corner / 3) + (from.forward ? 0 : 1);

@@ -13,17 +13,17 @@ namespace touchstone {
 
 struct RayHit {
     uint32_t triangle;
-    float distance; ///< in lengths of the direction
+    float distance; ///< in multiples of the direction's length
 };
 
 /// Embree 3 takes coordinates of at most 1.844e18 (its Ray::valid), and Debian's build asserts it.
 inline constexpr float kEmbreeReach = 1e18f;
 
 /// The first triangle of an object that the ray from + t * direction meets at near <= t <= far (near >= 0);
-/// object frame. Nothing where the ray begins beyond kEmbreeReach, as it does from the HIP to an object 1e-18
-/// of its size beside it: floats could not tell what it meets there. A shape that is no mesh has no triangle.
-/// One rtcIntersect1 of Embree's, ROBUST and in float; inline, since the ray floor is nothing else. The
-/// object's rays are built. Safe on the servo thread.
+/// object frame. Empty where the ray begins beyond kEmbreeReach, as it does from the HIP to an object 1e-18
+/// of its size beside it: floats could not resolve a hit there. A shape that is not a mesh has no triangle.
+/// One rtcIntersect1 of Embree, ROBUST and in float; inline, since the ray floor is nothing else. The
+/// object's rays must be built. Safe on the servo thread.
 [[nodiscard]] inline std::optional<RayHit> castRay(const HapticObject& object, const glm::vec3& from,
                                                    const glm::vec3& direction, float near,
                                                    float far) noexcept {

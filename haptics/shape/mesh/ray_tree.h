@@ -1,6 +1,6 @@
 #pragma once
-// Embree's tree over the triangles of one object, for rays: what contact=rays and contact=neighbourhood and
-// the ray floor need, and contact=sweep does not.
+// Embree's tree over the triangles of one object, for rays: contact=rays, contact=neighbourhood and the ray
+// floor need it, contact=sweep does not.
 
 #include "engine/core/built_once.h"
 #include "engine/core/progress.h"
@@ -16,7 +16,7 @@ struct HapticObject;
 class RayTree {
   public:
     RayTree() = default;
-    /// A copy is not built: the tree reads the vertices of the object that it was built for.
+    /// A copy starts unbuilt: the tree reads the vertices of the object that it was built for.
     RayTree(const RayTree&) noexcept {}
     RayTree& operator=(const RayTree&) = delete;
 
@@ -25,8 +25,8 @@ class RayTree {
         const auto* built = built_.get();
         return built == nullptr ? nullptr : built->get();
     }
-    /// Once; `object` is the one that this is part of, and does not move any more. Any thread but the servo;
-    /// throws Error when Embree fails, and Cancelled.
+    /// Builds the tree once; `object` contains this tree and does not move any more. Any thread but the
+    /// servo; throws Error when Embree fails, and Cancelled.
     void build(const HapticObject& object, const Progress& progress = {}) const;
 
   private:

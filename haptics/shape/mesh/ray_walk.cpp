@@ -11,9 +11,9 @@ namespace touchstone {
 
 namespace {
 
-/// dot(direction, cross(a - from, b - from)): on which side of the edge the ray passes. The edge is taken
-/// from its lower to its upper vertex, so that two triangles that share it get the same number with opposite
-/// signs, and zero, which is as good as positive, lies in one of them.
+/// dot(direction, cross(a - from, b - from)): on which side of the edge the ray passes. The edge runs from
+/// its lower to its upper vertex, so that two triangles that share it get the same number with opposite
+/// signs, and zero, which counts as positive, lies in one of them.
 ///
 /// Out of line: inlined, its multiplications and additions might be contracted in one place and not in
 /// another.
@@ -25,8 +25,8 @@ namespace {
     return (glm::dot(direction, glm::cross(low, high)) >= 0.0) != swapped;
 }
 
-/// Where the ray crosses a triangle, lengths of the direction; not a number if it does not. `back`: it comes
-/// from the back.
+/// Where the ray crosses a triangle, in multiples of the direction's length; NaN if it does not. `back`: it
+/// comes from the back.
 double crossingAt(const HapticObject& object, uint32_t triangle, const glm::dvec3& from,
                   const glm::dvec3& direction, bool& back) noexcept {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -42,10 +42,10 @@ double crossingAt(const HapticObject& object, uint32_t triangle, const glm::dvec
     return rate == 0.0 ? kNone : glm::dot(a - from, area) / rate;
 }
 
-/// The part of a ray inside the ball that holds the object. A walk begins there, since a start far away would
-/// carry its rounding along.
+/// The part of a ray inside the ball that contains the object. A walk begins there, since a start far away
+/// adds its rounding.
 struct Stretch {
-    double begin, end; ///< lengths of the direction; end < begin: there is none
+    double begin, end; ///< in multiples of the direction's length; end < begin: empty
 };
 Stretch withinReach(const HapticObject& object, const glm::dvec3& from,
                     const glm::dvec3& direction) noexcept {

@@ -1,5 +1,5 @@
 #pragma once
-// Rays through TriangleTree, in double: what is asked seldom, and of every scene. (Embree's are in RayTree.)
+// Rays through TriangleTree, in double: for infrequent queries in any scene. (Embree's are in RayTree.)
 
 #include <glm/glm.hpp>
 
@@ -12,7 +12,7 @@ struct HapticObject;
 
 struct RayCrossing {
     uint32_t triangle;
-    double distance; ///< in lengths of the direction
+    double distance; ///< in multiples of the direction's length
 };
 
 /// The first triangle of an object that the ray from + t * direction crosses with t > 0 and whose front, if
@@ -21,7 +21,7 @@ struct RayCrossing {
 [[nodiscard]] std::optional<RayCrossing> firstCrossing(const HapticObject& object, const glm::dvec3& from,
                                                        const glm::dvec3& direction, bool frontsOnly) noexcept;
 
-/// How many triangles the ray crosses; none where there are more than a tick has time to look at.
+/// The number of triangles that the ray crosses; empty where there are more than a tick can test.
 [[nodiscard]] std::optional<uint32_t> crossings(const HapticObject& object, const glm::dvec3& from,
                                                 const glm::dvec3& direction) noexcept;
 

@@ -26,8 +26,8 @@ bool isFlatTo(const SurfaceView& surface, TriangleSide side) {
     return surface.normal(side) == glm::dvec3(0.0);
 }
 
-/// The side beyond edge `edge` at its point `at`. Triangles without area are walked through: the way on is
-/// over whichever other edge of theirs is nearest to the point.
+/// The side beyond edge `edge` at its point `at`. Triangles without area are skipped: the walk leaves over
+/// whichever of their other edges is nearest to the point.
 TriangleSide beyond(const SurfaceView& surface, TriangleSide side, uint32_t edge, const glm::dvec3& at) {
     constexpr int kMaxSlivers = 8;
     for (int sliver = 0; sliver < kMaxSlivers; ++sliver) {
@@ -56,12 +56,12 @@ TriangleSide beyond(const SurfaceView& surface, TriangleSide side, uint32_t edge
 /// Turns about a vertex on one side of the surface, triangle by triangle.
 class Fan {
   public:
-    /// `corner` of the triangle is the vertex; `withWinding` tells over which of its two edges to leave.
+    /// `corner` of the triangle is the vertex; `withWinding` selects the edge over which the fan leaves.
     Fan(const SurfaceView& surface, TriangleSide side, uint32_t corner, bool withWinding)
         : surface_(surface), start_(side), side_(side), vertex_(cornersOf(surface, side)[corner]),
           edge_(withWinding ? previous(corner) : corner) {}
 
-    /// False when the fan is at an open border, or round.
+    /// False when the fan is at an open border, or complete.
     bool turn() {
         const uint32_t* corner = cornersOf(surface_, side_);
         const uint32_t other = corner[edge_] == vertex_ ? corner[next(edge_)] : corner[edge_];
@@ -70,7 +70,7 @@ class Fan {
             border_ = true;
             return false;
         }
-        // Come in over the edge (vertex, other); leave over the other edge at the vertex.
+        // Enter over the edge (vertex, other); leave over the other edge at the vertex.
         const uint32_t* there = cornersOf(surface_, on);
         const uint32_t at = there[0] == vertex_ ? 0 : there[1] == vertex_ ? 1 : 2;
         edge_ = there[next(at)] == other ? previous(at) : at;
@@ -89,7 +89,7 @@ class Fan {
     bool border_ = false;
 };
 
-/// The nearest of the triangles about the vertex of `here`, if one is nearer than that vertex.
+/// The nearest of the triangles at the vertex of `here`, if one is nearer than that vertex.
 SurfacePlace nearestAbout(const SurfaceView& surface, const SurfacePlace& here, const glm::dvec3& goal,
                           WalkBudget& budget) {
     SurfacePlace best = here;
@@ -111,7 +111,8 @@ SurfacePlace nearestAbout(const SurfaceView& surface, const SurfacePlace& here, 
     return best;
 }
 
-/// Whether `away`, from a point of edge `edge`, lies in the free sector between this triangle and the next.
+/// True where `away`, from a point of edge `edge`, lies in the free sector between this triangle and the
+/// next.
 bool inFreeSector(const SurfaceView& surface, const SurfacePlace& place, const glm::dvec3& away) {
     const TriangleSide on = beyond(surface, place.side, place.index, place.point);
     if (triangleOf(on) == triangleOf(place.side))
@@ -234,8 +235,8 @@ bool isOnFreeSide(const SurfaceView& surface, const SurfacePlace& place, const g
     const glm::dvec3 away = point - place.point;
     switch (place.feature) {
     case Feature::Face:
-        // A point on the face is not free yet: off it to either side it has to be known which one it stood
-        // on. 1e-13 object units is above the rounding of a height, and not felt.
+        // A point on the face does not count as free: once it leaves the face, the side that it stood on
+        // must be known. 1e-13 object units is above the rounding of a height, and not felt.
         return glm::dot(away, surface.normal(place.side)) > 1e-13;
     case Feature::Edge:
         return inFreeSector(surface, place, away);

@@ -1,5 +1,5 @@
 #pragma once
-// Walking downhill over a surface from feature to feature: what the neighbourhood watch does in a tick.
+// Descent over a surface from feature to feature: the work of the neighbourhood watch in a tick.
 
 #include "haptics/shape/mesh/haptic_object.h"
 #include "haptics/shape/mesh/mesh_adjacency.h"
@@ -11,7 +11,7 @@
 
 namespace touchstone {
 
-/// A surface that can be walked on; the object's frame and units throughout.
+/// A surface to walk on; the object's frame and units throughout.
 struct SurfaceView {
     const HapticObject& object;
     const MeshAdjacency& adjacency;
@@ -23,7 +23,7 @@ struct SurfaceView {
 
 enum class Feature : uint8_t { Face, Edge, Vertex };
 
-/// The point of a surface that a walk has come to.
+/// The point of a surface that a walk has reached.
 struct SurfacePlace {
     TriangleSide side = 0;
     Feature feature = Feature::Face;
@@ -32,13 +32,13 @@ struct SurfacePlace {
     double squared = 0.0; ///< distance to the walk's goal, squared
 };
 
-/// What is left of a tick. No walk takes longer than this, whatever the mesh is like.
+/// The remaining budget of a tick. No walk takes longer, whatever the mesh.
 struct WalkBudget {
-    static constexpr uint32_t kMaxTests = 8192; ///< triangles looked at in a tick: 0.1 ms
+    static constexpr uint32_t kMaxTests = 8192; ///< triangles tested in a tick: 0.1 ms
 
     uint32_t steps = 0; ///< from one feature to the next
     uint32_t tests = kMaxTests;
-    bool spent = false; ///< something was left undone
+    bool spent = false; ///< the budget ended before the work
 };
 
 /// The point of one triangle nearest to `goal`.
@@ -46,14 +46,15 @@ struct WalkBudget {
                                              const glm::dvec3& goal) noexcept;
 
 /// Walks from `start` to the neighbour nearest to `goal`, and on for as long as the distance falls: over an
-/// edge to the triangle that is beyond it on the same side of the surface, at a vertex to the nearest of the
-/// triangles about it on the same side. Ends in a local minimum of the distance, or where the budget ends.
+/// edge to the triangle beyond it on the same side of the surface, at a vertex to the nearest of its
+/// triangles on the same side. Ends in a local minimum of the distance, or where the budget ends.
 [[nodiscard]] SurfacePlace walkTowards(const SurfaceView& surface, TriangleSide start, const glm::dvec3& goal,
                                        WalkBudget& budget) noexcept;
 
-/// True when `point`, to which `place` is nearest, is on the side of the surface that `place.side` shows, so
-/// that the straight way to it is open: above the face; at an edge, in the sector between its two triangles;
-/// at a vertex, outside by the angle-weighted normal (Baerentzen and Aanaes 2005). Past an open border it is.
+/// True when `point`, to which `place` is nearest, is on the side of the surface of `place.side`, so that the
+/// straight path to it is open: above the face; at an edge, in the sector between its two triangles; at a
+/// vertex, outside by the angle-weighted normal (Baerentzen and Aanaes 2005). Always true past an open
+/// border.
 [[nodiscard]] bool isOnFreeSide(const SurfaceView& surface, const SurfacePlace& place,
                                 const glm::dvec3& point, WalkBudget& budget) noexcept;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The distance of a point from a triangle, exact in double, with the direction in which it grows.
+// The distance of a point from a triangle, exact in double, with its gradient.
 
 #include <glm/glm.hpp>
 

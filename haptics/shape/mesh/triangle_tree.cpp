@@ -23,7 +23,7 @@ constexpr const char* kBoxes = "boxing triangles";
 constexpr const char* kSearchTree = "building the search tree";
 constexpr const char* kFlat = "packing the search tree";
 
-/// Embree's allocator hands these out while it builds; they are gone when the tree stands.
+/// Embree's allocator returns these during the build; they are freed once the tree is complete.
 struct TemporaryNode {
     static constexpr size_t kWidth = 8;
     bool isLeaf;
@@ -39,14 +39,14 @@ struct TemporaryLeaf {
 };
 static_assert(offsetof(TemporaryNode, isLeaf) == offsetof(TemporaryLeaf, isLeaf));
 
-/// What the callbacks of one build share.
+/// Data shared by the callbacks of one build.
 struct Build {
     std::atomic<size_t> nodes{0}, leaves{0};
     std::atomic<bool> outOfMemory{false};
     EstimatedProgress* progress = nullptr;
 };
 
-/// Null, and noted in the build, where Embree finds no memory: it reports that only after the build.
+/// Null, and recorded in the build, where Embree finds no memory: Embree reports that only after the build.
 void* allocate(RTCThreadLocalAllocator allocator, size_t bytes, Build& build) {
     void* memory = rtcThreadLocalAlloc(allocator, bytes, 16);
     if (memory == nullptr)
@@ -166,8 +166,8 @@ const TemporaryNode* buildTemporary(RTCBVHTy* bvh, const Boxes& boxes, Build& bu
 
 } // namespace
 
-/// Puts Embree's tree into two flat arrays, parents before children. The leaves are numbered first and packed
-/// afterwards, by several threads.
+/// Copies Embree's tree into two flat arrays, parents before children. The leaves are numbered first and
+/// packed afterwards, by several threads.
 struct TriangleTree::Flattener {
     static_assert(TemporaryNode::kWidth == kWidth);
     static_assert(TemporaryLeaf::kSize == kLeafSize);
@@ -203,14 +203,14 @@ struct TriangleTree::Flattener {
         }
         for (size_t i = 0; i < node->count; ++i) {
             const uint32_t child = add(node->child[i], depth + 1);
-            nodes[index].child[i] = child; // `made` may have moved
+            nodes[index].child[i] = child; // `made` may have been reallocated
         }
         return static_cast<uint32_t>(index);
     }
 };
 
 void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> vertices, std::span<const uint32_t> indices) {
-    // Outwards by more than a float of magnitude one rounds, for the packing and for the unpacking.
+    // Outwards by more than float rounding at magnitude one, in packing and in unpacking.
     constexpr double kOutwards = 4e-7;
     std::array<std::array<double, kLeafSize>, 3> low, high;
     for (size_t i = 0; i < leaf.count; ++i) {
@@ -292,7 +292,7 @@ Float8 greater(Float8 a, Float8 b) {
     return a > b ? a : b;
 }
 
-/// Signed way along one axis from the interval to the place; 0 inside.
+/// Signed distance along one axis from the interval to the place; 0 inside.
 Float8 awayFrom(Float8 low, Float8 high, float place) {
     const Float8 zero{};
     return greater(place - high, zero) - greater(low - place, zero);
@@ -319,8 +319,8 @@ size_t TriangleTree::collectLeaf(const Leaf& leaf, const glm::vec3& centre, floa
     }
     for (size_t i = 0; i < kLeafSize; ++i)
         distance[i] = std::sqrt(squared[i]);
-    // About half of them are near, in no order that could be predicted: each is written down and only the
-    // near ones are counted.
+    // About half of them are near, in no predictable order: each is written and only the near ones are
+    // counted.
     size_t count = 0;
     for (size_t i = 0; i < leaf.count; ++i) {
         out[count] = {.triangle = leaf.triangle[i],

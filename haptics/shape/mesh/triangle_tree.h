@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles are near a point: the search that the tick lives on.
+// Which triangles are near a point: the search that dominates a tick.
 
 #include "engine/core/progress.h"
 
@@ -13,19 +13,19 @@
 
 namespace touchstone {
 
-/// A bounding volume hierarchy for one question, built by Embree (rtcBuildBVH) and walked here. Eight
-/// children a node; sixteen triangles a leaf with their own boxes in a byte a side, so that a gather reads
-/// about ten nodes and ten leaves and no vertex. (rtcPointQuery on Embree's own tree calls back for every
-/// triangle of four times as many leaves and took three times as long: docs/architecture.md.) Immutable.
+/// A bounding volume hierarchy for one query, built by Embree (rtcBuildBVH) and walked here. Eight children a
+/// node; sixteen triangles a leaf with their own boxes in a byte a side, so that a gather reads about ten
+/// nodes and ten leaves and no vertex. (rtcPointQuery on Embree's own tree calls back for every triangle of
+/// four times as many leaves and took three times as long: docs/architecture.md.) Immutable.
 class TriangleTree {
   public:
     /// A triangle near the point, by its box.
     struct Near {
         uint32_t triangle;
-        float distance; ///< not less than this, but for kDoubt
+        float distance; ///< lower bound, up to kDoubt
         glm::vec3 away; ///< from the nearest point of the box to the point; length `distance`
     };
-    /// What rounding may hide, for points and triangles of magnitude one.
+    /// Upper bound of the rounding error, for points and triangles of magnitude one.
     static constexpr float kDoubt = 1e-6f;
 
     TriangleTree() = default;
@@ -35,7 +35,7 @@ class TriangleTree {
                  const Progress& progress = {});
 
     /// Writes all triangles whose boxes meet the ball; at most a few that do not. Returns their number, or
-    /// `out.size()` when there may be more than fit. Deterministic; safe on the servo thread.
+    /// `out.size()` when more may meet it than fit. Deterministic; safe on the servo thread.
     [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept;
 
     /// Calls visit(triangle) for all triangles whose boxes the ray start + t * direction meets at 0 <= t <=
@@ -58,7 +58,7 @@ class TriangleTree {
     static constexpr size_t kMaxDepth = 64;
 
     struct alignas(32) Node {
-        std::array<std::array<float, kWidth>, 3> low, high; ///< an unused child is farther than anything
+        std::array<std::array<float, kWidth>, 3> low, high; ///< an unused child is farther than any real box
         std::array<uint32_t, kWidth> child;                 ///< node, or leaf with kLeafBit
     };
     /// Boxes are origin + step * byte, rounded outwards.

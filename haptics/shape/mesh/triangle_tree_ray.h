@@ -10,21 +10,21 @@ namespace touchstone {
 
 namespace detail {
 
-/// A ray in floats, ready for boxes.
+/// A ray in floats, prepared for box tests.
 struct BoxRay {
     glm::vec3 from, perDirection;
 
     BoxRay(const glm::dvec3& start, const glm::dvec3& direction) : from(start) {
         for (glm::length_t k = 0; k < 3; ++k) {
-            // No box is parallel to a ray: 0 * infinity would be no number.
+            // Keeps every box from being parallel to a ray: 0 * infinity would be NaN.
             constexpr float kMin = 1e-20f;
             const auto d = static_cast<float>(direction[k]);
             perDirection[k] = 1.0f / (std::abs(d) < kMin ? std::copysign(kMin, d) : d);
         }
     }
-    /// Whether it meets the box within 0..end; true for some that it misses by less than `kMargin`.
+    /// True if it meets the box within 0..end, and for some boxes that it misses by less than `kMargin`.
     [[nodiscard]] bool meets(const glm::vec3& low, const glm::vec3& high, float end) const noexcept {
-        // Coordinates of magnitude one: what floats round, in them and in the quotients, stays below.
+        // Above float rounding in the coordinates and the quotients, for coordinates of magnitude one.
         constexpr float kMargin = 4e-6f;
         float enter = 0.0f, leave = end;
         for (glm::length_t k = 0; k < 3; ++k) {
@@ -45,7 +45,7 @@ void TriangleTree::walkRay(const glm::dvec3& start, const glm::dvec3& direction,
     if (nodes_.empty())
         return;
     const detail::BoxRay ray(start, direction);
-    // Upwards by more than a float rounds: what ends at `end` itself is still met.
+    // Upwards by more than float rounding, so that a hit at `end` itself is still found.
     const auto farthest = [&] { return static_cast<float>(end * (1.0 + 1e-6)) + 1e-6f; };
     std::array<uint32_t, kMaxDepth * kWidth> stack;
     size_t waiting = 0;
@@ -66,7 +66,7 @@ void TriangleTree::walkRay(const glm::dvec3& start, const glm::dvec3& direction,
         }
         const Node& node = nodes_[next];
         for (size_t i = 0; i < kWidth; ++i)
-            // An unused child's box is upside down.
+            // An unused child's box is inverted.
             if (node.low[0][i] <= node.high[0][i] &&
                 ray.meets({node.low[0][i], node.low[1][i], node.low[2][i]},
                           {node.high[0][i], node.high[1][i], node.high[2][i]}, far))

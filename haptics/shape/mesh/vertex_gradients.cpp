@@ -7,9 +7,9 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kMaxRoundAVertex = 256;
-/// Normals within 0.26 degrees are one: both sides of a UV seam on a surface that goes on smoothly.
+/// Normals within 0.26 degrees count as one: both sides of a UV seam on a smooth surface.
 constexpr double kSameNormal = 0.99999;
-/// Gradients in one chart differ by less than this share of their length; at a mirror line by twice it.
+/// Gradients in one chart differ by less than this fraction of their length; at a mirror line by twice it.
 constexpr double kSameChart = 0.5;
 
 struct FacetGradient {
@@ -17,7 +17,7 @@ struct FacetGradient {
     double area = 0.0;
 };
 
-/// Sum over some triangles, by area.
+/// Area-weighted sum over some triangles.
 struct Mean {
     glm::dvec3 u{0.0}, v{0.0};
     double area = 0.0;
@@ -39,7 +39,7 @@ struct Mean {
     }
 };
 
-/// Corners sorted by the welded vertex that they are at.
+/// Corners sorted by their welded vertex.
 struct CornersByVertex {
     std::vector<uint32_t> first, corner;
 
@@ -109,7 +109,7 @@ std::vector<GradientPair> smoothGradients(const GradientMesh& mesh, std::span<co
             continue;
         for (const uint32_t c : around) {
             const uint32_t source = mesh.sourceIndices[c];
-            // Every source vertex is at one place only; the first corner that has it does the work.
+            // Every source vertex is at one place only; its first corner does the work.
             if (std::isfinite(result[source][0].x))
                 continue;
             if (const Mean at = mean(source, around); at.area > 0.0)

@@ -31,7 +31,7 @@ class CellTable {
             at = (at + 1) & (slots_.size() - 1);
         slots_[at] = {tag(key), cluster};
     }
-    /// Calls visit(cluster) for all clusters of the key, and for those of a few others.
+    /// Calls visit(cluster) for all clusters of the key, and for those of a few other keys.
     template <class Visit>
     void visit(uint64_t key, const Visit& visit) const {
         for (size_t at = home(key); slots_[at].cluster != kEmpty; at = (at + 1) & (slots_.size() - 1))
@@ -64,7 +64,7 @@ class Welder {
         : positions_(positions), tolerance_(tolerance), cell_(std::max(4.0 * tolerance, 1e-30)),
           table_(positions.size()) {}
 
-    /// Where to look for the vertices of a block, so that their cache lines are on their way together.
+    /// The cells to search for the vertices of a block, so that their cache lines are fetched together.
     [[nodiscard]] Reach reachOf(size_t v) const {
         Reach reach;
         const glm::dvec3 p(positions_[v]);
@@ -113,7 +113,7 @@ class Welder {
     CellTable table_;
 };
 
-/// Even numbers of equal values.
+/// True if every value occurs an even number of times.
 bool allInPairs(std::span<uint32_t> values) {
     std::sort(values.begin(), values.end());
     for (size_t start = 0; start < values.size();) {
@@ -150,7 +150,7 @@ WeldResult weldVertices(std::span<const glm::vec3> positions, double tolerance, 
 
 bool isClosed(std::span<const uint32_t> indices, size_t vertexCount, const Progress& progress) {
     constexpr const char* kWhat = "looking for borders";
-    // The upper end of each edge, sorted into the lists of the lower ends by counting: in linear time.
+    // The upper end of each edge, sorted into the lists of the lower ends by counting: linear time.
     std::vector<uint32_t> first(vertexCount + 1, 0);
     const auto forEachEdge = [&](double from, double to, const auto& visit) {
         for (size_t t = 0; t + 2 < indices.size(); t += 3) {
@@ -166,13 +166,13 @@ bool isClosed(std::span<const uint32_t> indices, size_t vertexCount, const Progr
     forEachEdge(0.0, 0.3, [&](uint32_t low, uint32_t) { ++first[low + 1]; });
     for (size_t v = 0; v < vertexCount; ++v) {
         if (first[v + 1] % 2 != 0)
-            return false; // of an odd number of edges one has no partner
+            return false; // an odd number of edges leaves one without a partner
         first[v + 1] += first[v];
     }
     if (first[vertexCount] == 0)
         return false;
     std::vector<uint32_t> upper(first[vertexCount]);
-    // `first` becomes the end of each list, and so the beginning of the next.
+    // `first` becomes the end of each list, and thus the beginning of the next.
     forEachEdge(0.3, 0.7, [&](uint32_t low, uint32_t high) { upper[first[low]++] = high; });
     for (size_t v = 0, begin = 0; v < vertexCount; begin = first[v++]) {
         if (v % kProgressWork == 0)

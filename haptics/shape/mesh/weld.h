@@ -22,7 +22,7 @@ struct WeldResult {
                                       const Progress& progress = {});
 
 /// True when every edge has an even number of triangles: the surface bounds a volume whatever its windings
-/// say, and rays cross it an even number of times. Triangles with two equal corners do not count. Three
+/// are, and rays cross it an even number of times. Triangles with two equal corners do not count. Three
 /// indices a triangle, below `vertexCount`. O(n). Throws Cancelled.
 [[nodiscard]] bool isClosed(std::span<const uint32_t> indices, size_t vertexCount,
                             const Progress& progress = {});

@@ -11,11 +11,11 @@ namespace touchstone::study {
 
 namespace {
 
-/// An error that is drawn: the 99th percentile of one of the spreads.
+/// A plotted error: the 99th percentile of one of the spreads.
 struct Quantity {
     std::string_view name, title, unit;
     double inUnit; ///< of the plot, for one SI unit
-    double floor;  ///< in the plot's unit; what is below is drawn as exact
+    double floor;  ///< in the plot's unit; smaller values are drawn as exact
     Spread Errors::*spread;
     std::string_view noticeable; ///< JustNoticeable::quantity
 };
@@ -35,10 +35,10 @@ struct Point {
     double error;    ///< of the plot's unit
     size_t ablation; ///< series
     bool front = false;
-    int number = 0; ///< in the key; 0: none
+    int number = 0; ///< in the legend; 0: none
 };
 
-/// By this quantity: study/pareto marks the fronts of the force.
+/// For this quantity: study/pareto marks the fronts of the force.
 void markFront(std::vector<Point>& points) {
     for (Point& p : points)
         p.front = std::none_of(points.begin(), points.end(), [&](const Point& other) {
@@ -87,8 +87,8 @@ class ErrorPlot {
     }
 
   private:
-    /// The largest ablation has numbers on its front alone, the others on each configuration; within an
-    /// ablation by time.
+    /// The largest ablation numbers its front only, the others every configuration; within an ablation by
+    /// time.
     void number() {
         std::vector<size_t> sizes(ablations_.size());
         for (const Point& p : points_)
@@ -105,7 +105,7 @@ class ErrorPlot {
                 p.number = ++next;
     }
 
-    /// A page that is as high as its key.
+    /// Makes the page as high as its legend.
     void makeRoom() {
         double key = kKeyEnd + kKeyAblation * static_cast<double>(ablations_.size());
         for (const Point& p : points_)
@@ -153,7 +153,7 @@ class ErrorPlot {
                " right offset 0,0.6 tc rgb '#a00000' font ',12' front\n";
     }
 
-    /// Under a break in the axis: an error that a logarithm has no place for.
+    /// Below a break in the axis: errors too small for the logarithmic axis.
     [[nodiscard]] std::string band() const {
         if (!y_.band)
             return "";
@@ -181,7 +181,7 @@ class ErrorPlot {
                 y_.fraction(y_.place(p.error)) * (a.top - a.bottom)};
     }
 
-    /// Numbers beside the points, with a line where one had to go further away.
+    /// Numbers beside the points, with a leader line to distant ones.
     [[nodiscard]] std::string labels() const {
         constexpr double kHalfWidth = 8.0, kHalfHeight = 6.0, kMarkSize = 4.5;
         const Area& a = paper_.area;
@@ -189,11 +189,11 @@ class ErrorPlot {
         std::vector<const Point*> owners;
         for (const Point& p : points_) {
             marks.push_back(pixel(p));
-            if (p.configuration->isDefault) // its ring
+            if (p.configuration->isDefault) // ring of the default
                 marks.back().halfWidth = marks.back().halfHeight = 5.5;
             const double low = x_.fraction(1e-3 * p.configuration->step.low),
                          high = x_.fraction(1e-3 * p.configuration->step.high);
-            if (high > low) // its interval
+            if (high > low) // interval
                 marks.push_back({0.5 * (low + high) * (a.right - a.left), marks.back().y,
                                  0.5 * (high - low) * (a.right - a.left) - kMarkSize, 0.0});
             if (p.number > 0) {
@@ -221,7 +221,7 @@ class ErrorPlot {
         return script;
     }
 
-    /// Ablations with their marks, and under each the configurations that have numbers.
+    /// Ablations with their marks, and under each its numbered configurations.
     [[nodiscard]] std::string key() const {
         const double left = paper_.area.right + 26.0;
         double y = paper_.area.top;
@@ -266,7 +266,7 @@ class ErrorPlot {
         return script;
     }
 
-    /// A block an ablation: time, its interval, error, drawn error, and whether on the front and the default.
+    /// One block per ablation: time, its interval, error, drawn error, flags for front and default.
     [[nodiscard]] std::string data() const {
         std::string text;
         for (size_t ablation = 0; ablation < ablations_.size(); ++ablation) {
@@ -287,7 +287,7 @@ class ErrorPlot {
     }
 
     [[nodiscard]] std::string plots(const std::string& name) const {
-        std::string script = "set datafile missing NaN\nplot "; // lines go on over what is missing
+        std::string script = "set datafile missing NaN\nplot "; // lines bridge missing values
         const std::string file = "'" + name + ".dat'";
         for (size_t i = 0; i < ablations_.size(); ++i) {
             const std::string colour(markOf(i).colour), index = " index " + std::to_string(i);
@@ -301,11 +301,12 @@ class ErrorPlot {
         return script + "\n";
     }
 
-    /// Pixels of the key: a configuration's line, an ablation's title, that with the gap after it, the two
+    /// Pixels of the legend: a configuration's line, an ablation's title, the title with its gap, the two
     /// lines at the end.
     static constexpr double kKeyRung = 15.5, kKeyTitle = 18.0, kKeyAblation = 25.0, kKeyEnd = 38.0;
-    static constexpr int kMaxNumbers = 48;      ///< more than these nobody looks up
-    static constexpr size_t kLargeAblation = 8; ///< configurations, from which on only the front is numbered
+    static constexpr int kMaxNumbers = 48;      ///< upper bound for a readable legend
+    static constexpr size_t kLargeAblation = 8; ///< number of configurations above which only the front is
+                                                ///< numbered
     const SceneRungs& scene_;
     const Quantity& quantity_;
     const StudyResult& result_;

@@ -16,7 +16,7 @@ std::string number(double value) {
     return text.data();
 }
 
-/// As an axis has it: 10,000 and 0.00001.
+/// Axis label: 10,000 and 0.00001.
 std::string ticText(double value) {
     if (value >= 1e4)
         return grouped(static_cast<size_t>(std::lround(value)));
@@ -27,7 +27,7 @@ std::string ticText(double value) {
     return text[0] != '\0' ? text.data() : number(value);
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is no more than `value`.
+/// The largest of 1, 2, 5 times a power of ten not above `value`.
 double stepBelow(double value) {
     const double decade = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
     for (const double step : {5.0, 2.0})
@@ -54,7 +54,7 @@ Mark markOf(size_t series) {
                                                  {"#56b4e9", 15},
                                                  {"#222222", 6},
                                                  {"#8c6d31", 4}}};
-    // From the ninth series on each colour has another shape.
+    // From the ninth series on each colour gets another shape.
     return {kMarks[series % kMarks.size()].colour,
             kMarks[(series + series / kMarks.size()) % kMarks.size()].point};
 }
@@ -173,7 +173,7 @@ LogAxis LogAxis::around(const std::vector<double>& values, double minLow) {
 }
 
 double LogAxis::bottom() const {
-    // A tenth of the axis, however many decades it has.
+    // A tenth of the axis, regardless of its number of decades.
     return band ? low * std::pow(high / low, -0.1) : low;
 }
 

@@ -18,13 +18,13 @@ namespace touchstone::study {
 
 namespace {
 
-/// What a process left: its exit status (-1 where it could not be started), and what it said.
+/// Result of a process: its exit status (-1 where it could not be started) and its output.
 struct Ended {
     int status = -1;
     std::string said;
 };
 
-/// Runs a program of the search path in `folder`, without a shell, its input empty.
+/// Runs a program of the search path in `folder`, without a shell, with empty input.
 Ended run(const std::vector<std::string>& words, const std::filesystem::path& folder) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -65,7 +65,7 @@ Ended run(const std::vector<std::string>& words, const std::filesystem::path& fo
     return ended;
 }
 
-/// Fonts that stand in where Inter is not installed; gnuplot takes one name only.
+/// Fallback fonts where Inter is not installed; gnuplot takes one name only.
 std::string withFallback(std::string svg) {
     const std::string from = "font-family=\"Inter\"",
                       to = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";

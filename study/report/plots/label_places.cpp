@@ -8,11 +8,11 @@ namespace touchstone::study {
 
 namespace {
 
-constexpr double kClear = 2.0;       // pixels between a label and anything
+constexpr double kClear = 2.0;       // minimum pixels between a label and anything else
 constexpr double kMark = 4.5;        // half a mark
 constexpr int kDirections = 16;      // tried at each distance
 constexpr double kNear = 14.0;       // pixels, the first distance tried
-constexpr double kFarther = 8.0;     // and each one after it
+constexpr double kFarther = 8.0;     // increment of the distance
 constexpr int kDistances = 24;       // the last is 200 pixels away
 constexpr double kLeaderFrom = 15.0; // pixels
 
@@ -43,7 +43,7 @@ std::vector<PlacedLabel> placeLabels(const std::vector<Obstacle>& anchors,
                     halfHeight};
                 double cost = 0.0;
                 for (const Obstacle& other : labels)
-                    cost += 100.0 * overlap(label, other, kClear); // never one on another
+                    cost += 100.0 * overlap(label, other, kClear); // labels never overlap each other
                 for (const Obstacle& other : obstacles)
                     cost += overlap(
                         label, {other.x, other.y, other.halfWidth + kMark, other.halfHeight + kMark}, 0.0);

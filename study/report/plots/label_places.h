@@ -1,5 +1,5 @@
 #pragma once
-// Where numbers go beside points so that none lies on another.
+// Places number labels beside points without overlap.
 
 #include <vector>
 
@@ -7,7 +7,7 @@ namespace touchstone::study {
 
 struct PlacedLabel {
     double x, y; ///< centre, pixels
-    bool leader; ///< so far from its point that a line must lead there
+    bool leader; ///< far enough from its point to need a leader line
 };
 
 /// A rectangle or, without extent, a point to keep clear of.
@@ -15,8 +15,8 @@ struct Obstacle {
     double x, y, halfWidth = 0.0, halfHeight = 0.0;
 };
 
-/// For each of `anchors` a place for a label of the given half extents in 0..width x 0..height, clear of the
-/// other labels and, where that can be had, of all `obstacles`. Deterministic, in the order given.
+/// A place for a label of the given half extents at each of `anchors`, in 0..width x 0..height, clear of the
+/// other labels and, where possible, of all `obstacles`. Deterministic, in the given order.
 [[nodiscard]] std::vector<PlacedLabel> placeLabels(const std::vector<Obstacle>& anchors,
                                                    const std::vector<Obstacle>& obstacles, double halfWidth,
                                                    double halfHeight, double width, double height);

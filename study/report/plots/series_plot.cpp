@@ -85,11 +85,11 @@ class Drawing {
                labelAt(plot_.paper, plot_.paper.area.right - 6.0, plot_.paper.area.bottom + 10.0,
                        plot_.leastText, "right tc rgb '#777777'", 10.5);
     }
-    /// A name above each, in a second row where two are near each other.
+    /// A name above each, in a second row where two are close together.
     [[nodiscard]] std::string thresholds() const {
         std::string script;
         const Area& a = plot_.paper.area;
-        double end[2]{-1.0, -1.0}; // of the names in each row
+        double end[2]{-1.0, -1.0}; // end of the names in each row
         for (const Threshold& t : plot_.thresholds) {
             const double x = a.left + x_.fraction(t.at) * (a.right - a.left);
             const double half = 0.5 * textWidth(t.name, 11.0);

@@ -17,8 +17,7 @@ constexpr size_t kMaxBars = 60;
 class StagePlot {
   public:
     StagePlot(const SceneRungs& scene, const StudyResult& result) : scene_(scene), result_(result) {
-        // Configurations of different ablations with the same settings in effect are one measurement: as the
-        // settings say.
+        // Configurations of different ablations with equal effective settings are one measurement.
         std::set<std::string> shown;
         size_t large = 0;
         for (const ConfigurationResult* configuration : scene.configurations)
@@ -101,7 +100,7 @@ class StagePlot {
         }
         return count;
     }
-    /// Calls `each` with every configuration and its row; ablations stand apart.
+    /// Calls `each` with every configuration and its row; ablations are separated.
     void eachRow(const auto& each) const {
         double row = 0.0;
         const std::string* last = nullptr;
@@ -141,7 +140,7 @@ class StagePlot {
         }
         return script + labelAt(paper_, x + 6.0, y, "┃ whole tick (line: 95 %)", "", 11.5);
     }
-    /// Row, mean of the plain step and its interval, then where each stage begins and ends.
+    /// Row, mean of the plain step and its interval, then start and end of each stage.
     [[nodiscard]] std::string data() const {
         std::string text =
             "# row, mean of the whole step, its 95 % interval, ends of the stages one on another (ns)\n";

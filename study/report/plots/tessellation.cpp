@@ -12,7 +12,7 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::string_view kFacetAngle = "facet angle";
 
-/// Of "facet angle, no shading", "[004 Table 2], …, force only (C1)": "C1 0.5°" and "no shading".
+/// From "facet angle, no shading", "[004 Table 2], …, force only (C1)": "C1 0.5°" and "no shading".
 Threshold thresholdOf(const JustNoticeable& j) {
     const size_t comma = j.quantity.find(", ");
     const size_t open = j.source.rfind('('), close = j.source.rfind(')');

@@ -17,7 +17,7 @@ SeriesPoint timeOf(const ConfigurationResult& r) {
     return {static_cast<double>(r.triangles), 1e-3 * r.step.value, 1e-3 * r.step.low, 1e-3 * r.step.high};
 }
 
-/// The middle of the floors that the configurations of a scene found.
+/// The median of the floors over the configurations of a scene.
 void addFloors(SeriesPlot& plot, const std::vector<const ConfigurationResult*>& configurations) {
     std::map<std::pair<std::string, size_t>, std::vector<double>> floors;
     for (const ConfigurationResult* r : configurations)
@@ -71,8 +71,7 @@ Figure ofShapes(const StudyResult& result) {
     return figureOf(std::move(plot), result.provenance);
 }
 
-/// Of the ablation with the most configurations, the one that the program takes by itself; null where there
-/// is none.
+/// The default configuration of the largest ablation; null where there is none.
 const ConfigurationResult* defaultOf(const SceneRungs& scene) {
     std::map<std::string, size_t> sizes;
     for (const ConfigurationResult* r : scene.configurations)
@@ -85,7 +84,7 @@ const ConfigurationResult* defaultOf(const SceneRungs& scene) {
     return found;
 }
 
-/// What the program does by itself on each scene, a point a scene.
+/// The default configuration on each scene, one point per scene.
 Figure ofScenes(const StudyResult& result) {
     std::vector<const ConfigurationResult*> configurations;
     for (const SceneRungs& scene : byScene(result, false))
