@@ -1,103 +1,73 @@
 #include "devices/plant/plant_parameters.h"
 
 #include "engine/core/error.h"
+#include "engine/core/member_count.h"
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace touchstone {
 
 namespace {
 
-// A gram and up: a lighter device or a stiffer hand would move faster than any servo can follow.
-constexpr std::array kInfos{
-    PlantInfo{"mass", "kg", 0.001, 10.0, "effective mass of the device at its tip"},
-    PlantInfo{"viscousFriction", "N s/m", 0.0, 1000.0, "of the device"},
-    PlantInfo{"coulombFriction", "N", 0.0, 10.0, "of the device"},
-    PlantInfo{"resolution", "m", 0.0, 0.01, "of the position sensor on each axis; 0: exact"},
-    PlantInfo{"delay", "ticks", 0.0, 1.0, "between a command and its force: 0 or 1"},
-    PlantInfo{"maxForce", "N", 0.0, 1000.0, "where the motors saturate"},
-    PlantInfo{"handMass", "kg", 0.0, 10.0, "what of the hand moves with the device"},
-    PlantInfo{"handDamping", "N s/m", 0.0, 1000.0, "of the hand towards its path"},
-    PlantInfo{"handStiffness", "N/m", 0.0, 1e7, "of the hand towards its path"},
+using P = PlantParameters;
+
+template <auto Member>
+constexpr StructField<P> number(std::string_view name, std::string_view unit, double low, double high,
+                                std::string_view meaning) {
+    return fieldOf<Member, P>({.name = name,
+                               .unit = unit,
+                               .words = {},
+                               .low = low,
+                               .high = high,
+                               .whole = std::is_integral_v<std::remove_cvref_t<decltype(P{}.*Member)>>,
+                               .meaning = meaning});
+}
+
+// A gram and up: a lighter device or a stiffer hand moves faster than any servo can answer.
+constexpr std::array kFields{
+    number<&P::mass>("mass", "kg", 0.001, 10.0, "effective mass of the device at its tip"),
+    number<&P::viscousFriction>("viscousFriction", "N s/m", 0.0, 1000.0, "of the device"),
+    number<&P::coulombFriction>("coulombFriction", "N", 0.0, 10.0, "of the device"),
+    number<&P::resolution>("resolution", "m", 0.0, 0.01, "of the position sensor on each axis; 0: exact"),
+    number<&P::delay>("delay", "ticks", 0.0, 1.0, "between a command and its force: 0 or 1"),
+    number<&P::maxForce>("maxForce", "N", 0.0, 1000.0, "where the motors saturate"),
+    number<&P::handMass>("handMass", "kg", 0.0, 10.0, "what of the hand moves with the device"),
+    number<&P::handDamping>("handDamping", "N s/m", 0.0, 1000.0, "of the hand towards its path"),
+    number<&P::handStiffness>("handStiffness", "N/m", 0.0, 1e7, "of the hand towards its path"),
 };
-
-std::string text(double number) {
-    std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
-    return {buffer.data(), result.ptr};
-}
-
-bool allowed(const PlantInfo& info, double value) {
-    return value >= info.least && value <= info.most && (info.name != "delay" || value == std::floor(value));
-}
-
-double* fieldOf(PlantParameters& p, std::string_view name) {
-    if (name == "mass")
-        return &p.mass;
-    if (name == "viscousFriction")
-        return &p.viscousFriction;
-    if (name == "coulombFriction")
-        return &p.coulombFriction;
-    if (name == "resolution")
-        return &p.resolution;
-    if (name == "maxForce")
-        return &p.maxForce;
-    if (name == "handMass")
-        return &p.handMass;
-    if (name == "handDamping")
-        return &p.handDamping;
-    if (name == "handStiffness")
-        return &p.handStiffness;
-    return nullptr;
-}
-
-std::string range(const PlantInfo& info) {
-    return text(info.least) + " .. " + text(info.most) + " " + std::string(info.unit);
-}
+static_assert(kFields.size() == memberCount<P>(), "a parameter is missing from the table");
 
 } // namespace
 
-std::span<const PlantInfo> plantInfos() {
-    return kInfos;
+std::span<const StructField<PlantParameters>> plantFields() {
+    return kFields;
 }
 
 std::string setPlantParameter(PlantParameters& parameters, std::string_view name, std::string_view value) {
-    for (const PlantInfo& info : kInfos) {
-        if (info.name != name)
-            continue;
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-        if (error != std::errc{} || end != value.data() + value.size() || !allowed(info, number))
-            return "'" + std::string(value) + "' is not a value of " + std::string(name) +
-                   "; allowed: " + range(info);
-        if (name == "delay")
-            parameters.delay = static_cast<int>(number);
-        else
-            *fieldOf(parameters, name) = number;
-        return {};
-    }
-    std::string known;
-    for (const PlantInfo& info : kInfos)
-        known += (known.empty() ? "" : ", ") + std::string(info.name);
-    return "the plant has no '" + std::string(name) + "'; known: " + known;
+    const StructField<P>* field = findField(plantFields(), name);
+    if (field == nullptr)
+        return "the plant has no '" + std::string(name) + "'; known: " + fieldNames(plantFields());
+    double number = 0.0;
+    if (!readValue(*field, value, number))
+        return refusedValue(*field, value);
+    field->set(parameters, number);
+    return {};
 }
 
 double plantParameter(const PlantParameters& parameters, std::string_view name) {
-    if (name == "delay")
-        return parameters.delay;
-    PlantParameters copy = parameters;
-    const double* field = fieldOf(copy, name);
-    return field != nullptr ? *field : std::numeric_limits<double>::quiet_NaN();
+    const StructField<P>* field = findField(plantFields(), name);
+    return field != nullptr ? field->get(parameters) : std::numeric_limits<double>::quiet_NaN();
 }
 
 void checkPlant(const PlantParameters& parameters) {
-    for (const PlantInfo& info : kInfos)
-        if (!allowed(info, plantParameter(parameters, info.name)))
-            throw Error("simulated device", std::string(info.name), "is outside its range",
-                        "give " + range(info));
+    for (const StructField<P>& field : kFields) {
+        const double value = field.get(parameters);
+        if (!(value >= field.low && value <= field.high))
+            throw Error("simulated device", std::string(field.name), "is outside its range",
+                        "give " + allowedValues(field) + " " + std::string(field.unit));
+    }
 }
 
 } // namespace touchstone

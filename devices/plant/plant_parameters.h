@@ -1,6 +1,8 @@
 #pragma once
 // Parameters of a simulated device and of the hand that holds it.
 
+#include "engine/core/field_table.h"
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,13 +33,8 @@ struct PlantParameters {
     bool operator==(const PlantParameters&) const = default;
 };
 
-/// One row for `--plant` and `--help`.
-struct PlantInfo {
-    std::string_view name, unit;
-    double least, most;
-    std::string_view meaning;
-};
-[[nodiscard]] std::span<const PlantInfo> plantInfos();
+/// Every parameter: for `--plant`, `--help` and figures. Does not compile while a member is missing.
+[[nodiscard]] std::span<const StructField<PlantParameters>> plantFields();
 
 /// Sets NAME to VALUE. Returns an empty string, or the problem with the allowed values; then `parameters` is
 /// unchanged.

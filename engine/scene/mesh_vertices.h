@@ -3,6 +3,7 @@
 // vertices uses it: an array that such code omits is shorter than `positions` afterwards, and is read past
 // its end (an importer that split vertices without `heights` did exactly that).
 
+#include "engine/core/member_count.h"
 #include "engine/scene/scene.h"
 
 #include <cstdint>
@@ -13,32 +14,6 @@
 #include <utility>
 
 namespace touchstone {
-
-namespace detail {
-
-/// Converts to any member's type; only for counting the members of an aggregate.
-struct AnyMember {
-    template <class T>
-    operator T() const; // NOLINT: implicit on purpose
-};
-
-template <class T, size_t... I>
-constexpr bool takesMembers(std::index_sequence<I...>) {
-    return requires {
-        T{(static_cast<void>(I), AnyMember{})...};
-    };
-}
-
-/// Number of data members of the aggregate T.
-template <class T, size_t N = 0>
-constexpr size_t memberCount() {
-    if constexpr (takesMembers<T>(std::make_index_sequence<N + 1>{}))
-        return memberCount<T, N + 1>();
-    else
-        return N;
-}
-
-} // namespace detail
 
 /// Calls f(name, array) for every vertex array of a Mesh or const Mesh, `positions` first. Each of them is
 /// empty or has one entry per vertex. Does not compile while a member of Mesh is neither listed as a vertex
@@ -66,7 +41,7 @@ void forEachVertexArray(AnyMesh& mesh, F&& f) {
               array("damping", damping), array("friction", friction), array("heights", heights));
     const auto others =
         other(name, indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile);
-    static_assert(decltype(visited)::value + decltype(others)::value == detail::memberCount<Mesh>(),
+    static_assert(decltype(visited)::value + decltype(others)::value == memberCount<Mesh>(),
                   "list every member of Mesh here: as a vertex array, or as something else");
 }
 

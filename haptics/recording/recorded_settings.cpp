@@ -1,49 +1,49 @@
 #include "haptics/recording/recorded_settings.h"
 
+#include "engine/core/field_table.h"
+#include "engine/core/member_count.h"
+
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <span>
+#include <type_traits>
 
 namespace touchstone {
 
 namespace {
 
-/// Third argument: the number of a choice's values; 0: a number.
-template <class Settings, class Visit>
-void eachSetting(Settings& s, const Visit& visit) {
-    visit("contact", s.contact, 3);
-    visit("precision", s.precision, 2);
-    visit("forceShading", s.forceShading, 5);
-    visit("texture", s.texture, 4);
-    visit("friction", s.friction, 4);
-    visit("proxyRadius", s.proxyRadius, 0);
-    visit("stiffness", s.stiffness, 0);
-    visit("damping", s.damping, 0);
-    visit("staticFriction", s.staticFriction, 0);
-    visit("dynamicFriction", s.dynamicFriction, 0);
-    visit("shadingTiltLimit", s.shadingTiltLimit, 0);
-    visit("textureTiltLimit", s.textureTiltLimit, 0);
-    visit("textureStrength", s.textureStrength, 0);
-    visit("textureFilter", s.textureFilter, 4);
-    visit("textureGradient", s.textureGradient, 3);
-    visit("iterationBudget", s.iterationBudget, 0);
-    visit("passivity", s.passivity, 3);
-    visit("forceEnabled", s.forceEnabled, 2);
+constexpr std::string_view kSwitch[]{"off", "on"};
+
+/// A limit as a recording names it. Its range is the device's own to check.
+template <auto Member>
+constexpr StructField<DeviceLimits> limit(std::string_view name) {
+    constexpr bool kSwitched = std::is_same_v<std::remove_cvref_t<decltype(DeviceLimits{}.*Member)>, bool>;
+    return fieldOf<Member, DeviceLimits>({.name = name,
+                                          .unit = "",
+                                          .words = kSwitched ? std::span<const std::string_view>(kSwitch)
+                                                             : std::span<const std::string_view>(),
+                                          .low = -std::numeric_limits<double>::infinity(),
+                                          .high = std::numeric_limits<double>::infinity(),
+                                          .whole = kSwitched,
+                                          .meaning = ""});
 }
 
-template <class Limits, class Visit>
-void eachLimit(Limits& l, const Visit& visit) {
-    visit("maxForce", l.maxForce, 0);
-    visit("maxForceRate", l.maxForceRate, 0);
-    visit("maxTorque", l.maxTorque, 0);
-    visit("maxTorqueRate", l.maxTorqueRate, 0);
-    visit("recommendedStiffness", l.recommendedStiffness, 0);
-    visit("maxStiffness", l.maxStiffness, 0);
-    visit("staleAge", l.staleAge, 0);
-    visit("positionResolution", l.positionResolution, 0);
-    visit("apparentMass", l.apparentMass, 0);
-    visit("coulombFriction", l.coulombFriction, 0);
-    visit("commandDelay", l.commandDelay, 2);
-}
+constexpr std::array kLimits{
+    limit<&DeviceLimits::maxForce>("maxForce"),
+    limit<&DeviceLimits::maxForceRate>("maxForceRate"),
+    limit<&DeviceLimits::maxTorque>("maxTorque"),
+    limit<&DeviceLimits::maxTorqueRate>("maxTorqueRate"),
+    limit<&DeviceLimits::recommendedStiffness>("recommendedStiffness"),
+    limit<&DeviceLimits::maxStiffness>("maxStiffness"),
+    limit<&DeviceLimits::staleAge>("staleAge"),
+    limit<&DeviceLimits::positionResolution>("positionResolution"),
+    limit<&DeviceLimits::apparentMass>("apparentMass"),
+    limit<&DeviceLimits::coulombFriction>("coulombFriction"),
+    limit<&DeviceLimits::commandDelay>("commandDelay"),
+};
+static_assert(kLimits.size() == memberCount<DeviceLimits>(), "a limit is not recorded");
 
 using NamedNumbers = std::map<std::string, double, std::less<>>;
 
@@ -69,68 +69,66 @@ NamedNumbers getNumbers(ByteReader& bytes) {
     return numbers;
 }
 
-/// Moves a number from the list into its field.
-template <class Field>
-void takeNumber(NamedNumbers& numbers, std::string_view name, Field& field, int choices) {
-    const auto found = numbers.find(name);
+/// Moves a number into its field and out of the list.
+template <class S>
+void takeNumber(NamedNumbers& numbers, const StructField<S>& field, S& to) {
+    const auto found = numbers.find(field.name);
     if (found == numbers.end())
         return;
     const double value = found->second;
     constexpr double kLargestInt = 2e9;
-    if (!std::is_same_v<Field, double> && !(std::abs(value) < kLargestInt && value == std::floor(value)))
-        throw Error("", std::string(name), "is no whole number", "");
-    if (choices > 0 && !(value >= 0.0 && value < choices))
-        throw Error("", std::string(name), "is a choice that this version does not have",
+    if (field.whole && !(std::abs(value) < kLargestInt && value == std::floor(value)))
+        throw Error("", std::string(field.name), "is no whole number", "");
+    if (!field.words.empty() && !(value >= 0.0 && value < static_cast<double>(field.words.size())))
+        throw Error("", std::string(field.name), "is a choice that this version does not have",
                     "use the version that recorded it");
-    if constexpr (std::is_same_v<Field, bool>)
-        field = value != 0.0;
-    else
-        field = static_cast<Field>(value);
+    field.set(to, value);
     numbers.erase(found);
 }
 
-void refuseStrangers(const NamedNumbers& numbers) {
+template <class S>
+void putFields(ByteWriter& bytes, std::span<const StructField<S>> fields, const S& values) {
+    NamedNumbers numbers;
+    for (const StructField<S>& field : fields)
+        numbers.emplace(field.name, field.get(values));
+    putNumbers(bytes, numbers);
+}
+
+template <class S, class Check>
+S getFields(ByteReader& bytes, std::span<const StructField<S>> fields, const Check& check) {
+    NamedNumbers numbers = getNumbers(bytes);
+    S values;
+    for (const StructField<S>& field : fields) {
+        takeNumber(numbers, field, values);
+        check(field, values);
+    }
     if (!numbers.empty())
         throw Error("", numbers.begin()->first, "is not known to this version",
                     "use the version that recorded it");
+    return values;
 }
 
 } // namespace
 
 void putSettings(ByteWriter& bytes, const HapticSettings& settings) {
-    NamedNumbers numbers;
-    eachSetting(settings,
-                [&](const char* name, auto value, int) { numbers[name] = static_cast<double>(value); });
-    putNumbers(bytes, numbers);
+    putFields(bytes, settingFields(), settings);
 }
 
 void putLimits(ByteWriter& bytes, const DeviceLimits& limits) {
-    NamedNumbers numbers;
-    eachLimit(limits, [&](const char* name, auto value, int) { numbers[name] = static_cast<double>(value); });
-    putNumbers(bytes, numbers);
+    putFields<DeviceLimits>(bytes, kLimits, limits);
 }
 
 HapticSettings getSettings(ByteReader& bytes) {
-    NamedNumbers numbers = getNumbers(bytes);
-    HapticSettings settings;
-    eachSetting(settings, [&](const char* name, auto& field, int choices) {
-        takeNumber(numbers, name, field, choices);
-        HapticSettings allowed;
-        const std::string problem = setSetting(allowed, name, settingValue(settings, name));
-        if (!problem.empty())
-            throw Error("", name, problem, "");
+    return getFields(bytes, settingFields(), [](const auto& field, const HapticSettings& settings) {
+        const std::string written = writtenValue(field, field.get(settings));
+        double value = 0.0;
+        if (!readValue(field, written, value))
+            throw Error("", std::string(field.name), refusedValue(field, written), "");
     });
-    refuseStrangers(numbers);
-    return settings;
 }
 
 DeviceLimits getLimits(ByteReader& bytes) {
-    NamedNumbers numbers = getNumbers(bytes);
-    DeviceLimits limits;
-    eachLimit(limits,
-              [&](const char* name, auto& field, int choices) { takeNumber(numbers, name, field, choices); });
-    refuseStrangers(numbers);
-    return limits;
+    return getFields<DeviceLimits>(bytes, kLimits, [](const auto&, const DeviceLimits&) {});
 }
 
 } // namespace touchstone

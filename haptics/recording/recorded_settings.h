@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-/// Count (u16), then for each: name (u32 length, text) and value (f64; choices by their index in
-/// settingInfos' `values`, switches 0 or 1).
+/// Count (u16), then for each: name (u32 length, text) and value (f64; choices by their place among
+/// the words of settingFields, switches 0 or 1).
 void putSettings(ByteWriter& bytes, const HapticSettings& settings);
 void putLimits(ByteWriter& bytes, const DeviceLimits& limits);
 

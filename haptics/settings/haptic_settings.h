@@ -1,6 +1,8 @@
 #pragma once
 // Settings that a person may change during touch. Plain data: copied to the servo by a triple buffer.
 
+#include "engine/core/field_table.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -71,11 +73,9 @@ struct HapticSettings {
 /// Warnings about settings that do not combine, one sentence each.
 [[nodiscard]] std::vector<std::string> settingWarnings(const HapticSettings& settings);
 
-/// One row for `--set`, `--help` and the panel.
-struct SettingInfo {
-    std::string_view name, unit, values, meaning;
-};
-[[nodiscard]] std::span<const SettingInfo> settingInfos();
+/// Every setting: for `--set`, `--help`, the panels, what the window remembers, figures and recordings. Does
+/// not compile while a member of HapticSettings is missing.
+[[nodiscard]] std::span<const StructField<HapticSettings>> settingFields();
 
 /// Sets NAME to VALUE. Returns an empty string, or an error message with the allowed values; then `settings`
 /// is unchanged. Not for the servo thread.

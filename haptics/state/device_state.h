@@ -47,7 +47,7 @@ struct DeviceState {
     CandidateCache
         obstacleCandidates; ///< of one object that moves towards the proxy, or of a place far from it
     std::vector<MovingObstacle> carried = std::vector<MovingObstacle>(256); ///< the near ones, during a tick
-    PinchedObjects jammed;
+    JammedObjects jammed;
     double gatherMargin = 1e-3; ///< object units; adapts to the density of triangles
     WatchState watch;
 

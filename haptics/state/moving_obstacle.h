@@ -28,7 +28,7 @@ struct MovingObstacle {
 
 /// Objects that met another one through the proxy and left it no room. They are not felt until the proxy is
 /// in front of them again; `places` is the proxy's last place in the frame of each.
-struct PinchedObjects {
+struct JammedObjects {
     static constexpr size_t kMax = CandidateCache::kMaxIgnored;
     std::array<int, kMax> objects{};
     std::array<glm::dvec3, kMax> places{};

@@ -1,5 +1,7 @@
 #include "haptics/state/touch_checkpoint.h"
 
+#include "engine/core/member_count.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -54,6 +56,10 @@ void eachField(State& s, const Visit& visit) {
     visit(s.limiter.passivity.balance);
 }
 
+static_assert(memberCount<DeviceState>() == 26 && memberCount<ForceLimiterState>() == 9 &&
+                  memberCount<PassivityState>() == 6 && memberCount<WatchState>() == 2,
+              "a member was added: does it outlive the tick? Then eachField visits it");
+
 /// Only the fields that eachField visits; a copy of the whole DeviceState would be a megabyte.
 struct CarriedFields {
     bool sampled = false;
@@ -63,7 +69,7 @@ struct CarriedFields {
     int reference = -1;
     glm::dvec3 proxy{0.0};
     double clearance = 0.0;
-    PinchedObjects jammed;
+    JammedObjects jammed;
     double gatherMargin = 0.0;
     WatchState watch;
     bool shaded = false;
@@ -92,7 +98,7 @@ bool reasonable(const CarriedFields& fields) {
             look(field);
         else if constexpr (std::is_same_v<Field, glm::dvec3>)
             lookAt(field);
-        else if constexpr (std::is_same_v<Field, decltype(PinchedObjects::places)>)
+        else if constexpr (std::is_same_v<Field, decltype(JammedObjects::places)>)
             std::for_each(field.begin(), field.end(), lookAt);
     });
     return all;
@@ -102,7 +108,7 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
     if (!reasonable(fields))
         return false;
     const int objects = scene != nullptr ? static_cast<int>(scene->objects.size()) : 0;
-    if (fields.reference >= objects || fields.jammed.count > PinchedObjects::kMax ||
+    if (fields.reference >= objects || fields.jammed.count > JammedObjects::kMax ||
         fields.friction > FrictionState::Sliding)
         return false;
     for (size_t i = 0; i < fields.jammed.count; ++i)

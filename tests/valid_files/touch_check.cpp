@@ -94,7 +94,7 @@ class Touch {
             return;
         told_ = true; // the first of a touch; the rest mostly follows from it
         std::string with;
-        for (const SettingInfo& info : settingInfos())
+        for (const auto& info : settingFields())
             with += " " + std::string(info.name) + "=" + settingValue(settings_, info.name);
         report_.findings.push_back(std::string(what) + " in tick " + std::to_string(tick_) + " with" + with);
     }

@@ -4,14 +4,14 @@ namespace touchstone {
 
 nlohmann::ordered_json settingsJson(const HapticSettings& settings) {
     nlohmann::ordered_json json;
-    for (const SettingInfo& info : settingInfos())
+    for (const auto& info : settingFields())
         json[std::string(info.name)] = settingValue(settings, info.name);
     return json;
 }
 
 nlohmann::ordered_json plantJson(const Plant& plant) {
     nlohmann::ordered_json json;
-    for (const PlantInfo& info : plantInfos())
+    for (const auto& info : plantFields())
         json[std::string(info.name)] = plantParameter(plant.parameters(), info.name);
     json["motor_work_j"] = plant.motorWork();
     json["coulomb_loss_j"] = plant.coulombLoss();

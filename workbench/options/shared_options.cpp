@@ -35,32 +35,29 @@ bool parseSize(const std::string& text, glm::ivec2& size) {
     return true;
 }
 
-} // namespace
-
-std::string settingsHelp() {
-    std::string text = "Settings for --set NAME=VALUE:\n";
-    const HapticSettings defaults;
-    for (const SettingInfo& info : settingInfos()) {
-        std::string line = "  " + std::string(info.name) + "=" + settingValue(defaults, info.name);
-        if (!info.unit.empty())
-            line += " " + std::string(info.unit);
+/// A line a field: NAME=DEFAULT UNIT, meaning, allowed values.
+template <class S>
+std::string fieldLines(std::span<const StructField<S>> fields) {
+    std::string text;
+    for (const StructField<S>& field : fields) {
+        std::string line = "  " + std::string(field.name) + "=" + writtenValue(field, field.get(S{}));
+        if (!field.unit.empty())
+            line += " " + std::string(field.unit);
         line.resize(std::max<size_t>(line.size() + 2, 30), ' ');
-        text += line + std::string(info.meaning) + "  [" + std::string(info.values) + "]\n";
+        text += line + std::string(field.meaning) + "  [" + allowedValues(field) + "]\n";
     }
     return text;
 }
 
+} // namespace
+
+std::string settingsHelp() {
+    return "Settings for --set NAME=VALUE:\n" + fieldLines(settingFields());
+}
+
 std::string plantHelp() {
-    std::ostringstream text;
-    text << "Simulated device and hand for --plant NAME=VALUE (a Phantom Premium 1.5 in a light grip):\n";
-    const PlantParameters defaults;
-    for (const PlantInfo& info : plantInfos()) {
-        std::ostringstream line;
-        line << "  " << info.name << '=' << plantParameter(defaults, info.name) << ' ' << info.unit;
-        text << std::left << std::setw(30) << line.str() << "  " << info.meaning << "  [" << info.least
-             << " .. " << info.most << "]\n";
-    }
-    return text.str();
+    return "Simulated device and hand for --plant NAME=VALUE (a Phantom Premium 1.5 in a light grip):\n" +
+           fieldLines(plantFields());
 }
 
 std::string strokesHelp() {

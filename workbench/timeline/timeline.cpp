@@ -199,7 +199,7 @@ size_t Timeline::segmentOf(size_t index) const {
 
 std::string settingsDifference(const HapticSettings& before, const HapticSettings& after) {
     std::string text;
-    for (const SettingInfo& info : settingInfos()) {
+    for (const auto& info : settingFields()) {
         const std::string was = settingValue(before, info.name), is = settingValue(after, info.name);
         if (was != is)
             text += (text.empty() ? "" : ", ") + std::string(info.name) + " " + was + " to " + is;

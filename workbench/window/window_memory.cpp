@@ -26,7 +26,7 @@ bool flag(const Json& json, const char* name, bool otherwise) {
 /// Ignores names and values that are no longer known.
 HapticSettings settingsOf(const Json& json) {
     HapticSettings settings;
-    for (const SettingInfo& info : settingInfos()) {
+    for (const auto& info : settingFields()) {
         const auto found = json.find(std::string(info.name));
         if (found != json.end() && found->is_string())
             (void)setSetting(settings, info.name, found->get<std::string>());

@@ -170,10 +170,10 @@ TEST(Plant, SaturatesItsMotors) {
 }
 
 TEST(Plant, RefusesWhatIsOutOfRange) {
-    for (const PlantInfo& info : plantInfos()) {
+    for (const auto& info : plantFields()) {
         PlantParameters p;
-        EXPECT_EQ(setPlantParameter(p, info.name, std::to_string(info.most)), "");
-        EXPECT_EQ(plantParameter(p, info.name), info.most);
+        EXPECT_EQ(setPlantParameter(p, info.name, std::to_string(info.high)), "");
+        EXPECT_EQ(plantParameter(p, info.name), info.high);
         const PlantParameters before = p;
         for (const char* bad : {"-1", "1e9", "nan", "inf", "", "1x", " 1"})
             EXPECT_NE(setPlantParameter(p, info.name, bad).find(info.name), std::string::npos)

@@ -6,7 +6,7 @@ namespace touchstone {
 namespace {
 
 TEST(Settings, EveryNameCanBeReadAndWrittenBack) {
-    for (const SettingInfo& info : settingInfos()) {
+    for (const auto& info : settingFields()) {
         HapticSettings settings;
         const std::string value = settingValue(settings, info.name);
         ASSERT_FALSE(value.empty()) << info.name;

@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(PassivityState), 112u);
     EXPECT_EQ(sizeof(ForceLimiterState), 232u);
-    EXPECT_EQ(sizeof(PinchedObjects), 232u);
+    EXPECT_EQ(sizeof(JammedObjects), 232u);
     EXPECT_EQ(sizeof(WatchState), 8u);
     // What a tick writes before it reads, and what can be found again, may be of any size.
     EXPECT_EQ(sizeof(DeviceState) - sizeof(SolveResult) - 2 * sizeof(CandidateCache), 752u);

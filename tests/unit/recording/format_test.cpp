@@ -213,23 +213,13 @@ TEST(RecordingFormat, HoldsEverySettingToTheLastBit) {
     // Whatever --set can make, and --set itself knows no field that a recording does not hold.
     for (int turn = 0; turn < 300; ++turn) {
         HapticSettings settings;
-        for (const SettingInfo& info : settingInfos()) {
-            std::string value;
-            const std::string values(info.values);
-            const size_t range = values.find("..");
-            if (range != std::string::npos) {
-                const double low = std::stod(values), high = std::stod(values.substr(range + 2));
-                double number = low + share(random) * (high - low);
-                if (info.name == "iterationBudget")
-                    number = std::floor(number);
-                value = std::to_string(number);
-            } else {
-                std::vector<std::string> choices;
-                std::stringstream stream(values);
-                for (std::string choice; std::getline(stream >> std::ws, choice, ',');)
-                    choices.push_back(choice);
-                value = choices[random() % choices.size()];
-            }
+        for (const auto& info : settingFields()) {
+            double number = info.low + share(random) * (info.high - info.low);
+            if (info.whole)
+                number = std::floor(number);
+            const std::string value = info.words.empty()
+                                          ? std::to_string(number)
+                                          : std::string(info.words[random() % info.words.size()]);
             ASSERT_EQ(setSetting(settings, info.name, value), "");
         }
         std::vector<std::byte> bytes;
