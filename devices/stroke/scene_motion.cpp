@@ -22,15 +22,16 @@ constexpr double kMaxSamples = 20000.0;
 constexpr int kSide = 24;      ///< rays per side of the view that measure visibility
 constexpr size_t kBoxes = 256; ///< poses of the other parts that are boxed, at most
 
-/// The lowest animated node above an instance: instances under the same one move as one. -1: none.
-int moverOf(const Scene& scene, const Animation& animation, const Instance& instance) {
-    if (!instance.followsNode)
-        return -1;
-    for (int node = instance.node; node >= 0; node = scene.nodes[static_cast<size_t>(node)].parent)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.node == node)
-                return node;
-    return -1;
+/// By node: the lowest one at or above it that the animation moves itself; -1: none.
+std::vector<int> moversOf(const Scene& scene, const Animation& animation) {
+    std::vector<int> movers(scene.nodes.size(), -1);
+    for (const AnimationChannel& channel : animation.channels)
+        movers[static_cast<size_t>(channel.node)] = channel.node;
+    // Parents come first.
+    for (size_t n = 0; n < movers.size(); ++n)
+        if (const int parent = scene.nodes[n].parent; movers[n] < 0 && parent >= 0)
+            movers[n] = movers[static_cast<size_t>(parent)];
+    return movers;
 }
 
 /// Motion of an instance relative to its static pose, device frame; the identity for a singular or mirrored
@@ -148,9 +149,13 @@ std::vector<MovingPart> movingParts(const Scene& scene, const Similarity& device
     const Animation* animation = playedAnimation(scene);
     if (animation == nullptr)
         return {};
-    std::map<int, std::vector<size_t>> byMover;
-    for (size_t i = 0; i < scene.instances.size(); ++i)
-        byMover[moverOf(scene, *animation, scene.instances[i])].push_back(i);
+    const std::vector<int> movers = moversOf(scene, *animation);
+    std::map<int, std::vector<size_t>> byMover; // instances under the same moved node move as one
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const bool follows = instance.followsNode && instance.node >= 0;
+        byMover[follows ? movers[static_cast<size_t>(instance.node)] : -1].push_back(i);
+    }
     if (byMover.empty() || (byMover.size() == 1 && byMover.begin()->first == -1))
         return {};
     const TriangleSource triangles = trianglesOf(scene, deviceFromScene);

@@ -122,10 +122,28 @@ std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* ani
     return {pose.sceneFromMesh().begin(), pose.sceneFromMesh().end()};
 }
 
+namespace {
+
+/// False for an animation of joints, cameras and empty nodes alone.
+bool movesAnInstance(const Scene& scene, const Animation& animation) {
+    const std::vector<bool> moved = movedNodes(scene, animation);
+    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+        return instance.followsNode && instance.node >= 0 && moved[static_cast<size_t>(instance.node)];
+    });
+}
+
+} // namespace
+
 const Animation* playedAnimation(const Scene& scene) {
-    const auto moving = std::ranges::find_if(
-        scene.animations, [](const Animation& animation) { return !animation.channels.empty(); });
-    return moving == scene.animations.end() ? nullptr : &*moving;
+    const Animation* first = nullptr;
+    for (const Animation& animation : scene.animations) {
+        if (animation.channels.empty())
+            continue;
+        if (movesAnInstance(scene, animation))
+            return &animation;
+        first = first != nullptr ? first : &animation;
+    }
+    return first;
 }
 
 std::vector<bool> movedNodes(const Scene& scene, const Animation& animation) {

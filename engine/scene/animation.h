@@ -8,8 +8,9 @@
 
 namespace touchstone {
 
-/// The animation that plays, for touch and picture: the first one that moves a node, repeated without end.
-/// Null: nothing moves. An animation of morph weights alone has no channels here.
+/// The animation that plays in a loop, for the hand and for the eye: the first one that moves an instance,
+/// else the first one that moves a node (a joint, a camera). Null: nothing moves. One of morph weights alone
+/// has no channels here.
 [[nodiscard]] const Animation* playedAnimation(const Scene& scene);
 
 /// By node: whether the animation moves it, by itself or through a parent.

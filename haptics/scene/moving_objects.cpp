@@ -27,7 +27,7 @@ std::vector<Warning> animationWarnings(const Scene& scene) {
     const auto played = static_cast<size_t>(animation - scene.animations.data());
     if (scene.animations.size() > 1)
         warnings.push_back({"animations", "only one of " + std::to_string(scene.animations.size()) +
-                                              " plays, the first that moves a node: '" + animation->name +
+                                              " plays, the first that moves a mesh: '" + animation->name +
                                               "'"});
     for (const AnimationChannel& channel : animation->channels) {
         if (channel.path != AnimatedPath::Scale)

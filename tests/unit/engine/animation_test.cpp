@@ -192,6 +192,22 @@ TEST(Animation, TheFirstThatMovesANodePlays) {
     EXPECT_EQ(playedAnimation(*load(maker)), nullptr);
 }
 
+TEST(Animation, OneThatMovesNoInstanceGivesWayToOneThatDoes) {
+    GltfMaker maker = animated({0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3", "translation");
+    const auto joint = static_cast<int>(maker.json["nodes"].size());
+    maker.json["nodes"].push_back({{"name", "joint"}});
+    maker.json["scenes"][0]["nodes"].push_back(joint);
+    const nlohmann::json moving = maker.json["animations"][0];
+    nlohmann::json ofJoint = moving;
+    ofJoint["channels"][0]["target"]["node"] = joint;
+    maker.json["animations"] = {ofJoint, moving};
+    const ScenePtr scene = load(maker);
+    EXPECT_EQ(playedAnimation(*scene), &scene->animations.at(1));
+    maker.json["animations"] = {ofJoint};
+    const ScenePtr alone = load(maker);
+    EXPECT_EQ(playedAnimation(*alone), &alone->animations.at(0));
+}
+
 TEST(Animation, MorphWeightsAreLeftOutWithAWarning) {
     const ScenePtr scene = load(animated({0, 1}, {0, 1}, "SCALAR", "weights"));
     EXPECT_TRUE(scene->animations.at(0).channels.empty());
