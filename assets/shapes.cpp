@@ -1,5 +1,7 @@
 #include "assets/shapes.h"
 
+#include "assets/cut_torus.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -79,6 +81,54 @@ Shape torus(double ring, double tube, uint32_t aroundRing, uint32_t aroundTube, 
             appendTriangle(shape, b, d, c);
         }
     return shape;
+}
+
+namespace {
+
+/// The strip between two circles of m and n vertices about a tube, those of the second after the first's.
+void appendStrip(Shape& shape, uint32_t first, uint32_t m, uint32_t second, uint32_t n) {
+    uint32_t p = 0, q = 0;
+    while (p < m || q < n) {
+        const uint32_t a = first + p % m, b = second + q % n;
+        if (q == n || (p < m && uint64_t{p + 1} * n <= uint64_t{q + 1} * m))
+            appendTriangle(shape, a, first + ++p % m, b);
+        else
+            appendTriangle(shape, b, a, second + ++q % n);
+    }
+}
+
+} // namespace
+
+Shape cutTorus(double ring, double tube, std::span<const uint32_t> points) {
+    demand(points.size() >= 4 && points.front() == points.back(), "a cut torus ends as it begins");
+    const auto around = static_cast<uint32_t>(points.size() - 1);
+    const std::vector<Turn> ringTurns = turns(around);
+    Shape shape;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i <= around; ++i) {
+        const uint32_t count = points[i];
+        demand(count >= 3, "a circle needs at least three points");
+        const Turn r = ringTurns[i % around];
+        const std::vector<Turn> tubeTurns = turns(count);
+        for (uint32_t j = 0; j < count; ++j) {
+            const Turn t = tubeTurns[(count - j) % count];
+            const double reach = ring + tube * t.cosine;
+            shape.positions.emplace_back(reach * r.cosine, reach * r.sine, tube * t.sine);
+            shape.normals.emplace_back(t.cosine * r.cosine, t.cosine * r.sine, t.sine);
+        }
+        if (i > 0)
+            appendStrip(shape, first - points[i - 1], points[i - 1], first, count);
+        first += count;
+    }
+    return shape;
+}
+
+Shape tableOneRing() {
+    // A strip has as many triangles as its two circles have vertices, so 239 vertices on circles that begin
+    // and end with 11 make 2 * 239 - 2 * 11 = 456 triangles: 13 circles of 11 and 8 of 12.
+    constexpr std::array<uint32_t, 21> kPoints{11, 11, 12, 11, 12, 11, 12, 11, 12, 11, 11,
+                                               11, 12, 11, 12, 11, 12, 11, 12, 11, 11};
+    return cutTorus(0.060, 0.025, kPoints);
 }
 
 Shape sphere(double radius, uint32_t latitudes, uint32_t longitudes) {

@@ -17,6 +17,11 @@ std::span<const ContactLoad> held(const ContactLoads& loads) {
 /// f_i. Along a projected normal feel.depth is longer than lambda_i.
 glm::dvec3 contactForce(const ContactLoad& contact) {
     const SurfaceSample& feel = contact.feel;
+    if (feel.bump != 0.0) {
+        const double below = std::max(contact.depth, feel.depth);
+        const double raised = below > 0.0 ? std::max(below + feel.bump, 0.0) / below : 1.0;
+        return feel.stiffness * feel.depth * raised * feel.textured;
+    }
     if (!feel.hasHeight)
         return feel.stiffness * feel.depth * feel.lengthening * feel.textured;
     const double reach = std::max(contact.depth, feel.depth);
@@ -29,7 +34,8 @@ bool alike(const ContactLoads& loads) {
     return std::ranges::all_of(held(loads), [&](const ContactLoad& contact) {
         const SurfaceSample& feel = contact.feel;
         return feel.stiffness == loads.contacts[0].feel.stiffness && feel.depth == contact.length &&
-               feel.normal == contact.plane && feel.textured == contact.plane && feel.lengthening == 1.0;
+               feel.normal == contact.plane && feel.textured == contact.plane && feel.lengthening == 1.0 &&
+               feel.bump == 0.0;
     });
 }
 

@@ -11,8 +11,10 @@ glm::dvec3 springDamperForce(const SurfaceSample& feel, const glm::dvec3& fricti
     const double d = feel.depth, height = feel.height;
     const glm::dvec3& n = feel.normal;
     const glm::dvec3& m = feel.textured;
-    const glm::dvec3 elastic = feel.stiffness * (feel.hasHeight && d >= height ? (d - height) * n + height * m
-                                                                               : feel.lengthening * d * m);
+    const double raised = feel.bump == 0.0 ? d : std::max(d + feel.bump, 0.0);
+    const glm::dvec3 elastic =
+        feel.stiffness *
+        (feel.hasHeight && d >= height ? (d - height) * n + height * m : feel.lengthening * raised * m);
     const double into = glm::dot(velocity, n);
     const double wall = glm::dot(elastic, n);
     const double damping = std::max(-feel.damping * into, -std::max(wall, 0.0)); // a wall does not pull

@@ -16,11 +16,24 @@ FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
         return hoLaw(input);
     case FrictionMode::Elastoplastic:
         return elastoplasticLaw(input);
+    case FrictionMode::VelocityThreshold:
+        return velocityThresholdLaw(input);
     case FrictionMode::Zilles:
     case FrictionMode::Off:
         break;
     }
     return zillesLaw(input);
+}
+
+/// The further input of velocityThresholdLaw. Out of line: the other laws need no velocity.
+[[gnu::noinline]] void addSlip(const HapticSettings& settings, const FrictionCone& cone,
+                               const glm::dvec3& velocity, FrictionInput& input) {
+    const glm::dvec3& down = cone.down();
+    const double squared = glm::dot(down, down), referencePerWorkspace = 1.0 / cone.workspacePerReference();
+    const double into = squared > 0.0 ? glm::dot(velocity, down) / squared : 0.0;
+    input.slip = referencePerWorkspace * (velocity - into * down);
+    input.threshold = referencePerWorkspace * settings.frictionThreshold;
+    input.viscosity = cone.stiffness() > 0.0 ? settings.frictionViscosity / cone.stiffness() : 0.0;
 }
 
 /// Moves the proxy onto the surface at `goal`, a place on the chord between two places of the surface: below
@@ -62,8 +75,10 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
 } // namespace
 
 template <class Solver>
-glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm::dvec3& held, Solver& proxy,
-                         DeviceState& state, SolveResult& rest) noexcept {
+glm::dvec3 applyFriction(const HapticSettings& settings, const FrictionCone& cone, const glm::dvec3& velocity,
+                         const glm::dvec3& held, Solver& proxy, DeviceState& state,
+                         SolveResult& rest) noexcept {
+    const FrictionMode mode = settings.friction;
     if (!cone.rough()) {
         state.friction = FrictionState::Free;
         return glm::dvec3(0.0);
@@ -82,12 +97,15 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
     // laws it is the proxy itself, wherever moving objects may have pushed it.
     const glm::dvec3 point = mode == FrictionMode::Ho ? state.stictionPoint : held;
     const FrictionCone::Limit limit = cone.along(point - frictionless);
-    const FrictionAnswer answer = askLaw(mode, {.state = state.friction,
-                                                .stretch = point - frictionless,
-                                                .lastLength = glm::length(held - before),
-                                                .depth = limit.depth,
-                                                .staticFriction = limit.staticFriction,
-                                                .dynamicFriction = limit.dynamicFriction});
+    FrictionInput input{.state = state.friction,
+                        .stretch = point - frictionless,
+                        .lastLength = glm::length(held - before),
+                        .depth = limit.depth,
+                        .staticFriction = limit.staticFriction,
+                        .dynamicFriction = limit.dynamicFriction};
+    if (mode == FrictionMode::VelocityThreshold)
+        addSlip(settings, cone, velocity, input);
+    const FrictionAnswer answer = askLaw(mode, input);
     state.friction = answer.state;
     const bool ownPlace = mode != FrictionMode::Ho;
     if (answer.stays && ownPlace && proxy.touchesAt(held)) {
@@ -111,9 +129,9 @@ glm::dvec3 applyFriction(FrictionMode mode, const FrictionCone& cone, const glm:
     return got > asked ? std::sqrt(asked / got) * kept : kept;
 }
 
-template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, ProxySolver&,
-                                  DeviceState&, SolveResult&) noexcept;
-template glm::dvec3 applyFriction(FrictionMode, const FrictionCone&, const glm::dvec3&, ComparisonSolver&,
-                                  DeviceState&, SolveResult&) noexcept;
+template glm::dvec3 applyFriction(const HapticSettings&, const FrictionCone&, const glm::dvec3&,
+                                  const glm::dvec3&, ProxySolver&, DeviceState&, SolveResult&) noexcept;
+template glm::dvec3 applyFriction(const HapticSettings&, const FrictionCone&, const glm::dvec3&,
+                                  const glm::dvec3&, ComparisonSolver&, DeviceState&, SolveResult&) noexcept;
 
 } // namespace touchstone

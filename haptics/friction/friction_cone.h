@@ -46,6 +46,7 @@ class FrictionCone {
     [[nodiscard]] const glm::dvec3& down() const noexcept {
         return down_;
     } ///< h - p, reference object units; of one contact along its felt normal
+    [[nodiscard]] double workspacePerReference() const noexcept { return workspacePerReference_; }
 
   private:
     struct Disk {

@@ -1,6 +1,7 @@
 #pragma once
 // The friction laws: functions of lengths, independent of any mesh. One file each: zilles_law, ho_law,
-// elastoplastic_law; friction.cpp calls the one that the settings select and moves the proxy.
+// elastoplastic_law, velocity_threshold_law; friction.cpp calls the one that the settings select and moves
+// the proxy.
 
 #include "haptics/state/device_state.h"
 
@@ -17,6 +18,10 @@ struct FrictionInput {
     double depth = 0.0;           ///< N / K >= 0
     double staticFriction = 0.0;  ///< mu_s > 0
     double dynamicFriction = 0.0; ///< mu_d, 0 .. mu_s
+    // Of velocityThresholdLaw alone.
+    glm::dvec3 slip{0.0};   ///< velocity of the hand along the surface, length per s
+    double threshold = 0.0; ///< of |slip|, length per s
+    double viscosity = 0.0; ///< b / K, s: the length of the viscous force over |slip|
 };
 
 /// Result of a law. The friction force is K * share * stretch.
@@ -46,6 +51,12 @@ struct FrictionAnswer {
 /// Sticking: L = mu_s N / K, A = 1/2, so that the limit is reached; beyond it the contact breaks away.
 /// Sliding: L = mu_d N / K, A = 1, and |x| never exceeds L; below kElastic L it sticks again.
 [[nodiscard]] FrictionAnswer elastoplasticLaw(const FrictionInput& input) noexcept;
+
+/// The two-state law of [001 Fig. 4-2], after Salcudean and Vlaar: a spring K (eq. 4.3) holds the sticking
+/// contact until it bears more than mu_s N (eq. 4.5); then it slides and bears b v against the velocity, for
+/// as long as |v| >= the threshold. Below it the contact sticks where it is: the spring begins slack. The
+/// bound of the viscous force by mu_d N is ours: it keeps the force in the cone at any speed.
+[[nodiscard]] FrictionAnswer velocityThresholdLaw(const FrictionInput& input) noexcept;
 
 /// Fraction of its limit up to which the elasto-plastic contact is purely elastic.
 inline constexpr double kElastic = 0.7;

@@ -68,6 +68,9 @@ void add(Hash64& hash, const HapticMaterialData& material) {
           material.viscousFriction, material.normalScale, material.heightScale})
         hash.add(number);
     material.normal.addTo(hash);
+    // glTF's default is left out: recordings of before know no other.
+    if (material.heightMid != 0.5)
+        hash.add(material.heightMid);
     material.height.addTo(hash);
     for (const HapticFactor* factor : {&material.friction, &material.stiffnessMap, &material.dampingMap})
         add(hash, *factor);

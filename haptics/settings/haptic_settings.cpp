@@ -12,9 +12,10 @@ namespace {
 using S = HapticSettings;
 
 constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays"}, kPrecision[]{"double", "single"},
-    kShading[]{"off", "twoPass", "projected", "direction", "material"},
-    kTexture[]{"off", "law", "blinn", "minsky"}, kFilter[]{"nearest", "bilinear", "bicubic", "mip"},
-    kGradient[]{"central", "precomputed", "analytic"}, kFriction[]{"off", "zilles", "ho", "elastoplastic"},
+    kShading[]{"off", "twoPass", "projected", "direction", "material", "singleRound"},
+    kTexture[]{"off", "law", "blinn", "minsky", "blinnMagnitude"},
+    kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
+    kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold"},
     kPassivity[]{"off", "observe", "control"}, kSwitch[]{"off", "on"};
 
 constexpr double kDegree = 0.017453292519943295;
@@ -52,13 +53,15 @@ constexpr std::array kFields{
                           "single: contact=rays finds contacts and solves for the proxy in floats"),
     choice<&S::forceShading>("forceShading", kShading,
                              "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's "
-                             "direction, or what each material says"),
+                             "direction, what each material says, or the two passes once a tick"),
     choice<&S::texture>(
         "texture", kTexture,
-        "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force"),
-    choice<&S::friction>("friction", kFriction,
-                         "stiction point with static and dynamic coefficients; zilles: sawtooth; ho: two "
-                         "states; elastoplastic: creeps before it slips"),
+        "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force, or "
+        "Blinn's normal with a magnitude that follows the bump map"),
+    choice<&S::friction>(
+        "friction", kFriction,
+        "stiction point with static and dynamic coefficients; zilles: sawtooth; ho: two "
+        "states; elastoplastic: creeps before it slips; velocityThreshold: viscous above a speed"),
     number<&S::proxyRadius>("proxyRadius", "m", 0.0, 0.05, "radius of the proxy sphere; 0 is the god-object"),
     number<&S::stiffness>("stiffness", "N/m", 0.0, 1e5,
                           "0: the material's, else the device's recommendation"),
@@ -66,6 +69,11 @@ constexpr std::array kFields{
     number<&S::staticFriction>("staticFriction", "", -1.0, 100.0, "below 0: the material's"),
     number<&S::dynamicFriction>("dynamicFriction", "", -1.0, 100.0,
                                 "below 0: the material's; never above the static one"),
+    number<&S::frictionThreshold>("frictionThreshold", "m/s", 0.0, 1.0,
+                                  "friction=velocityThreshold: a contact that slides more slowly sticks"),
+    number<&S::frictionViscosity>("frictionViscosity", "N s/m", 0.0, 1e3,
+                                  "friction=velocityThreshold: friction over speed while sliding, up to the "
+                                  "dynamic limit"),
     number<&S::shadingTiltLimit>("shadingTiltLimit", "deg", 0.0, 90.0,
                                  "most that shading tilts the true normal", kDegree),
     number<&S::textureTiltLimit>("textureTiltLimit", "deg", 0.0, 90.0,

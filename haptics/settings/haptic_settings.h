@@ -17,10 +17,10 @@ enum class ContactMethod : uint8_t { Sweep, Neighbourhood, Rays };
 /// Of the contact query and the proxy solve of contact=rays; the others are double.
 enum class Precision : uint8_t { Double, Single };
 /// Material: each material's forceShading (auto is two-pass). The others apply to every material that is not
-/// off.
-enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material };
+/// off. SingleRound: two-pass shading once a tick, as published (shading/force_shading.h).
+enum class ShadingMode : uint8_t { Off, TwoPass, Projected, Direction, Material, SingleRound };
 /// How the bump height of the maps becomes force (force/spring_damper.h).
-enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky };
+enum class TextureMode : uint8_t { Off, Law, Blinn, Minsky, BlinnMagnitude };
 /// Interpolation between texels. Mip: bilinear in the level whose texel is two strokes long, which leaves out
 /// what would alias at the servo rate; the others read the finest level, whatever the stroke.
 enum class TextureFilter : uint8_t { Nearest, Bilinear, Bicubic, Mip };
@@ -28,7 +28,7 @@ enum class TextureFilter : uint8_t { Nearest, Bilinear, Bicubic, Mip };
 /// Precomputed: differences stored for each texel, interpolated like the heights. Analytic: the derivative of
 /// the filter.
 enum class TextureGradient : uint8_t { Central, Precomputed, Analytic };
-enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic };
+enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic, VelocityThreshold };
 /// The response of safety to energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
 
@@ -48,6 +48,10 @@ struct HapticSettings {
     double damping = -1.0;
     /// < 0: the material's, else 0.
     double staticFriction = -1.0, dynamicFriction = -1.0;
+    /// Of friction=velocityThreshold. m/s along the surface, below which a sliding contact sticks again.
+    double frictionThreshold = 0.01;
+    /// The same law's friction over the speed while it slides, N·s/m.
+    double frictionViscosity = 2.0;
     /// rad, 30°: the papers' stable range [000 §4].
     double shadingTiltLimit = 0.5235987755982988;
     /// rad, 25°. Steeper felt normals are compressed below it; >= pi/2: no limit.

@@ -53,7 +53,7 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Hap
     ShadedGoal result;
     for (uint32_t i = 0; i < rest.contactCount; ++i) {
         const Contact& contact = rest.contacts[i];
-        const bool shaded = shadingMode(settings, materialOf(scene, contact)) == ShadingMode::TwoPass;
+        const bool shaded = isTwoPass(shadingMode(settings, materialOf(scene, contact)));
         planes[i] = {
             shaded ? interpolatedNormal(scene, motions, state.reference, contact, settings.shadingTiltLimit)
                    : contact.normal,
@@ -197,6 +197,36 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
     proxy.moveTowards(hip);
 }
 
+template <class Solver>
+void findShaded(const glm::dvec3& hip, Solver& proxy, DeviceState& state, SolveResult& rest) noexcept {
+    const glm::dvec3 place = state.proxy;
+    proxy.moveTowards(place);
+    if (rest.contactCount == 0)
+        proxy.moveTowards(hip);
+}
+
+template <class Solver>
+void shadeSingleRound(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                      const glm::dvec3& hip, Solver& proxy, DeviceState& state, SolveResult& rest) noexcept {
+    const ShadedGoal first = shadedGoal(scene, motions, settings, state, hip, rest);
+    proxy.moveTowards(first.held ? first.goal : hip);
+    // The goal may lie beyond an edge, in the air: the proxy comes down "on the object surface" [000 §4].
+    if (rest.contactCount == 0 && first.held)
+        proxy.dropTowards(hip);
+    // The planes of the place that it came to: what carries the hand, and what the next tick starts from.
+    const ShadedGoal last = shadedGoal(scene, motions, settings, state, hip, rest);
+    state.shaded = last.held;
+    state.shadedNormal = last.normal;
+    state.shadedTurn = glm::dvec3(0.0);
+    state.shadedObject = -1;
+}
+
+template void findShaded(const glm::dvec3&, ProxySolver&, DeviceState&, SolveResult&) noexcept;
+template void findShaded(const glm::dvec3&, ComparisonSolver&, DeviceState&, SolveResult&) noexcept;
+template void shadeSingleRound(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
+                               ProxySolver&, DeviceState&, SolveResult&) noexcept;
+template void shadeSingleRound(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
+                               ComparisonSolver&, DeviceState&, SolveResult&) noexcept;
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,
                            const FirstGoal&, ProxySolver&, DeviceState&, SolveResult&) noexcept;
 template void shadeTwoPass(const HapticScene&, ObjectMotions, const HapticSettings&, const glm::dvec3&,

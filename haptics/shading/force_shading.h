@@ -29,4 +29,18 @@ void shadeTwoPass(const HapticScene& scene, ObjectMotions motions, const HapticS
                   const glm::dvec3& hip, const FirstGoal& first, Solver& proxy, DeviceState& state,
                   SolveResult& rest) noexcept;
 
+/// What a single round starts from: the contacts of the proxy where the last tick left it, without a move; in
+/// the air those of the rest that it comes to.
+template <class Solver>
+void findShaded(const glm::dvec3& hip, Solver& proxy, DeviceState& state, SolveResult& rest) noexcept;
+
+/// Ruspini's two-pass shading as [000 §4] prints it, one round a tick: the interpolated planes go through the
+/// contacts that the proxy has before it moves (findShaded); the nearest point to the HIP on them, put back
+/// onto the nearest true plane where it is above all of them, is the goal of the second pass. The force is
+/// along the normal of the place before: a hand that rests comes to shadeTwoPass's fixed point tick by tick,
+/// one that moves feels the normal of a tick ago.
+template <class Solver>
+void shadeSingleRound(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+                      const glm::dvec3& hip, Solver& proxy, DeviceState& state, SolveResult& rest) noexcept;
+
 } // namespace touchstone

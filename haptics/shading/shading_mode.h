@@ -20,11 +20,16 @@ namespace touchstone {
                : settings.forceShading;
 }
 
+/// True where interpolated planes move the proxy, to the fixed point or once a tick.
+[[nodiscard]] constexpr bool isTwoPass(ShadingMode mode) noexcept {
+    return mode == ShadingMode::TwoPass || mode == ShadingMode::SingleRound;
+}
+
 /// True where two-pass shading applies to some surface of the scene: else stage 4 moves nothing.
 [[nodiscard]] inline bool anyTwoPass(const EffectPlan& plan, const HapticSettings& settings) noexcept {
     return settings.forceShading == ShadingMode::Material
                ? plan.twoPassShading
-               : plan.anyShading && settings.forceShading == ShadingMode::TwoPass;
+               : plan.anyShading && isTwoPass(settings.forceShading);
 }
 
 /// True where some surface may turn the force of one facet (Ho, Morgenbesser).

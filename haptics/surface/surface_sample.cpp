@@ -3,6 +3,7 @@
 #include "haptics/shading/force_shading.h"
 #include "haptics/surface/plain_sample.h"
 #include "haptics/texture/bump.h"
+#include "haptics/texture/bump_height.h"
 #include "haptics/texture/surface_spot.h"
 
 #include <algorithm>
@@ -34,6 +35,16 @@ SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& materia
                 spot.uv[static_cast<size_t>(set)] +=
                     spot.weight[corner] * spot.uvAt(set, static_cast<size_t>(corner));
     return spot;
+}
+
+/// The bump height with Blinn's normal, and what the bump map adds to the depth. Out of line: the others read
+/// it as they did.
+[[gnu::noinline]] Bump readBumped(const SurfaceSpot& spot, SpotMaps& maps, const HapticSettings& settings,
+                                  double& bump) {
+    HapticSettings blinn = settings;
+    blinn.texture = TextureMode::Blinn;
+    bump = readBumpEntry(spot, maps, settings);
+    return readBump(spot, maps, blinn);
 }
 
 } // namespace
@@ -94,7 +105,9 @@ SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions, const
                            : material.staticFriction > 0.0 || !object.friction.empty();
     }
     if (settings.texture != TextureMode::Off && (material.textured() || !object.heights.empty())) {
-        const Bump bump = readBump(spot, maps, settings);
+        const Bump bump = settings.texture == TextureMode::BlinnMagnitude
+                              ? readBumped(spot, maps, settings, feel.bump)
+                              : readBump(spot, maps, settings);
         feel.height = bump.height;
         feel.hasHeight = bump.hasHeight && settings.texture == TextureMode::Law;
         feel.tiltCompressed = bump.tiltCompressed;

@@ -22,6 +22,7 @@ struct SurfaceSample {
     double height = 0.0;      ///< H >= 0, workspace m
     bool hasHeight = false;   ///< H shortens the depth along n (texture=law); else only m turns the force
     double lengthening = 1.0; ///< of the force along m; texture=minsky: 1 / (n . m), which leaves k d along n
+    double bump = 0.0; ///< texture=blinnMagnitude: what the bump map adds to d, workspace m, either sign
     bool tiltCompressed = false;
     double stiffness = 0.0; ///< N/m
     double damping = 0.0;   ///< N·s/m

@@ -104,6 +104,7 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& mater
         data.height = maker.map(haptic.height.value->texture, 1, place + ".heightTexture",
                                 same ? &before.data->height : nullptr);
         data.heightScale = static_cast<double>(haptic.height.value->scale);
+        data.heightMid = static_cast<double>(haptic.height.value->midLevel);
     }
     const auto factor = [&](auto field, auto made, const char* name) {
         const HapticMaterial* was = before.data != nullptr ? &before.material->haptic : nullptr;

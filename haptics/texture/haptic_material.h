@@ -26,6 +26,7 @@ struct HapticMaterialData {
     double normalScale = 1.0;                           ///< glTF's scale times normalTextureInfluence
     HapticMap height;                                   ///< 0..1
     double heightScale = 0.0;                           ///< model metres, black to white
+    double heightMid = 0.5;                             ///< value of the height map that lies on the mesh
     HapticFactor friction, stiffnessMap, dampingMap;
     /// The material's forceShading, resolved: auto is TwoPass, never Material.
     ShadingMode shading = ShadingMode::TwoPass;

@@ -157,7 +157,7 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
         if (asOne)
             several.cone = FrictionCone(feel, velocity, workspaceFromReference.scale);
         stretch = workspaceFromReference.scale *
-                  applyFriction(settings.friction, several.cone, held, proxy, state, rest);
+                  applyFriction(settings, several.cone, velocity, held, proxy, state, rest);
     }
     stopwatch.lap(Stage::Friction);
 

@@ -43,6 +43,12 @@ template <class Solver, class Stopwatch>
 [[gnu::noinline]] void solveShaded(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, const glm::dvec3& hip, double travel,
                                    Solver& proxy, DeviceState& state, Stopwatch& stopwatch) {
+    if (settings.forceShading == ShadingMode::SingleRound) {
+        findShaded(hip, proxy, state, state.rest);
+        stopwatch.lap(Stage::Proxy);
+        shadeSingleRound(scene, motions, settings, hip, proxy, state, state.rest);
+        return;
+    }
     const FirstGoal first = firstGoal(scene, settings, state, hip, travel);
     proxy.moveTowards(first.goal);
     stopwatch.lap(Stage::Proxy);

@@ -49,10 +49,12 @@ constexpr std::array kConfigurations{
     ConfigurationLine{"shading", "direction", "forceShading=direction", Need::SmoothNormals},
     ConfigurationLine{"shading", "projected", "forceShading=projected", Need::SmoothNormals},
     ConfigurationLine{"shading", "two-pass", "forceShading=twoPass", Need::SmoothNormals},
+    ConfigurationLine{"shading", "single round", "forceShading=singleRound", Need::SmoothNormals},
 
     ConfigurationLine{"texture", "off", "texture=off", Need::Bump},
     ConfigurationLine{"texture", "law", "texture=law", Need::Bump},
     ConfigurationLine{"texture", "Blinn", "texture=blinn", Need::Bump},
+    ConfigurationLine{"texture", "Blinn, magnitude", "texture=blinnMagnitude", Need::HeightMap},
     ConfigurationLine{"texture", "Minsky", "texture=minsky", Need::Bump},
 
     ConfigurationLine{"filter", "nearest", "textureFilter=nearest", Need::Bump},
@@ -74,6 +76,7 @@ constexpr std::array kConfigurations{
     ConfigurationLine{"friction", "Zilles", "friction=zilles"},
     ConfigurationLine{"friction", "Ho", "friction=ho"},
     ConfigurationLine{"friction", "elasto-plastic", "friction=elastoplastic"},
+    ConfigurationLine{"friction", "velocity threshold", "friction=velocityThreshold"},
 
     ConfigurationLine{"tessellation", "flat", "forceShading=off"},
     ConfigurationLine{"tessellation", "direction", "forceShading=direction", Need::SmoothNormals},

@@ -143,6 +143,10 @@ HapticSettings inEffect(HapticSettings settings, const HapticScene& scene) {
                         (isOn(scene, Effect::Friction) || isOn(scene, Effect::ViscousFriction)));
     if (!rough)
         settings.friction = FrictionMode::Off;
+    if (settings.friction != FrictionMode::VelocityThreshold) {
+        settings.frictionThreshold = defaults.frictionThreshold;
+        settings.frictionViscosity = defaults.frictionViscosity;
+    }
     return settings;
 }
 

@@ -1,11 +1,13 @@
 #include "study/timing/bench_scene.h"
 
+#include "assets/cut_torus.h"
 #include "assets/shapes.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace touchstone {
@@ -170,12 +172,25 @@ BenchStroke onBox() {
     };
 }
 
-BenchScene coarseTorus() {
-    // Six facets around the tube: 1 mm below the centre of a facet is 4.4 mm below an edge.
-    constexpr uint32_t kAroundTube = 6;
-    const double middle = kTube * std::cos(kPi / kAroundTube);
-    return {"object 2", compile(assets::torus(kRing, kTube, 38, kAroundTube), {glm::dvec3(0.0)}),
-            alongTorus(middle - kDepth), nullptr};
+/// Edges of a mesh by its indices.
+size_t linesOf(const assets::Shape& shape) {
+    std::set<std::pair<uint32_t, uint32_t>> lines;
+    for (size_t i = 0; i < shape.indices.size(); ++i)
+        lines.insert(std::minmax(shape.indices[i], shape.indices[i % 3 == 2 ? i - 2 : i + 1]));
+    return lines.size();
+}
+
+BenchScene ringOfTableOne() {
+    // Twenty facets around the ring and eleven around the tube: 1 mm below the middle of the outermost facet
+    // is 3.1 mm below its corners.
+    const double middle = kTube * std::cos(kPi / 11.0) - (kRing + kTube) * (1.0 - std::cos(kPi / 20.0));
+    const assets::Shape shape = assets::tableOneRing();
+    return {"object 2",
+            compile(shape, {glm::dvec3(0.0)}),
+            alongTorus(middle - kDepth),
+            nullptr,
+            shape.positions.size(),
+            linesOf(shape)};
 }
 
 } // namespace
@@ -188,6 +203,8 @@ size_t BenchScene::triangles() const {
 }
 
 size_t BenchScene::vertices() const {
+    if (madeVertices > 0)
+        return madeVertices;
     size_t count = 0;
     for (const auto& object : haptic->objects)
         count += object->shape != nullptr ? 0 : object->vertices.size() - 1;
@@ -195,6 +212,8 @@ size_t BenchScene::vertices() const {
 }
 
 size_t BenchScene::lines() const {
+    if (madeLines > 0)
+        return madeLines;
     size_t count = 0;
     if (const auto* neighbourhoods = haptic->neighbourhoods())
         for (const MeshAdjacency& adjacency : *neighbourhoods)
@@ -208,7 +227,7 @@ BenchScene tableOneScene(int number) {
         return {"object 1", compile(assets::boxWithSharedCorners(glm::dvec3(kSide)), centre), onBox(),
                 nullptr};
     if (number == 2)
-        return coarseTorus();
+        return ringOfTableOne();
     if (number == 3)
         return {"object 3", compile(assets::sphere(kBall, 30, 30), centre), aroundBall(kBall - kDepth),
                 nullptr};

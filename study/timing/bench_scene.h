@@ -26,14 +26,16 @@ struct BenchScene {
     std::shared_ptr<const HapticScene> haptic;
     BenchStroke stroke;
     ScenePtr animated; ///< with the animation of its objects; null: static
+    /// Of the mesh by its indices, before welding; 0: as after it.
+    size_t madeVertices = 0, madeLines = 0;
 
     [[nodiscard]] size_t triangles() const;
-    [[nodiscard]] size_t vertices() const; ///< after welding
-    [[nodiscard]] size_t lines() const;    ///< 0 where the neighbourhoods are not built
+    [[nodiscard]] size_t vertices() const; ///< as made
+    [[nodiscard]] size_t lines() const;    ///< as made; else 0 where the neighbourhoods are not built
 };
 
-/// Objects 1, 2 and 3 of [000 Table I], as in assets/scenes: a box of 12 triangles, a torus of 456, a sphere
-/// of 1800, and object 4, a sphere of 64,800. `number` 1..4.
+/// Objects 1, 2 and 3 of [000 Table I], as in assets/scenes: a box of 12 triangles, a torus of 456 that is
+/// cut open, a sphere of 1800, and object 4, a sphere of 64,800. `number` 1..4.
 [[nodiscard]] BenchScene tableOneScene(int number);
 
 /// The torus of the issues, 60 mm and 25 mm, of about `triangles` triangles.

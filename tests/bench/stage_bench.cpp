@@ -288,7 +288,7 @@ void addSurface() {
                                                         t.rest.contacts[0], kSteepest));
         });
     });
-    for (const std::string law : {"law", "blinn", "minsky"})
+    for (const std::string law : {"law", "blinn", "minsky", "blinnMagnitude"})
         benchmark::RegisterBenchmark(("texture/" + law).c_str(), [law](benchmark::State& state) {
             const HapticSettings settings = settingsOf({{"texture", law.c_str()}});
             Hand hand(richTorus(), settings);
@@ -352,14 +352,14 @@ void addWholeTicks() {
     addTicks("tick/sweep", torus, {});
     addTicks("tick/sweep_r0.5mm", torus, {{"proxyRadius", "0.0005"}});
     addTicks("tick/neighbourhood", torus, {{"contact", "neighbourhood"}});
-    for (const char* mode : {"direction", "projected", "twoPass"})
+    for (const char* mode : {"direction", "projected", "twoPass", "singleRound"})
         addTicks(std::string("tick/shading_") + mode, torus, {{"forceShading", mode}});
     // On the material that asks for everything: what no setting switches off (maps of stiffness, damping)
     // stays.
     addTicks("tick/rich_bare", richTorus, {});
-    for (const char* mode : {"law", "blinn", "minsky"})
+    for (const char* mode : {"law", "blinn", "minsky", "blinnMagnitude"})
         addTicks(std::string("tick/texture_") + mode, richTorus, {{"texture", mode}});
-    for (const char* mode : {"zilles", "ho", "elastoplastic"})
+    for (const char* mode : {"zilles", "ho", "elastoplastic", "velocityThreshold"})
         addTicks(std::string("tick/friction_") + mode, richTorus, {{"friction", mode}});
     benchmark::RegisterBenchmark("tick/all_effects", [](benchmark::State& state) {
         Hand hand(richTorus(), HapticSettings{});

@@ -63,8 +63,8 @@ assets::Shape threePlanes() {
 TEST(Grooves, AThreePlaneCornerWithFrictionHoldsStill) {
     for (const Variant& v : allVariants())
         for (const double speed : allSpeeds())
-            for (const FrictionMode law :
-                 {FrictionMode::Off, FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic}) {
+            for (const FrictionMode law : {FrictionMode::Off, FrictionMode::Zilles, FrictionMode::Ho,
+                                           FrictionMode::Elastoplastic, FrictionMode::VelocityThreshold}) {
                 const bool rubs = law != FrictionMode::Off;
                 HapticSettings s = v.settings();
                 s.friction = law;

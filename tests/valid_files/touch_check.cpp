@@ -41,11 +41,11 @@ HapticSettings anySettings(Draw& draw) {
     };
     set("contact", {"sweep", "sweep", "neighbourhood", "rays"});
     set("precision", {"double", "single"});
-    set("forceShading", {"material", "off", "twoPass", "projected", "direction"});
-    set("texture", {"law", "off", "blinn", "minsky"});
+    set("forceShading", {"material", "off", "twoPass", "projected", "direction", "singleRound"});
+    set("texture", {"law", "off", "blinn", "minsky", "blinnMagnitude"});
     set("textureFilter", {"mip", "nearest", "bilinear", "bicubic"});
     set("textureGradient", {"central", "precomputed", "analytic"});
-    set("friction", {"zilles", "ho", "elastoplastic", "off"});
+    set("friction", {"zilles", "ho", "elastoplastic", "velocityThreshold", "off"});
     set("passivity", {"observe", "control", "off"});
     settings.proxyRadius = draw.pick(std::vector{0.0, 0.0005, 0.005});
     settings.stiffness = draw.pick(std::vector{0.0, 0.0, 300.0, 3000.0});

@@ -220,9 +220,10 @@ void defineBench(CLI::App& app, BenchOptions& options) {
     app.add_option(
            "WHAT", options.what,
            "fast: the bounds of a tick in rays; growth: its time over the number of triangles; moving: "
-           "a thousand objects that move, and objects that close on the hand; all without it")
+           "a thousand objects that move, and objects that close on the hand; all of these without it; "
+           "protocol: the servo rates of [000 Table I] as they were measured, three runs of three minutes")
         ->type_name("")
-        ->check(CLI::IsMember({"fast", "growth", "moving"}));
+        ->check(CLI::IsMember({"fast", "growth", "moving", "protocol"}));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
     app.add_option("--largest", options.largestTriangles,
                    "Leave out what has more triangles [1000000]; 10000000 takes 2.5 GB and half a minute")
@@ -230,6 +231,12 @@ void defineBench(CLI::App& app, BenchOptions& options) {
     app.add_option("--rounds", options.rounds, "Turns of 1000 ticks for each case [20]")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));
+    app.add_option("--seconds", options.seconds, "protocol: of each run [180]")
+        ->type_name("S")
+        ->check(CLI::Range(0.05, 3600.0));
+    app.add_option("--runs", options.runs, "protocol: runs of each object [3]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100));
     app.add_flag("--check", options.check, "Exit status 1 where a bound is missed");
 }
 

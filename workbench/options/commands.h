@@ -124,8 +124,10 @@ struct BenchOptions {
     std::string what;           ///< empty: all of it
     std::filesystem::path json; ///< empty: not requested
     size_t largestTriangles = 1'000'000;
-    int rounds = 20;    ///< of 1000 ticks for each configuration
-    bool check = false; ///< status 1 where a bound is missed
+    int rounds = 20;        ///< of 1000 ticks for each configuration
+    bool check = false;     ///< status 1 where a bound is missed
+    double seconds = 180.0; ///< protocol: of each run
+    int runs = 3;           ///< protocol: of each object
 };
 int benchCommand(const BenchOptions& options);
 

@@ -74,10 +74,11 @@ void drawConfigurations(PanelState& state, Widgets& widgets) {
     moves(settings, widgets);
     way(widgets, "shadingModel", settings.forceShading, ShadingMode::Off, ShadingMode::TwoPass,
         std::array{"shading: two passes (Ruspini)", "shading: projected (Ho)",
-                   "shading: direction (Morgenbesser)", "shading: as each material says"});
+                   "shading: direction (Morgenbesser)", "shading: as each material says",
+                   "shading: two passes once a tick"});
     way(widgets, "textureLaw", settings.texture, TextureMode::Off, TextureMode::Law,
-        std::array{"texture: displacement law", "texture: Blinn's normal",
-                   "texture: Minsky's lateral force"});
+        std::array{"texture: displacement law", "texture: Blinn's normal", "texture: Minsky's lateral force",
+                   "texture: Blinn's normal and magnitude"});
     if (settings.texture != TextureMode::Off) {
         // These have no value for off: the one before the first.
         way(widgets, "textureFilter", settings.textureFilter, static_cast<TextureFilter>(0xFF),
@@ -88,7 +89,8 @@ void drawConfigurations(PanelState& state, Widgets& widgets) {
             std::array{"gradient: central", "gradient: precomputed", "gradient: analytic"});
     }
     way(widgets, "frictionLaw", settings.friction, FrictionMode::Off, FrictionMode::Zilles,
-        std::array{"friction: sawtooth (Zilles)", "friction: two states (Ho)", "friction: elasto-plastic"});
+        std::array{"friction: sawtooth (Zilles)", "friction: two states (Ho)", "friction: elasto-plastic",
+                   "friction: velocity threshold"});
     sliders(settings, widgets);
 }
 

@@ -10,10 +10,11 @@ namespace touchstone::test {
 namespace {
 
 constexpr std::array kShading{ShadingMode::Off, ShadingMode::TwoPass, ShadingMode::Projected,
-                              ShadingMode::Direction};
+                              ShadingMode::Direction, ShadingMode::SingleRound};
 constexpr std::array kFriction{FrictionMode::Off, FrictionMode::Zilles, FrictionMode::Ho,
-                               FrictionMode::Elastoplastic};
-constexpr std::array kTexture{TextureMode::Off, TextureMode::Law, TextureMode::Blinn, TextureMode::Minsky};
+                               FrictionMode::Elastoplastic, FrictionMode::VelocityThreshold};
+constexpr std::array kTexture{TextureMode::Off, TextureMode::Law, TextureMode::Blinn, TextureMode::Minsky,
+                              TextureMode::BlinnMagnitude};
 constexpr std::array kRadius{0.0, 0.5e-3, 3e-3};
 constexpr size_t kFactors = 6;
 

@@ -63,8 +63,8 @@ TEST(Effects, AHandThatCirclesNearTheCentreOfASphereHoldsTheProxyOnIt) {
     constexpr double kR = 0.05, kDepth = 0.95;
     std::printf("%s\n", effectHead().c_str());
     for (const uint32_t segments : {30u, 96u})
-        for (const FrictionMode friction :
-             {FrictionMode::Ho, FrictionMode::Zilles, FrictionMode::Elastoplastic})
+        for (const FrictionMode friction : {FrictionMode::Ho, FrictionMode::Zilles,
+                                            FrictionMode::Elastoplastic, FrictionMode::VelocityThreshold})
             for (const double speed : {0.1, 0.5}) {
                 const EffectCase c{.body = segments == 30 ? EffectBody::Sphere : EffectBody::FineSphere,
                                    .stroke = EffectStroke::Deep,
@@ -86,8 +86,8 @@ TEST(Effects, AHandThatCirclesNearTheCentreOfASphereHoldsTheProxyOnIt) {
 }
 
 TEST(Effects, AProxyThatSticksComesDownWhenItsRadiusShrinksAndIsLiftedWhenItGrows) {
-    for (const FrictionMode friction :
-         {FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic}) {
+    for (const FrictionMode friction : {FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic,
+                                        FrictionMode::VelocityThreshold}) {
         HapticSettings settings;
         settings.friction = friction;
         settings.staticFriction = 0.8;
@@ -109,14 +109,14 @@ TEST(Effects, AProxyThatSticksComesDownWhenItsRadiusShrinksAndIsLiftedWhenItGrow
 
 TEST(Effects, OfTheCoveringArrayHaveEveryPair) {
     const std::vector<EffectCase> product = effectProduct(EffectBody::Box, EffectStroke::Fast);
-    EXPECT_EQ(product.size(), 4u * 4 * 4 * 3 * 2 * 2);
+    EXPECT_EQ(product.size(), 5u * 5 * 5 * 3 * 2 * 2);
     const auto levels = [](const EffectCase& c) {
         return std::array{static_cast<int>(c.shading),  static_cast<int>(c.friction),
                           static_cast<int>(c.texture),  static_cast<int>(1e6 * c.radius),
                           static_cast<int>(c.oneSided), static_cast<int>(c.moving)};
     };
     const std::vector<EffectCase> pairs = effectPairs(EffectBody::Box, EffectStroke::Fast, 3);
-    EXPECT_LE(pairs.size(), 26u);
+    EXPECT_LE(pairs.size(), 40u);
     for (const EffectCase& wanted : product)
         for (size_t a = 0; a < 6; ++a)
             for (size_t b = a + 1; b < 6; ++b) {

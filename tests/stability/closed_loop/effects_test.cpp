@@ -124,8 +124,8 @@ void expectOrdinary(const Case& c) {
 
 TEST(EffectsInClosedLoop, EveryMaterialTakesMoreThanItGives) {
     const ScenePtr swatches = loadScene(TOUCHSTONE_ASSETS "/swatches.glb");
-    for (const char* texture : {"off", "law", "blinn", "minsky"})
-        for (const char* friction : {"off", "zilles", "ho", "elastoplastic"}) {
+    for (const char* texture : {"off", "law", "blinn", "minsky", "blinnMagnitude"})
+        for (const char* friction : {"off", "zilles", "ho", "elastoplastic", "velocityThreshold"}) {
             Case c{.name = std::string("swatches, texture ") + texture + ", friction " + friction,
                    .scene = swatches.get(),
                    .path = strokes(*swatches, 0.15, 0.002),
@@ -139,7 +139,7 @@ TEST(EffectsInClosedLoop, EveryShadingIsBounded) {
     const ScenePtr prism = loadScene(TOUCHSTONE_ASSETS "/prism_smooth.glb");
     const ScenePtr doughnut = loadScene(TOUCHSTONE_ASSETS "/doughnut.glb");
     for (const Scene* scene : {prism.get(), doughnut.get()})
-        for (const char* shading : {"off", "twoPass", "projected", "direction"}) {
+        for (const char* shading : {"off", "twoPass", "projected", "direction", "singleRound"}) {
             Case c{.name = std::string(scene == prism.get() ? "prism" : "doughnut") + ", shading " + shading,
                    .scene = scene,
                    .path = strokes(*scene, 0.2, 0.002),

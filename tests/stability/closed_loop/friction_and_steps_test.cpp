@@ -113,5 +113,41 @@ TEST(FrictionAndSteps, APhantomBearsMoreThanItsViscosityAlone) {
     EXPECT_LT(held, 1e6);
 }
 
+/// A device of 75 g that a weight presses 1 mm into a plane and pulls sideways with `pull` N, pushed off at
+/// `speed` m/s: its speed after `seconds`.
+double speedOfPulled(FrictionMode law, double pull, double speed, double seconds) {
+    HapticSettings settings = plainWall(600.0);
+    settings.friction = law;
+    settings.staticFriction = settings.dynamicFriction = 0.5; // 0.3 N
+    settings.frictionThreshold = 0.01;
+    settings.frictionViscosity = 2.0;
+    LoopBench loop(sceneOf(assets::plane(2.0, 2.0)), settings, bareDevice(0.075, 1.0), 1000.0);
+    loop.weight = {pull, -0.6, 0.0};
+    const glm::dvec3 rest{-0.5, -1e-3, 0.017};
+    loop.intention = [rest](double) { return rest; };
+    loop.hold(rest + glm::dvec3(0, 2e-3, 0), rest);
+    loop.release(rest, {speed, 0, 0});
+    for (int i = 0; i < 1000.0 * seconds; ++i)
+        (void)loop.tick();
+    return loop.plant().velocity().x;
+}
+
+TEST(FrictionAndSteps, AVelocityThresholdCannotHoldWhatSlides) {
+    // [001 §4.1]: "a user should be able to support an object using only the friction force without the
+    // object slipping"; a viscous one supports it at no speed but pull / (b + device's own), here 3 N s/m.
+    // The limits of friction are 0.3 N.
+    for (const double pull : {0.06, 0.15, 0.24}) {
+        EXPECT_NEAR(speedOfPulled(FrictionMode::VelocityThreshold, pull, 0.1, 3.0), pull / 3.0, 1e-4) << pull;
+        EXPECT_NEAR(speedOfPulled(FrictionMode::Zilles, pull, 0.1, 3.0), 0.0, 1e-6) << pull;
+        // Pulled all at once the spring stretches to twice its rest, which is to stay below the limit.
+        if (2.0 * pull <= 0.3) {
+            EXPECT_NEAR(speedOfPulled(FrictionMode::VelocityThreshold, pull, 0.0, 3.0), 0.0, 1e-6)
+                << "what never broke away is held";
+        }
+    }
+    // Slower than the threshold it sticks after all.
+    EXPECT_NEAR(speedOfPulled(FrictionMode::VelocityThreshold, 0.02, 0.1, 3.0), 0.0, 1e-6);
+}
+
 } // namespace
 } // namespace touchstone::test

@@ -127,7 +127,8 @@ TEST(MouseLoop, FrictionIsSeenAsLag) {
 /// What friction holds is part of the press that was asked for, however rough the surface, sticking or
 /// sliding. With coefficients above 1.3 it came to more.
 TEST(MouseLoop, FrictionIsPartOfThePress) {
-    for (const FrictionMode law : {FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic})
+    for (const FrictionMode law : {FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic,
+                                   FrictionMode::VelocityThreshold})
         for (const double stiffness : {600.0, 3500.0})
             for (const double coefficient : {0.3, 1.0, 2.0, 5.0})
                 for (const double dynamic : {1.0, 0.2}) { // of the static one

@@ -1,4 +1,4 @@
-// The three friction laws against their formulas, through the whole tick ([000 §4.2], [001 §4.1.1]).
+// The friction laws against their formulas, through the whole tick ([000 §4.2], [001 §4.1.1]).
 
 #include "study/truth/brute_force.h"
 #include "tests/support/corner.h"
@@ -16,7 +16,8 @@ using namespace truth;
 namespace {
 
 constexpr double kStiffness = 1000.0, kPi = 3.141592653589793;
-constexpr std::array kModels{FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic};
+constexpr std::array kModels{FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic,
+                             FrictionMode::VelocityThreshold};
 
 HapticSettings rubbing(FrictionMode model, double muS, double muD) {
     HapticSettings s;

@@ -119,6 +119,95 @@ TEST(VertexHeights, GiveTheNormalOfThe3DGradientWithoutTextureCoordinates) {
         }
 }
 
+/// The plane of `tilted` pressed `depth` deep at `at` from the side of `side`.
+const HapticOutput& press(TouchBench& bench, const glm::dvec3& at, double side, double depth) {
+    bench.step(at + glm::dvec3(0, 0, 0.01 * side));
+    for (int i = 1; i <= 100; ++i)
+        bench.step(at + glm::dvec3(0, 0, side * (0.01 - (0.01 + depth) * 0.01 * i)));
+    return bench.output;
+}
+
+TEST(BlinnMagnitude, FollowsTheEntryOfTheBumpMapAlongBlinnsNormal) {
+    // [001 §4.3.2]: "the magnitude of the feedback force vector can be increased or decreased slightly
+    // depending on the entry in the bump map": k (d + B), and no pull where a dent is deeper than the hand.
+    const glm::dvec3 slope(0.05, -0.03, 0.0), n(0, 0, 1);
+    int higher = 0, lower = 0, none = 0;
+    for (const double side : {1.0, -1.0})
+        for (const glm::dvec3 at :
+             {glm::dvec3(0.07, -0.06, 0), glm::dvec3(-0.02, 0.01, 0), glm::dvec3(-0.07, 0.08, 0)})
+            for (const double depth : {5e-4, 2e-3, 8e-3}) {
+                TouchBench bench(tilted(slope.x, slope.y, 5), uncapped(TextureMode::BlinnMagnitude));
+                const HapticOutput& out = press(bench, at, side, depth);
+                const double bump = side * glm::dot(slope, at),
+                             raised = std::max(out.penetration + bump, 0.0);
+                const glm::dvec3 expected = kStiffness * raised * side * glm::normalize(n - slope);
+                EXPECT_LT(glm::length(out.force - expected), 1e-6 + 1e-5 * glm::length(expected))
+                    << "side " << side << ", depth " << depth;
+                higher += bump > 1e-3;
+                lower += bump < -1e-3;
+                none += raised == 0.0;
+            }
+    EXPECT_GT(higher, 0);
+    EXPECT_GT(lower, 0);
+    EXPECT_GT(none, 0);
+}
+
+TEST(BlinnMagnitude, StepsByTheBumpWhereContactBegins) {
+    // What it is worse at than the displacement law: the force does not begin at nothing.
+    const glm::dvec3 at(0.06, -0.05, 0.0), slope(0.05, -0.03, 0.0);
+    const double bump = glm::dot(slope, at);
+    for (const TextureMode mode : {TextureMode::BlinnMagnitude, TextureMode::Law}) {
+        TouchBench bench(tilted(slope.x, slope.y, 5), uncapped(mode));
+        bench.step(at + glm::dvec3(0, 0, 1e-3));
+        double first = 0.0;
+        for (double z = 1e-3; first == 0.0; z -= 1e-6)
+            first = glm::length(bench.step(at + glm::dvec3(0, 0, z)).force);
+        if (mode == TextureMode::Law)
+            EXPECT_LT(first, 2.1e-6 * kStiffness);
+        else
+            EXPECT_NEAR(first, kStiffness * bump, 2.1e-6 * kStiffness);
+    }
+    EXPECT_GT(kStiffness * bump, 4.0);
+}
+
+TEST(BlinnMagnitude, CountsFromTheMapsMidLevel) {
+    for (const double mid : {0.5, 0.2}) {
+        Scene scene;
+        scene.materials.emplace_back();
+        scene.images.push_back(ramp({0.6, 0.0}));
+        HeightMap map;
+        map.texture = texture(0);
+        map.texture.wrapS = map.texture.wrapT = Wrap::ClampToEdge;
+        map.scale = 2e-3f;
+        map.midLevel = static_cast<float>(mid);
+        scene.materials[0].haptic.height = {map, HapticSource::Touchstone};
+        place(scene, quadMesh(0.1, 3), 0);
+        TouchBench bench(scene, uncapped(TextureMode::BlinnMagnitude));
+        const HapticOutput& out = press(bench, {0.02, 0.0, 0.0}, 1.0, 2e-3);
+        // u = 0.6 there, so the map says 0.36; the slope is 2 mm * 0.6 over 0.2 m.
+        const double bump = 2e-3 * (0.36 - mid);
+        EXPECT_NEAR(glm::length(out.force), kStiffness * (out.penetration + bump), 1e-4) << mid;
+    }
+}
+
+TEST(BlinnMagnitude, WithoutBumpIsBlinnAndTheNormalAsPrintedIsMinskys) {
+    // [001 4.11] is not of unit length: k d N_new / |N| leaves the normal force as it is and adds the slope,
+    // which is texture=minsky to the last digits. So there is no other law in it.
+    const glm::dvec3 at(-0.09, 0.085, 0.0), slope(0.15, -0.1, 0.0);
+    TouchBench minsky(tilted(slope.x, slope.y, 5), uncapped(TextureMode::Minsky));
+    const HapticOutput& out = press(minsky, at, 1.0, 2e-3);
+    const glm::dvec3 ps(0.3, 0.05, 0.0), pt(-0.1, 0.2, 0.0), n = glm::cross(ps, pt);
+    const glm::dvec3 printed =
+        n +
+        (glm::dot(slope, ps) * glm::cross(n, pt) - glm::dot(slope, pt) * glm::cross(n, ps)) / glm::length(n);
+    const glm::dvec3 expected = kStiffness * out.penetration * printed / glm::length(n);
+    EXPECT_LT(glm::length(out.force - expected), 1e-5 * glm::length(expected));
+
+    TouchBench flat(tilted(0.0, 0.0, 5), uncapped(TextureMode::BlinnMagnitude));
+    TouchBench blinn(tilted(0.0, 0.0, 5), uncapped(TextureMode::Blinn));
+    EXPECT_EQ(press(flat, at, 1.0, 2e-3).force, press(blinn, at, 1.0, 2e-3).force);
+}
+
 TEST(VertexHeights, AreFeltSmoothWhereTheSurfaceIs) {
     // A paraboloid of heights on a flat mesh: the gradient between vertices follows it, without a jump at an
     // edge; with shading off it is the facet's.

@@ -491,6 +491,30 @@ TEST(Bench, PrintsEveryFigureBesideItsBound) {
     expectRefused(runProgram({kProgram, "bench", "slow"}), 2, {"fast", "growth", "moving"});
 }
 
+TEST(Bench, RunsTheProtocolOfTheSeedsTable) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "protocol.json").string();
+    const ProgramResult result =
+        runProgram({kProgram, "bench", "protocol", "--seconds", "0.1", "--runs", "2", "--json", json});
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const char* words :
+         {"2 runs of 0.1 s", "| 8, 18, 12 | 239, 695, 456 | 902, 2700, 1800 | 32402, 97200, 64800 |",
+          "| [000 Table I] | 12 to 13 |", "| neighbourhood watch |", "| sweep |"})
+        EXPECT_TRUE(contains(result.out, words)) << words;
+    const auto figures = nlohmann::json::parse(readFile(json))["protocol"];
+    ASSERT_EQ(figures.size(), 8u);
+    for (const auto& object : figures) {
+        ASSERT_EQ(object["runs"].size(), 2u);
+        for (const auto& run : object["runs"]) {
+            EXPECT_GE(run["seconds"], 0.1);
+            EXPECT_EQ(run["rate_hz"], run["ticks"].get<double>() / run["seconds"].get<double>());
+            // 0.2 s of the hand's time pass in the air.
+            EXPECT_GT(run["ticks_in_contact"], run["ticks"].get<double>() - 300.0) << object["scene"];
+        }
+    }
+    expectRefused(runProgram({kProgram, "bench", "protocol", "--runs", "0"}), 2, {"--runs"});
+}
+
 TEST(Inspect, APlainModelNeedsNoEffect) {
     const ScratchFolder scratch;
     const std::string json = (scratch / "i.json").string();
