@@ -22,7 +22,7 @@ constexpr double kTick = 1e-3; // s
 constexpr double kStiffness = 600.0, kSliding = 0.3; // N/m, 1
 
 /// Effective settings: equal ones are measured once.
-struct Configuration {
+struct Measurement {
     HapticSettings settings; ///< in effect
     FeltPath felt;
     ConfigurationTimes times;
@@ -31,7 +31,7 @@ struct Configuration {
 /// A configuration of the plan and its measurement.
 struct Entry {
     PlannedConfiguration configuration;
-    size_t configuration = 0;
+    size_t measured = 0;
     Truth truth = Truth::Oracle;
 };
 
@@ -53,7 +53,7 @@ class Run {
             if (!wanted || (ablation.name == "tessellation") != tessellation)
                 continue;
             for (PlannedConfiguration& configuration : planAblation(ablation, *bare_.haptic, notes)) {
-                const size_t at = configurationOf(configuration.settings);
+                const size_t at = measurementOf(configuration.settings);
                 entries_.push_back({std::move(configuration), at, truthOf(ablation)});
             }
         }
@@ -61,17 +61,17 @@ class Run {
 
     void feelAll() {
         findRests();
-        for (size_t i = 0; i < configurations_.size(); ++i) {
+        for (size_t i = 0; i < measurements_.size(); ++i) {
             progress_("errors",
-                      0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(configurations_.size()));
-            Configuration& c = configurations_[i];
+                      0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(measurements_.size()));
+            Measurement& c = measurements_[i];
             c.felt = feel(*bare_.haptic, c.settings, hips_);
         }
     }
 
     void time() {
         std::vector<TimedConfiguration> configurations;
-        for (const Configuration& c : configurations_)
+        for (const Measurement& c : measurements_)
             configurations.push_back({subject_.bench.name, &bare_, c.settings, subject_.speed});
         const BenchPlan plan{.rounds = options_.rounds,
                              .ticksPerRound = options_.ticksPerRound,
@@ -80,7 +80,7 @@ class Run {
         std::vector<ConfigurationTimes> times = timeConfigurations(
             configurations, plan, [&](double share) { progress_("timing", 0.5 + 0.5 * share); });
         for (size_t i = 0; i < times.size(); ++i)
-            configurations_[i].times = std::move(times[i]);
+            measurements_[i].times = std::move(times[i]);
     }
 
     void report(std::vector<ConfigurationResult>& results) {
@@ -115,14 +115,14 @@ class Run {
         return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;
     }
 
-    size_t configurationOf(const HapticSettings& settings) {
+    size_t measurementOf(const HapticSettings& settings) {
         const HapticSettings felt = inEffect(settings, *bare_.haptic);
         buildFor(*bare_.haptic, felt);
-        for (size_t i = 0; i < configurations_.size(); ++i)
-            if (configurations_[i].settings == felt)
+        for (size_t i = 0; i < measurements_.size(); ++i)
+            if (measurements_[i].settings == felt)
                 return i;
-        configurations_.emplace_back().settings = felt;
-        return configurations_.size() - 1;
+        measurements_.emplace_back().settings = felt;
+        return measurements_.size() - 1;
     }
 
     /// One path of solve results for each radius; the oracle's run in parallel.
@@ -193,7 +193,7 @@ class Run {
     }
 
     ConfigurationResult resultOf(const Entry& entry, double clock) {
-        const Configuration& c = configurations_[entry.configuration];
+        const Measurement& c = measurements_[entry.measured];
         ConfigurationResult result;
         result.scene = subject_.bench.name;
         result.shape = subject_.shape;
@@ -228,7 +228,7 @@ class Run {
     BenchScene bare_;
     std::vector<glm::dvec3> hips_;
     std::vector<Entry> entries_;
-    std::vector<Configuration> configurations_;
+    std::vector<Measurement> measurements_;
     std::map<double, truth::RestPath> rests_; ///< by radius
     std::vector<std::pair<HapticSettings, std::vector<truth::FeltTick>>> references_;
 };
