@@ -181,7 +181,6 @@ void NeighbourhoodWatch::report(const glm::dvec3& goal) noexcept {
                          .gap = kContactGap,
                          .object = state_.reference,
                          .feature = triangleOf(here.side)};
-    rest_.planes[0] = {normal, 0.0};
     rest_.activeSet = SubGoal{};
     rest_.activeSet.count = 1;
     rest_.activeSet.multiplier[0] = distance;

@@ -167,7 +167,6 @@ void RayProxy<Real>::report() noexcept {
                              .gap = kContactGap,
                              .object = plane.object,
                              .feature = plane.triangle};
-        rest_.planes[k] = {rest_.contacts[k].normal, 0.0};
         rest_.activeSet.active[k] = static_cast<int>(k);
         rest_.activeSet.multiplier[k] = static_cast<double>(multiplier_[i]);
         rest_.activeSet.count = static_cast<int>(k) + 1;

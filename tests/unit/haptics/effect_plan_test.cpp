@@ -1,6 +1,8 @@
 // The effect plan: which effects a material calls for and why, and that what it says they hold is all that is
 // held.
 
+#include "haptics/scene/built_for.h"
+#include "haptics/surface/surface_sample.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
 
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace touchstone::test {
@@ -246,6 +249,146 @@ TEST(EffectPlan, AnEffectThatIsTakenOffIsNotFelt) {
         EXPECT_GT(apart, 1e-3) << effectName(effect);
         EXPECT_EQ(scene->objects[0]->heights.size(), scene->objects[0]->friction.size()) << "the copy alone";
     }
+}
+
+TEST(EffectPlan, CoefficientsOfTheMaterialAloneTurnTheirEffectOn) {
+    const auto stated = [](double value) -> HapticMaterial::Field<float> {
+        return {static_cast<float>(value), HapticSource::Touchstone};
+    };
+    struct Case {
+        Effect effect;
+        std::function<void(HapticMaterial&)> state;
+        const char* reason;
+    };
+    for (const Case& c :
+         {Case{Effect::Friction,
+               [&](HapticMaterial& m) {
+                   m.staticFriction = stated(0.5);
+                   m.dynamicFriction = stated(0.25);
+               },
+               "static 0.5, dynamic 0.25"},
+          Case{Effect::Damping, [&](HapticMaterial& m) { m.damping = stated(2.5); }, "2.5 N s/m"},
+          Case{Effect::ViscousFriction, [&](HapticMaterial& m) { m.viscousFriction = stated(1.5); },
+               "1.5 N s/m"}}) {
+        Scene source = plainPlane();
+        c.state(source.materials[0].haptic);
+        const auto scene = compiled(source);
+        EXPECT_EQ(planned(*scene, c.effect).reason, c.reason);
+        for (const Effect other : kAll)
+            EXPECT_EQ(planned(*scene, other).on, other == c.effect) << effectName(other);
+        EXPECT_EQ(scene->plan.plainSample, c.effect == Effect::Damping)
+            << "damping is a constant of a plain tick";
+    }
+}
+
+TEST(EffectPlan, NamesEverythingThatAnEffectReads) {
+    const auto scene = compiled(richPlane());
+    EXPECT_EQ(planned(*scene, Effect::NormalMap).reason, "normal map, felt share 100 %");
+    EXPECT_EQ(planned(*scene, Effect::HeightMap).reason,
+              "height map, 0.2 mm black to white, vertex heights (_HEIGHT)");
+    EXPECT_EQ(planned(*scene, Effect::Friction).reason,
+              "static 0.5, dynamic 0.3, vertex friction (_FRICTION), friction map, factor 0.5 to 1");
+    EXPECT_EQ(planned(*scene, Effect::Damping).reason,
+              "1 N s/m, vertex damping (_DAMPING), damping map, factor 0.5 to 1");
+    EXPECT_EQ(planned(*scene, Effect::VaryingStiffness).reason,
+              "vertex stiffness (_STIFFNESS), stiffness map, factor 0.5 to 1");
+}
+
+TEST(EffectPlan, TheSecondSetOfCoordinatesIsHeldAndToldLikeTheFirst) {
+    Scene source = richPlane();
+    source.meshes[0].uv1 = source.meshes[0].uv0;
+    HapticMaterial& haptic = source.materials[0].haptic;
+    haptic.height.value->texture.texCoord = 1;
+    haptic.friction.value->texture.texCoord = 1;
+    const auto scene = compiled(source);
+    const size_t vertices = scene->objects[0]->normals.size();
+    EXPECT_EQ(scene->objects[0]->uv[0].size(), vertices);
+    EXPECT_EQ(scene->objects[0]->uv[1].size(), vertices);
+    EXPECT_TRUE(scene->objects[0]->uvGradients[0].empty()) << "no height is read there";
+    EXPECT_EQ(scene->objects[0]->uvGradients[1].size(), vertices);
+    for (const glm::vec4& tangent : scene->objects[0]->tangents)
+        EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1.0f, 1e-6f);
+    expectAllMemoryTold(*scene);
+    EXPECT_EQ(planned(*scene, Effect::NormalMap).memoryBytes,
+              scene->materials[0].normal.memoryBytes() + sizeof(glm::vec2) * vertices +
+                  sizeof(scene->objects[0]->tangents[0]) * scene->objects[0]->tangents.size())
+        << "the first map that reads a set is told to hold it";
+    EXPECT_EQ(planned(*scene, Effect::Friction).memoryBytes,
+              scene->materials[0].friction.map.memoryBytes() + sizeof(float) * vertices);
+}
+
+TEST(EffectPlan, AnObjectTellsAllThatItHolds) {
+    for (const Scene& source : {plainPlane(), richPlane()}) {
+        const auto scene = compiled(source);
+        const HapticObject& object = *scene->objects[0];
+        EXPECT_EQ(object.memoryBytes(), sizeof(glm::vec3) * object.vertices.size() +
+                                            sizeof(uint32_t) * object.indices.size() +
+                                            sizeof(uint32_t) * object.sourceIndices.size() +
+                                            (object.anySmooth ? 0 : object.smooth.size()) +
+                                            object.attributeBytes().all() + object.tree.memoryBytes());
+    }
+    const auto scene = compiled(richPlane());
+    // 16 x 8 texels and all coarser levels, as floats.
+    EXPECT_GE(scene->materials[0].height.memoryBytes(), (128u + 32u + 8u + 2u + 1u) * sizeof(float));
+    EXPECT_GE(scene->materials[0].normal.memoryBytes(), 3u * 128u * sizeof(float));
+}
+
+TEST(EffectPlan, ASettingOfZeroOverrulesMaterialVertexAndMap) {
+    const auto scene = compiled(richPlane());
+    const HapticObject& object = *scene->objects[0];
+    Contact contact;
+    contact.object = 0;
+    contact.feature = 0;
+    contact.normal = {0.0, 0.0, 1.0};
+    for (size_t k = 0; k < 3; ++k)
+        contact.point += glm::dvec3(object.vertices[object.indices[k]]) / 3.0;
+    const auto feel = [&](const HapticSettings& settings) {
+        return readSurface(*scene, scene->restMotions, settings, 0, contact, contact.normal, 1e-3, 0.0, 1e-3);
+    };
+    HapticSettings settings;
+    SurfaceSample stated = feel(settings);
+    EXPECT_GT(stated.damping, 0.4);
+    EXPECT_GT(stated.staticFriction, 0.2);
+    EXPECT_NEAR(stated.dynamicFriction, 0.6 * stated.staticFriction, 1e-6) << "as the material's ratio";
+    EXPECT_EQ(stated.viscousFriction, 0.5);
+    EXPECT_TRUE(stated.coulomb);
+    settings.damping = 0.0;
+    settings.dynamicFriction = 0.0;
+    stated = feel(settings);
+    EXPECT_EQ(stated.damping, 0.0);
+    EXPECT_GT(stated.staticFriction, 0.2);
+    EXPECT_EQ(stated.dynamicFriction, 0.0);
+    settings.staticFriction = 0.0;
+    stated = feel(settings);
+    EXPECT_EQ(stated.staticFriction, 0.0);
+    EXPECT_FALSE(stated.coulomb);
+    settings.dynamicFriction = 5.0;
+    settings.staticFriction = 0.5;
+    stated = feel(settings);
+    EXPECT_EQ(stated.dynamicFriction, stated.staticFriction) << "never above";
+    settings.friction = FrictionMode::Off;
+    stated = feel(settings);
+    EXPECT_EQ(stated.staticFriction + stated.dynamicFriction + stated.viscousFriction, 0.0);
+}
+
+TEST(EffectPlan, WhatSettingsNeedIsBuiltWhenItIsAskedFor) {
+    const auto scene = compileHapticScene(richPlane(), Similarity{}, {}, {.rays = false});
+    HapticSettings settings;
+    EXPECT_TRUE(isBuiltFor(*scene, settings));
+    settings.contact = ContactMethod::Rays;
+    EXPECT_FALSE(isBuiltFor(*scene, settings));
+    buildFor(*scene, settings);
+    EXPECT_TRUE(scene->hasRays());
+    EXPECT_TRUE(isBuiltFor(*scene, settings));
+    settings.contact = ContactMethod::Neighbourhood;
+    EXPECT_FALSE(isBuiltFor(*scene, settings));
+    buildFor(*scene, settings);
+    EXPECT_TRUE(isBuiltFor(*scene, settings));
+    settings.textureGradient = TextureGradient::Precomputed;
+    EXPECT_FALSE(isBuiltFor(*scene, settings));
+    buildFor(*scene, settings);
+    EXPECT_NE(scene->slopes(), nullptr);
+    EXPECT_TRUE(isBuiltFor(*scene, settings));
 }
 
 } // namespace

@@ -249,5 +249,31 @@ TEST(HapticMap, AStrokeReadsTheLevelWhoseTexelIsTwoTicksLong) {
     }
 }
 
+TEST(HapticMap, OfThreeChannelsTheFirstIsTheScalarByEveryFilter) {
+    const PixelData pixels = pixelsOf(ComponentType::U16, 13, 7, 3);
+    const HapticMap three(pixels, texture(0), 3), one(pixels, texture(0), 1);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec2 uv(0.037 * i, 1.3 - 0.051 * i);
+        const double level = 0.06 * i;
+        EXPECT_NEAR(three.scalar(uv, level), one.scalar(uv, level), 1e-12);
+        EXPECT_EQ(three.slope(uv, level).value, one.slope(uv, level).value);
+        EXPECT_EQ(three.slope(uv, level).gradient, one.slope(uv, level).gradient);
+        EXPECT_NEAR(three.vector(uv, level).x, one.scalar(uv, level), 1e-12);
+        EXPECT_NEAR(glm::distance(one.vector(uv, level), glm::dvec3(one.scalar(uv, level), 0.0, 0.0)), 0.0,
+                    1e-12);
+        for (const TextureFilter filter :
+             {TextureFilter::Nearest, TextureFilter::Bilinear, TextureFilter::Bicubic}) {
+            HapticMap::Patch patch;
+            three.patch(uv, filter, patch);
+            EXPECT_EQ(three.scalar(patch), one.scalar(patch));
+            EXPECT_NEAR(three.vector(patch).x, one.scalar(patch), 1e-12);
+            for (const TextureGradient gradient :
+                 {TextureGradient::Central, TextureGradient::Precomputed, TextureGradient::Analytic})
+                EXPECT_EQ(three.slopeBy(filter, gradient, uv, level, nullptr).gradient,
+                          one.slopeBy(filter, gradient, uv, level, nullptr).gradient);
+        }
+    }
+}
+
 } // namespace
 } // namespace touchstone::test

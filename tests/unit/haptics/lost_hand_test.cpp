@@ -2,6 +2,7 @@
 
 #include "assets/shapes.h"
 #include "haptics/safety/force_limiter.h"
+#include "haptics/sample/hip_sample.h"
 #include "haptics/settings/tick_flags.h"
 #include "haptics/tick/haptic_step.h"
 #include "tests/support/touch_bench.h"
@@ -9,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace touchstone {
@@ -150,6 +152,41 @@ TEST(LostHand, WhoComesBackElsewhereIsNotPulledBack) {
     hand.press(0.06, 200); // out
     hand.press(0.048, 200);
     EXPECT_GT(hand.output.command.force().y, 0.5) << "and it can be touched again";
+}
+
+TEST(LostHand, AcrossAGapTheHandHasGoneNowhere) {
+    DeviceState state;
+    uint32_t flags = 0;
+    DeviceSample sample;
+    sample.valid = true;
+    sample.position = {0.1, 0.0, 0.0};
+    EXPECT_TRUE(takeSample(sample, 1e-3, state, flags));
+    EXPECT_EQ(state.travel, glm::dvec3(0.0));
+    sample.position = {0.101, 0.0, 0.0};
+    EXPECT_TRUE(takeSample(sample, 1e-3, state, flags));
+    EXPECT_NEAR(state.travel.x, 1e-3, 1e-15);
+    EXPECT_GT(state.velocity.x, 0.1);
+    EXPECT_EQ(flags, 0u);
+    sample.valid = false;
+    EXPECT_FALSE(takeSample(sample, 1e-3, state, flags));
+    EXPECT_TRUE(has(flags, TickFlag::InputInvalid));
+    EXPECT_EQ(state.hip, glm::dvec3(0.101, 0.0, 0.0)) << "where it was last seen";
+    EXPECT_EQ(state.unsampled, 1e-3);
+    sample.valid = true;
+    sample.position = {0.2, 0.0, 0.0};
+    flags = 0;
+    EXPECT_TRUE(takeSample(sample, 1e-3, state, flags));
+    EXPECT_EQ(state.travel, glm::dvec3(0.0));
+    EXPECT_EQ(state.velocity, glm::dvec3(0.0));
+    EXPECT_EQ(state.unsampled, 0.0);
+    EXPECT_EQ(flags, 0u) << "no hand went so fast";
+    sample.position = {0.9, 0.0, 0.0};
+    EXPECT_TRUE(takeSample(sample, 1e-3, state, flags));
+    EXPECT_TRUE(has(flags, TickFlag::Teleported));
+    for (const double broken : {1e7, -1e8, std::nan("")}) {
+        sample.position = {0.0, broken, 0.0};
+        EXPECT_FALSE(takeSample(sample, 1e-3, state, flags)) << broken;
+    }
 }
 
 } // namespace

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <tuple>
+
 namespace touchstone {
 namespace {
 
@@ -46,6 +51,62 @@ TEST(Settings, AWrongValueIsToldAndChangesNothing) {
         EXPECT_EQ(settings, before);
     }
     EXPECT_NE(setSetting(settings, "friction", "sticky").find("zilles"), std::string::npos);
+}
+
+TEST(Settings, ARangeHoldsItsBoundsAndNothingBeyond) {
+    for (const auto& [name, low, high] : {std::tuple{"proxyRadius", 0.0, 0.05},
+                                          {"stiffness", 0.0, 1e5},
+                                          {"damping", -1.0, 1e3},
+                                          {"staticFriction", -1.0, 100.0},
+                                          {"dynamicFriction", -1.0, 100.0},
+                                          {"shadingTiltLimit", 0.0, 90.0},
+                                          {"textureTiltLimit", 0.0, 90.0},
+                                          {"textureStrength", 0.0, 1.0},
+                                          {"iterationBudget", 1.0, 1000.0}}) {
+        const double beyond = std::max(1e-3, 1e-3 * high);
+        HapticSettings settings;
+        for (const double value : {low, high}) {
+            const std::string told = std::to_string(value);
+            EXPECT_EQ(setSetting(settings, name, told), "") << name << "=" << told;
+            EXPECT_DOUBLE_EQ(std::stod(settingValue(settings, name)), value) << name;
+        }
+        EXPECT_NE(setSetting(settings, name, std::to_string(low - beyond)), "") << name;
+        EXPECT_NE(setSetting(settings, name, std::to_string(high + beyond)), "") << name;
+        EXPECT_DOUBLE_EQ(std::stod(settingValue(settings, name)), high) << name << ": unchanged";
+    }
+}
+
+TEST(Settings, EveryChoiceThatIsListedCanBeMade) {
+    for (const auto& field : settingFields())
+        for (const std::string_view word : field.words) {
+            HapticSettings settings;
+            EXPECT_EQ(setSetting(settings, field.name, word), "") << field.name << "=" << word;
+            EXPECT_EQ(settingValue(settings, field.name), word);
+        }
+    EXPECT_EQ(settingValue(HapticSettings{}, "colour"), "");
+}
+
+TEST(Settings, WhatDoesNotGoTogetherIsToldOf) {
+    const auto warnings = [](HapticSettings settings) { return settingWarnings(settings).size(); };
+    HapticSettings settings;
+    EXPECT_EQ(warnings(settings), 0u);
+    settings.proxyRadius = 0.001;
+    EXPECT_EQ(warnings(settings), 0u);
+    settings.contact = ContactMethod::Rays;
+    EXPECT_EQ(warnings(settings), 1u); // a point method
+    settings.proxyRadius = 0.0;
+    EXPECT_EQ(warnings(settings), 0u);
+    settings.precision = Precision::Single;
+    EXPECT_EQ(warnings(settings), 0u);
+    settings.contact = ContactMethod::Sweep;
+    EXPECT_EQ(warnings(settings), 1u); // rays alone have floats
+    settings = {};
+    settings.staticFriction = settings.dynamicFriction = 0.3;
+    EXPECT_EQ(warnings(settings), 0u);
+    settings.staticFriction = 0.0;
+    EXPECT_EQ(warnings(settings), 1u); // no dynamic coefficient above the static one, be it nothing
+    settings.staticFriction = -1.0;
+    EXPECT_EQ(warnings(settings), 0u); // the material's
 }
 
 } // namespace

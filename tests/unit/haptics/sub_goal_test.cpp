@@ -67,5 +67,25 @@ TEST(SubGoal, PlanesAlmostParallelAreSolvedNotGivenUp) {
     }
 }
 
+TEST(SubGoal, PlanesThatShareADirectionHoldItFree) {
+    // A fan of planes along z: any three of them are dependent.
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> angle(-1.4, 1.4), offset(-0.3, 0.0), place(-1.0, 1.0);
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<ConstraintPlane> planes(3 + random() % 4);
+        for (ConstraintPlane& plane : planes) {
+            const double turn = angle(random);
+            plane.normal = {std::sin(turn), std::cos(turn), 0.0};
+            plane.offset = offset(random);
+        }
+        const glm::dvec3 goal(place(random), -1.5, place(random));
+        const SubGoal found = nearestFeasible(goal, planes);
+        ASSERT_TRUE(found.exact) << trial;
+        EXPECT_EQ(found.point.z, goal.z) << trial;
+        EXPECT_LE(found.count, 2) << trial;
+        EXPECT_LT(glm::length(found.point - dykstra(goal, planes)), 1e-6) << trial;
+    }
+}
+
 } // namespace
 } // namespace touchstone

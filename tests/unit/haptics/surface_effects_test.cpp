@@ -1,6 +1,7 @@
 // Shading and texture against their formulas: the prism of [000 Fig. 6], and the displacement force law on a
 // sine.
 
+#include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -187,6 +188,29 @@ TEST(Texture, ANormalMapTurnsTheForceAndTheSeamOfItsFrameIsRespected) {
     EXPECT_LT(tilt, 5.0);
     EXPECT_GT(tilt, 4.5);
     EXPECT_TRUE(has(bench.output.flags, TickFlag::TiltCompressed));
+}
+
+TEST(Texture, TheTangentsOfTheFileSayWhichWayANormalMapLeans) {
+    const double lean = 0.2, up = 2.0 * 252.0 / 255.0 - 1.0; // of the map's texels
+    for (const bool alongU : {true, false})
+        for (const float handed : {1.0f, -1.0f}) {
+            Scene scene;
+            scene.materials.emplace_back().normalTexture = texture(0);
+            scene.images.push_back(image("lean", 4, 4, 3, [&](double, double) {
+                return glm::vec4(alongU ? 0.6f : 0.5f, alongU ? 0.5f : 0.6f, 0.988f, 1.0f);
+            }));
+            Mesh mesh = quadMesh(0.05, 2);
+            mesh.tangents.assign(mesh.positions.size(),
+                                 glm::vec4(0.0f, 1.0f, 0.0f, handed)); // u runs along x
+            place(scene, std::move(mesh), 0);
+            TouchBench bench(scene);
+            bench.settings.textureTiltLimit = glm::half_pi<double>();
+            bench.settings.textureFilter = TextureFilter::Bilinear;
+            bench.step({0.003, 0.004, 0.001});
+            const glm::dvec3 normal = bench.step({0.003, 0.004, -0.001}).normal;
+            EXPECT_NEAR(normal.y / normal.z, alongU ? lean / up : 0.0, 0.01);
+            EXPECT_NEAR(normal.x / normal.z, alongU ? 0.0 : -static_cast<double>(handed) * lean / up, 0.01);
+        }
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "haptics/query/surface_distance.h"
 #include "haptics/query/surface_pick.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
@@ -10,8 +11,8 @@
 namespace touchstone::test {
 namespace {
 
-Scene sphereScene(SideChoice sides) {
-    Scene scene = sceneOf(assets::sphere(0.05, 96, 64));
+Scene sphereScene(SideChoice sides, double radius = 0.05) {
+    Scene scene = sceneOf(assets::sphere(radius, 96, 64));
     scene.materials[0].haptic.sides = sides;
     return scene;
 }
@@ -35,12 +36,16 @@ TEST(SurfacePick, FindsTheNearSideOfASphereFromAnywhere) {
 }
 
 TEST(SurfacePick, FromInsideSeesTheBackUnlessOnlyTheFrontIsThere) {
-    const TouchBench both(sphereScene(SideChoice::Both)), front(sphereScene(SideChoice::Front));
     const glm::dvec3 along = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
-    const auto pick = pickSurface(*both.scene, {}, glm::dvec3(0.0), along);
-    ASSERT_TRUE(pick);
-    EXPECT_LT(glm::dot(pick->normal, along), -0.99);
-    EXPECT_FALSE(pickSurface(*front.scene, {}, glm::dvec3(0.0), along));
+    for (const double radius : {0.05, 5.0}) {
+        const TouchBench both(sphereScene(SideChoice::Both, radius)),
+            front(sphereScene(SideChoice::Front, radius));
+        const auto pick = pickSurface(*both.scene, {}, glm::dvec3(0.0), along);
+        ASSERT_TRUE(pick);
+        EXPECT_LT(glm::dot(pick->normal, along), -0.99);
+        EXPECT_FALSE(pickSurface(*front.scene, {}, glm::dvec3(0.0), along));
+        EXPECT_TRUE(pickSurface(*front.scene, {}, -3.0 * radius * along, along)) << "its front";
+    }
 }
 
 TEST(SurfacePick, FollowsAnObjectThatMoved) {
@@ -53,6 +58,27 @@ TEST(SurfacePick, FollowsAnObjectThatMoved) {
     ASSERT_TRUE(pick);
     EXPECT_NEAR(pick->point.z, 0.05, 0.05 * 2.5e-3);
     EXPECT_NEAR(pick->point.y, 0.2, 1e-9);
+}
+
+TEST(SurfaceDistance, IsThatOfTheNearestTriangleWhereverTheObjectIs) {
+    TouchBench bench(sphereScene(SideChoice::Both));
+    bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+    const glm::dvec3 moved(0.1, -0.2, 0.3);
+    bench.motions[0].workspaceFromObject.translation += moved;
+    std::mt19937 random(5);
+    std::normal_distribution<double> any;
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 out = glm::normalize(glm::dvec3(any(random), any(random), any(random)));
+        for (const double radius : {0.02, 0.049, 0.051, 0.08}) {
+            const double expected = std::abs(radius - 0.05), sag = 0.05 * 2.5e-3;
+            EXPECT_NEAR(surfaceDistance(*bench.scene, {}, radius * out, 1.0), expected, sag);
+            EXPECT_NEAR(surfaceDistance(*bench.scene, bench.motions, moved + radius * out, 1.0), expected,
+                        sag);
+            EXPECT_EQ(surfaceDistance(*bench.scene, {}, radius * out, 0.5 * (expected - sag)),
+                      0.5 * (expected - sag))
+                << "none so near";
+        }
+    }
 }
 
 } // namespace

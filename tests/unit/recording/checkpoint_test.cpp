@@ -144,6 +144,7 @@ TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(WatchState), 8u);
     // What a tick writes before it reads, and what can be found again, may be of any size.
     EXPECT_EQ(sizeof(DeviceState) - sizeof(SolveResult) - 2 * sizeof(CandidateCache), 752u);
+    EXPECT_EQ(checkpointSize(), 664u) << "what is carried belongs to the format";
     EXPECT_LE(checkpointSize(), TouchCheckpoint::kCapacity);
 }
 
@@ -191,6 +192,55 @@ TEST(TouchCheckpoint, AnyBytesAreRefusedOrTouchSafely) {
         }
     }
     EXPECT_GT(taken, 200);
+}
+
+TEST(TouchCheckpoint, RefusesPinchedObjectsThatAreNone) {
+    const TouchedScene scene = floorScene(0.0f);
+    const auto taken = [&](int object, const glm::dvec3& place) {
+        DeviceState state;
+        EXPECT_TRUE(state.jammed.add(object, place));
+        TouchCheckpoint checkpoint;
+        takeCheckpoint(state, checkpoint);
+        return restoreCheckpoint(checkpoint.state(), scene.haptic.get(), state);
+    };
+    EXPECT_TRUE(taken(0, {0.0, 0.1, 0.0}));
+    EXPECT_FALSE(taken(1, {0.0, 0.1, 0.0}));
+    EXPECT_FALSE(taken(-1, {0.0, 0.1, 0.0}));
+    EXPECT_FALSE(taken(0, {0.0, 1e16, 0.0}));
+    EXPECT_FALSE(taken(0, {0.0, std::nan(""), 0.0}));
+}
+
+TEST(TouchCheckpoint, RefusesNumbersThatNoTouchComesTo) {
+    const TouchedScene scene = floorScene(0.0f);
+    const auto taken = [&](const std::function<void(DeviceState&)>& change) {
+        DeviceState state;
+        change(state);
+        TouchCheckpoint checkpoint;
+        takeCheckpoint(state, checkpoint);
+        return restoreCheckpoint(checkpoint.state(), scene.haptic.get(), state);
+    };
+    EXPECT_TRUE(taken([](DeviceState&) {}));
+    EXPECT_FALSE(taken([](DeviceState& s) { s.gatherMargin = 0.0; }));
+    EXPECT_FALSE(taken([](DeviceState& s) { s.gatherMargin = std::nan(""); }));
+    for (const double bad : {1e16, -1e16, std::nan("")}) {
+        EXPECT_FALSE(taken([&](DeviceState& s) { s.clearance = bad; }));
+        EXPECT_FALSE(taken([&](DeviceState& s) { s.hip.x = bad; }));
+        EXPECT_FALSE(taken([&](DeviceState& s) { s.proxy.y = bad; }));
+        EXPECT_FALSE(taken([&](DeviceState& s) { s.velocity.z = bad; }));
+    }
+    EXPECT_FALSE(taken([](DeviceState& s) { s.friction = static_cast<FrictionState>(3); }));
+    // A shaded facet: of the scene's two triangles, or of a scene before, which nobody asks for.
+    const auto shaded = [](int object, uint32_t facet) {
+        return [=](DeviceState& s) {
+            s.shaded = true;
+            s.shadedObject = object;
+            s.shadedTriangle = facet;
+        };
+    };
+    EXPECT_TRUE(taken(shaded(0, 1)));
+    EXPECT_FALSE(taken(shaded(0, 2)));
+    EXPECT_FALSE(taken(shaded(1, 0)));
+    EXPECT_TRUE(taken(shaded(-1, 7)));
 }
 
 } // namespace

@@ -63,5 +63,23 @@ TEST_F(FaultWatchTest, AHandThatTouchedNothingMayGo) {
     EXPECT_EQ(ticks(2000, 0, 1) + ticks(1500, 0, 0) + ticks(5000, kInvalid, 0), "");
 }
 
+TEST_F(FaultWatchTest, ASecondOfGoodInputMakesALossGood) {
+    EXPECT_EQ(ticks(2000, 0), "");
+    EXPECT_EQ(ticks(300, kInvalid, 0), "input-lost@99 ");
+    EXPECT_EQ(ticks(1100, 0), "") << "well again";
+    EXPECT_EQ(ticks(300, kInvalid, 0), "input-lost@99 ") << "and lost again, from the beginning";
+}
+
+TEST_F(FaultWatchTest, AHandInSightIsNotLost) {
+    EXPECT_EQ(ticks(2000, 0), "");
+    for (int i = 0; i < 500; ++i) {
+        RecordedTick tick;
+        tick.dt = 1e-3;
+        tick.flags = kInvalid;
+        tick.sample.inSight = true;
+        EXPECT_FALSE(watch_.add(tick));
+    }
+}
+
 } // namespace
 } // namespace touchstone

@@ -186,6 +186,7 @@ TEST_F(FlightRecorderTest, ASessionThatWasKilledIsKeptByTheNextAndALivingOneLeft
     EXPECT_LE(ticks.front(), 1876u - 500u);
     for (size_t i = 1; i < ticks.size(); ++i)
         ASSERT_EQ(ticks[i], ticks[i - 1] + 1);
+    EXPECT_EQ(kept[0].file.filename().string().size(), std::string("crash-yyyymmdd-hhmmss.tsrec").size());
     EXPECT_TRUE(FlightRecorder::recover(config()).empty()) << "once";
     feed(alive, 100);
     EXPECT_TRUE(std::filesystem::exists(alive.session().string() + "-a.tsrec"));
@@ -226,6 +227,61 @@ TEST_F(FlightRecorderTest, WhatIsKeptOfARealServoReplaysFromTheMiddle) {
     EXPECT_FALSE(report.notes.empty());
     EXPECT_GT(ticksOf(kept[0].file).front(), 0u) << "from the middle of the run";
     EXPECT_GT(rig.inContact(), 1000u);
+}
+
+TEST_F(FlightRecorderTest, NoDescriptorStaysOpen) {
+    const auto open = [] {
+        const std::filesystem::directory_iterator all("/proc/self/fd");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = open();
+    {
+        FlightRecorder alive(config());
+        feed(alive, 100);
+        const auto recording = open();
+        EXPECT_TRUE(FlightRecorder::recover(config()).empty()) << "it lives";
+        EXPECT_EQ(open(), recording);
+        FlightRecorder beside(config()); // of the same process: a session of its own
+        EXPECT_NE(beside.session(), alive.session());
+    }
+    EXPECT_EQ(open(), before);
+}
+
+TEST_F(FlightRecorderTest, FaultsOfAnotherKindDoNotWaitForEachOther) {
+    FlightRecorder recorder(config()); // a pause of a second after a fault of one kind
+    feed(recorder, 1000);
+    feed(recorder, 1, kFault);
+    feed(recorder, 150);
+    EXPECT_EQ(recorder.takeKept().size(), 1u);
+    feed(recorder, 1, 0u | TickFlag::SafetyLatched);
+    feed(recorder, 150);
+    EXPECT_EQ(recorder.takeKept().size(), 1u) << "a latch, a sixth of a second after the fault";
+    feed(recorder, 1, kFault);
+    feed(recorder, 150);
+    EXPECT_EQ(recorder.takeKept().size(), 0u) << "the same again within its second";
+    feed(recorder, 1000);
+    feed(recorder, 1, kFault);
+    feed(recorder, 150);
+    EXPECT_EQ(recorder.takeKept().size(), 1u);
+}
+
+TEST_F(FlightRecorderTest, WhereOneSegmentHasJustBegunTheOtherIsKept) {
+    for (const char* spoilt : {"-a.tsrec", "-b.tsrec"}) {
+        const pid_t child = fork();
+        if (child == 0) {
+            FlightRecorder dies(config());
+            feed(dies, 1777);
+            raise(SIGKILL);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        for (const std::filesystem::path& file : files())
+            if (file.string().ends_with(spoilt) && file.filename().string().starts_with("live-"))
+                std::filesystem::resize_file(file, 0);
+        const std::vector<KeptFlight> kept = FlightRecorder::recover(config());
+        ASSERT_EQ(kept.size(), 1u) << spoilt;
+        EXPECT_GE(ticksOf(kept[0].file).size(), 200u) << spoilt;
+    }
 }
 
 } // namespace

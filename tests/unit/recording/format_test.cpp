@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -302,6 +303,40 @@ TEST(StageHashes, EachStageTellsOfItsOwnOutputsOnly) {
     EXPECT_EQ(changed([](auto&, auto& o) { o.commandInWorkspace.y = 1.0; }), "safety ");
     EXPECT_EQ(changed([](auto&, auto& o) { o.flags = 0u | TickFlag::ForceLimited; }), "safety ");
     EXPECT_EQ(changed([](auto&, auto& o) { o.flags = 0u | TickFlag::Teleported; }), "force safety ");
+}
+
+TEST(RecordingFormat, EachBitOfATickIsItsOwn) {
+    for (int bit = 0; bit < 6; ++bit) {
+        RecordedTick tick;
+        tick.sample.valid = bit == 0;
+        tick.late = bit == 1;
+        tick.missed = bit == 2;
+        tick.checkpoint = bit == 3;
+        tick.sample.begins = bit == 4;
+        tick.sample.inSight = bit == 5;
+        const std::vector<std::byte> bytes = encode(RecordedTicks{{tick}});
+        EXPECT_EQ(numberAt<uint32_t>(bytes, 104), 1u << bit);
+        const RecordedTick read = std::get<RecordedTicks>(decode(4, bytes)).ticks[0];
+        EXPECT_EQ(read.sample.valid, bit == 0);
+        EXPECT_EQ(read.late, bit == 1);
+        EXPECT_EQ(read.missed, bit == 2);
+        EXPECT_EQ(read.checkpoint, bit == 3);
+        EXPECT_EQ(read.sample.begins, bit == 4);
+        EXPECT_EQ(read.sample.inSight, bit == 5);
+    }
+}
+
+TEST(RecordingFormat, RefusesChoicesBeyondTheLastAndTakesTheLast) {
+    for (const auto& info : settingFields()) {
+        if (info.words.empty())
+            continue;
+        const auto choices = static_cast<double>(info.words.size());
+        const std::vector<std::byte> last = settingsWith(std::string(info.name), choices - 1.0),
+                                     beyond = settingsWith(std::string(info.name), choices);
+        ByteReader good(last), bad(beyond);
+        EXPECT_NO_THROW((void)getSettings(good)) << info.name;
+        EXPECT_THROW((void)getSettings(bad), Error) << info.name;
+    }
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "haptics/recording/recording_file.h"
 #include "haptics/recording/recording_reader.h"
+#include "haptics/recording/recording_writer.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"
 
@@ -241,6 +242,78 @@ TEST(RecordingFile, AKilledProcessLeavesAllThatItAppended) {
     ASSERT_EQ(got.items.size(), 1000u);
     EXPECT_EQ(got.items[999], encode(RecordedLoss{999}));
     EXPECT_TRUE(got.cutOff);
+}
+
+TEST_F(ReaderTest, GoesBackToWhereAnItemBegan) {
+    writeItems(file_, smallRecording());
+    RecordingReader reader(file_);
+    std::vector<uint64_t> offsets;
+    while (const auto item = reader.next())
+        offsets.push_back(item->offset);
+    ASSERT_EQ(offsets.size(), whole_.items.size());
+    for (const size_t i : {size_t{4}, size_t{0}, size_t{2}, size_t{5}}) {
+        reader.goTo(offsets[i]);
+        const auto item = reader.next();
+        ASSERT_TRUE(item);
+        EXPECT_EQ(encode(item->item), whole_.items[i]);
+        EXPECT_EQ(item->offset, offsets[i]);
+        EXPECT_FALSE(item->damageBefore) << "what lies between was left out on purpose";
+    }
+    EXPECT_TRUE(reader.damage().empty());
+}
+
+/// The kinds of the chunks behind the origin, with the number of ticks in a block.
+std::string kindsOf(const std::filesystem::path& file) {
+    std::string kinds;
+    for (const RecordedItem& item : itemsOf(file)) {
+        kinds += std::string(kChunkNames[item.index()]);
+        if (const auto* block = std::get_if<RecordedTicks>(&item))
+            kinds += std::to_string(block->ticks.size());
+        if (const auto* loss = std::get_if<RecordedLoss>(&item))
+            kinds += std::to_string(loss->ticks);
+        kinds += " ";
+    }
+    return kinds;
+}
+
+TEST(RecordingWriter, WhatATickNeedsStandsBeforeIt) {
+    const ScratchFolder scratch;
+    const std::filesystem::path file = scratch / "r.tsrec";
+    RecordingWriter writer(file, recordingOrigin("test", 1000.0));
+    const HapticSettings settings;
+    const SceneIdentity scene;
+    TouchCheckpoint checkpoint;
+    RecordedTick tick;
+    const auto add = [&](bool withCheckpoint, uint64_t lost = 0) {
+        writer.add({.tick = tick,
+                    .settings = settings,
+                    .scene = tick.scene != 0 ? &scene : nullptr,
+                    .checkpoint = withCheckpoint ? &checkpoint : nullptr,
+                    .lostBefore = lost});
+        ++tick.tick;
+    };
+    const auto name = [](const RecordedItem& item) { return std::string(kChunkNames[item.index()]); };
+    const std::string origin = name(RecordingOrigin{}), scn = name(RecordedScene{}),
+                      set = name(RecordedSettings{}), check = name(TouchCheckpoint{}),
+                      ticks = name(RecordedTicks{}), loss = name(RecordedLoss{}), end = name(RecordedEnd{});
+    add(false);    // nothing to begin with
+    add(false, 3); // and nothing lost of what is not recorded
+    add(true, 3);
+    add(false);
+    tick.settings = 1;
+    add(false); // other settings
+    tick.scene = 1;
+    add(false); // a scene
+    add(false);
+    add(false, 1); // one tick is lost
+    add(true);     // a checkpoint alone
+    for (int i = 0; i < 256; ++i)
+        add(false); // a block is full
+    writer.finish();
+    EXPECT_EQ(kindsOf(file), origin + " " + set + " " + check + " " + ticks + "2 " + set + " " + ticks +
+                                 "1 " + scn + " " + ticks + "2 " + loss + "1 " + ticks + "1 " + check + " " +
+                                 ticks + "256 " + ticks + "1 " + end + " ");
+    EXPECT_EQ(writer.ticks(), 263u);
 }
 
 } // namespace

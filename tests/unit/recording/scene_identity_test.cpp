@@ -76,7 +76,15 @@ TEST(FeltHash, ChangesWithEverythingThatIsFelt) {
         [](Scene& s) { s.instances[0].sceneFromMesh[3].x = 1e-6; },
         [](Scene& s) { s.animations[0].duration = 2.0; },
         [](Scene& s) { s.animations[0].channels[0].values[1].y = 0.11f; },
+        [](Scene& s) { s.animations[0].channels[0].times[1] = 0.5f; },
+        [](Scene& s) { s.animations[0].channels[0].interpolation = Interpolation::Step; },
         [](Scene& s) { s.animations.clear(); },
+        [](Scene& s) { s.nodes[0].translation.y = 0.01; },
+        [](Scene& s) { s.nodes[0].rotation = glm::dquat(0.0, 1.0, 0.0, 0.0); },
+        [](Scene& s) { s.nodes[0].scale.z = 1.01; },
+        [](Scene& s) { s.nodes[0].hasMatrix = true; },
+        [](Scene& s) { s.nodes[0].matrix[3].x = 0.01; },
+        [](Scene& s) { s.nodes.emplace_back(); },
     };
     std::set<uint64_t> hashes;
     for (size_t i = 0; i < changes.size(); ++i) {

@@ -351,5 +351,38 @@ TEST(ForceLimiter, NoStormGetsThroughTheLimits) {
     EXPECT_GT(clamped, 10000u) << "the storm was too mild to mean anything";
 }
 
+TEST(ForceLimiter, EveryLimitMustBeANumberThatIsNotNegativeAndMayBeZero) {
+    double DeviceLimits::*const limits[] = {&DeviceLimits::maxForce,          &DeviceLimits::maxForceRate,
+                                            &DeviceLimits::maxTorque,         &DeviceLimits::maxTorqueRate,
+                                            &DeviceLimits::apparentMass,      &DeviceLimits::coulombFriction,
+                                            &DeviceLimits::positionResolution};
+    for (double DeviceLimits::*limit : limits)
+        for (const double value : {kNaN, kInfinity, -1.0, 0.0}) {
+            Ticker ticker;
+            ticker.settle({0.0, 5.0, 0.0});
+            ticker.inputs.limits.*limit = value;
+            ticker.tick({0.0, 5.0, 0.0});
+            EXPECT_EQ(ticker.state.faults, value == 0.0 ? 0u : 1u) << value;
+        }
+    Ticker weak;
+    weak.inputs.limits.maxForce = 0.0; // a device without motors
+    EXPECT_EQ(weak.settle({0.0, 5.0, 0.0}), glm::dvec3(0.0));
+    EXPECT_TRUE(has(weak.flags, TickFlag::ForceLimited));
+    weak.tick(glm::dvec3(0.0));
+    EXPECT_FALSE(has(weak.flags, TickFlag::ForceLimited)) << "nothing is cut of nothing";
+}
+
+TEST(ForceLimiter, ASampleIsFreshUpToItsAge) {
+    Ticker ticker;
+    ticker.settle({0.0, 5.0, 0.0});
+    ticker.inputs.sampleAge = ticker.inputs.limits.staleAge;
+    EXPECT_EQ(ticker.tick({0.0, 4.0, 0.0}), glm::dvec3(0.0, 4.0, 0.0));
+    EXPECT_FALSE(has(ticker.flags, TickFlag::InputInvalid));
+    ticker.inputs.sampleAge = std::nextafter(ticker.inputs.limits.staleAge, 1.0);
+    ticker.tick({0.0, 4.0, 0.0});
+    EXPECT_TRUE(has(ticker.flags, TickFlag::InputInvalid));
+    EXPECT_LT(ticker.command.y, 4.0);
+}
+
 } // namespace
 } // namespace touchstone

@@ -215,5 +215,46 @@ TEST(MovingObjects, ARisingFloorPushesARestingHand) {
     EXPECT_GT(output.force.y, 2.9);
 }
 
+/// The square on its second node moves from one pose to another within a second; whether that is a jump.
+bool jumps(AnimatedPath path, const glm::vec4& from, const glm::vec4& to) {
+    Scene scene = squareOnTwoNodes();
+    scene.animations.push_back({"goes on", 1.0, {channel(1, path, {0.0f, 1.0f}, {from, to})}});
+    Moved moved(std::move(scene));
+    (void)moved.moving.at(0.9);
+    return moved.moving.at(1.1)[0].jumped;
+}
+
+TEST(MovingObjects, ALapThatEndsWithinAThousandthOfWhereItBeganIsNoJump) {
+    const glm::vec4 far(3.0f, 4.0f, -5.0f, 0.0f); // whose longest side, 0.1, is the unit
+    EXPECT_FALSE(jumps(AnimatedPath::Translation, far, far));
+    EXPECT_FALSE(jumps(AnimatedPath::Translation, far, far + glm::vec4(0.0f, 5e-5f, 0.0f, 0.0f)));
+    EXPECT_TRUE(jumps(AnimatedPath::Translation, far, far + glm::vec4(0.0f, 5e-4f, 0.0f, 0.0f)));
+    const auto turned = [](double angle) {
+        return glm::vec4(0.0f, static_cast<float>(std::sin(0.5 * angle)), 0.0f,
+                         static_cast<float>(std::cos(0.5 * angle)));
+    };
+    EXPECT_FALSE(jumps(AnimatedPath::Rotation, turned(0.7), turned(0.7)));
+    EXPECT_FALSE(jumps(AnimatedPath::Rotation, turned(0.7), -turned(0.7))) << "the same turn";
+    EXPECT_TRUE(jumps(AnimatedPath::Rotation, turned(0.7), turned(0.71)));
+    EXPECT_TRUE(jumps(AnimatedPath::Rotation, turned(0.0), turned(0.5)));
+    EXPECT_FALSE(jumps(AnimatedPath::Scale, glm::vec4(1.0f), glm::vec4(1.0f)));
+    EXPECT_TRUE(jumps(AnimatedPath::Scale, glm::vec4(1.0f), glm::vec4(1.01f)));
+}
+
+TEST(MovingObjects, TheFirstNodeMovesAsAnyOther) {
+    Scene scene = squareOnTwoNodes();
+    scene.instances[0].node = 0;
+    scene.animations.push_back({"lift",
+                                1.0,
+                                {channel(0, AnimatedPath::Translation, {0.0f, 1.0f},
+                                         {glm::vec4(0.0f), glm::vec4(0.0f, 0.2f, 0.0f, 0.0f)})}});
+    EXPECT_TRUE(animationWarnings(scene).empty()) << "one animation, and it plays";
+    scene.animations.push_back(scene.animations[0]);
+    EXPECT_EQ(animationWarnings(scene).size(), 1u) << "of two only one plays";
+    Moved moved(std::move(scene));
+    ASSERT_TRUE(moved.moving.moving());
+    EXPECT_NEAR(moved.moving.at(0.5)[0].workspaceFromObject.translation.y, 0.1, 1e-7);
+}
+
 } // namespace
 } // namespace touchstone

@@ -371,5 +371,43 @@ TEST(ServoLoop, ASlowPortIsCountedAndNeverBunches) {
     EXPECT_LE(last + 1, ticks + counters.skipped) << "every deadline was stepped or skipped";
 }
 
+TEST(ServoLoop, AStepThatIsMadeByHandKnowsItsTimeAndIsNotLate) {
+    BouncingHand hand;
+    ServoLoop loop(hand.port(), kQuick);
+    loop.offerScene(floorAt(0.0f));
+    uint64_t steps = 0;
+    for (const auto& [number, elapsed] :
+         {std::pair<uint64_t, double>{0, 1.0}, {1, 1.0}, {2, 1.0}, {5, 3.0}}) {
+        const TickRecord record = loop.step(number);
+        EXPECT_EQ(record.tick, number);
+        EXPECT_EQ(record.step, steps++);
+        EXPECT_DOUBLE_EQ(record.time, static_cast<double>(number) / 2000.0);
+        EXPECT_DOUBLE_EQ(record.dt, elapsed / 2000.0);
+        EXPECT_FALSE(record.late);
+        EXPECT_FALSE(record.missed);
+        EXPECT_EQ(record.checkpoint, number == 0);
+        EXPECT_EQ(record.scene, 1u);
+    }
+    EXPECT_EQ(loop.counters().ticks, 4u);
+    TickRecord read;
+    ASSERT_TRUE(loop.popRecord(read));
+    EXPECT_EQ(read.tick, 0u);
+    TouchCheckpoint checkpoint;
+    ASSERT_TRUE(loop.popCheckpoint(checkpoint));
+    EXPECT_EQ(checkpoint.tick, 0u);
+    EXPECT_EQ(checkpoint.scene, 1u);
+    EXPECT_FALSE(loop.popCheckpoint(checkpoint)) << "one a second";
+}
+
+TEST(ServoLoop, WithoutTheWishItAsksForNoPriority) {
+    BouncingHand hand;
+    ServoLoop loop(hand.port(), kQuick);
+    loop.start();
+    EXPECT_EQ(loop.scheduling().policy, "normal");
+    EXPECT_FALSE(loop.scheduling().memoryLocked);
+    EXPECT_EQ(loop.scheduling().pinnedCpu, -1);
+    loop.stop();
+}
+
 } // namespace
 } // namespace touchstone

@@ -1,0 +1,194 @@
+// Objects that move among others: what they push, hold and leave behind.
+
+#include "assets/shapes.h"
+#include "haptics/settings/tick_flags.h"
+#include "tests/support/touch_bench.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace touchstone::test {
+namespace {
+
+/// Boxes of 0.1 m with their middles at the given places.
+struct Boxes : TouchBench {
+    explicit Boxes(const std::vector<glm::dvec3>& middles) : TouchBench(sceneWith(middles)) {
+        settings.stiffness = 500.0;
+        motions.assign(scene->restMotions.begin(), scene->restMotions.end());
+    }
+    static Scene sceneWith(const std::vector<glm::dvec3>& middles) {
+        Scene scene;
+        for (const glm::dvec3& middle : middles) {
+            const glm::dmat4 at = glm::translate(glm::dmat4(1.0), middle);
+            if (scene.instances.empty())
+                scene = sceneOf(assets::box(glm::dvec3(0.1)), at);
+            else
+                addShape(scene, assets::box(glm::dvec3(0.1)), at);
+        }
+        return scene;
+    }
+    /// One tick in which box `k` goes by `way` and turns by `angle` about z; the others stand.
+    const HapticOutput& tick(const glm::dvec3& hip, size_t k, const glm::dvec3& way, double angle = 0.0) {
+        for (ObjectMotion& motion : motions)
+            motion.before = motion.workspaceFromObject;
+        Similarity& pose = motions[k].workspaceFromObject;
+        pose.translation += way;
+        pose.rotation = glm::angleAxis(angle, glm::dvec3(0.0, 0.0, 1.0)) * pose.rotation;
+        return step(hip);
+    }
+    [[nodiscard]] glm::dvec3 seenFrom(size_t k) const {
+        const Similarity& pose = motions[k].workspaceFromObject;
+        return pose.scale * pose.inversePoint(output.proxy);
+    }
+};
+
+TEST(MovingObstacles, ABoxThatComesInOneTickTakesTheProxyAlongWhicheverWayItComes) {
+    for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
+                                  glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)})
+        for (const double speed : {0.16, 0.25, 0.4}) { // m in the tick
+            const glm::dvec3 aside = glm::dvec3(way.y, way.z, way.x);
+            Boxes bench({-0.2 * way, 0.5 * aside});
+            bench.step(0.01 * aside);
+            ASSERT_EQ(bench.output.contacts, 0u);
+            bench.tick(0.01 * aside, 0, speed * way);
+            EXPECT_FALSE(has(bench.output.flags, TickFlag::StartedInside));
+            EXPECT_NEAR(glm::dot(bench.output.proxy, way), speed - 0.15, 1e-6);
+            EXPECT_NEAR(glm::dot(bench.output.proxy, aside), 0.01, 1e-6);
+            EXPECT_EQ(bench.output.object, 0);
+        }
+}
+
+TEST(MovingObstacles, ABoxThatTurnsPushesAndNeverPassesTheProxy) {
+    for (const double angle : {0.05, 0.3, 1.2}) {
+        Boxes bench({{0.0, 0.0, 0.0}, {0.5, 0.0, 0.0}});
+        const glm::dvec3 hip(0.045, 0.06, 0.0); // above a corner
+        bench.step(hip);
+        for (int i = 0; i < 3; ++i) {
+            bench.tick(hip, 0, glm::dvec3(0.0), angle);
+            const glm::dvec3 seen = bench.seenFrom(0);
+            EXPECT_GE(std::max(std::abs(seen.x), std::abs(seen.y)), 0.05 - 1e-7) << angle << ", tick " << i;
+            EXPECT_FALSE(has(bench.output.flags, TickFlag::StartedInside));
+        }
+    }
+}
+
+TEST(MovingObstacles, BetweenJawsTheProxyStaysWithOneAndIsFreeWhenTheyOpen) {
+    Boxes bench({{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}});
+    const glm::dvec3 hip(0.003, 0.01, 0.0);
+    bench.step(hip);
+    const auto close = [&](int ticks, double way) {
+        for (int i = 0; i < ticks; ++i) {
+            for (ObjectMotion& motion : bench.motions)
+                motion.before = motion.workspaceFromObject;
+            bench.motions[0].workspaceFromObject.translation.x += way;
+            bench.motions[1].workspaceFromObject.translation.x -= way;
+            bench.step(hip);
+        }
+    };
+    close(49, 1e-3); // 1 mm to either side is left
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::Jammed));
+    EXPECT_LE(std::abs(bench.output.proxy.x), 1e-3 + 1e-7);
+    EXPECT_EQ(bench.output.object, 1) << "which pushes the hand";
+    close(11, 1e-3); // 10 mm into each other
+    EXPECT_TRUE(has(bench.output.flags, TickFlag::Jammed));
+    EXPECT_NEAR(std::abs(bench.output.proxy.x), 0.01, 1e-6);
+    EXPECT_NEAR(bench.output.proxy.y, 0.01, 1e-6);
+    EXPECT_EQ(bench.output.contacts, 1u) << "the other is not felt";
+    const int holder = bench.output.object;
+    EXPECT_NEAR(bench.seenFrom(static_cast<size_t>(holder)).x, holder == 0 ? 0.05 : -0.05, 1e-6);
+    close(11, -1e-3);
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::Jammed));
+    EXPECT_LE(std::abs(bench.output.proxy.x), 1e-3 + 1e-7) << "between them again";
+    close(20, -1e-3);
+    EXPECT_EQ(bench.output.contacts, 0u);
+    EXPECT_LT(glm::distance(bench.output.proxy, hip), 1e-9);
+    EXPECT_EQ(bench.output.force, glm::dvec3(0.0));
+}
+
+TEST(MovingObstacles, WhatGoesOnThroughTheHolderByHalfItsSizeIsLeftBehind) {
+    Boxes bench({{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}});
+    const glm::dvec3 hip(0.003, 0.01, 0.0);
+    bench.step(hip);
+    bool jammed = false, lost = false;
+    for (int i = 0; i < 130 && !lost; ++i) {
+        bench.tick(hip, 1, {-1e-3, 0.0, 0.0});
+        jammed |= has(bench.output.flags, TickFlag::Jammed);
+        lost = !bench.state[0].placed;
+        if (!lost && jammed) {
+            EXPECT_LE(bench.motions[1].workspaceFromObject.translation.x, 1e-6) << "the jaws are closed";
+        }
+    }
+    EXPECT_TRUE(jammed);
+    EXPECT_TRUE(lost);
+    EXPECT_EQ(bench.state[0].jammed.count, 0u);
+    for (int i = 0; i < 3; ++i)
+        bench.tick({0.0, 0.2, 0.0}, 1, glm::dvec3(0.0));
+    EXPECT_EQ(bench.output.contacts, 0u);
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::Jammed));
+    for (int i = 0; i < 200; ++i)
+        bench.tick({-0.12, 0.2 - 0.152e-2 * std::min(i, 100), 0.0}, 1, glm::dvec3(0.0));
+    EXPECT_NEAR(bench.output.force.y, 500.0 * 0.002, 1e-4) << "and touch goes on";
+}
+
+TEST(MovingObstacles, AWedgeThatComesSlidesTheProxyOut) {
+    // A box on its corner comes down on a hand that rests on another: the proxy goes aside, on top of it.
+    Boxes bench({{0.0, -0.05, 0.0}, {0.005, 0.2, 0.0}});
+    bench.tick({0.0, 0.05, 0.0}, 1, glm::dvec3(0.0), 0.25 * 3.141592653589793);
+    for (int i = 0; i < 60; ++i)
+        bench.tick({0.0, 0.05 - std::min(0.051, 1e-3 * i), 0.0}, 1, glm::dvec3(0.0));
+    ASSERT_NEAR(bench.output.proxy.y, 0.0, 1e-6);
+    const double tip = 0.2 - std::sqrt(0.005); // its lowest edge, at x = 0.005
+    double down = 0.0;
+    for (int i = 0; i < 150; ++i) {
+        const double step = down + 1e-3 < tip - 1e-3 ? 1e-3 : 0.0;
+        down += step;
+        bench.tick({0.0, -0.001, 0.0}, 1, {0.0, -step, 0.0});
+        ASSERT_FALSE(has(bench.output.flags, TickFlag::Jammed)) << i;
+        EXPECT_GE(bench.output.proxy.y, -1e-7);
+        // Beside both flanks of the wedge, which are at 45 degrees.
+        const double height = bench.output.proxy.y - (tip - down),
+                     aside = std::abs(bench.output.proxy.x - 0.005);
+        EXPECT_LE(height, aside + 1e-6) << i;
+    }
+    EXPECT_GT(down, 0.1);
+}
+
+TEST(MovingObstacles, AJumpOntoTheHandEndsTheTouchAndOneElsewhereDoesNot) {
+    for (const bool onto : {false, true}) {
+        Boxes bench({{0.0, -0.05, 0.0}, {0.3, 0.0, 0.0}});
+        bench.step({0.0, 0.01, 0.0});
+        for (int i = 0; i < 5; ++i)
+            bench.tick({0.0, -0.001, 0.0}, 1, glm::dvec3(0.0));
+        ASSERT_NEAR(bench.output.force.y, 0.5, 1e-4);
+        for (ObjectMotion& motion : bench.motions)
+            motion.before = motion.workspaceFromObject;
+        bench.motions[1].workspaceFromObject.translation =
+            onto ? glm::dvec3(0.0, 0.0, 0.0) : glm::dvec3(0.0, 0.3, 0.0);
+        bench.motions[1].jumped = true;
+        bench.step({0.0, -0.001, 0.0});
+        EXPECT_TRUE(has(bench.output.flags, TickFlag::ObjectJumped));
+        EXPECT_EQ(has(bench.output.flags, TickFlag::StartedInside), onto);
+        EXPECT_NEAR(bench.output.force.y, onto ? 0.0 : 0.5, 1e-4);
+    }
+}
+
+TEST(MovingObstacles, InASceneThatComesToRestNothingStaysPinched) {
+    Boxes bench({{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}});
+    const glm::dvec3 hip(0.003, 0.01, 0.0);
+    bench.step(hip);
+    for (int i = 0; i < 110; ++i)
+        bench.tick(hip, 1, {-1e-3, 0.0, 0.0});
+    ASSERT_TRUE(has(bench.output.flags, TickFlag::Jammed));
+    ASSERT_EQ(bench.state[0].jammed.count, 1u);
+    bench.motions.clear();
+    bench.step(hip);
+    EXPECT_EQ(bench.state[0].jammed.count, 0u);
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::Jammed));
+}
+
+} // namespace
+} // namespace touchstone::test
