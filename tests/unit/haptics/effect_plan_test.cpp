@@ -372,7 +372,9 @@ TEST(EffectPlan, ASettingOfZeroOverrulesMaterialVertexAndMap) {
 }
 
 TEST(EffectPlan, WhatSettingsNeedIsBuiltWhenItIsAskedFor) {
-    const auto scene = compileHapticScene(richPlane(), Similarity{}, {}, {.rays = false});
+    CompileOptions withoutRays;
+    withoutRays.rays = false;
+    const auto scene = compileHapticScene(richPlane(), Similarity{}, {}, withoutRays);
     HapticSettings settings;
     EXPECT_TRUE(isBuiltFor(*scene, settings));
     settings.contact = ContactMethod::Rays;
