@@ -47,13 +47,17 @@ std::string writtenValue(const FieldText& field, double value) {
         return std::string(field.words[static_cast<size_t>(value)]);
     if (field.scale == 1.0)
         return text(value);
-    // The quotient's last digit is noise: 12 digits where they give the same SI value.
+    // The quotient may be off by its last digit: 12 digits where they give the same SI value, else the
+    // neighbour that does.
     const double exact = value / field.scale;
     std::array<char, 32> buffer{};
     const auto result =
         std::to_chars(buffer.data(), buffer.data() + buffer.size(), exact, std::chars_format::general, 12);
-    const double rounded = read({buffer.data(), result.ptr});
-    return text(rounded * field.scale == value ? rounded : exact);
+    for (const double candidate : {read({buffer.data(), result.ptr}), exact, std::nextafter(exact, INFINITY),
+                                   std::nextafter(exact, -INFINITY)})
+        if (candidate * field.scale == value)
+            return text(candidate);
+    return text(exact);
 }
 
 bool readValue(const FieldText& field, std::string_view text, double& value) {

@@ -23,8 +23,8 @@ struct FieldText {
 
 /// "sweep, rays" or "0 .. 0.05".
 [[nodiscard]] std::string allowedValues(const FieldText& field);
-/// `value` (SI, or the number of a word) as `readValue` takes it: the shortest text that reads back as the
-/// same bits.
+/// `value` (SI, or the number of a word) as `readValue` takes it; it reads back to the last bit if it was
+/// read from a text.
 [[nodiscard]] std::string writtenValue(const FieldText& field, double value);
 /// Reads a word or a number in the field's unit. False if it is none or outside the range; then `value` is
 /// unchanged.

@@ -224,10 +224,11 @@ TEST(GltfFuzzSeed, EveryValueReplacedByEveryStrangeOne) {
         for (const auto& [name, unused] : value->items())
             names.push_back(name);
         for (const std::string& name : names) {
-            json kept = std::move((*value)[name]);
-            value->erase(name);
+            // The node itself, as `values` points into it.
+            auto& members = value->get_ref<json::object_t&>();
+            auto kept = members.extract(name);
             tryIt();
-            (*value)[name] = std::move(kept);
+            members.insert(std::move(kept));
         }
     }
     EXPECT_GT(loaded, tried / 4);

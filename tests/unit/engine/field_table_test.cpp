@@ -42,9 +42,9 @@ bool set(Thing& thing, std::string_view name, std::string_view text) {
 
 TEST(FieldTable, ReadsWhatItWrites) {
     std::mt19937 random(3);
-    std::uniform_real_distribution<double> angle(0.0, 90.0 * kDegree);
+    std::uniform_real_distribution<double> degrees(0.0, 90.0);
     for (int i = 0; i < 2000; ++i) {
-        Thing thing{.angle = angle(random)};
+        Thing thing{.angle = degrees(random) * kDegree};
         const double before = thing.angle;
         ASSERT_TRUE(set(thing, "angle", writtenValue(field("angle"), thing.angle)));
         ASSERT_EQ(thing.angle, before);

@@ -109,31 +109,6 @@ TEST(MovingObstacles, BetweenJawsTheProxyStaysWithOneAndIsFreeWhenTheyOpen) {
     EXPECT_EQ(bench.output.force, glm::dvec3(0.0));
 }
 
-TEST(MovingObstacles, WhatGoesOnThroughTheHolderByHalfItsSizeIsLeftBehind) {
-    Boxes bench({{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}});
-    const glm::dvec3 hip(0.003, 0.01, 0.0);
-    bench.step(hip);
-    bool jammed = false, lost = false;
-    for (int i = 0; i < 130 && !lost; ++i) {
-        bench.tick(hip, 1, {-1e-3, 0.0, 0.0});
-        jammed |= has(bench.output.flags, TickFlag::Jammed);
-        lost = !bench.state[0].placed;
-        if (!lost && jammed) {
-            EXPECT_LE(bench.motions[1].workspaceFromObject.translation.x, 1e-6) << "the jaws are closed";
-        }
-    }
-    EXPECT_TRUE(jammed);
-    EXPECT_TRUE(lost);
-    EXPECT_EQ(bench.state[0].jammed.count, 0u);
-    for (int i = 0; i < 3; ++i)
-        bench.tick({0.0, 0.2, 0.0}, 1, glm::dvec3(0.0));
-    EXPECT_EQ(bench.output.contacts, 0u);
-    EXPECT_FALSE(has(bench.output.flags, TickFlag::Jammed));
-    for (int i = 0; i < 200; ++i)
-        bench.tick({-0.12, 0.2 - 0.152e-2 * std::min(i, 100), 0.0}, 1, glm::dvec3(0.0));
-    EXPECT_NEAR(bench.output.force.y, 500.0 * 0.002, 1e-4) << "and touch goes on";
-}
-
 TEST(MovingObstacles, AWedgeThatComesSlidesTheProxyOut) {
     // A box on its corner comes down on a hand that rests on another: the proxy goes aside, on top of it.
     Boxes bench({{0.0, -0.05, 0.0}, {0.005, 0.2, 0.0}});

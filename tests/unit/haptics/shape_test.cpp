@@ -1,8 +1,6 @@
 // A shape that is no mesh, beside a mesh and in contact with the hand at once: a ball that rests in a floor.
 
 #include "engine/core/error.h"
-#include "haptics/query/surface_distance.h"
-#include "haptics/query/surface_pick.h"
 #include "haptics/scene/shape_object.h"
 #include "tests/support/corner.h"
 #include "tests/support/touch_bench.h"
@@ -137,35 +135,10 @@ TEST(Shape, AShapeThatMovesIntoAStillHandPushesItAsTheClosedFormSays) {
     EXPECT_GT(bench.output.force.x, 1.0);
 }
 
-TEST(Shape, ARayFromTheEyeMeetsTheNearestOfAMeshAndAShape) {
-    const FloorAndBall bench({0.01, 0.03, -0.02});
-    const glm::dvec3 down(0.0, -1.0, 0.0);
-    auto pick = pickSurface(*bench.scene, {}, bench.centre + glm::dvec3(0.0, 0.2, 0.0), down);
-    ASSERT_TRUE(pick);
-    EXPECT_EQ(pick->object, 1);
-    EXPECT_EQ(pick->material, 1);
-    EXPECT_NEAR(glm::distance(pick->point, bench.centre - kBall * down), 0.0, 1e-9);
-    EXPECT_NEAR(glm::distance(pick->normal, -down), 0.0, 1e-6);
-    pick = pickSurface(*bench.scene, {}, {0.1, 0.2, 0.1}, down); // beside the ball
-    ASSERT_TRUE(pick);
-    EXPECT_EQ(pick->object, 0);
-    EXPECT_NEAR(pick->point.y, bench.floor, 1e-9);
-    pick =
-        pickSurface(*bench.scene, {}, bench.centre + glm::dvec3(0.0, -0.1, 0.0), -down); // the floor is first
-    ASSERT_TRUE(pick);
-    EXPECT_EQ(pick->object, 0);
-    EXPECT_FALSE(pickSurface(*bench.scene, {}, bench.centre + glm::dvec3(0.0, 0.2, 0.0), -down));
-    EXPECT_EQ(bench.scene->objects[1]->workspaceFromObject.translation, bench.centre);
-    EXPECT_NEAR(surfaceDistance(*bench.scene, {}, bench.centre + glm::dvec3(0.0, kBall + 0.02, 0.0), 1.0),
-                0.02, 1e-9);
-    EXPECT_NEAR(surfaceDistance(*bench.scene, {}, {0.15, bench.floor + 0.03, 0.1}, 1.0), 0.03, 1e-9);
-}
-
 TEST(Shape, RefusesWhatHasNoSizeOrNoMaterial) {
     const FloorAndBall bench({0.01, 0.03, -0.02});
     const std::shared_ptr<HapticScene> scene = copyOf(*bench.scene);
     EXPECT_THROW(addShape(*scene, "none", nullptr, 0, {}), Error);
-    EXPECT_THROW(addShape(*scene, "material", std::make_shared<Ball>(), -1, {}), Error);
     EXPECT_THROW(addShape(*scene, "material", std::make_shared<Ball>(), 2, {}), Error);
     EXPECT_EQ(addShape(*scene, "ball", std::make_shared<Ball>(), 1, {}), 2);
     scene->buildNeighbourhoods();
