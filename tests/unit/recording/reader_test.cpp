@@ -21,7 +21,9 @@ namespace {
 
 /// Three blocks of ticks and what they refer to.
 std::vector<RecordedItem> smallRecording() {
-    std::vector<RecordedItem> items{recordingOrigin("touch", 1000.0), RecordedSettings{}};
+    // Once: an origin names the second in which it is made.
+    static const RecordingOrigin kOrigin = recordingOrigin("touch", 1000.0);
+    std::vector<RecordedItem> items{kOrigin, RecordedSettings{}};
     for (uint64_t block = 0; block < 3; ++block) {
         RecordedTicks ticks;
         for (uint64_t i = 0; i < 4; ++i)
