@@ -1,6 +1,6 @@
 #include "haptics/recording/recorded_settings.h"
 
-#include "engine/core/field_table.h"
+#include "engine/core/field_rows.h"
 #include "engine/core/member_count.h"
 
 #include <array>
@@ -8,26 +8,16 @@
 #include <limits>
 #include <map>
 #include <span>
-#include <type_traits>
 
 namespace touchstone {
 
 namespace {
 
-constexpr std::string_view kSwitch[]{"off", "on"};
-
 /// A limit as a recording names it. Its range is the device's own to check.
 template <auto Member>
 constexpr StructField<DeviceLimits> limit(std::string_view name) {
-    constexpr bool kSwitched = std::is_same_v<std::remove_cvref_t<decltype(DeviceLimits{}.*Member)>, bool>;
-    return fieldOf<Member, DeviceLimits>({.name = name,
-                                          .unit = "",
-                                          .words = kSwitched ? std::span<const std::string_view>(kSwitch)
-                                                             : std::span<const std::string_view>(),
-                                          .low = -std::numeric_limits<double>::infinity(),
-                                          .high = std::numeric_limits<double>::infinity(),
-                                          .whole = kSwitched,
-                                          .meaning = ""});
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    return numberField<Member>(name, "", -kAny, kAny, "");
 }
 
 constexpr std::array kLimits{
@@ -41,7 +31,7 @@ constexpr std::array kLimits{
     limit<&DeviceLimits::positionResolution>("positionResolution"),
     limit<&DeviceLimits::apparentMass>("apparentMass"),
     limit<&DeviceLimits::coulombFriction>("coulombFriction"),
-    limit<&DeviceLimits::commandDelay>("commandDelay"),
+    switchField<&DeviceLimits::commandDelay>("commandDelay", ""),
 };
 static_assert(kLimits.size() == memberCount<DeviceLimits>(), "a limit is not recorded");
 

@@ -1,5 +1,6 @@
 #include "haptics/settings/haptic_settings.h"
 
+#include "engine/core/field_rows.h"
 #include "engine/core/member_count.h"
 
 #include <array>
@@ -16,80 +17,61 @@ constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays"}, kPrecis
     kTexture[]{"off", "law", "blinn", "minsky", "blinnMagnitude"},
     kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
     kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold"},
-    kPassivity[]{"off", "observe", "control"}, kSwitch[]{"off", "on"};
+    kPassivity[]{"off", "observe", "control"};
 
 constexpr double kDegree = 0.017453292519943295;
 
-template <auto Member>
-constexpr StructField<S> choice(std::string_view name, std::span<const std::string_view> words,
-                                std::string_view meaning) {
-    return fieldOf<Member, S>({.name = name,
-                               .unit = "",
-                               .words = words,
-                               .low = 0.0,
-                               .high = static_cast<double>(words.size() - 1),
-                               .whole = true,
-                               .meaning = meaning});
-}
-
-template <auto Member>
-constexpr StructField<S> number(std::string_view name, std::string_view unit, double low, double high,
-                                std::string_view meaning, double scale = 1.0) {
-    return fieldOf<Member, S>({.name = name,
-                               .unit = unit,
-                               .words = {},
-                               .low = low,
-                               .high = high,
-                               .scale = scale,
-                               .whole = std::is_integral_v<std::remove_cvref_t<decltype(S{}.*Member)>>,
-                               .meaning = meaning});
-}
-
 constexpr std::array kFields{
-    choice<&S::contact>("contact", kContact,
-                        "how contacts are found; neighbourhood: Ho's walk over the mesh; rays: Zilles' "
-                        "god-object; both a point without a radius"),
-    choice<&S::precision>("precision", kPrecision,
-                          "single: contact=rays finds contacts and solves for the proxy in floats"),
-    choice<&S::forceShading>("forceShading", kShading,
-                             "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's "
-                             "direction, what each material says, or the two passes once a tick"),
-    choice<&S::texture>(
+    wordField<&S::contact>("contact", kContact,
+                           "how contacts are found; neighbourhood: Ho's walk over the mesh; rays: Zilles' "
+                           "god-object; both a point without a radius"),
+    wordField<&S::precision>("precision", kPrecision,
+                             "single: contact=rays finds contacts and solves for the proxy in floats"),
+    wordField<&S::forceShading>("forceShading", kShading,
+                                "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's "
+                                "direction, what each material says, or the two passes once a tick"),
+    wordField<&S::texture>(
         "texture", kTexture,
         "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force, or "
         "Blinn's normal with a magnitude that follows the bump map"),
-    choice<&S::friction>(
+    wordField<&S::friction>(
         "friction", kFriction,
         "stiction point with static and dynamic coefficients; zilles: sawtooth; ho: two "
         "states; elastoplastic: creeps before it slips; velocityThreshold: viscous above a speed"),
-    number<&S::proxyRadius>("proxyRadius", "m", 0.0, 0.05, "radius of the proxy sphere; 0 is the god-object"),
-    number<&S::stiffness>("stiffness", "N/m", 0.0, 1e5,
-                          "0: the material's, else the device's recommendation"),
-    number<&S::damping>("damping", "N s/m", -1.0, 1e3, "below 0: the material's, else none"),
-    number<&S::staticFriction>("staticFriction", "", -1.0, 100.0, "below 0: the material's"),
-    number<&S::dynamicFriction>("dynamicFriction", "", -1.0, 100.0,
-                                "below 0: the material's; never above the static one"),
-    number<&S::frictionThreshold>("frictionThreshold", "m/s", 0.0, 1.0,
-                                  "friction=velocityThreshold: a contact that slides more slowly sticks"),
-    number<&S::frictionViscosity>("frictionViscosity", "N s/m", 0.0, 1e3,
-                                  "friction=velocityThreshold: friction over speed while sliding, up to the "
-                                  "dynamic limit"),
-    number<&S::shadingTiltLimit>("shadingTiltLimit", "deg", 0.0, 90.0,
-                                 "most that shading tilts the true normal", kDegree),
-    number<&S::textureTiltLimit>("textureTiltLimit", "deg", 0.0, 90.0,
-                                 "felt normals are compressed below it; 90: no limit", kDegree),
-    number<&S::textureStrength>("textureStrength", "", 0.0, 1.0, "scales heights and the normal map's tilt"),
-    choice<&S::textureFilter>("textureFilter", kFilter,
-                              "how maps are read between texels; mip: bilinear, coarser the faster the "
-                              "stroke; the others let fine relief buzz"),
-    choice<&S::textureGradient>("textureGradient", kGradient,
-                                "slope of height maps: differences over a texel, kept for each texel, or the "
-                                "filter's own derivative"),
-    number<&S::iterationBudget>("iterationBudget", "", 1.0, 1000.0, "proxy moves a tick; fewer feels sticky"),
-    choice<&S::passivity>(
+    numberField<&S::proxyRadius>("proxyRadius", "m", 0.0, 0.05,
+                                 "radius of the proxy sphere; 0 is the god-object"),
+    numberField<&S::stiffness>("stiffness", "N/m", 0.0, 1e5,
+                               "0: the material's, else the device's recommendation"),
+    numberField<&S::damping>("damping", "N s/m", -1.0, 1e3, "below 0: the material's, else none"),
+    numberField<&S::staticFriction>("staticFriction", "", -1.0, 100.0, "below 0: the material's"),
+    numberField<&S::dynamicFriction>("dynamicFriction", "", -1.0, 100.0,
+                                     "below 0: the material's; never above the static one"),
+    numberField<&S::frictionThreshold>(
+        "frictionThreshold", "m/s", 0.0, 1.0,
+        "friction=velocityThreshold: a contact that slides more slowly sticks"),
+    numberField<&S::frictionViscosity>(
+        "frictionViscosity", "N s/m", 0.0, 1e3,
+        "friction=velocityThreshold: friction over speed while sliding, up to the "
+        "dynamic limit"),
+    numberField<&S::shadingTiltLimit>("shadingTiltLimit", "deg", 0.0, 90.0,
+                                      "most that shading tilts the true normal", kDegree),
+    numberField<&S::textureTiltLimit>("textureTiltLimit", "deg", 0.0, 90.0,
+                                      "felt normals are compressed below it; 90: no limit", kDegree),
+    numberField<&S::textureStrength>("textureStrength", "", 0.0, 1.0,
+                                     "scales heights and the normal map's tilt"),
+    wordField<&S::textureFilter>("textureFilter", kFilter,
+                                 "how maps are read between texels; mip: bilinear, coarser the faster the "
+                                 "stroke; the others let fine relief buzz"),
+    wordField<&S::textureGradient>(
+        "textureGradient", kGradient,
+        "slope of height maps: differences over a texel, kept for each texel, or the "
+        "filter's own derivative"),
+    numberField<&S::iterationBudget>("iterationBudget", "", 1.0, 1000.0,
+                                     "proxy moves a tick; fewer feels sticky"),
+    wordField<&S::passivity>(
         "passivity", kPassivity,
         "energy given to the hand: counted, or also damped away where it is more than was taken"),
-    choice<&S::forceEnabled>("forceEnabled", kSwitch, "off: contact goes on, the device gets no force"),
+    switchField<&S::forceEnabled>("forceEnabled", "off: contact goes on, the device gets no force"),
 };
 static_assert(kFields.size() == memberCount<S>(), "a setting is missing from the table");
 
