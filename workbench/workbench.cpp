@@ -152,8 +152,7 @@ void WorkbenchWindow::moveHand() {
 }
 
 void WorkbenchWindow::holdDevice() {
-    if (!touch_.hold(state_.device))
-        problem_ = "there is not enough memory for the device's limits: nothing is held";
+    touch_.hold(state_.device);
 }
 
 void WorkbenchWindow::remember() {

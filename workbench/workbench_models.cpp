@@ -8,7 +8,7 @@ void WorkbenchWindow::open(const std::filesystem::path& path) {
     if (isRecording(path))
         return timeline_.open(path);
     longestFrame_ = 0.0;
-    opening_.start(path, touch_.limits(), screen_.renderer());
+    opening_.start(path, screen_.renderer());
 }
 
 void WorkbenchWindow::takeAnotherDevice(const DeviceLost& lost) {

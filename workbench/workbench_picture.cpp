@@ -54,7 +54,7 @@ std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
     if (hasModel()) {
         const Model& model = touch_.shown().model;
         input.scene = model.scene.get();
-        input.deviceStiffness = model.haptic->limits.recommendedStiffness;
+        input.deviceStiffness = touch_.tick().sample.limits.recommendedStiffness;
         const int object = touch_.tick().output.object;
         const auto& objects = model.haptic->objects;
         if (object >= 0 && static_cast<size_t>(object) < objects.size())

@@ -11,13 +11,22 @@ namespace touchstone {
 class Device {
   public:
     virtual ~Device() = default;
-    [[nodiscard]] virtual std::string name() const = 0;    ///< owner thread
-    [[nodiscard]] virtual DeviceLimits limits() const = 0; ///< owner thread
+    [[nodiscard]] virtual std::string name() const = 0; ///< owner thread
+    /// Of the device that gets the next command: servo thread, after `sample`, or owner thread while the
+    /// servo does not run. No allocation or lock.
+    [[nodiscard]] virtual DeviceLimits limits() const = 0;
     /// Servo thread, before each sample. Only needed by devices whose position the program computes.
     virtual void feel(const TouchFeedback& felt) noexcept { (void)felt; }
-    [[nodiscard]] virtual DeviceSample
-    sample(double time) noexcept = 0;                              ///< servo thread; time in s since start
+    /// Servo thread; time in s since start. Without limits: see sampleWithLimits.
+    [[nodiscard]] virtual DeviceSample sample(double time) noexcept = 0;
     virtual void apply(const DeviceCommand& command) noexcept = 0; ///< servo thread
 };
+
+/// The input of a tick: the device's sample with the limits that its command must keep. Servo thread.
+[[nodiscard]] inline DeviceSample sampleWithLimits(Device& device, double time) noexcept {
+    DeviceSample sample = device.sample(time);
+    sample.limits = device.limits();
+    return sample;
+}
 
 } // namespace touchstone

@@ -1,12 +1,13 @@
 #include "devices/simulated/simulated_hand.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace touchstone {
 
 DeviceSample SimulatedHand::sample(double time) noexcept {
     DeviceSample sample;
-    sample.position = path_->positionIn(time, time);
+    sample.position = path_->positionIn(std::max(0.0, time - wait_), time);
     sample.valid = true;
     sample.begins = !std::exchange(begun_, true);
     sample.inSight = true; // its path is laid onto the model

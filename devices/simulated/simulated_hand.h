@@ -11,7 +11,9 @@ namespace touchstone {
 /// position depends on the time alone.
 class SimulatedHand final : public Device {
   public:
-    explicit SimulatedHand(std::shared_ptr<const StrokePath> path) : path_(std::move(path)) {}
+    /// `wait`: s at the path's start before it sets off.
+    explicit SimulatedHand(std::shared_ptr<const StrokePath> path, double wait = 0.0)
+        : path_(std::move(path)), wait_(wait) {}
 
     [[nodiscard]] std::string name() const override { return "simulated hand"; }
     [[nodiscard]] DeviceLimits limits() const override { return {}; }
@@ -22,6 +24,7 @@ class SimulatedHand final : public Device {
 
   private:
     std::shared_ptr<const StrokePath> path_;
+    double wait_ = 0.0;
     bool begun_ = false;
 };
 

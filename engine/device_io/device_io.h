@@ -21,7 +21,27 @@ struct DeviceMapping {
     double coupling = 1.0; ///< 0..1: force fraction passed; below 1 while clutched and as the force returns
 };
 
-/// Inputs in the device frame: m, right-handed, y up, z towards the user.
+/// Limits of a device; the safety stage never exceeds them.
+struct DeviceLimits {
+    double maxForce = 8.5;               ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
+    double maxForceRate = 8500.0;        ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
+    double maxTorque = 0.0;              ///< N·m, magnitude; 0: the device takes no torque
+    double maxTorqueRate = 0.0;          ///< N·m/s
+    double recommendedStiffness = 600.0; ///< N/m, used where a material states none
+    double maxStiffness = 3500.0;        ///< N/m, above it the closed loop may buzz
+    /// s: a sample older than this is stale and the force fades out. Twenty periods at 1 kHz: longer than any
+    /// USB poll or scheduling delay, shorter than a hand's reaction. A larger value keeps pushing on an
+    /// outdated position.
+    double staleAge = 0.02;
+    double positionResolution = 3e-5; ///< m
+    double apparentMass = 0.075;      ///< kg at the tip, minimum over all directions. Phantom Premium 1.5
+    double coulombFriction = 0.0;     ///< N at the tip, the minimum over all directions; 0: unknown
+    bool commandDelay = false;        ///< a command acts a tick later, not at once
+
+    bool operator==(const DeviceLimits&) const = default;
+};
+
+/// One hand's input of a tick. Device frame: m, right-handed, y up, z towards the user.
 struct DeviceSample {
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
@@ -34,6 +54,7 @@ struct DeviceSample {
     /// in sight of the model, and while it is not valid it has been lifted on purpose: no fault of a device.
     bool inSight = false;
     DeviceMapping mapping{};
+    DeviceLimits limits{}; ///< of the device that gets this tick's command; also while not valid
 
     /// The haptic interface point, workspace.
     [[nodiscard]] glm::dvec3 inWorkspace() const { return mapping.workspaceFromDevice.point(position); }
@@ -61,24 +82,6 @@ class DeviceCommand {
     friend class ForceLimiter;
     DeviceCommand(const glm::dvec3& force, const glm::dvec3& torque) : force_(force), torque_(torque) {}
     glm::dvec3 force_{0.0}, torque_{0.0};
-};
-
-/// Limits of a device; the safety stage never exceeds them.
-struct DeviceLimits {
-    double maxForce = 8.5;               ///< N, magnitude. Phantom Premium 1.5: 8.5 N peak.
-    double maxForceRate = 8500.0;        ///< N/s, slew: full force in 1 ms. Lower feels soft at impacts.
-    double maxTorque = 0.0;              ///< N·m, magnitude; 0: the device takes no torque
-    double maxTorqueRate = 0.0;          ///< N·m/s
-    double recommendedStiffness = 600.0; ///< N/m, used where a material states none
-    double maxStiffness = 3500.0;        ///< N/m, above it the closed loop may buzz
-    /// s: a sample older than this is stale and the force fades out. Twenty periods at 1 kHz: longer than any
-    /// USB poll or scheduling delay, shorter than a hand's reaction. A larger value keeps pushing on an
-    /// outdated position.
-    double staleAge = 0.02;
-    double positionResolution = 3e-5; ///< m
-    double apparentMass = 0.075;      ///< kg at the tip, minimum over all directions. Phantom Premium 1.5
-    double coulombFriction = 0.0;     ///< N at the tip, the minimum over all directions; 0: unknown
-    bool commandDelay = false;        ///< a command acts a tick later, not at once
 };
 
 } // namespace touchstone

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -28,17 +29,20 @@ class RecordRing {
     RecordRing& operator=(const RecordRing&) = delete;
 
     /// Writer (servo) thread only.
-    void push(const Record& record) noexcept {
-        const size_t end = end_.load(std::memory_order_relaxed);
-        if (end - knownBegin_ > mask_) {
+    void push(const Record& record) noexcept { push(std::span(&record, 1)); }
+    /// All of them or none; those that are dropped count as one.
+    void push(std::span<const Record> records) noexcept {
+        const size_t end = end_.load(std::memory_order_relaxed), count = records.size();
+        if (end + count - knownBegin_ > slots_.size()) {
             knownBegin_ = begin_.load(std::memory_order_acquire);
-            if (end - knownBegin_ > mask_) {
+            if (end + count - knownBegin_ > slots_.size()) {
                 dropped_.fetch_add(1, std::memory_order_relaxed);
                 return;
             }
         }
-        slots_[end & mask_] = record;
-        end_.store(end + 1, std::memory_order_release);
+        for (size_t i = 0; i < count; ++i)
+            slots_[(end + i) & mask_] = records[i];
+        end_.store(end + count, std::memory_order_release);
     }
 
     /// Reader thread only.

@@ -29,6 +29,13 @@ glm::dvec3 contactForce(const ContactLoad& contact) {
     return feel.stiffness * feel.depth * (feel.normal + tilt * (feel.textured - feel.normal));
 }
 
+/// -c_i min(1, lambda_i / d_i) (v . n_i) n_i, without pulling.
+glm::dvec3 contactDamping(const ContactLoads& loads, const ContactLoad& contact, const glm::dvec3& velocity) {
+    const glm::dvec3& n = contact.feel.normal;
+    const double push = std::max(loads.bounding * glm::dot(contactForce(contact), n), 0.0);
+    return std::max(-contact.feel.damping * partOf(contact) * glm::dot(velocity, n), -push) * n;
+}
+
 /// True where F is K (p - h), to the last bit.
 bool alike(const ContactLoads& loads) {
     return std::ranges::all_of(held(loads), [&](const ContactLoad& contact) {
@@ -41,10 +48,10 @@ bool alike(const ContactLoads& loads) {
 
 } // namespace
 
-void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
-               const SolveResult& rest, const SubGoal& activeSet, bool twoPass, const glm::dvec3& offset,
-               double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
-               ContactLoads& loads) noexcept {
+void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+               const DeviceLimits& limits, int reference, const SolveResult& rest, const SubGoal& activeSet,
+               bool twoPass, const glm::dvec3& offset, double workspacePerReference,
+               const glm::dvec3& velocity, double zoom, double dt, ContactLoads& loads) noexcept {
     loads.count = activeSet.count;
     loads.offset = workspacePerReference * offset;
     loads.loaded = 0;
@@ -59,10 +66,10 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
         const TurnedNormal turned = turnedNormal(scene, motions, settings, reference, contact, load.plane);
         load.depth = glm::dot(load.plane, loads.offset) / turned.cosine;
         const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);
-        load.feel = readSurface(scene, motions, settings, reference, contact, turned.normal,
+        load.feel = readSurface(scene, motions, settings, limits, reference, contact, turned.normal,
                                 load.length / turned.cosine, speed, dt);
         if (zoom > 1.0) {
-            const double share = bearableShare(load.feel.stiffness, zoom, settings, scene.limits);
+            const double share = bearableShare(load.feel.stiffness, zoom, settings, limits);
             load.feel.stiffness *= share;
             load.feel.damping *= share;
             load.feel.viscousFriction *= share;
@@ -91,12 +98,40 @@ glm::dvec3 elasticForce(const ContactLoads& loads) noexcept {
 
 glm::dvec3 dampingForce(const ContactLoads& loads, const glm::dvec3& velocity) noexcept {
     glm::dvec3 force(0.0);
-    for (const ContactLoad& contact : held(loads)) {
-        const glm::dvec3& n = contact.feel.normal;
-        const double push = std::max(loads.bounding * glm::dot(contactForce(contact), n), 0.0);
-        force += std::max(-contact.feel.damping * partOf(contact) * glm::dot(velocity, n), -push) * n;
-    }
+    for (const ContactLoad& contact : held(loads))
+        force += contactDamping(loads, contact, velocity);
     return force;
+}
+
+void splitForces(const ContactLoads& loads, const glm::dvec3& velocity, ContactForces& forces) noexcept {
+    for (size_t i = 0; i < static_cast<size_t>(loads.count); ++i) {
+        const ContactLoad& contact = loads.contacts[i];
+        const glm::dvec3 share = loads.stiffness * contact.length * contact.plane;
+        forces.force[i] = share + loads.bounding * (contactForce(contact) - share) +
+                          contactDamping(loads, contact, velocity);
+        forces.load[i] = loads.bounding * contact.feel.stiffness * contact.feel.depth;
+        forces.grip[i] = forces.load[i] * contact.feel.staticFriction;
+    }
+}
+
+void ContactForces::complete(const glm::dvec3& whole) noexcept {
+    glm::dvec3 left = whole;
+    double grips = 0.0, loads = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        left -= force[i];
+        grips += grip[i];
+        loads += load[i];
+    }
+    const glm::dvec3 all = left;
+    for (size_t i = 0; i + 1 < count; ++i) {
+        const double part = grips > 0.0   ? grip[i] / grips
+                            : loads > 0.0 ? load[i] / loads
+                                          : 1.0 / static_cast<double>(count);
+        force[i] += part * all;
+        left -= part * all;
+    }
+    if (count > 0)
+        force[count - 1] += left; // what rounding leaves, too
 }
 
 } // namespace touchstone

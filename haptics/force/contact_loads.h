@@ -56,13 +56,33 @@ inline constexpr double kMaxLoad = 20.0;
 /// h, reference object units. `velocity` of the HIP relative to the surface, m/s, reference object frame.
 /// `zoom` as in bearableShare, which limits each contact's stiffness separately: a stiffer plane that joins
 /// without load changes nothing.
-void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings, int reference,
-               const SolveResult& rest, const SubGoal& activeSet, bool twoPass, const glm::dvec3& offset,
-               double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
-               ContactLoads& loads) noexcept;
+void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
+               const DeviceLimits& limits, int reference, const SolveResult& rest, const SubGoal& activeSet,
+               bool twoPass, const glm::dvec3& offset, double workspacePerReference,
+               const glm::dvec3& velocity, double zoom, double dt, ContactLoads& loads) noexcept;
 
 /// F above, N, reference object frame.
 [[nodiscard]] glm::dvec3 elasticForce(const ContactLoads& loads) noexcept;
+
+/// The force of each contact, whose sum is the whole force. Reference object frame. Contact i bears
+///     K lambda_i n_i + beta (f_i - K lambda_i n_i)
+/// of F above (they sum to F, since p - h = sum lambda_i n_i), its own damping, and the part mu_i N_i / sum
+/// mu_j N_j of everything else: friction, and what a solve that ended early leaves between p - h and the sum.
+/// Without a coefficient of friction that part is N_i / sum N_j.
+struct ContactForces {
+    size_t count = 0;                ///< of valid entries; the others are not initialised
+    std::array<glm::dvec3, 3> force; ///< N
+    std::array<glm::dvec3, 3> point; ///< on the surface, reference object units
+    std::array<int, 3> object;       ///< HapticScene::objects
+    std::array<double, 3> load;      ///< N_i, N; at least 0
+    std::array<double, 3> grip;      ///< mu_i N_i, N; at least 0
+
+    /// The rest of the force `whole` (N).
+    void complete(const glm::dvec3& whole) noexcept;
+};
+
+/// Elastic force and damping of every contact; `grip` of static friction.
+void splitForces(const ContactLoads& loads, const glm::dvec3& velocity, ContactForces& forces) noexcept;
 
 /// The plane's fraction of the load that almost parallel planes share: lambda_i / d_i, at most 1.
 [[nodiscard]] inline double partOf(const ContactLoad& contact) noexcept {

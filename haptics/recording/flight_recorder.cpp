@@ -208,7 +208,7 @@ void FlightRecorder::add(const TickToRecord& tick) {
     writer_->add(tick);
     recorded_ += dt;
     clock_ += dt;
-    if (const std::optional<Fault> fault = watch_.add(tick.tick)) {
+    if (const std::optional<Fault> fault = faultOf(tick)) {
         const auto last = last_.find(fault->name);
         if (pending_ || (last != last_.end() && clock_ - last->second < config_.pause))
             return;
@@ -217,6 +217,19 @@ void FlightRecorder::add(const TickToRecord& tick) {
         pending_ = fault;
         due_ = clock_ + config_.afterwards;
     }
+}
+
+/// Of any hand, the first one first.
+std::optional<Fault> FlightRecorder::faultOf(const TickToRecord& tick) {
+    std::optional<Fault> first = watches_[0].add(tick.tick);
+    for (const HandToRecord& other : tick.others) {
+        std::optional<Fault> fault = watches_[other.hand].add(other.tick);
+        if (first || !fault)
+            continue;
+        fault->text = "hand " + std::to_string(other.hand + 1) + ": " + fault->text;
+        first = std::move(fault);
+    }
+    return first;
 }
 
 void FlightRecorder::flush() {

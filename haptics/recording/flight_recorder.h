@@ -5,6 +5,7 @@
 #include "haptics/recording/fault_watch.h"
 #include "haptics/recording/recording_writer.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -59,12 +60,13 @@ class FlightRecorder {
   private:
     [[nodiscard]] std::filesystem::path segment(int index) const;
     void rotate();
+    [[nodiscard]] std::optional<Fault> faultOf(const TickToRecord& tick);
     void keep();
 
     FlightConfig config_;
     std::filesystem::path session_; ///< without file extension
     int lock_ = -1;
-    FaultWatch watch_;
+    std::array<FaultWatch, kMaxHands> watches_;
     std::optional<RecordingWriter> writer_;
     int current_ = 0;
     bool previous_ = false; // the other segment holds the preceding ticks

@@ -85,8 +85,7 @@ void putFields(ByteWriter& bytes, std::span<const StructField<S>> fields, const 
 }
 
 template <class S, class Check>
-S getFields(ByteReader& bytes, std::span<const StructField<S>> fields, const Check& check) {
-    NamedNumbers numbers = getNumbers(bytes);
+S fieldsOf(NamedNumbers numbers, std::span<const StructField<S>> fields, const Check& check) {
     S values;
     for (const StructField<S>& field : fields) {
         takeNumber(numbers, field, values);
@@ -104,21 +103,28 @@ void putSettings(ByteWriter& bytes, const HapticSettings& settings) {
     putFields(bytes, settingFields(), settings);
 }
 
-void putLimits(ByteWriter& bytes, const DeviceLimits& limits) {
-    putFields<DeviceLimits>(bytes, kLimits, limits);
+void putLimits(ByteWriter& bytes, const std::optional<DeviceLimits>& limits) {
+    if (limits)
+        putFields<DeviceLimits>(bytes, kLimits, *limits);
+    else
+        putNumbers(bytes, {});
 }
 
 HapticSettings getSettings(ByteReader& bytes) {
-    return getFields(bytes, settingFields(), [](const auto& field, const HapticSettings& settings) {
-        const std::string written = writtenValue(field, field.get(settings));
-        double value = 0.0;
-        if (!readValue(field, written, value))
-            throw Error("", std::string(field.name), refusedValue(field, written), "");
-    });
+    return fieldsOf(getNumbers(bytes), settingFields(),
+                    [](const auto& field, const HapticSettings& settings) {
+                        const std::string written = writtenValue(field, field.get(settings));
+                        double value = 0.0;
+                        if (!readValue(field, written, value))
+                            throw Error("", std::string(field.name), refusedValue(field, written), "");
+                    });
 }
 
-DeviceLimits getLimits(ByteReader& bytes) {
-    return getFields<DeviceLimits>(bytes, kLimits, [](const auto&, const DeviceLimits&) {});
+std::optional<DeviceLimits> getLimits(ByteReader& bytes) {
+    NamedNumbers numbers = getNumbers(bytes);
+    if (numbers.empty())
+        return std::nullopt;
+    return fieldsOf<DeviceLimits>(std::move(numbers), kLimits, [](const auto&, const DeviceLimits&) {});
 }
 
 } // namespace touchstone

@@ -4,6 +4,7 @@
 #include "haptics/recording/byte_stream.h"
 #include "haptics/recording/recorded_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -154,7 +155,7 @@ bool same(const DeviceMapping& a, const DeviceMapping& b) {
            a.coupling == b.coupling;
 }
 
-/// After the ticks, where any mapping is not the identity: those that differ from that of the preceding tick.
+/// After the ticks: the mappings that differ from that of the preceding tick, the first from the identity.
 void putMappings(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
     std::vector<uint32_t> changes;
     DeviceMapping last;
@@ -164,8 +165,6 @@ void putMappings(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
         last = ticks[i].sample.mapping;
         changes.push_back(i);
     }
-    if (changes.empty())
-        return;
     bytes.put(static_cast<uint32_t>(changes.size()));
     for (const uint32_t i : changes) {
         const DeviceMapping& mapping = ticks[i].sample.mapping;
@@ -212,14 +211,73 @@ void getMappings(ByteReader& bytes, std::vector<RecordedTick>& ticks) {
     upTo(static_cast<uint32_t>(ticks.size()));
 }
 
+/// After the mappings: for each tick whose device has other limits than that of the preceding tick, its index
+/// and the limits; those of the first tick always.
+void putLimitChanges(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
+    std::vector<uint32_t> changes;
+    for (uint32_t i = 0; i < ticks.size(); ++i)
+        if (i == 0 || ticks[i].sample.limits != ticks[i - 1].sample.limits)
+            changes.push_back(i);
+    bytes.put(static_cast<uint32_t>(changes.size()));
+    for (const uint32_t i : changes) {
+        bytes.put(i);
+        putLimits(bytes, ticks[i].sample.limits);
+    }
+}
+
+void getLimitChanges(ByteReader& bytes, std::vector<RecordedTick>& ticks) {
+    uint32_t changes = 0, next = 0;
+    bytes.get(changes);
+    DeviceLimits limits;
+    const auto upTo = [&](uint32_t end) {
+        for (; next < end; ++next)
+            ticks[next].sample.limits = limits;
+    };
+    for (uint32_t change = 0; change < changes; ++change) {
+        uint32_t at = 0;
+        bytes.get(at);
+        if (at < next || at >= ticks.size())
+            throw Error("", "", "has the limits of a tick that it does not have", "");
+        upTo(at);
+        const std::optional<DeviceLimits> changed = getLimits(bytes);
+        if (!changed)
+            throw Error("", "tick " + std::to_string(ticks[at].tick), "has no limits", "");
+        limits = *changed;
+    }
+    upTo(static_cast<uint32_t>(ticks.size()));
+}
+
+/// After the limits: the hash of each tick's poses, or none where nothing moves.
+void putPoses(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
+    const bool moving =
+        std::ranges::any_of(ticks, [](const RecordedTick& tick) { return tick.poses.value_or(0) != 0; });
+    bytes.put(static_cast<uint32_t>(moving ? ticks.size() : 0));
+    if (moving)
+        for (const RecordedTick& tick : ticks)
+            bytes.put(tick.poses.value_or(0));
+}
+
+void getPoses(ByteReader& bytes, std::vector<RecordedTick>& ticks) {
+    uint32_t count = 0;
+    bytes.get(count);
+    if (count == 0)
+        return;
+    if (count != ticks.size())
+        throw Error("", "", "has the poses of another number of ticks", "");
+    for (RecordedTick& tick : ticks)
+        bytes.get(*tick.poses);
+}
+
 void put(ByteWriter& bytes, const RecordedTicks& ticks) {
     bytes.put(static_cast<uint32_t>(ticks.ticks.size()));
     for (const RecordedTick& tick : ticks.ticks)
         put(bytes, tick);
     putMappings(bytes, ticks.ticks);
+    putLimitChanges(bytes, ticks.ticks);
+    putPoses(bytes, ticks.ticks);
 }
 
-void get(ByteReader& bytes, RecordedTicks& ticks) {
+void get(ByteReader& bytes, RecordedTicks& ticks, uint32_t format) {
     uint32_t count = 0;
     bytes.get(count);
     if (bytes.left() < size_t{count} * kTickSize)
@@ -227,8 +285,43 @@ void get(ByteReader& bytes, RecordedTicks& ticks) {
     ticks.ticks.resize(count);
     for (RecordedTick& tick : ticks.ticks)
         get(bytes, tick);
-    if (bytes.left() > 0)
+    // Format 1 ends here where every mapping is the identity, else behind the mappings.
+    if (format > 1 || bytes.left() > 0)
         getMappings(bytes, ticks.ticks);
+    if (format == 1) {
+        for (RecordedTick& tick : ticks.ticks)
+            tick.poses.reset();
+        return;
+    }
+    getLimitChanges(bytes, ticks.ticks);
+    getPoses(bytes, ticks.ticks);
+}
+
+/// Hand 0 has chunks of its own, and there are kMaxHands at most.
+uint32_t otherHand(uint32_t hand) {
+    if (hand == 0 || hand >= kMaxHands)
+        throw Error("", "", "is of a hand that cannot be", "");
+    return hand;
+}
+
+void put(ByteWriter& bytes, const RecordedHandTicks& ticks) {
+    bytes.put(ticks.hand);
+    put(bytes, ticks.ticks);
+}
+void get(ByteReader& bytes, RecordedHandTicks& ticks, uint32_t format) {
+    bytes.get(ticks.hand);
+    (void)otherHand(ticks.hand);
+    get(bytes, ticks.ticks, format);
+}
+void put(ByteWriter& bytes, const RecordedHandState& state) {
+    bytes.put(state.checkpoint.hand);
+    put(bytes, state.checkpoint);
+}
+void get(ByteReader& bytes, RecordedHandState& state) {
+    uint32_t hand = 0;
+    bytes.get(hand);
+    get(bytes, state.checkpoint);
+    state.checkpoint.hand = otherHand(hand);
 }
 
 void put(ByteWriter& bytes, const RecordedLoss& loss) {
@@ -252,10 +345,16 @@ void get(ByteReader& bytes, RecordedEnd& end) {
     bytes.get(end.ticks);
 }
 
+/// The other items have the same layout in every format.
+template <class Item>
+void get(ByteReader& bytes, Item& item, uint32_t) {
+    get(bytes, item);
+}
+
 template <size_t... I>
-RecordedItem decodeAs(size_t name, ByteReader& bytes, std::index_sequence<I...>) {
+RecordedItem decodeAs(size_t name, ByteReader& bytes, uint32_t format, std::index_sequence<I...>) {
     RecordedItem item;
-    ((I == name ? get(bytes, item.emplace<I>()) : void()), ...);
+    ((I == name ? get(bytes, item.emplace<I>(), format) : void()), ...);
     return item;
 }
 
@@ -278,9 +377,10 @@ std::vector<std::byte> encode(const RecordedItem& item) {
     return payload;
 }
 
-RecordedItem decode(size_t name, std::span<const std::byte> payload) {
+RecordedItem decode(size_t name, std::span<const std::byte> payload, uint32_t format) {
     ByteReader bytes(payload);
-    RecordedItem item = decodeAs(name, bytes, std::make_index_sequence<std::variant_size_v<RecordedItem>>());
+    RecordedItem item =
+        decodeAs(name, bytes, format, std::make_index_sequence<std::variant_size_v<RecordedItem>>());
     if (bytes.left() != 0)
         throw Error("", "", "holds more than it should", "");
     return item;

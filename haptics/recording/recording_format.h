@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -17,7 +18,9 @@
 
 namespace touchstone {
 
-inline constexpr uint32_t kRecordingVersion = 1;
+/// Written; the reader reads this one and all before it. Format 2 adds hands (RecordedHandTicks and
+/// RecordedHandState), the limits of each tick's device, and the hash of the poses.
+inline constexpr uint32_t kRecordingVersion = 2;
 /// Like PNG's: a byte that is not text, both line ends and an end of file, each of which a faulty copy
 /// changes.
 inline constexpr std::string_view kRecordingMagic{"\x89TSR\r\n\x1a\n", 8};
@@ -47,8 +50,9 @@ struct RecordedSettings {
 struct RecordedTick {
     uint64_t tick = 0;
     double time = 0.0, dt = 0.0; ///< s
-    DeviceSample sample;
+    DeviceSample sample;         ///< format 1: without limits, which are those of the scene (SceneIdentity)
     uint32_t settings = 0, scene = 0;
+    std::optional<uint32_t> poses = 0; ///< WorldState::poseHash; null: format 1 does not have it
     bool late = false, missed = false, checkpoint = false;
     int32_t wakeLatencyNs = 0, stepNs = 0;
     StageHashes hashes{};
@@ -57,9 +61,18 @@ struct RecordedTick {
     glm::dvec3 command{0.0};           ///< N, device frame
     uint32_t contacts = 0, flags = 0;
 };
-/// With the mapping of each sample; omitted where it is the identity throughout.
+/// Of hand 0, with the mapping, the limits and the poses of each.
 struct RecordedTicks {
     std::vector<RecordedTick> ticks;
+};
+/// The same ticks of another hand; before those of hand 0.
+struct RecordedHandTicks {
+    uint32_t hand = 0;
+    RecordedTicks ticks;
+};
+/// The state of another hand than hand 0 (TouchCheckpoint::hand); after that of hand 0.
+struct RecordedHandState {
+    TouchCheckpoint checkpoint;
 };
 /// Ticks that were made but not recorded.
 struct RecordedLoss {
@@ -73,18 +86,20 @@ struct RecordedNote {
 struct RecordedEnd {
     uint64_t ticks = 0;
 };
-using RecordedItem = std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint,
-                                  RecordedTicks, RecordedLoss, RecordedNote, RecordedEnd>;
+using RecordedItem =
+    std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
+                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 8> kChunkNames{"MADE", "SCEN", "SETT", "STAT",
-                                                             "TICK", "LOST", "NOTE", "DONE"};
+inline constexpr std::array<std::string_view, 10> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK",
+                                                              "LOST", "NOTE", "DONE", "HTIC", "HSTA"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);
 
 /// The item of chunk `name` (index into kChunkNames). Throws Error (with `problem` alone) where the payload
-/// is invalid: too short, or with values that no writer writes.
-[[nodiscard]] RecordedItem decode(size_t name, std::span<const std::byte> payload);
+/// is invalid: too short, or with values that no writer of that format writes.
+[[nodiscard]] RecordedItem decode(size_t name, std::span<const std::byte> payload,
+                                  uint32_t format = kRecordingVersion);
 
 } // namespace touchstone

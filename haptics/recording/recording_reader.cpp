@@ -29,18 +29,18 @@ RecordingReader::RecordingReader(const std::filesystem::path& path)
         throw Error(path_, "", size_ == 0 ? "is empty" : "is no recording of Touchstone",
                     "give a file that --record, the window or the flight recorder wrote");
     ByteReader bytes(std::span<const std::byte>(header).subspan(kRecordingMagic.size()));
-    uint32_t version = 0, headerSize = 0, reserved = 0, checksum = 0;
-    bytes.get(version);
+    uint32_t headerSize = 0, reserved = 0, checksum = 0;
+    bytes.get(format_);
     bytes.get(headerSize);
     bytes.get(reserved);
     bytes.get(checksum);
     if (checksum != crc32c(std::span(header).first(kFileHeaderSize - sizeof checksum)))
         throw Error(path_, "byte 0", "the header is damaged", "use another copy of the file");
-    if (version != kRecordingVersion)
+    if (format_ == 0 || format_ > kRecordingVersion)
         throw Error(path_, "",
-                    "is of format " + std::to_string(version) + "; this program reads format " +
+                    "is of format " + std::to_string(format_) + "; this program reads the formats 1 to " +
                         std::to_string(kRecordingVersion),
-                    version > kRecordingVersion ? "use a newer Touchstone" : "use an older Touchstone");
+                    format_ == 0 ? "use another copy of the file" : "use a newer Touchstone");
     at_ = headerSize;
 }
 
@@ -125,7 +125,7 @@ std::optional<RecordingReader::Item> RecordingReader::next() {
             if (chunk.name == kChunkNames.size())
                 continue;
             try {
-                Item item{decode(chunk.name, chunk.payload), std::exchange(damaged_, false), begin};
+                Item item{decode(chunk.name, chunk.payload, format_), std::exchange(damaged_, false), begin};
                 ended_ = std::holds_alternative<RecordedEnd>(item.item);
                 return item;
             } catch (const Error& error) {

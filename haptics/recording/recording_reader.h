@@ -50,6 +50,7 @@ class RecordingReader {
     void spoilt(std::string what);
 
     std::string path_;
+    uint32_t format_ = 0;
     std::ifstream file_;
     uint64_t size_ = 0, at_ = 0;
     std::optional<uint32_t> nextSequence_;

@@ -12,6 +12,7 @@ RecordedTick recordedTick(const TickRecord& record) {
             .sample = record.sample,
             .settings = record.settings,
             .scene = record.scene,
+            .poses = record.poses,
             .late = record.late,
             .missed = record.missed,
             .checkpoint = record.checkpoint,
@@ -44,13 +45,19 @@ void RecordingWriter::add(const TickToRecord& tick) {
         file_.append(RecordedScene{tick.tick.scene, *tick.scene});
     if (newSettings)
         file_.append(RecordedSettings{tick.tick.settings, tick.settings});
-    if (tick.checkpoint != nullptr)
+    if (tick.checkpoint != nullptr) {
         file_.append(*tick.checkpoint);
+        for (const HandToRecord& other : tick.others)
+            if (other.checkpoint)
+                file_.append(RecordedHandState{*other.checkpoint});
+    }
     if (newScene)
         scenes_[tick.tick.scene] = true;
     settings_ = tick.tick.settings;
     begun_ = true;
     block_.ticks.push_back(tick.tick);
+    for (const HandToRecord& other : tick.others)
+        otherBlocks_[other.hand].ticks.push_back(other.tick);
 }
 
 void RecordingWriter::note(uint64_t tick, std::string text) {
@@ -61,6 +68,10 @@ void RecordingWriter::note(uint64_t tick, std::string text) {
 void RecordingWriter::flush() {
     if (block_.ticks.empty())
         return;
+    for (auto& [hand, block] : otherBlocks_) {
+        file_.append(RecordedHandTicks{hand, block});
+        block.ticks.clear();
+    }
     file_.append(block_);
     ticks_ += block_.ticks.size();
     block_.ticks.clear();

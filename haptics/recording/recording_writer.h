@@ -7,19 +7,29 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <span>
 
 namespace touchstone {
 
 /// The recorded part of a tick. Computes its hashes; not for the servo thread.
 [[nodiscard]] RecordedTick recordedTick(const TickRecord& record);
 
+/// The same tick of another hand than hand 0.
+struct HandToRecord {
+    uint32_t hand = 0;
+    RecordedTick tick;
+    std::optional<TouchCheckpoint> checkpoint; ///< taken before this tick
+};
+
 /// A tick with all data that it depends on.
 struct TickToRecord {
     const RecordedTick& tick;
     const HapticSettings& settings;              ///< TickRecord::settings
     const SceneIdentity* scene = nullptr;        ///< TickRecord::scene; null: none
-    const TouchCheckpoint* checkpoint = nullptr; ///< taken before this tick
+    const TouchCheckpoint* checkpoint = nullptr; ///< of hand 0, taken before this tick
     uint64_t lostBefore = 0;                     ///< ticks made since the last one whose records were lost
+    std::span<const HandToRecord> others{};      ///< the other hands
 };
 
 /// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are
@@ -36,7 +46,7 @@ class RecordingWriter {
     /// End of the input. Without it a reader reports that the recording was cut off.
     void finish();
 
-    [[nodiscard]] uint64_t ticks() const { return ticks_; }
+    [[nodiscard]] uint64_t ticks() const { return ticks_; } ///< of hand 0
     [[nodiscard]] const RecordingFile& file() const { return file_; }
 
   private:
@@ -45,6 +55,7 @@ class RecordingWriter {
     RecordingFile file_;
     RecordingOrigin origin_;
     RecordedTicks block_;
+    std::map<uint32_t, RecordedTicks> otherBlocks_; // by hand
     uint64_t ticks_ = 0;
     std::map<uint32_t, bool> scenes_; // written
     uint32_t settings_ = 0;

@@ -10,6 +10,10 @@
 
 namespace touchstone {
 
+std::string whichHand(const ReplayReport& report) {
+    return report.hands > 1 && report.first ? "of hand " + std::to_string(report.first->hand + 1) + ", " : "";
+}
+
 ReplayReport Replayer::replay(RecordingReader& reader, const Each& each) {
     begin(each);
     while (const std::optional<RecordingReader::Item> item = reader.next())
@@ -55,6 +59,16 @@ void Replayer::take(const TouchCheckpoint& checkpoint) {
     checkpoint_ = checkpoint;
 }
 
+void Replayer::take(const RecordedHandState& state) {
+    otherStates_[state.checkpoint.hand] = state.checkpoint;
+}
+
+void Replayer::take(const RecordedHandTicks& ticks) {
+    std::deque<RecordedTick>& waiting = others_[ticks.hand];
+    waiting.insert(waiting.end(), ticks.ticks.ticks.begin(), ticks.ticks.ticks.end());
+    report_.hands = std::max(report_.hands, size_t{ticks.hand} + 1);
+}
+
 void Replayer::take(const RecordedLoss& loss) {
     report_.lost += loss.ticks;
     ++report_.gaps;
@@ -68,20 +82,44 @@ void Replayer::take(const RecordedNote& note) {
 void Replayer::take(const RecordedTicks& ticks) {
     for (const RecordedTick& tick : ticks.ticks) {
         ++report_.ticks;
-        if (checkpoint_ && checkpoint_->tick == tick.tick && checkpoint_->scene == tick.scene)
+        const bool whole = gather(tick);
+        // Where the state of a hand was lost, a replay that knows it goes on.
+        const bool states = checkpoint_ && otherStates_.size() + 1 == ticks_.size();
+        if (whole && states && checkpoint_->tick == tick.tick && checkpoint_->scene == tick.scene)
             resume(tick);
-        else if (tick.scene != scene_)
+        else if (!whole || tick.scene != scene_)
             lose();
         checkpoint_.reset();
+        otherStates_.clear();
         if (known_)
             step(tick);
     }
+}
+
+/// The rows of all hands at this tick. False where one is missing.
+bool Replayer::gather(const RecordedTick& tick) {
+    ticks_.resize(1);
+    ticks_[0] = tick;
+    uint32_t next = 1;
+    for (auto& [hand, waiting] : others_) {
+        while (!waiting.empty() && waiting.front().tick < tick.tick)
+            waiting.pop_front();
+        if (waiting.empty() || waiting.front().tick != tick.tick)
+            continue;
+        if (hand != next++)
+            return false;
+        ticks_.push_back(waiting.front());
+        waiting.pop_front();
+    }
+    return known_ ? ticks_.size() == devices_.size() : ticks_.size() == 1 + otherStates_.size();
 }
 
 /// The state is unknown from here to the next checkpoint.
 void Replayer::lose() {
     known_ = false;
     checkpoint_.reset();
+    otherStates_.clear();
+    others_.clear();
 }
 
 /// The scene with this number, loaded on first use; null for none.
@@ -95,36 +133,48 @@ Replayer::Touched* Replayer::touched(uint32_t number) {
             throw Error("recording", "", "touches a scene that it does not name", "the file is damaged");
         entry = std::make_unique<Touched>();
         entry->scene = load_(scene->second);
-        if (entry->scene.source != nullptr)
-            entry->moving = MovingObjects(entry->scene.source, *entry->scene.haptic);
+        entry->world = WorldState(entry->scene.source, *entry->scene.haptic);
     }
     return entry.get();
 }
 
-/// Restores the state of the checkpoint before `tick`.
+/// Restores the state of every hand at the checkpoint before `tick`.
 void Replayer::resume(const RecordedTick& tick) {
     Touched* const touched = this->touched(tick.scene);
     const HapticScene* const scene = touched != nullptr ? touched->scene.haptic.get() : nullptr;
     const double came = checkpoint_->previousTime;
+    otherStates_[0] = *checkpoint_;
     // Without a gap before it, it must equal the state after the preceding ticks.
     const bool goesOn = known_ && scene_ == tick.scene && came == previousTime_;
-    if (goesOn) {
-        TouchCheckpoint own;
-        takeCheckpoint(device_, own);
-        if (!report_.first && !std::ranges::equal(own.state(), checkpoint_->state()))
-            report_.first = Difference{.tick = tick.tick, .time = tick.time, .stage = "state"};
+    devices_.resize(ticks_.size());
+    samples_.resize(ticks_.size());
+    outputs_.resize(ticks_.size());
+    traces_.resize(ticks_.size());
+    known_ = true;
+    for (uint32_t hand = 0; hand < devices_.size(); ++hand) {
+        const auto state = otherStates_.find(hand);
+        if (state == otherStates_.end() || state->second.tick != tick.tick) {
+            known_ = false;
+            continue;
+        }
+        if (goesOn) {
+            TouchCheckpoint own;
+            takeCheckpoint(devices_[hand], own);
+            if (!std::ranges::equal(own.state(), state->second.state()))
+                differs({.tick = tick.tick, .time = tick.time, .hand = hand, .stage = "state"});
+        }
+        known_ &= restoreCheckpoint(state->second.state(), scene, devices_[hand]);
     }
-    known_ = restoreCheckpoint(checkpoint_->state(), scene, device_);
     scene_ = tick.scene;
     if (!known_ || touched == nullptr)
         return;
-    if (device_.watch.touching)
+    if (std::ranges::any_of(devices_, [](const DeviceState& device) { return device.watch.touching; }))
         scene->buildNeighbourhoods();
     if (goesOn)
         return;
-    touched->moving.forget();
+    touched->world.forget();
     if (std::isfinite(came))
-        (void)touched->moving.at(came);
+        touched->world.advance(came);
 }
 
 void Replayer::step(const RecordedTick& tick) {
@@ -132,11 +182,13 @@ void Replayer::step(const RecordedTick& tick) {
     if (settings == settings_.end())
         throw Error("recording", "tick " + std::to_string(tick.tick), "has settings that are not there",
                     "the file is damaged");
-    if (tick.checkpoint)
-        device_.candidates.invalidate(); // as the servo did, also where the checkpoint itself was lost
-    HapticOutput output;
-    StageTrace trace;
+    if (tick.checkpoint) // as the servo did, also where the checkpoint itself was lost
+        for (DeviceState& device : devices_)
+            device.candidates.invalidate();
+    std::ranges::fill(outputs_, HapticOutput{});
+    std::ranges::fill(traces_, StageTrace{});
     int64_t stepNs = 0;
+    uint32_t poses = 0;
     if (Touched* const touched = this->touched(tick.scene)) {
         const HapticScene& scene = *touched->scene.haptic;
         // Data for the neighbourhood watch and rays became available when built, in the middle of the run.
@@ -146,43 +198,57 @@ void Replayer::step(const RecordedTick& tick) {
             if (settings->second.contact == ContactMethod::Rays)
                 scene.buildRays();
         }
-        TickInput input;
-        input.tick = tick.tick;
-        input.time = tick.time;
-        input.dt = tick.dt;
-        input.late = tick.late;
-        input.devices = {&tick.sample, 1};
-        input.objects = touched->moving.at(tick.time);
-        StageTracer tracer(device_, trace);
+        const std::optional<DeviceLimits>& limits = scenes_.at(tick.scene).identity.limits; // of format 1
+        for (size_t hand = 0; hand < ticks_.size(); ++hand) {
+            samples_[hand] = ticks_[hand].sample;
+            if (limits)
+                samples_[hand].limits = *limits;
+        }
+        touched->world.advance(tick.time);
+        poses = touched->world.poseHash();
+        const TickInput input{
+            .tick = tick.tick, .time = tick.time, .dt = tick.dt, .late = tick.late, .hands = samples_};
+        StageTracer tracer(devices_, traces_);
         const long long begin = monotonicNs();
-        hapticStep(scene, settings->second, input, world_, {&device_, 1}, {&output, 1}, tracer);
+        hapticStep(scene, settings->second, input, touched->world, devices_, outputs_, tracer);
         stepNs = monotonicNs() - begin;
         report_.seconds += report_.replayed > 0 ? tick.dt : 0.0;
     }
     previousTime_ = tick.time;
-    compare(tick, trace, output, stepNs);
+    ++report_.replayed;
+    const bool posesEqual = tick.poses.value_or(poses) == poses;
+    if (!posesEqual)
+        differs({.tick = tick.tick, .time = tick.time, .stage = "poses"});
+    const bool equal = compare(0, tick);
+    bool allEqual = equal && posesEqual;
+    for (uint32_t hand = 1; hand < ticks_.size(); ++hand)
+        allEqual &= compare(hand, ticks_[hand]);
+    report_.differing += allEqual ? 0 : 1;
+    if (each_ != nullptr && *each_)
+        (*each_)(tick, outputs_[0], stepNs, equal);
 }
 
-void Replayer::compare(const RecordedTick& tick, const StageTrace& trace, const HapticOutput& output,
-                       int64_t stepNs) {
-    ++report_.replayed;
-    const StageHashes hashes = stageHashes(trace, output);
-    const bool equal = hashes == tick.hashes;
-    if (!equal) {
-        ++report_.differing;
-        const auto stage =
-            static_cast<size_t>(std::ranges::mismatch(hashes, tick.hashes).in1 - hashes.begin());
-        if (!report_.first)
-            report_.first = Difference{.tick = tick.tick,
-                                       .time = tick.time,
-                                       .stage = std::string(kStageNames[stage]),
-                                       .recordedProxy = tick.proxy,
-                                       .replayedProxy = output.proxy,
-                                       .recordedForce = tick.force,
-                                       .replayedForce = output.force};
-    }
-    if (each_ != nullptr && *each_)
-        (*each_)(tick, output, stepNs, equal);
+void Replayer::differs(const Difference& difference) {
+    if (!report_.first)
+        report_.first = difference;
+}
+
+/// True where every stage of the hand has the recorded bits.
+bool Replayer::compare(uint32_t hand, const RecordedTick& tick) {
+    const HapticOutput& output = outputs_[hand];
+    const StageHashes hashes = stageHashes(traces_[hand], output);
+    if (hashes == tick.hashes)
+        return true;
+    const auto stage = static_cast<size_t>(std::ranges::mismatch(hashes, tick.hashes).in1 - hashes.begin());
+    differs({.tick = tick.tick,
+             .time = tick.time,
+             .hand = hand,
+             .stage = std::string(kStageNames[stage]),
+             .recordedProxy = tick.proxy,
+             .replayedProxy = output.proxy,
+             .recordedForce = tick.force,
+             .replayedForce = output.force});
+    return false;
 }
 
 } // namespace touchstone

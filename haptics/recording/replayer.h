@@ -3,10 +3,11 @@
 
 #include "haptics/recording/recording_reader.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/tick/haptic_step.h"
+#include "haptics/world/world_state.h"
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -26,7 +27,9 @@ struct ReplayScene {
 struct Difference {
     uint64_t tick = 0;
     double time = 0.0;
-    /// One of kStageNames; "state" where a checkpoint differs from the state after the preceding ticks.
+    uint32_t hand = 0;
+    /// One of kStageNames; "state" where a checkpoint differs from the state after the preceding ticks;
+    /// "poses" where the objects are elsewhere.
     std::string stage;
     glm::dvec3 recordedProxy{0.0}, replayedProxy{0.0}; ///< m, workspace
     glm::dvec3 recordedForce{0.0}, replayedForce{0.0}; ///< N, stage 7
@@ -36,9 +39,10 @@ struct ReplayReport {
     RecordingOrigin origin;
     uint64_t ticks = 0;     ///< in the recording
     uint64_t replayed = 0;  ///< those whose state was known
-    uint64_t differing = 0; ///< of those: at least one stage differs
-    uint64_t lost = 0;      ///< made but not recorded, as far as the recording contains
-    uint64_t gaps = 0;      ///< places where ticks are missing
+    uint64_t differing = 0; ///< of those: at least one stage of a hand differs, or a pose
+    size_t hands = 1;
+    uint64_t lost = 0; ///< made but not recorded, as far as the recording contains
+    uint64_t gaps = 0; ///< places where ticks are missing
     std::optional<Difference> first;
     std::vector<RecordedNote> notes;
     std::vector<std::string> damage;
@@ -46,13 +50,16 @@ struct ReplayReport {
     double seconds = 0.0; ///< from the first to the last replayed tick, on the recording's clock
 };
 
+/// "of hand 2, " for a difference of a recording of several hands; else empty.
+[[nodiscard]] std::string whichHand(const ReplayReport& report);
+
 /// One thread; not the servo. Deterministic for the same scene, program and processor.
 class Replayer {
   public:
     /// `load` is called once for each scene of the recording, before its first tick; an exception from it
     /// ends the replay.
     using Load = std::function<ReplayScene(const RecordedScene&)>;
-    /// Called for every replayed tick, with its output.
+    /// Called for every replayed tick of hand 0, with its output; `equal`: all of this hand's stages.
     using Each = std::function<void(const RecordedTick&, const HapticOutput&, int64_t stepNs, bool equal)>;
 
     explicit Replayer(Load load) : load_(std::move(load)) {}
@@ -72,7 +79,7 @@ class Replayer {
   private:
     struct Touched {
         ReplayScene scene;
-        MovingObjects moving;
+        WorldState world;
     };
     void take(const RecordingOrigin& origin);
     void take(const RecordedScene& scene);
@@ -82,12 +89,15 @@ class Replayer {
     void take(const RecordedLoss& loss);
     void take(const RecordedNote& note);
     void take(const RecordedEnd&) {}
+    void take(const RecordedHandTicks& ticks);
+    void take(const RecordedHandState& state);
 
     void lose();
     void resume(const RecordedTick& tick);
+    [[nodiscard]] bool gather(const RecordedTick& tick);
     void step(const RecordedTick& tick);
-    void compare(const RecordedTick& tick, const StageTrace& trace, const HapticOutput& output,
-                 int64_t stepNs);
+    [[nodiscard]] bool compare(uint32_t hand, const RecordedTick& tick);
+    void differs(const Difference& difference);
     [[nodiscard]] Touched* touched(uint32_t number);
 
     Load load_;
@@ -96,13 +106,19 @@ class Replayer {
     std::map<uint32_t, RecordedScene> scenes_;
     std::map<uint32_t, std::unique_ptr<Touched>> loaded_;
     std::map<uint32_t, HapticSettings> settings_;
-    std::optional<TouchCheckpoint> checkpoint_; // of the next tick
+    std::optional<TouchCheckpoint> checkpoint_;           // of the next tick and hand 0
+    std::map<uint32_t, TouchCheckpoint> otherStates_;     // of the same tick, by hand
+    std::map<uint32_t, std::deque<RecordedTick>> others_; // of the next ticks, by hand
     // Present state of the replay.
     bool known_ = false; // the state is that of the recording's last tick
     uint32_t scene_ = 0;
-    WorldState world_;
-    DeviceState device_;
     double previousTime_ = 0.0;
+    // One per hand, of this tick:
+    std::vector<DeviceState> devices_{1};
+    std::vector<RecordedTick> ticks_{1};
+    std::vector<DeviceSample> samples_{1};
+    std::vector<HapticOutput> outputs_{1};
+    std::vector<StageTrace> traces_{1};
 };
 
 } // namespace touchstone

@@ -1,7 +1,7 @@
 #include "haptics/recording/scene_identity.h"
 
 #include "engine/core/checksum.h"
-#include "haptics/scene/moving_objects.h"
+#include "engine/scene/animation.h"
 
 #include <fstream>
 #include <system_error>
@@ -145,7 +145,6 @@ SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit) {
     readBytes(source.path, identity);
     identity.feltHash = feltHash(scene, source);
     identity.fit = fit;
-    identity.limits = scene.limits;
     return identity;
 }
 

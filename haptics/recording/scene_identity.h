@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace touchstone {
@@ -21,10 +22,11 @@ struct SceneIdentity {
     /// Changes since the file was read: MaterialPatches as JSON (engine/save). Empty: none.
     std::string edits;
     Fit fit = Fit::None;
-    DeviceLimits limits; ///< limits that it was compiled for
+    /// Of the device that touched it; only in recordings of format 1, whose ticks do not have them.
+    std::optional<DeviceLimits> limits;
 };
 
-/// Hash of everything in a compiled scene that a tick reads: meshes, poses, materials, maps, limits, and the
+/// Hash of everything in a compiled scene that a tick reads: meshes, poses, materials, maps, and the
 /// animation that plays in `source`. Two scenes of one hash feel the same; appearance is not included. Not
 /// for the servo thread: reads every vertex and texel (0.1 s for a million triangles).
 [[nodiscard]] uint64_t feltHash(const HapticScene& scene, const Scene& source);

@@ -36,22 +36,29 @@ void ServoRecorder::stop() {
 }
 
 void ServoRecorder::take(const TickRecord& record) {
-    const uint64_t lost = record.step - nextStep_;
-    nextStep_ = record.step + 1;
     TouchCheckpoint checkpoint;
     bool found = false;
     // Checkpoints of records that were dropped come first.
     while (record.checkpoint && !found && servo_.popCheckpoint(checkpoint))
-        found = checkpoint.tick == record.tick && checkpoint.scene == record.scene;
+        found = checkpoint.tick == record.tick && checkpoint.scene == record.scene &&
+                checkpoint.hand == record.hand;
+    const RecordedTick recorded = writer_ || flight_ ? recordedTick(record) : RecordedTick{};
+    if (record.hand > 0) {
+        others_.push_back({record.hand, recorded, found ? std::optional(checkpoint) : std::nullopt});
+        return;
+    }
+    const std::vector<HandToRecord> others = std::exchange(others_, {});
+    const uint64_t lost = record.step - nextStep_;
+    nextStep_ = record.step + 1;
     if (!writer_ && !flight_)
         return;
-    const RecordedTick recorded = recordedTick(record);
     const auto scene = scenes_.find(record.scene);
     const TickToRecord tick{.tick = recorded,
                             .settings = servo_.settingsOf(record.settings),
                             .scene = scene != scenes_.end() ? &scene->second : nullptr,
                             .checkpoint = found ? &checkpoint : nullptr,
-                            .lostBefore = lost};
+                            .lostBefore = lost,
+                            .others = others};
     if (writer_)
         guarded([&] { writer_->add(tick); }, false);
     if (flight_)

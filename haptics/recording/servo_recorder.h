@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -37,6 +38,7 @@ class ServoRecorder {
     [[nodiscard]] const FlightRecorder* flightRecorder() const { return flight_ ? &*flight_ : nullptr; }
     [[nodiscard]] std::vector<KeptFlight> takeKept();
 
+    /// Those of one tick with that of hand 0 last, as the servo gives them.
     void take(const TickRecord& record);
     /// After each batch: passes all data to the system.
     void flush();
@@ -56,6 +58,7 @@ class ServoRecorder {
     std::optional<FlightRecorder> flight_;
     std::filesystem::path file_;
     uint64_t ticks_ = 0, nextStep_ = 0;
+    std::vector<HandToRecord> others_; // of the next tick
     std::string problem_;
     bool failed_ = false;
 };

@@ -56,7 +56,7 @@ struct SafetyInputs {
 /// - the command is finite and |force| <= limits.maxForce (torque likewise with maxTorque);
 /// - |force - previous force| <= limits.maxForceRate * dt, with two exceptions, both towards less force: a
 ///   force, a dt or a limit that is not finite is a fault, and a fault drops the command to zero at once;
-///   where limits.maxForce has become smaller (another scene's limits) the command is cut to it at once
+///   where limits.maxForce has become smaller (another device's limits) the command is cut to it at once
 ///   (torque likewise);
 /// - a coupling of 0 brings the force to zero at that rate, whatever it was; NaN counts as 0, a value above 1
 ///   as 1; below 1 the force counts as faded, by ForceRamping;
@@ -76,6 +76,8 @@ class ForceLimiter {
     /// still holds it and the slew limit must start from it; so is a latch. The energy balance is reset: it
     /// belongs to the touch that ended.
     static void restartRamp(ForceLimiterState& state) noexcept;
+    /// Servo thread, where another device is taken up: its balance begins at zero.
+    static void forgetEnergy(ForceLimiterState& state) noexcept { state.passivity.balance = 0.0; }
 };
 
 } // namespace touchstone

@@ -30,7 +30,6 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     copy->materials = scene.materials;
     copy->plan = scene.plan;
     copy->workspaceFromScene = scene.workspaceFromScene;
-    copy->limits = scene.limits;
     if (scene.hasRays())
         copy->buildRays(); // its objects have theirs already
     return copy;
@@ -70,10 +69,8 @@ void HapticScene::buildSlopes() const {
     });
 }
 
-std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
-                                                      const Similarity& workspaceFromScene,
-                                                      const DeviceLimits& limits,
-                                                      const CompileOptions& options) {
+std::shared_ptr<const HapticScene>
+compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, const CompileOptions& options) {
     // Progress within a smaller object is not worth reporting.
     constexpr size_t kWorthReporting = 4096; // triangles
     constexpr double kMaps = 0.02;           // of all work
@@ -81,7 +78,6 @@ std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
     progress.step(0.0, "filtering maps");
     auto haptic = std::make_shared<HapticScene>();
     haptic->workspaceFromScene = workspaceFromScene;
-    haptic->limits = limits;
     std::vector<MaterialUse> uses;
     for (const MaterialPlacement& at : materialPlacements(scene)) {
         const size_t m = uses.size();

@@ -3,7 +3,6 @@
 // compileHapticScene; read by the servo, the oracle and the studies alike.
 
 #include "engine/core/built_once.h"
-#include "engine/device_io/device_io.h"
 #include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
@@ -33,7 +32,6 @@ class HapticScene {
     std::vector<HapticMaterialData> materials; ///< index = Scene material
     EffectPlan plan;
     Similarity workspaceFromScene;
-    DeviceLimits limits;
     std::vector<Warning> warnings;
 
     /// True once every object's `rays` is built, so that contact=rays can touch it. Wait-free.
@@ -91,7 +89,6 @@ struct CompileOptions {
 /// Cancelled.
 [[nodiscard]] std::shared_ptr<const HapticScene> compileHapticScene(const Scene& scene,
                                                                     const Similarity& workspaceFromScene,
-                                                                    const DeviceLimits& limits = {},
                                                                     const CompileOptions& options = {});
 
 } // namespace touchstone

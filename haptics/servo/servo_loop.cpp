@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 
@@ -22,48 +23,70 @@ int32_t saturated(long long nanoseconds) {
 /// A position older than `staleAge` is unknown. So all stages treat a device that freezes like one that is
 /// unplugged: its force fades out, and where it returns after that, touch begins again once it has left the
 /// model.
-void refuseStale(DeviceSample& sample, double staleAge) noexcept {
-    sample.valid = sample.valid && sample.age <= staleAge; // a NaN age is not fresh
+void refuseStale(DeviceSample& sample) noexcept {
+    sample.valid = sample.valid && sample.age <= sample.limits.staleAge; // a NaN age is not fresh
 }
 
 } // namespace
 
 struct ServoLoop::Touch {
+    explicit Touch(size_t hands)
+        : devices(hands), samples(hands), outputs(hands), traces(hands), felt(hands), records(hands),
+          checkpoints(hands) {}
+
     const Offer* offer = nullptr;
     uint32_t geometry = 0;                    // of the offer; 0: none
     const HapticSettings* settings = nullptr; // of this tick
-    DeviceLimits limits;                      // of the newest offer with a scene
-    WorldState world;
-    DeviceState device;
-    TouchFeedback felt; // of the preceding tick
-    std::array<glm::dvec3, 3> planes{};
-    bool late = false; // the previous tick ended after its next deadline
+    // One per hand:
+    std::vector<DeviceState> devices;
+    std::vector<DeviceSample> samples;
+    std::vector<HapticOutput> outputs;
+    std::vector<StageTrace> traces;
+    struct Felt {
+        TouchFeedback feedback; // of the preceding tick
+        std::array<glm::dvec3, 3> planes{};
+    };
+    std::vector<Felt> felt;
+    std::vector<TickRecord> records; // of this tick, hand 0 the last
+    bool late = false;               // the previous tick ended after its next deadline
     uint64_t nextCheckpoint = 0;
     double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the preceding tick in this scene
-    TouchCheckpoint checkpoint;
+    std::vector<TouchCheckpoint> checkpoints;                       // of this tick, that of hand 0 the last
 
-    void feelFrom(const HapticOutput& output) noexcept {
-        planes = output.planes;
-        felt = {.touching = output.contacts > 0,
-                .hip = output.hip,
-                .proxy = output.proxy,
-                .force = output.force,
-                .planes = {planes.data(), output.planeCount},
-                .object = output.object};
+    /// Everything of the record that is not of one hand is in the record of hand 0.
+    TickRecord& record() noexcept { return records.back(); }
+
+    void feelFrom(size_t hand) noexcept {
+        const HapticOutput& output = outputs[hand];
+        felt[hand].planes = output.planes;
+        felt[hand].feedback = {.touching = output.contacts > 0,
+                               .hip = output.hip,
+                               .proxy = output.proxy,
+                               .force = output.force,
+                               .planes = {felt[hand].planes.data(), output.planeCount},
+                               .object = output.object};
     }
 
     /// The command without contact: the force that the device still holds goes to zero within its limits.
-    DeviceCommand restCommand(double dt) noexcept {
+    DeviceCommand restCommand(size_t hand, double dt) noexcept {
         uint32_t flags = 0;
-        return ForceLimiter::limit(glm::dvec3(0.0), glm::dvec3(0.0), {.limits = limits, .dt = dt}, {},
-                                   device.limiter, flags);
+        return ForceLimiter::limit(glm::dvec3(0.0), glm::dvec3(0.0),
+                                   {.limits = samples[hand].limits, .dt = dt}, {}, devices[hand].limiter,
+                                   flags);
     }
 };
 
-ServoLoop::ServoLoop(DevicePort port, const ServoConfig& config)
-    : port_(port), config_(config), records_(config.ringCapacity) {
-    if (port.sample == nullptr || port.apply == nullptr)
-        throw Error("servo", "", "the device port is incomplete", "");
+ServoLoop::ServoLoop(std::vector<DevicePort> ports, const ServoConfig& config)
+    : ports_(std::move(ports)), config_(config), records_(config.ringCapacity * ports_.size()),
+      checkpoints_(64 * ports_.size()) {
+    if (ports_.empty() || ports_.size() > kMaxHands)
+        throw Error("servo", "",
+                    "is given " + std::to_string(ports_.size()) + " devices; it drives 1 to " +
+                        std::to_string(kMaxHands),
+                    "");
+    for (const DevicePort& port : ports_)
+        if (port.sample == nullptr || port.apply == nullptr)
+            throw Error("servo", "", "the device port is incomplete", "");
     if (!(config.rateHz >= kMinServoRate && config.rateHz <= kMaxServoRate))
         throw Error("servo", "rate", "must be 100..4000 Hz", "1000 suits most devices");
 }
@@ -95,8 +118,8 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         scene_.offer(nullptr);
         return 0;
     }
-    MovingObjects moving = source != nullptr ? MovingObjects(std::move(source), *scene) : MovingObjects();
-    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(moving), ++offeredScenes_,
+    WorldState world(std::move(source), *scene);
+    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(world), ++offeredScenes_,
                                                offeredGeometry_));
     return offeredScenes_;
 }
@@ -140,27 +163,28 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     const bool goesOn = geometry != 0 && geometry == touch.geometry;
     touch.offer = offer;
     touch.geometry = geometry;
-    if (offer != nullptr) {
-        offer->moving.forget();
-        touch.limits = offer->scene->limits;
-    }
+    if (offer != nullptr)
+        offer->world.forget();
     if (goesOn) {
         // As in a replay that resumes here: the objects have their previous poses.
         if (std::isfinite(touch.previousTime))
-            (void)offer->moving.at(touch.previousTime);
+            offer->world.advance(touch.previousTime);
         return;
     }
     // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
-    touch.world = WorldState{};
-    touch.device.forgetTouch();
-    touch.device.mustLeave = true;
-    touch.felt = TouchFeedback{};
-    ForceLimiter::restartRamp(touch.device.limiter);
+    for (DeviceState& device : touch.devices) {
+        device.forgetTouch();
+        device.mustLeave = true;
+        ForceLimiter::restartRamp(device.limiter);
+    }
+    for (Touch::Felt& felt : touch.felt)
+        felt.feedback = TouchFeedback{};
     touch.previousTime = std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Start of a tick: the newest scene and settings, and a checkpoint where one is due.
-void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
+/// Start of a tick: the newest scene and settings, and checkpoints where they are due.
+void ServoLoop::prepare(Touch& touch) noexcept {
+    TickRecord& record = touch.record();
     settings_.update();
     touch.settings = &settings_.value().settings;
     record.settings = settings_.value().number;
@@ -176,66 +200,106 @@ void ServoLoop::prepare(Touch& touch, TickRecord& record) noexcept {
     }
     record.scene = offer != nullptr ? offer->number : 0;
     record.checkpoint = due || checkpointWanted_.load(std::memory_order_relaxed);
-    if (!record.checkpoint)
-        return;
+    if (record.checkpoint)
+        takeCheckpoints(touch);
+}
+
+/// One of every hand, that of hand 0 the last.
+void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
+    const TickRecord& record = touch.record();
     checkpointWanted_.store(false, std::memory_order_relaxed);
     touch.nextCheckpoint =
         record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
-    touch.checkpoint.tick = record.tick;
-    touch.checkpoint.scene = record.scene;
-    touch.checkpoint.previousTime = touch.previousTime;
-    takeCheckpoint(touch.device, touch.checkpoint);
-    checkpoints_.push(touch.checkpoint);
+    const size_t count = touch.checkpoints.size();
+    for (size_t i = 0; i < count; ++i) {
+        const size_t hand = count - 1 - i;
+        TouchCheckpoint& checkpoint = touch.checkpoints[i];
+        checkpoint.tick = record.tick;
+        checkpoint.hand = static_cast<uint32_t>(hand);
+        checkpoint.scene = record.scene;
+        checkpoint.previousTime = touch.previousTime;
+        takeCheckpoint(touch.devices[hand], checkpoint);
+    }
+    checkpoints_.push(touch.checkpoints);
+}
+
+/// Poses of this tick, then the sample of every hand: one that the program moves follows them.
+void ServoLoop::sampleHands(Touch& touch, const TickRecord& record) noexcept {
+    const ObjectMotions poses =
+        touch.offer != nullptr ? touch.offer->world.advance(record.time) : ObjectMotions();
+    for (size_t hand = 0; hand < ports_.size(); ++hand) {
+        const DevicePort& port = ports_[hand];
+        if (port.feel != nullptr) {
+            touch.felt[hand].feedback.objects = poses;
+            port.feel(port.context, touch.felt[hand].feedback);
+        }
+        touch.samples[hand] = port.sample(port.context, record.time);
+        if (touch.offer != nullptr)
+            refuseStale(touch.samples[hand]);
+    }
 }
 
 /// One tick: read, step, write. The times are those of the step alone, as `step_ns` means everywhere.
-TickRecord ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
-    TickRecord record;
+void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
+    TickRecord& record = touch.record();
+    record = TickRecord{};
     record.tick = number;
     record.time = static_cast<double>(number) / config_.rateHz;
     record.dt = dt;
     record.late = touch.late;
-    prepare(touch, record);
-    const ObjectMotions objects =
-        touch.offer != nullptr ? touch.offer->moving.at(record.time) : ObjectMotions();
-    if (port_.feel != nullptr) {
-        touch.felt.objects = objects;
-        port_.feel(port_.context, touch.felt);
-    }
-    record.sample = port_.sample(port_.context, record.time);
-    if (touch.offer != nullptr) {
-        refuseStale(record.sample, touch.limits.staleAge);
-        TickInput input;
-        input.tick = number;
-        input.time = record.time;
-        input.dt = dt;
-        input.late = touch.late;
-        input.devices = {&record.sample, 1};
-        input.objects = objects;
+    prepare(touch);
+    sampleHands(touch, record);
+    if (touch.offer == nullptr) {
+        std::ranges::fill(touch.outputs, HapticOutput{});
+        std::ranges::fill(touch.traces, StageTrace{});
+    } else {
+        const TickInput input{
+            .tick = number, .time = record.time, .dt = dt, .late = touch.late, .hands = touch.samples};
+        WorldState& world = touch.offer->world;
+        record.poses = world.poseHash();
         StageStopwatch clock;
-        StageTracer tracer(touch.device, record.trace, config_.stageTimes ? &clock : nullptr);
+        StageTracer tracer(touch.devices, touch.traces, config_.stageTimes ? &clock : nullptr);
         const long long begin = monotonicNs();
-        hapticStep(*touch.offer->scene, *touch.settings, input, touch.world, {&touch.device, 1},
-                   {&record.output, 1}, tracer);
+        hapticStep(*touch.offer->scene, *touch.settings, input, world, touch.devices, touch.outputs, tracer);
         record.stepNs = saturated(monotonicNs() - begin);
         std::ranges::transform(clock.nanoseconds, record.stageNs.begin(), saturated);
         touch.previousTime = record.time;
-        touch.feelFrom(record.output);
     }
-    port_.apply(port_.context, touch.offer != nullptr ? record.output.command : touch.restCommand(dt));
-    return record;
+    for (size_t hand = 0; hand < ports_.size(); ++hand) {
+        if (touch.offer != nullptr)
+            touch.feelFrom(hand);
+        ports_[hand].apply(ports_[hand].context, touch.offer != nullptr ? touch.outputs[hand].command
+                                                                        : touch.restCommand(hand, dt));
+    }
+}
+
+/// The records of the tick to the owner thread.
+void ServoLoop::publish(Touch& touch) noexcept {
+    TickRecord& record = touch.record();
+    record.step = ticks_.fetch_add(1, std::memory_order_relaxed);
+    const size_t count = touch.records.size();
+    for (size_t i = 0; i < count; ++i) {
+        const size_t hand = count - 1 - i;
+        TickRecord& own = touch.records[i];
+        if (hand > 0)
+            own = record;
+        own.hand = static_cast<uint32_t>(hand);
+        own.sample = touch.samples[hand];
+        own.trace = touch.traces[hand];
+        own.output = touch.outputs[hand];
+    }
+    records_.push(touch.records);
+    snapshot_.write(record);
 }
 
 TickRecord ServoLoop::step(uint64_t number) {
     if (stepped_ == nullptr)
-        stepped_ = std::make_unique<Touch>();
+        stepped_ = std::make_unique<Touch>(ports_.size());
     const uint64_t elapsed = number > lastStepped_ ? number - lastStepped_ : 1;
     lastStepped_ = number;
-    TickRecord record = tick(*stepped_, number, static_cast<double>(elapsed) / config_.rateHz);
-    record.step = ticks_.fetch_add(1, std::memory_order_relaxed);
-    records_.push(record);
-    snapshot_.write(record);
-    return record;
+    tick(*stepped_, number, static_cast<double>(elapsed) / config_.rateHz);
+    publish(*stepped_);
+    return stepped_->record();
 }
 
 void ServoLoop::run() noexcept {
@@ -250,7 +314,7 @@ void ServoLoop::run() noexcept {
     const auto period = static_cast<long long>(1e9 / config_.rateHz + 0.5);
     const long long start = monotonicNs() + period;
     startedNs_.store(start, std::memory_order_relaxed);
-    Touch touch;
+    Touch touch(ports_.size());
     uint64_t number = 0, previous = 0;
     while (!stopping_.load(std::memory_order_relaxed)) {
         const long long deadline = start + static_cast<long long>(number) * period;
@@ -260,15 +324,14 @@ void ServoLoop::run() noexcept {
         previous = number;
         {
             const realtime::TickScope scope;
-            TickRecord record = tick(touch, number, static_cast<double>(elapsed) / config_.rateHz);
+            tick(touch, number, static_cast<double>(elapsed) / config_.rateHz);
             const long long done = monotonicNs();
+            TickRecord& record = touch.record();
             record.wakeLatencyNs = saturated(awake - deadline);
             record.missed = touch.late = done > deadline + period;
-            record.step = ticks_.fetch_add(1, std::memory_order_relaxed);
             if (record.missed)
                 missed_.fetch_add(1, std::memory_order_relaxed);
-            records_.push(record);
-            snapshot_.write(record);
+            publish(touch);
 
             // The next deadline still ahead: late ticks are dropped, never made up in a burst.
             const auto passed = static_cast<uint64_t>(std::max(0LL, (done - deadline) / period));
@@ -277,7 +340,8 @@ void ServoLoop::run() noexcept {
             number += 1 + passed;
         }
     }
-    port_.apply(port_.context, DeviceCommand{});
+    for (const DevicePort& port : ports_)
+        port.apply(port.context, DeviceCommand{});
 }
 
 } // namespace touchstone

@@ -6,11 +6,11 @@
 #include "engine/exchange/record_ring.h"
 #include "engine/exchange/triple_buffer.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/force_switch.h"
 #include "haptics/servo/realtime_thread.h"
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/tick/haptic_step.h"
+#include "haptics/world/world_state.h"
 
 #include <array>
 #include <atomic>
@@ -18,17 +18,20 @@
 #include <deque>
 #include <memory>
 #include <thread>
+#include <vector>
 
 namespace touchstone {
 
-/// The servo's record of one tick; streamed to the owner thread.
+/// The servo's record of one tick of one hand; streamed to the owner thread. Of the records of one tick that
+/// of hand 0 is the last.
 struct TickRecord {
     uint64_t tick = 0;         ///< number of the deadline; missed deadlines leave gaps
+    uint32_t hand = 0;         ///< index of its DevicePort
     uint64_t step = 0;         ///< steps made before this one: a gap means dropped records
     double time = 0.0;         ///< s since the loop started, of the deadline
     double dt = 0.0;           ///< s, input of the step
     int32_t wakeLatencyNs = 0; ///< wake-up after the deadline; saturated
-    int32_t stepNs = 0;        ///< time of the whole step
+    int32_t stepNs = 0;        ///< time of the whole step, of all hands
     /// By Stage, parts of `stepNs`; zeros unless ServoConfig::stageTimes. Each is the time between two
     /// readings of the clock and includes one reading.
     std::array<int32_t, kStageCount> stageNs{};
@@ -37,9 +40,10 @@ struct TickRecord {
     bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
     uint32_t settings = 0;   ///< number for ServoLoop::settingsOf
     uint32_t scene = 0;      ///< number that ServoLoop::offerScene returned; 0: none, and no step
-    DeviceSample sample;     ///< device 0, as read; not valid where it is older than the scene allows
+    uint32_t poses = 0;      ///< WorldState::poseHash; 0: nothing moves
+    DeviceSample sample;     ///< as read; not valid where it is older than its limits allow
     StageTrace trace;
-    HapticOutput output; ///< device 0
+    HapticOutput output;
 };
 
 struct ServoConfig {
@@ -57,6 +61,7 @@ inline constexpr double kMaxServoRate = 4000.0; ///< Hz; above it wake-up latenc
 /// or throw. Plain functions, so that haptics links no device.
 struct DevicePort {
     void* context = nullptr;
+    /// With the limits of the device that will get this tick's command (DeviceSample::limits).
     DeviceSample (*sample)(void* context, double time) noexcept = nullptr;
     void (*apply)(void* context, const DeviceCommand& command) noexcept = nullptr;
     /// Called before each sample; may be null.
@@ -72,8 +77,11 @@ enum class SceneSwap : uint8_t {
 /// The owner thread constructs, starts and stops; every other function states its thread.
 class ServoLoop {
   public:
-    /// Throws Error if the rate is outside kMinServoRate..kMaxServoRate or the port is incomplete.
-    explicit ServoLoop(DevicePort port, const ServoConfig& config = {});
+    /// One port per hand. Throws Error if the rate is outside kMinServoRate..kMaxServoRate, there are not
+    /// 1..kMaxHands ports, or one is incomplete.
+    explicit ServoLoop(std::vector<DevicePort> ports, const ServoConfig& config = {});
+    explicit ServoLoop(DevicePort port, const ServoConfig& config = {})
+        : ServoLoop(std::vector<DevicePort>{port}, config) {}
     ~ServoLoop();
     ServoLoop(const ServoLoop&) = delete;
     ServoLoop& operator=(const ServoLoop&) = delete;
@@ -83,15 +91,15 @@ class ServoLoop {
 
     /// Makes tick `number` at once on the calling thread, without a clock: the same code, deterministic. Not
     /// while the servo thread runs. Allocates in the first call. The caller enters the float mode
-    /// (engine/core/float_mode.h). `number` must grow.
+    /// (engine/core/float_mode.h). `number` must grow. Returns the record of hand 0.
     TickRecord step(uint64_t number);
 
     /// Owner thread. Swapped in at a tick boundary; the owner frees the old scene. `source` is the scene it
     /// was compiled from, whose animation moves the objects; null: nothing moves. Returns the number by which
     /// TickRecord::scene names it. A null scene: nothing can be touched; the force of the previous scene goes
-    /// to zero as fast as its limits allow, which the records do not contain. With SameGeometry the present
-    /// touch continues: the force changes to that of the new materials, within the limits of force and slew
-    /// and without fading, as when a setting changes.
+    /// to zero as fast as its device's limits allow, which the records do not contain. With SameGeometry the
+    /// present touch continues: the force changes to that of the new materials, within the limits of force
+    /// and slew and without fading, as when a setting changes.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
                         SceneSwap swap = SceneSwap::Anew);
     void setSettings(const HapticSettings& settings);
@@ -103,17 +111,18 @@ class ServoLoop {
     /// Owner thread: requests a checkpoint in the next tick, wherever the last one was.
     void requestCheckpoint() { checkpointWanted_.store(true, std::memory_order_relaxed); }
 
-    /// Owner thread: newest tick. Also frees the scene that the servo has released.
+    /// Owner thread: newest tick of hand 0. Also frees the scene that the servo has released.
     bool updateSnapshot() {
         scene_.collect();
         return snapshot_.update();
     }
     [[nodiscard]] const TickRecord& snapshot() const { return snapshot_.value(); }
-    /// Owner thread: every tick in order.
+    /// Owner thread: every tick in order, with one record per hand.
     bool popRecord(TickRecord& record);
     /// Owner thread: every checkpoint in order. The checkpoint of a record is available when the record is,
-    /// unless earlier ones were not popped (TouchCheckpoint::tick identifies it).
+    /// unless earlier ones were not popped (TouchCheckpoint::tick and `hand` identify it).
     bool popCheckpoint(TouchCheckpoint& checkpoint) { return checkpoints_.pop(checkpoint); }
+    [[nodiscard]] size_t hands() const { return ports_.size(); }
 
     struct Counters {
         uint64_t ticks = 0;          ///< steps made
@@ -131,7 +140,7 @@ class ServoLoop {
     /// A scene with the state that only the servo changes in it.
     struct Offer {
         std::shared_ptr<const HapticScene> scene;
-        mutable MovingObjects moving; // servo thread once adopted
+        mutable WorldState world; // servo thread once adopted
         uint32_t number = 0;
         uint32_t geometry = 0; // equal numbers: equal geometry
     };
@@ -145,16 +154,19 @@ class ServoLoop {
 
     void run() noexcept;
     static void adopt(Touch& touch, const Offer* offer) noexcept;
-    void prepare(Touch& touch, TickRecord& record) noexcept;
-    TickRecord tick(Touch& touch, uint64_t number, double dt) noexcept;
+    void prepare(Touch& touch) noexcept;
+    void takeCheckpoints(Touch& touch) noexcept;
+    void sampleHands(Touch& touch, const TickRecord& record) noexcept;
+    void tick(Touch& touch, uint64_t number, double dt) noexcept;
+    void publish(Touch& touch) noexcept;
 
-    DevicePort port_;
+    std::vector<DevicePort> ports_;
     ServoConfig config_;
     TripleBuffer<NumberedSettings> settings_;
     TripleBuffer<TickRecord> snapshot_;
     RecordRing<TickRecord> records_;
     ForceSwitch forceSwitch_;
-    RecordRing<TouchCheckpoint> checkpoints_{64};
+    RecordRing<TouchCheckpoint> checkpoints_;
     std::atomic<bool> checkpointWanted_{false};
     Handover<Offer> scene_;
     // Owner thread:

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct WatchState {
     uint32_t side = 0;     ///< TriangleSide of the reference object
     bool touching = false; ///< else the proxy is where the HIP is
 };
+
+/// Hands of one servo, at most.
+inline constexpr size_t kMaxHands = 4;
 
 enum class FrictionState : uint8_t { Free, Sticking, Sliding };
 

@@ -20,6 +20,7 @@ struct TouchCheckpoint {
     static constexpr size_t kCapacity = 1024;
 
     uint64_t tick = 0;  ///< the next tick
+    uint32_t hand = 0;  ///< TickRecord::hand
     uint32_t scene = 0; ///< TickRecord::scene of that tick
     /// s, TickRecord::time of the preceding tick in the same scene, at which moving objects had their
     /// previous poses; NaN where there was none.

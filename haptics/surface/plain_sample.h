@@ -53,8 +53,9 @@ namespace touchstone {
 
 /// The initial sample of every contact, written into a default-constructed `feel`; readSurface adds what
 /// varies. Arguments as there.
-inline void plainSample(const HapticScene& scene, const HapticSettings& settings, const Contact& contact,
-                        const glm::dvec3& normal, double depth, SurfaceSample& feel) noexcept {
+inline void plainSample(const HapticScene& scene, const HapticSettings& settings, const DeviceLimits& limits,
+                        const Contact& contact, const glm::dvec3& normal, double depth,
+                        SurfaceSample& feel) noexcept {
     const int index = scene.objects[static_cast<size_t>(contact.object)]->material;
     const HapticMaterialData& material = scene.materials[static_cast<size_t>(index)];
     feel.touching = true;
@@ -63,8 +64,7 @@ inline void plainSample(const HapticScene& scene, const HapticSettings& settings
     feel.material = index;
     feel.normal = feel.textured = normal;
     feel.depth = depth;
-    feel.stiffness =
-        bornStiffness(specifiedStiffness(material, settings, scene.limits), settings, scene.limits);
+    feel.stiffness = bornStiffness(specifiedStiffness(material, settings, limits), settings, limits);
     feel.damping = specifiedDamping(material, settings);
 }
 

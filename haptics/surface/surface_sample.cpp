@@ -50,13 +50,13 @@ SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& materia
 } // namespace
 
 SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                          int reference, const Contact& contact, const glm::dvec3& normal, double depth,
-                          double speed, double dt) noexcept {
+                          const DeviceLimits& limits, int reference, const Contact& contact,
+                          const glm::dvec3& normal, double depth, double speed, double dt) noexcept {
     SurfaceSample feel;
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
     const HapticMaterialData& material = scene.materials[static_cast<size_t>(object.material)];
-    plainSample(scene, settings, contact, normal, depth, feel);
+    plainSample(scene, settings, limits, contact, normal, depth, feel);
 
     const Similarity& workspaceFromObject = motions[k].workspaceFromObject;
     Similarity referenceFromObject;
@@ -82,11 +82,11 @@ SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions, const
             return 1.0;
         return f.min + (f.max - f.min) * maps.scalar(f.map);
     };
-    const double stiffness = specifiedStiffness(material, settings, scene.limits);
+    const double stiffness = specifiedStiffness(material, settings, limits);
     feel.stiffness =
         bornStiffness((settings.stiffness > 0.0 ? stiffness : spot.attribute(object.stiffness, stiffness)) *
                           factor(material.stiffnessMap),
-                      settings, scene.limits);
+                      settings, limits);
     feel.damping = (settings.damping >= 0.0 ? feel.damping : spot.attribute(object.damping, feel.damping)) *
                    factor(material.dampingMap);
     if (settings.friction != FrictionMode::Off) {

@@ -30,12 +30,12 @@ struct SurfaceSample {
     bool coulomb = false; ///< the coefficients are specified, though a map may make them zero here
 };
 
-/// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are those felt there. With
-/// textureFilter=mip `speed` (m/s along the surface) and `dt` choose the level, which leaves out what would
-/// alias at the servo rate.
+/// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are those felt there,
+/// `limits` those of the hand's device. With textureFilter=mip `speed` (m/s along the surface) and `dt`
+/// choose the level, which leaves out what would alias at the servo rate.
 [[nodiscard]] SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions,
-                                        const HapticSettings& settings, int reference, const Contact& contact,
-                                        const glm::dvec3& normal, double depth, double speed,
-                                        double dt) noexcept;
+                                        const HapticSettings& settings, const DeviceLimits& limits,
+                                        int reference, const Contact& contact, const glm::dvec3& normal,
+                                        double depth, double speed, double dt) noexcept;
 
 } // namespace touchstone

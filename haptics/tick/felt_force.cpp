@@ -4,29 +4,46 @@
 
 namespace touchstone {
 
-FeltShape turnedShape(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                      int reference, const Contact& facet, const glm::dvec3& offset, const FeltShape& shape) {
-    const TurnedNormal turned = turnedNormal(scene, motions, settings, reference, facet, shape.normal);
+namespace {
+
+/// Object and place of every active contact; the first one where no plane holds.
+void nameContacts(const DeviceState& state, const SubGoal& activeSet, ContactForces& parts) {
+    parts.count = static_cast<size_t>(std::max(activeSet.count, 1));
+    for (size_t i = 0; i < parts.count; ++i) {
+        const Contact& contact =
+            state.rest.contacts[activeSet.count > 0 ? static_cast<size_t>(activeSet.active[i]) : 0];
+        parts.object[i] = contact.object;
+        parts.point[i] = contact.point;
+        parts.force[i] = glm::dvec3(0.0);
+        parts.load[i] = parts.grip[i] = 0.0;
+    }
+}
+
+} // namespace
+
+FeltShape turnedShape(const HandTick& tick, int reference, const Contact& facet, const glm::dvec3& offset,
+                      const FeltShape& shape) {
+    const TurnedNormal turned =
+        turnedNormal(tick.scene, tick.motions, tick.settings, reference, facet, shape.normal);
     if (turned.cosine == 1.0)
         return {turned.normal, shape.depth};
     return {turned.normal, glm::dot(offset, facet.normal) / turned.cosine};
 }
 
-void feelTexture(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                 const DeviceState& state, const Contact& contact, const glm::dvec3& normal, double depth,
-                 const glm::dvec3& velocity, double dt, SurfaceSample& feel) {
+void feelTexture(const HandTick& tick, const DeviceState& state, const Contact& contact,
+                 const glm::dvec3& normal, double depth, const glm::dvec3& velocity, SurfaceSample& feel) {
     const double speed = glm::length(velocity - glm::dot(velocity, normal) * normal);
-    feel = readSurface(scene, motions, settings, state.reference, contact, normal, depth, speed, dt);
+    feel = readSurface(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, contact, normal,
+                       depth, speed, tick.dt);
 }
 
-void feelSeveral(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                 const DeviceState& state, const SubGoal& activeSet, const glm::dvec3& offset,
-                 double workspacePerReference, const glm::dvec3& velocity, double zoom, double dt,
+void feelSeveral(const HandTick& tick, const DeviceState& state, const SubGoal& activeSet,
+                 const glm::dvec3& offset, double workspacePerReference, const glm::dvec3& velocity,
                  SurfaceSample& feel, SeveralContacts& several) {
     ContactLoads loads;
-    readLoads(scene, motions, settings, state.reference, state.rest, activeSet, state.shaded, offset,
-              workspacePerReference, velocity, zoom, dt, loads);
-    const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(zoom, 1.0);
+    readLoads(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, state.rest, activeSet,
+              state.shaded, offset, workspacePerReference, velocity, tick.zoom, tick.dt, loads);
+    const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(tick.zoom, 1.0);
     several.force = elastic + dampingForce(loads, felt);
     several.cone = FrictionCone(loads, felt, workspacePerReference);
     feel = loads.contacts[static_cast<size_t>(loads.loaded)].feel;
@@ -35,10 +52,28 @@ void feelSeveral(const HapticScene& scene, ObjectMotions motions, const HapticSe
         feel.textured = elastic / force;
     for (size_t i = 0; i < static_cast<size_t>(loads.count); ++i)
         feel.tiltCompressed |= loads.contacts[i].feel.tiltCompressed;
+    if (tick.parts != nullptr) {
+        nameContacts(state, activeSet, *tick.parts);
+        splitForces(loads, felt, *tick.parts);
+    }
 }
 
-bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet,
-               const SolveResult& rest, const SubGoal& activeSet) {
+void splitPlain(const HandTick& tick, const DeviceState& state, const SubGoal& activeSet, double stiffness,
+                double workspacePerReference) {
+    ContactForces& parts = *tick.parts;
+    nameContacts(state, activeSet, parts);
+    for (size_t i = 0; i < static_cast<size_t>(activeSet.count); ++i) {
+        const auto at = static_cast<size_t>(activeSet.active[i]);
+        const glm::dvec3& plane =
+            state.shaded ? state.rest.shadedPlanes[at].normal : state.rest.contacts[at].normal;
+        parts.load[i] = parts.grip[i] = stiffness * workspacePerReference * activeSet.multiplier[i];
+        parts.force[i] = parts.load[i] * plane;
+    }
+}
+
+bool feltAsOne(const HandTick& tick, bool oneFacet, const SolveResult& rest, const SubGoal& activeSet) {
+    const HapticScene& scene = tick.scene;
+    const HapticSettings& settings = tick.settings;
     if (kPlainTick || !(activeSet.multiplier[0] + activeSet.multiplier[1] + activeSet.multiplier[2] > 0.0))
         return true;
     if (oneFacet)

@@ -11,6 +11,7 @@
 #include "haptics/shading/turned_normal.h"
 #include "haptics/surface/plain_sample.h"
 #include "haptics/surface/surface_sample.h"
+#include "haptics/tick/hand_tick.h"
 #include "haptics/tick/haptic_step.h"
 
 #include <type_traits>
@@ -26,41 +27,37 @@ struct FeltShape {
 };
 
 /// The felt shape where one facet's force is turned.
-[[gnu::noinline]] FeltShape turnedShape(const HapticScene& scene, ObjectMotions motions,
-                                        const HapticSettings& settings, int reference, const Contact& facet,
+[[gnu::noinline]] FeltShape turnedShape(const HandTick& tick, int reference, const Contact& facet,
                                         const glm::dvec3& offset, const FeltShape& shape);
 
 /// The felt shape where all contacts are felt as one. `oneFacet`: some surface of the scene turns the force
 /// of its facet.
-[[gnu::always_inline]] inline FeltShape feltShape(const HapticScene& scene, ObjectMotions motions,
-                                                  const HapticSettings& settings, bool oneFacet,
-                                                  const glm::dvec3& hip, const DeviceState& state,
-                                                  const SubGoal& activeSet) {
+[[gnu::always_inline]] inline FeltShape feltShape(const HandTick& tick, bool oneFacet, const glm::dvec3& hip,
+                                                  const DeviceState& state, const SubGoal& activeSet) {
     const glm::dvec3 offset = state.proxy - hip;
     const double depth = glm::length(offset);
     const Contact& holder =
         state.rest.contacts[activeSet.count > 0 ? static_cast<size_t>(activeSet.active[0]) : 0];
     const FeltShape shape{depth > 100.0 * kContactGap ? offset / depth : holder.normal, depth};
     if (oneFacet && activeSet.count == 1)
-        return turnedShape(scene, motions, settings, state.reference, holder, offset, shape);
+        return turnedShape(tick, state.reference, holder, offset, shape);
     return shape;
 }
 
 /// Velocity of the HIP relative to the reference object's surface, m/s, in the reference object frame.
-inline glm::dvec3 surfaceVelocity(const TickInput& input, const ObjectMotion& reference,
-                                  const DeviceState& state) {
+inline glm::dvec3 surfaceVelocity(const HandTick& tick, const DeviceState& state) {
+    const ObjectMotion& reference = tick.motions[static_cast<size_t>(state.reference)];
     const Similarity& now = reference.workspaceFromObject;
     glm::dvec3 carried(0.0);
-    if (!input.objects.empty() && !reference.jumped)
-        carried = (now.point(state.proxy) - reference.before.point(state.proxy)) / input.dt;
+    if (tick.moving && !reference.jumped)
+        carried = (now.point(state.proxy) - reference.before.point(state.proxy)) / tick.dt;
     return glm::conjugate(now.rotation) * (state.velocity - carried);
 }
 
 /// Stage 5 where the touched material needs it. `velocity` of the HIP relative to the surface.
-[[gnu::noinline]] void feelTexture(const HapticScene& scene, ObjectMotions motions,
-                                   const HapticSettings& settings, const DeviceState& state,
-                                   const Contact& contact, const glm::dvec3& normal, double depth,
-                                   const glm::dvec3& velocity, double dt, SurfaceSample& feel);
+[[gnu::noinline]] void feelTexture(const HandTick& tick, const DeviceState& state, const Contact& contact,
+                                   const glm::dvec3& normal, double depth, const glm::dvec3& velocity,
+                                   SurfaceSample& feel);
 
 /// Stages 5 and 7 without friction, where several contacts are felt separately.
 struct SeveralContacts {
@@ -69,19 +66,21 @@ struct SeveralContacts {
 };
 
 /// `feel` becomes the sample of the contact with the largest load, with the direction of the whole elastic
-/// force. `velocity` of the HIP relative to the surface; `zoom` is already divided out of the force, which
+/// force. `velocity` of the HIP relative to the surface; the zoom is already divided out of the force, which
 /// the device can bear.
-[[gnu::noinline]] void feelSeveral(const HapticScene& scene, ObjectMotions motions,
-                                   const HapticSettings& settings, const DeviceState& state,
-                                   const SubGoal& activeSet, const glm::dvec3& offset,
-                                   double workspacePerReference, const glm::dvec3& velocity, double zoom,
-                                   double dt, SurfaceSample& feel, SeveralContacts& several);
+[[gnu::noinline]] void feelSeveral(const HandTick& tick, const DeviceState& state, const SubGoal& activeSet,
+                                   const glm::dvec3& offset, double workspacePerReference,
+                                   const glm::dvec3& velocity, SurfaceSample& feel, SeveralContacts& several);
+
+/// The elastic force of each contact where all are felt as one: `stiffness` (N/m) times lambda_i n_i. Fills
+/// tick.parts.
+[[gnu::noinline]] void splitPlain(const HandTick& tick, const DeviceState& state, const SubGoal& activeSet,
+                                  double stiffness, double workspacePerReference);
 
 /// True where the planes need not be distinguished: all have one plain material without damping whose force
 /// nothing turns, so that the force is K (p - h) whatever the loads; or no plane carries a load (RayProxy
 /// between planes that leave it no room).
-bool feltAsOne(const HapticScene& scene, const HapticSettings& settings, bool oneFacet,
-               const SolveResult& rest, const SubGoal& activeSet);
+bool feltAsOne(const HandTick& tick, bool oneFacet, const SolveResult& rest, const SubGoal& activeSet);
 
 /// Publishes the contacts that hold the HIP off, before friction moves the proxy.
 inline void publishContact(const Similarity& workspaceFromReference, const SolveResult& rest,
@@ -110,22 +109,22 @@ struct Felt {
 /// `hip`: reference object frame. Effects: some material of the scene needs more than a constant stiffness
 /// and damping, or several contacts are felt separately.
 template <bool Effects, class Solver, class Stopwatch>
-Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-               ObjectMotions motions, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& activeSet,
+Felt feltForce(const HandTick& tick, const glm::dvec3& hip, const glm::dvec3& held, const SubGoal& activeSet,
                Solver& proxy, DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
+    const HapticScene& scene = tick.scene;
+    const HapticSettings& settings = tick.settings;
     SolveResult& rest = state.rest;
     const Similarity& workspaceFromReference =
-        motions[static_cast<size_t>(state.reference)].workspaceFromObject;
+        tick.motions[static_cast<size_t>(state.reference)].workspaceFromObject;
     const bool oneFacet = Effects && anyOneFacet(scene.plan, settings);
-    const bool asOne =
-        !Effects || activeSet.count <= 1 || feltAsOne(scene, settings, oneFacet, rest, activeSet);
+    const bool asOne = !Effects || activeSet.count <= 1 || feltAsOne(tick, oneFacet, rest, activeSet);
     FeltShape shape;
     if (rest.contactCount > 0 && asOne)
-        shape = feltShape(scene, motions, settings, oneFacet, hip, state, activeSet);
+        shape = feltShape(tick, oneFacet, hip, state, activeSet);
     stopwatch.lap(Stage::Shading);
 
     // 5. Surface: material, attributes and maps at each contact.
-    glm::dvec3 velocity = surfaceVelocity(input, motions[static_cast<size_t>(state.reference)], state);
+    glm::dvec3 velocity = surfaceVelocity(tick, state);
     SurfaceSample feel;
     [[maybe_unused]] std::conditional_t<Effects, SeveralContacts, std::monostate> several;
     bool plain = true;
@@ -134,13 +133,14 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
         const double depth = shape.depth * workspaceFromReference.scale;
         plain = !Effects || (asOne && feelsPlain(materialOf(scene, contact), settings));
         if (plain)
-            plainSample(scene, settings, contact, shape.normal, depth, feel);
+            plainSample(scene, settings, tick.limits, contact, shape.normal, depth, feel);
         else if (asOne)
-            feelTexture(scene, motions, settings, state, contact, shape.normal, depth, velocity, input.dt,
-                        feel);
+            feelTexture(tick, state, contact, shape.normal, depth, velocity, feel);
         else if constexpr (Effects)
-            feelSeveral(scene, motions, settings, state, activeSet, state.proxy - hip,
-                        workspaceFromReference.scale, velocity, output.zoom, input.dt, feel, several);
+            feelSeveral(tick, state, activeSet, state.proxy - hip, workspaceFromReference.scale, velocity,
+                        feel, several);
+        if (asOne && tick.parts != nullptr) [[unlikely]]
+            splitPlain(tick, state, activeSet, feel.stiffness, workspaceFromReference.scale);
     }
     if (feel.tiltCompressed)
         output.flags = output.flags | TickFlag::TiltCompressed;
@@ -171,7 +171,7 @@ Felt feltForce(const HapticScene& scene, const HapticSettings& settings, const T
         force = asOne ? springDamperForce(feel, stretch, several.cone.viscousForce(), velocity)
                       : several.force + several.cone.stiffness() * stretch + several.cone.viscousForce();
     const double share =
-        output.zoom > 1.0 && asOne ? bearableShare(feel.stiffness, output.zoom, settings, scene.limits) : 1.0;
+        output.zoom > 1.0 && asOne ? bearableShare(feel.stiffness, output.zoom, settings, tick.limits) : 1.0;
     return {force, share, feel.touching ? feel.object : -1};
 }
 

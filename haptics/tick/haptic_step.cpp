@@ -10,6 +10,8 @@
 #include "haptics/shading/force_shading.h"
 #include "haptics/tick/felt_force.h"
 
+#include <cmath>
+
 namespace touchstone {
 
 namespace {
@@ -40,34 +42,46 @@ template <class... Arguments>
 
 /// Stages 3 and 4 where two-pass shading moves the proxy. Out of line, since a scene may not need it.
 template <class Solver, class Stopwatch>
-[[gnu::noinline]] void solveShaded(const HapticScene& scene, ObjectMotions motions,
-                                   const HapticSettings& settings, const glm::dvec3& hip, double travel,
-                                   Solver& proxy, DeviceState& state, Stopwatch& stopwatch) {
-    if (settings.forceShading == ShadingMode::SingleRound) {
+[[gnu::noinline]] void solveShaded(const HandTick& tick, const glm::dvec3& hip, double travel, Solver& proxy,
+                                   DeviceState& state, Stopwatch& stopwatch) {
+    if (tick.settings.forceShading == ShadingMode::SingleRound) {
         findShaded(hip, proxy, state, state.rest);
         stopwatch.lap(Stage::Proxy);
-        shadeSingleRound(scene, motions, settings, hip, proxy, state, state.rest);
+        shadeSingleRound(tick.scene, tick.motions, tick.settings, hip, proxy, state, state.rest);
         return;
     }
-    const FirstGoal first = firstGoal(scene, settings, state, hip, travel);
+    const FirstGoal first = firstGoal(tick.scene, tick.settings, state, hip, travel);
     proxy.moveTowards(first.goal);
     stopwatch.lap(Stage::Proxy);
-    shadeTwoPass(scene, motions, settings, hip, first, proxy, state, state.rest);
+    shadeTwoPass(tick.scene, tick.motions, tick.settings, hip, first, proxy, state, state.rest);
+}
+
+/// The forces on the objects that the hand touches are the opposite of those on the hand. A force that is not
+/// finite ends at the hand's safety stage.
+[[gnu::noinline]] void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force,
+                                   double share, ContactForces& parts, WorldState& world) {
+    if (!std::isfinite(force.x + force.y + force.z))
+        return;
+    parts.complete(force);
+    for (size_t i = 0; i < parts.count; ++i)
+        world.push(parts.object[i], workspaceFromReference.point(parts.point[i]),
+                   -share * workspaceFromReference.direction(parts.force[i]));
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
 template <class Solver, class Stopwatch>
-[[gnu::noinline]] void touch(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-                             DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
-    const ObjectMotions motions = input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects;
+[[gnu::noinline]] void touch(const HandTick& tick, WorldState& world, DeviceState& state,
+                             HapticOutput& output, Stopwatch& stopwatch) {
+    const HapticScene& scene = tick.scene;
+    const HapticSettings& settings = tick.settings;
     const bool effects = !callsForNoEffect(scene, settings);
 
     // 2. Contact query: the proxy moves with its object and is swept against the objects that moved.
     SolveResult& rest = state.rest;
     if (state.reference < 0)
-        state.reference = nearestObject(scene, motions, state.hip);
-    Solver::followObjects(scene, motions, settings, state, output.flags);
-    Solver proxy(scene, motions, settings, state, rest);
+        state.reference = nearestObject(scene, tick.motions, state.hip);
+    Solver::followObjects(scene, tick.motions, settings, state, output.flags);
+    Solver proxy(scene, tick.motions, settings, state, rest);
     if (!proxy.begin()) {
         state.friction = FrictionState::Free;
         state.shaded = false;
@@ -76,20 +90,20 @@ template <class Solver, class Stopwatch>
         return;
     }
     const Similarity workspaceFromReference =
-        motions[static_cast<size_t>(state.reference)].workspaceFromObject;
+        tick.motions[static_cast<size_t>(state.reference)].workspaceFromObject;
     const glm::dvec3 hip = workspaceFromReference.inversePoint(state.hip);
     const glm::dvec3 held = state.proxy;
     // The frictionless place is a god-object of its own, which friction does not hold back [001 §4.1.1]: it
     // resumes from its last place. Not where objects move, since they may have pushed the proxy.
-    if (state.friction != FrictionState::Free && input.objects.empty())
+    if (state.friction != FrictionState::Free && !tick.moving)
         proxy.resumeFrom(state.frictionless);
     stopwatch.lap(Stage::Contact);
 
     // 3. Proxy solve: as near to the goal as free space allows. 4. Force shading: the same solve against the
     // interpolated planes.
     if (effects && anyTwoPass(scene.plan, settings)) {
-        solveShaded(scene, motions, settings, hip, glm::length(state.travel) / workspaceFromReference.scale,
-                    proxy, state, stopwatch);
+        solveShaded(tick, hip, glm::length(state.travel) / workspaceFromReference.scale, proxy, state,
+                    stopwatch);
     } else {
         state.shaded = false; // after shading is switched off, its last goal is not a valid start
         proxy.moveTowards(hip);
@@ -98,21 +112,20 @@ template <class Solver, class Stopwatch>
     const SubGoal& activeSet = state.shaded ? rest.shadedActiveSet : rest.activeSet;
 
     // 5. to 7. Surface, friction, force.
-    const bool varied =
-        effects || (activeSet.count > 1 && !feltAsOne(scene, settings, false, rest, activeSet));
-    const Felt felt = varied ? feelEffects(scene, settings, input, motions, hip, held, activeSet, proxy,
-                                           state, output, stopwatch)
-                             : feltForce<false>(scene, settings, input, motions, hip, held, activeSet, proxy,
-                                                state, output, stopwatch);
+    const bool varied = effects || (activeSet.count > 1 && !feltAsOne(tick, false, rest, activeSet));
+    const Felt felt = varied ? feelEffects(tick, hip, held, activeSet, proxy, state, output, stopwatch)
+                             : feltForce<false>(tick, hip, held, activeSet, proxy, state, output, stopwatch);
     output.force = workspaceFromReference.direction(felt.force);
     if (output.zoom > 1.0)
         output.force *= felt.share;
+    if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
+        pushObjects(workspaceFromReference, felt.force, felt.share, *tick.parts, world);
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
     // The object touched now becomes the reference object. A proxy surrounded by more triangles than a tick
     // can hold feels nothing until the hand is in free space again.
-    if (felt.object >= 0 && !input.objects.empty())
-        changeReference(state, motions, felt.object);
+    if (felt.object >= 0 && tick.moving)
+        changeReference(state, tick.motions, felt.object);
     if (rest.contactCount == 0 && has(rest.flags, TickFlag::CandidatesFull))
         state.placed = false;
     stopwatch.lap(Stage::Force);
@@ -127,95 +140,121 @@ template <class Solver, class Stopwatch>
 /// A tick without a sample in a moving scene: the proxy moves with the objects as if the hand were at rest. A
 /// neighbourhood watch in contact moves with its reference object; one in free space would need every
 /// object's pose at the last sample, so it restarts.
-void followUnseen(const HapticScene& scene, const HapticSettings& settings, ObjectMotions motions,
-                  DeviceState& state, uint32_t& flags) {
+void followUnseen(const HandTick& tick, DeviceState& state, uint32_t& flags) {
     if (!state.placed || state.reference < 0)
         return;
-    if (comparisonIsReady(scene, settings)) {
-        ComparisonSolver::followObjects(scene, motions, settings, state, flags);
-        if (settings.contact == ContactMethod::Neighbourhood && !state.watch.touching)
+    if (comparisonIsReady(tick.scene, tick.settings)) {
+        ComparisonSolver::followObjects(tick.scene, tick.motions, tick.settings, state, flags);
+        if (tick.settings.contact == ContactMethod::Neighbourhood && !state.watch.touching)
             state.placed = false;
         return;
     }
-    leaveComparison(scene, motions, state);
-    ProxySolver::followObjects(scene, motions, settings, state, flags);
+    leaveComparison(tick.scene, tick.motions, state);
+    ProxySolver::followObjects(tick.scene, tick.motions, tick.settings, state, flags);
 }
 
 /// The comparison solvers. False where the sweep solves the tick: the data that they need is missing, or one
 /// of them has just been switched off. Out of line: the sweep pays one branch.
 template <class Stopwatch>
-[[gnu::noinline]] bool touchOtherwise(const HapticScene& scene, const HapticSettings& settings,
-                                      const TickInput& input, DeviceState& state, HapticOutput& output,
-                                      Stopwatch& stopwatch) {
-    if (comparisonIsReady(scene, settings)) {
-        touch<ComparisonSolver>(scene, settings, input, state, output, stopwatch);
+[[gnu::noinline]] bool touchOtherwise(const HandTick& tick, WorldState& world, DeviceState& state,
+                                      HapticOutput& output, Stopwatch& stopwatch) {
+    if (comparisonIsReady(tick.scene, tick.settings)) {
+        touch<ComparisonSolver>(tick, world, state, output, stopwatch);
         return true;
     }
-    leaveComparison(scene, input.objects.empty() ? ObjectMotions(scene.restMotions) : input.objects, state);
-    if (settings.contact != ContactMethod::Sweep)
+    leaveComparison(tick.scene, tick.motions, state);
+    if (tick.settings.contact != ContactMethod::Sweep)
         output.flags = output.flags | TickFlag::NeighbourhoodMissing;
     return false;
 }
 
 /// Solves with the contact model that the settings select.
 template <class Stopwatch>
-void touchWithModel(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
-                    DeviceState& state, HapticOutput& output, Stopwatch& stopwatch) {
-    const bool sweep = settings.contact == ContactMethod::Sweep && !state.watch.touching;
-    if (!sweep && touchOtherwise(scene, settings, input, state, output, stopwatch))
+void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state, HapticOutput& output,
+                    Stopwatch& stopwatch) {
+    const bool sweep = tick.settings.contact == ContactMethod::Sweep && !state.watch.touching;
+    if (!sweep && touchOtherwise(tick, world, state, output, stopwatch))
         return;
-    touch<ProxySolver>(scene, settings, input, state, output, stopwatch);
+    touch<ProxySolver>(tick, world, state, output, stopwatch);
+}
+
+/// Stages 1 to 7 of one hand.
+template <class Stopwatch>
+void feelHand(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+              const DeviceSample& sample, WorldState& world, DeviceState& state, HapticOutput& output,
+              Stopwatch& stopwatch) {
+    output = HapticOutput{};
+
+    // 1. Sample.
+    if (sample.begins) {
+        beginTouch(state, !sample.inSight);
+        if (!sample.inSight)
+            ForceLimiter::forgetEnergy(state.limiter); // that of another device, or of before the gap
+    }
+    const bool sampled = takeSample(sample, input.dt, state, output.flags);
+    output.zoom = sample.mapping.workspaceFromDevice.scale;
+    output.hip = output.proxy = state.hip;
+    output.hipVelocity = state.velocity;
+    stopwatch.lap(Stage::Sample);
+
+    // 2. to 7.
+    ContactForces parts;
+    const ObjectMotions moved = world.poses();
+    const HandTick tick{.scene = scene,
+                        .settings = settings,
+                        .limits = sample.limits,
+                        .motions = moved.empty() ? ObjectMotions(scene.restMotions) : moved,
+                        .moving = !moved.empty(),
+                        .dt = input.dt,
+                        .zoom = output.zoom,
+                        .parts = world.collectsReactions() ? &parts : nullptr};
+    if (sampled && !scene.objects.empty())
+        touchWithModel(tick, world, state, output, stopwatch);
+    else if (tick.moving)
+        followUnseen(tick, state, output.flags);
+}
+
+/// Stage 8 of one hand: the only stage that sends commands to a device.
+void limitForce(const HapticSettings& settings, const TickInput& input, const DeviceSample& sample,
+                DeviceState& state, HapticOutput& output) {
+    const Similarity& workspaceFromDevice = sample.mapping.workspaceFromDevice;
+    const SafetyInputs safety{.limits = sample.limits,
+                              .dt = input.dt,
+                              .inputValid = !has(output.flags, TickFlag::InputInvalid),
+                              .sampleAge = sample.age,
+                              .forceEnabled = settings.forceEnabled,
+                              .late = input.late,
+                              .passivity = settings.passivity,
+                              .position = sample.position,
+                              .springLength = output.penetration / workspaceFromDevice.scale,
+                              .coupling = sample.mapping.coupling};
+    output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
+                                         state.limiter, output.flags);
+    output.energyBalance = state.limiter.passivity.balance;
+    // A hand that was absent for as long as a full force takes to fade may return anywhere: touch begins
+    // again instead of pulling it back. A hand that stayed in sight (a lifted mouse, a recorded path) may
+    // resume where it is.
+    if (state.unsampled >= kForceRampOutTime)
+        beginTouch(state, !sample.inSight);
+    output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
 }
 
 } // namespace
 
 template <class Stopwatch>
-void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input, WorldState&,
-                std::span<DeviceState> states, std::span<HapticOutput> outputs,
+void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+                WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,
                 Stopwatch& stopwatch) noexcept {
+    stopwatch.start();
+    if (world.collectsReactions())
+        world.clearReactions();
     for (size_t i = 0; i < states.size(); ++i) {
-        stopwatch.start();
-        DeviceState& state = states[i];
-        HapticOutput& output = outputs[i];
-        output = HapticOutput{};
-
-        // 1. Sample.
-        const DeviceSample& sample = input.devices[i];
-        const Similarity& workspaceFromDevice = sample.mapping.workspaceFromDevice;
-        if (sample.begins)
-            beginTouch(state, !sample.inSight);
-        const bool sampled = takeSample(sample, input.dt, state, output.flags);
-        output.zoom = workspaceFromDevice.scale;
-        output.hip = output.proxy = state.hip;
-        output.hipVelocity = state.velocity;
-        stopwatch.lap(Stage::Sample);
-
-        // 2. to 7.
-        if (sampled && !scene.objects.empty())
-            touchWithModel(scene, settings, input, state, output, stopwatch);
-        else if (!input.objects.empty())
-            followUnseen(scene, settings, input.objects, state, output.flags);
-
-        // 8. Safety: the only stage that sends commands to a device.
-        const SafetyInputs safety{.limits = scene.limits,
-                                  .dt = input.dt,
-                                  .inputValid = sampled,
-                                  .sampleAge = sample.age,
-                                  .forceEnabled = settings.forceEnabled,
-                                  .late = input.late,
-                                  .passivity = settings.passivity,
-                                  .position = sample.position,
-                                  .springLength = output.penetration / workspaceFromDevice.scale,
-                                  .coupling = sample.mapping.coupling};
-        output.command = ForceLimiter::limit(output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
-                                             state.limiter, output.flags);
-        output.energyBalance = state.limiter.passivity.balance;
-        // A hand that was absent for as long as a full force takes to fade may return anywhere: touch begins
-        // again instead of pulling it back. A hand that stayed in sight (a lifted mouse, a recorded path) may
-        // resume where it is.
-        if (state.unsampled >= kForceRampOutTime)
-            beginTouch(state, !sample.inSight);
-        output.commandInWorkspace = workspaceFromDevice.direction(output.command.force());
+        stopwatch.hand(i);
+        feelHand(scene, settings, input, input.hands[i], world, states[i], outputs[i], stopwatch);
+    }
+    for (size_t i = 0; i < states.size(); ++i) {
+        stopwatch.hand(i);
+        limitForce(settings, input, input.hands[i], states[i], outputs[i]);
         stopwatch.lap(Stage::Safety);
     }
 }

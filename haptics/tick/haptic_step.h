@@ -2,13 +2,13 @@
 // One tick of touch. haptic_step.cpp contains all stages in order.
 
 #include "engine/device_io/device_io.h"
-#include "engine/math/object_motion.h"
 #include "engine/math/similarity.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/settings/tick_flags.h"
 #include "haptics/state/device_state.h"
 #include "haptics/tick/stage_trace.h"
 #include "haptics/tick/stopwatch.h"
+#include "haptics/world/world_state.h"
 
 #include <glm/glm.hpp>
 
@@ -18,23 +18,16 @@
 
 namespace touchstone {
 
-class HapticScene;
-
 /// All external input of one tick. The step reads no clock.
 struct TickInput {
     uint64_t tick = 0;
-    double time = 0.0;                     ///< s since start
-    double dt = 1e-3;                      ///< s, > 0
-    bool late = false;                     ///< the previous tick ended after its next deadline
-    std::span<const DeviceSample> devices; ///< one per device
-    /// Poses at this tick; empty: every object is at rest where HapticScene placed it.
-    ObjectMotions objects;
+    double time = 0.0;                   ///< s since start
+    double dt = 1e-3;                    ///< s, > 0
+    bool late = false;                   ///< the previous tick ended after its next deadline
+    std::span<const DeviceSample> hands; ///< one per hand
 };
 
-/// State that touch itself changes (persistent textures, field edits). Written by the servo only.
-struct WorldState {};
-
-/// Output of one tick for one device. Workspace frame, SI, unless stated otherwise.
+/// Output of one tick for one hand. Workspace frame, SI, unless stated otherwise.
 struct HapticOutput {
     double zoom = 1.0;           ///< workspace metres for one device metre
     glm::dvec3 hip{0.0};         ///< haptic interface point
@@ -60,9 +53,11 @@ struct HapticOutput {
     double energyBalance = 0.0;
 };
 
-/// One tick: sample, contact, proxy, shading, texture, friction, force, safety (docs/architecture.md, One
-/// tick). Deterministic; no clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per
-/// device of `input`. Stopwatch: StageTracer on the servo and wherever its results must be reproduced to the
+/// One tick: sample, contact, proxy, shading, texture, friction and force of every hand, the forces on the
+/// objects, then safety of every hand (docs/architecture.md, One tick). `world` has the poses of this tick
+/// (WorldState::advance); each hand has its own limits (DeviceSample::limits) and touches the same objects.
+/// Deterministic; no clock, allocation, lock, throw or I/O. `states` and `outputs` have one entry per hand of
+/// `input`. Stopwatch: StageTracer on the servo and wherever its results must be reproduced to the
 /// last bit; StageStopwatch, SplitStopwatch and NoStopwatch where cost is studied.
 template <class Stopwatch>
 void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,

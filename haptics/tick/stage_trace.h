@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <span>
 
 namespace touchstone {
 
@@ -21,25 +22,34 @@ struct StageTrace {
 
 /// The Stopwatch of the servo, `touch` and the replay. All three use one instantiation, since the compiler
 /// may round differently in another one (fused multiply-adds). Whether it reads a clock is decided at run
-/// time and changes no bit of the result. For one device.
+/// time and changes no bit of the result.
 class StageTracer {
   public:
-    /// `clock`: measures each stage; null: no clock is read.
+    /// One state and one trace per hand. `clock`: measures each stage; null: no clock is read.
+    StageTracer(std::span<const DeviceState> states, std::span<StageTrace> traces,
+                StageStopwatch* clock = nullptr) noexcept
+        : states_(states.data()), traces_(traces.data()), state_(states_), trace_(traces_), clock_(clock) {}
     StageTracer(const DeviceState& state, StageTrace& trace, StageStopwatch* clock = nullptr) noexcept
-        : state_(state), trace_(trace), clock_(clock) {}
+        : StageTracer({&state, 1}, {&trace, 1}, clock) {}
 
     void start() noexcept {
-        trace_ = StageTrace{};
         if (clock_ != nullptr) [[unlikely]]
             startClock();
+    }
+    /// The laps that follow are those of hand `i`.
+    void hand(size_t i) noexcept {
+        state_ = states_ + i;
+        trace_ = traces_ + i;
     }
     void lap(Stage stage) noexcept {
         if (clock_ != nullptr) [[unlikely]]
             readClock(stage);
+        if (stage == Stage::Sample)
+            *trace_ = StageTrace{};
         if (stage == Stage::Contact)
-            trace_.reference = state_.reference;
+            trace_->reference = state_->reference;
         if (stage == Stage::Contact || stage == Stage::Proxy || stage == Stage::Shading)
-            trace_.proxy[static_cast<size_t>(stage) - static_cast<size_t>(Stage::Contact)] = state_.proxy;
+            trace_->proxy[static_cast<size_t>(stage) - static_cast<size_t>(Stage::Contact)] = state_->proxy;
     }
 
   private:
@@ -47,8 +57,10 @@ class StageTracer {
     [[gnu::noinline]] void startClock() noexcept { clock_->start(); }
     [[gnu::noinline]] void readClock(Stage stage) noexcept { clock_->lap(stage); }
 
-    const DeviceState& state_;
-    StageTrace& trace_;
+    const DeviceState* states_;
+    StageTrace* traces_;
+    const DeviceState* state_;
+    StageTrace* trace_;
     StageStopwatch* clock_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "engine/core/float_mode.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,22 +55,13 @@ FeltPath feel(const HapticScene& scene, const HapticSettings& settings, std::spa
     FeltPath path;
     path.ticks.reserve(hips.size());
     FacetAngles angles;
-    DeviceState state;
-    WorldState world;
-    HapticOutput output;
+    SteppedHand hand(scene);
+    const HapticOutput& output = hand.output;
     StageTrace trace;
     std::vector<size_t> touched(scene.objects.size());
     for (size_t i = 0; i < hips.size(); ++i) {
-        DeviceSample sample;
-        sample.position = hips[i];
-        sample.valid = true;
-        TickInput input;
-        input.tick = i;
-        input.time = kTick * static_cast<double>(i);
-        input.dt = kTick;
-        input.devices = {&sample, 1};
-        StageTracer tracer(state, trace);
-        hapticStep(scene, settings, input, world, {&state, 1}, {&output, 1}, tracer);
+        StageTracer tracer(hand.state, trace);
+        (void)hand.step(settings, sampleAt(hips[i]), kTick, tracer);
         path.ticks.push_back({output.proxy, output.force, output.contacts > 0, false});
         angles.meet(scene, output);
         if (output.contacts > 0 && output.object >= 0)

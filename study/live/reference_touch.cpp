@@ -48,8 +48,7 @@ HapticSettings referenceOf(const HapticSettings& settings) {
 
 void ReferenceTouch::enter(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
     scene_ = std::move(scene);
-    moving_ =
-        scene_ != nullptr && source != nullptr ? MovingObjects(std::move(source), *scene_) : MovingObjects();
+    world_ = scene_ != nullptr ? WorldState(std::move(source), *scene_) : WorldState();
     state_.forgetTouch();
     state_.mustLeave = true;
     follows_ = false;
@@ -65,7 +64,7 @@ void ReferenceTouch::adopt(const TickRecord& record, const HapticSettings& setti
     state_.travel = glm::dvec3(0.0);
     state_.unsampled = 0.0;
     // Where objects move, the proxy moves with the touched object from there on.
-    const int reference = felt.object >= 0 && moving_.moving() ? felt.object : record.trace.reference;
+    const int reference = felt.object >= 0 && world_.moving() ? felt.object : record.trace.reference;
     if (!state_.sampled || has(felt.flags, TickFlag::StartedInside) || reference < 0 ||
         static_cast<size_t>(reference) >= motions.size())
         return; // the next tick places it at its HIP
@@ -93,11 +92,11 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
     if (scene_ == nullptr || scene_->objects.empty())
         return false;
     if (follows_ && record.step != nextStep_) {
-        moving_.forget();
+        world_.forget();
         follows_ = false;
     }
     nextStep_ = record.step + 1;
-    const ObjectMotions moved = moving_.at(record.time);
+    const ObjectMotions moved = world_.advance(record.time);
     if (!std::exchange(follows_, true)) {
         adopt(record, settings, moved.empty() ? ObjectMotions(scene_->restMotions) : moved);
         return false;
@@ -107,8 +106,7 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
     input.time = record.time;
     input.dt = record.dt;
     input.late = record.late;
-    input.devices = {&record.sample, 1};
-    input.objects = moved;
+    input.hands = {&record.sample, 1};
     StageTrace trace;
     StageTracer tracer(state_,
                        trace); // the servo's instantiation: equal configurations give equal bits

@@ -2,8 +2,8 @@
 // The error against the best solution of this program: the same hand on the same scene, computed a second
 // time with the most exact configuration of every ablation.
 
-#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/servo_loop.h"
+#include "haptics/world/world_state.h"
 
 #include <cstdint>
 #include <memory>
@@ -54,7 +54,6 @@ class ReferenceTouch {
     void adopt(const TickRecord& record, const HapticSettings& settings, ObjectMotions motions);
 
     std::shared_ptr<const HapticScene> scene_;
-    MovingObjects moving_;
     DeviceState state_;
     WorldState world_;
     HapticOutput output_;

@@ -17,26 +17,16 @@ DeviceLimits noLimits() {
 
 ClosedLoop::ClosedLoop(const HapticScene& scene, const HapticSettings& settings, const PlantParameters& plant,
                        double rateHz, const DeviceLimits& limits)
-    : settings_(settings), rate_(rateHz), hand_(target_, plant) {
-    const std::shared_ptr<HapticScene> own = copyOf(scene);
-    own->limits = limits;
-    scene_ = own;
-}
+    : touch_(scene), settings_(settings), limits_(limits), rate_(rateHz), hand_(target_, plant) {}
 
 const HapticOutput& ClosedLoop::step(const glm::dvec3& position) {
-    DeviceSample sample;
-    sample.position = position;
-    sample.valid = true;
-    TickInput input;
-    input.tick = steps_++;
-    input.dt = 1.0 / rate_;
-    input.time = static_cast<double>(input.tick) / rate_;
-    input.devices = {&sample, 1};
+    DeviceSample sample = sampleAt(position);
+    sample.limits = limits_;
     NoStopwatch none;
     const int64_t begin = monotonicNs();
-    hapticStep(*scene_, settings_, input, world_, {&state_, 1}, {&output_, 1}, none);
+    const HapticOutput& output = touch_.step(settings_, sample, 1.0 / rate_, none);
     stepNs = monotonicNs() - begin;
-    return output_;
+    return output;
 }
 
 void ClosedLoop::hold(const glm::dvec3& outside, const glm::dvec3& position) {

@@ -3,7 +3,7 @@
 
 #include "devices/plant/hand_impedance.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 
 #include <functional>
 #include <memory>
@@ -15,7 +15,7 @@ namespace touchstone::study {
 
 class ClosedLoop {
   public:
-    /// The safety stage uses `limits` as the device's.
+    /// `scene` outlives it. The safety stage uses `limits` as the device's.
     ClosedLoop(const HapticScene& scene, const HapticSettings& settings, const PlantParameters& plant,
                double rateHz, const DeviceLimits& limits);
     ClosedLoop(const ClosedLoop&) = delete;
@@ -52,15 +52,13 @@ class ClosedLoop {
     };
     const HapticOutput& step(const glm::dvec3& position);
 
-    std::shared_ptr<const HapticScene> scene_;
+    SteppedHand touch_;
     HapticSettings settings_;
+    DeviceLimits limits_;
     double rate_;
     Target target_{*this};
     HandImpedance hand_;
-    WorldState world_;
-    DeviceState state_;
-    HapticOutput output_;
-    uint64_t ticks_ = 0, steps_ = 0;
+    uint64_t ticks_ = 0;
 };
 
 } // namespace touchstone::study

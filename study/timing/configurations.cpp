@@ -3,9 +3,8 @@
 #include "engine/core/float_mode.h"
 #include "engine/core/realtime_guard.h"
 #include "haptics/query/ray_floor.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 
 #include <algorithm>
 #include <optional>
@@ -37,10 +36,8 @@ std::optional<Stage> splitOf(uint64_t tick) {
 class Turn {
   public:
     Turn(const TimedConfiguration& configuration, double start)
-        : configuration_(configuration), start_(start) {
-        if (configuration.scene->animated)
-            moving_ = MovingObjects(configuration.scene->animated, *configuration.scene->haptic);
-    }
+        : configuration_(configuration), start_(start),
+          hand_(*configuration.scene->haptic, configuration.scene->animated) {}
 
     /// Ticks without timing.
     void live(uint64_t ticks) {
@@ -65,12 +62,12 @@ class Turn {
         for (size_t i = 0; i < hands_.size(); ++i) {
             const std::optional<Stage> split = stages ? splitOf(number_) : std::nullopt;
             const int64_t ns = split ? splitTick(hands_[i], *split, times) : tick(hands_[i], times);
-            times.pinchedTicks += has(output_.flags, TickFlag::Jammed) ? 1 : 0;
+            times.pinchedTicks += has(hand_.output.flags, TickFlag::Jammed) ? 1 : 0;
             if (!split)
                 longest = std::max(longest, ns);
-            if (output_.contacts == 0)
+            if (hand_.output.contacts == 0)
                 continue;
-            touched_.push_back({output_.proxy, output_.hip, output_.object, touchedPose()});
+            touched_.push_back({hand_.output.proxy, hand_.output.hip, hand_.output.object, touchedPose()});
             if (split) {
                 round.upTo[static_cast<size_t>(*split)].push_back(static_cast<double>(ns));
                 continue;
@@ -79,11 +76,11 @@ class Turn {
                 round.whole.push_back(static_cast<double>(ns));
             step.add(ns);
             times.step.add(ns);
-            times.iterations += output_.iterations;
-            times.flaggedTicks +=
-                has(output_.flags, TickFlag::BudgetReached) || has(output_.flags, TickFlag::CandidatesFull)
-                    ? 1
-                    : 0;
+            times.iterations += hand_.output.iterations;
+            times.flaggedTicks += has(hand_.output.flags, TickFlag::BudgetReached) ||
+                                          has(hand_.output.flags, TickFlag::CandidatesFull)
+                                      ? 1
+                                      : 0;
         }
         const RealtimeViolations after = realtime::violations();
         times.allocations +=
@@ -117,27 +114,19 @@ class Turn {
 
     template <class Stopwatch>
     int64_t tickWith(const glm::dvec3& hand, ConfigurationTimes& times, Stopwatch& stopwatch) {
-        DeviceSample sample;
-        sample.position = hand;
-        sample.valid = true;
-        TickInput input;
-        input.tick = number_++;
-        input.time = kTick * static_cast<double>(input.tick);
-        input.dt = kTick;
-        input.devices = {&sample, 1};
+        const DeviceSample sample = sampleAt(hand);
+        const double time = kTick * static_cast<double>(number_++);
         long long posed = 0, begin = 0, end = 0;
         {
             const realtime::TickScope scope;
             const long long start = monotonicNs();
-            if (moving_.moving())
-                input.objects = motions_ = moving_.at(input.time);
+            hand_.advance(time);
             begin = monotonicNs();
             posed = begin - start;
-            hapticStep(*configuration_.scene->haptic, configuration_.settings, input, world_, {&state_, 1},
-                       {&output_, 1}, stopwatch);
+            (void)hand_.step(configuration_.settings, sample, kTick, stopwatch);
             end = monotonicNs();
         }
-        if (moving_.moving())
+        if (hand_.world.moving())
             times.poses.add(posed);
         return end - begin;
     }
@@ -162,21 +151,18 @@ class Turn {
         Similarity pose;
     };
     [[nodiscard]] Similarity touchedPose() const {
-        if (output_.object < 0)
+        if (hand_.output.object < 0)
             return {};
-        const ObjectMotions motions =
-            motions_.empty() ? ObjectMotions(configuration_.scene->haptic->restMotions) : motions_;
-        return motions[static_cast<size_t>(output_.object)].workspaceFromObject;
+        const ObjectMotions moved = hand_.world.poses(),
+                            motions = moved.empty() ? ObjectMotions(configuration_.scene->haptic->restMotions)
+                                                    : moved;
+        return motions[static_cast<size_t>(hand_.output.object)].workspaceFromObject;
     }
 
     const TimedConfiguration& configuration_;
     double start_;
-    WorldState world_;
-    DeviceState state_;
-    MovingObjects moving_;
-    ObjectMotions motions_;
+    SteppedHand hand_; ///< with one output for all ticks, as in the servo
     std::vector<glm::dvec3> hands_;
-    HapticOutput output_; ///< one for all ticks, as in the servo
     std::vector<Touched> touched_;
     uint64_t number_ = 0;
 };

@@ -102,7 +102,7 @@ class Hand {
         input.tick = ticks_++;
         input.time = kTick * static_cast<double>(input.tick);
         input.dt = kTick;
-        input.devices = {&sample, 1};
+        input.hands = {&sample, 1};
         NoStopwatch none;
         hapticStep(*scene_.haptic, settings_, input, world_, {&state, 1}, {&output, 1}, none);
         return output;
@@ -296,7 +296,7 @@ void addSurface() {
             size_t at = 0;
             loop(state, [&] {
                 const Touched& t = places[at = (at + 1) % places.size()];
-                benchmark::DoNotOptimize(readSurface(hand.scene(), hand.motions(), settings,
+                benchmark::DoNotOptimize(readSurface(hand.scene(), hand.motions(), settings, DeviceLimits{},
                                                      hand.state.reference, t.rest.contacts[0], t.normal,
                                                      t.depth, kStep / kTick, kTick));
             });
@@ -306,8 +306,9 @@ void addSurface() {
         Hand hand(richTorus(), settings);
         std::vector<SurfaceSample> feels;
         for (const Touched& t : touches(hand))
-            feels.push_back(readSurface(hand.scene(), hand.motions(), settings, hand.state.reference,
-                                        t.rest.contacts[0], t.normal, t.depth, kStep / kTick, kTick));
+            feels.push_back(readSurface(hand.scene(), hand.motions(), settings, DeviceLimits{},
+                                        hand.state.reference, t.rest.contacts[0], t.normal, t.depth,
+                                        kStep / kTick, kTick));
         size_t at = 0;
         loop(state, [&] {
             benchmark::DoNotOptimize(springDamperForce(feels[at = (at + 1) % feels.size()],

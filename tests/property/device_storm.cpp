@@ -2,8 +2,8 @@
 
 #include "engine/load/scene_loader.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/tick/haptic_step.h"
+#include "haptics/world/world_state.h"
 
 #include <gtest/gtest.h>
 
@@ -105,12 +105,11 @@ StormFigures storm(const std::string& sceneFile, uint64_t seed, uint64_t ticks) 
     const ScenePtr source = loadScene(std::string(TOUCHSTONE_ASSETS "/") + sceneFile);
     DeviceLimits limits;
     limits.maxForceRate = 2000.0; // a fifth of what is usual, so that the limit is felt
-    const auto scene = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace), limits);
+    const auto scene = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace));
     scene->buildNeighbourhoods();
-    MovingObjects moving(source, *scene);
     StormyDevice device(seed, 0.1);
     HapticSettings settings;
-    WorldState world;
+    WorldState world(source, *scene);
     DeviceState state;
     NoStopwatch none;
     DeviceMapping mapping;
@@ -132,13 +131,14 @@ StormFigures storm(const std::string& sceneFile, uint64_t seed, uint64_t ticks) 
         }
         DeviceSample sample = device.next();
         sample.mapping = mapping;
+        sample.limits = limits;
         TickInput input;
         input.tick = figures.ticks;
         input.dt = device.nextDt();
         input.time = time += input.dt;
         input.late = device.chance(0.1);
-        input.devices = {&sample, 1};
-        input.objects = moving.at(input.time);
+        input.hands = {&sample, 1};
+        world.advance(input.time);
         HapticOutput output;
         hapticStep(*scene, settings, input, world, {&state, 1}, {&output, 1}, none);
 

@@ -94,7 +94,7 @@ TEST(RayWalk, CountsAndFindsWhatLongDoubleDoesOnHardShapes) {
     size_t crossed = 0, agreed = 0;
     for (const HardShape& hard : hardShapes()) {
         const auto scene =
-            compileHapticScene(sceneOf(hard.shape), Similarity{}, {}, {.rays = true, .progress = {}});
+            compileHapticScene(sceneOf(hard.shape), Similarity{}, {.rays = true, .progress = {}});
         const HapticObject& object = *scene->objects[0];
         for (int trial = 0; trial < 300; ++trial) {
             glm::dvec3 from(in(random), in(random), in(random));

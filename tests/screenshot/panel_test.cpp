@@ -45,7 +45,7 @@ class PanelGolden : public ::testing::Test {
         gpu_ = createGpuForWindow(window_, {});
         target_ = std::make_unique<WindowTarget>(*gpu_, window_, [] { applyStyle(1.0f); });
         target_->keepPanels(true, 0.0); // all in every frame
-        model_ = loadModel(TOUCHSTONE_ASSETS "/doughnut.glb", Fit::Workspace, DeviceLimits{});
+        model_ = loadModel(TOUCHSTONE_ASSETS "/doughnut.glb", Fit::Workspace);
         controller_.open(model_, false);
         touchForTenSeconds();
         describe();

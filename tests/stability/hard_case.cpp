@@ -186,7 +186,7 @@ void HardCase::take() {
 
 /// No spike: what goes to the device stays within its limits, whatever the world does.
 void HardCase::takeCommand() {
-    const DeviceLimits& limits = bench.scene->limits;
+    const DeviceLimits& limits = bench.limits;
     EXPECT_LE(glm::length(bench.output.commandInWorkspace), limits.maxForce * (1.0 + 1e-9));
     if (!first_) {
         EXPECT_LE(glm::distance(bench.output.commandInWorkspace, last_.commandInWorkspace),

@@ -1,7 +1,6 @@
 #include "tests/support/felt_stroke.h"
 
-#include "haptics/scene/moving_objects.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,26 +14,15 @@ FeltStroke feel(const HapticScene& scene, const StrokePath& path, ScenePtr sourc
     settings.texture = TextureMode::Off;
     settings.friction = FrictionMode::Off;
     settings.forceShading = ShadingMode::Off;
-    MovingObjects moving;
-    if (source != nullptr)
-        moving = MovingObjects(source, scene);
-    std::vector<DeviceState> state(1);
-    WorldState world;
-    HapticOutput output;
-    NoStopwatch none;
+    SteppedHand hand(scene, source);
+    const HapticOutput& output = hand.output;
     FeltStroke felt;
     felt.ticks = static_cast<int>(periods * path.period() / kTick);
     for (int tick = 0; tick < felt.ticks; ++tick) {
         const double time = tick * kTick;
-        DeviceSample sample;
-        sample.position = source != nullptr ? path.positionIn(time, time) : path.position(time);
-        sample.valid = true;
-        TickInput input;
-        input.tick = static_cast<uint64_t>(tick);
-        input.time = time;
-        input.devices = {&sample, 1};
-        input.objects = moving.at(time);
-        hapticStep(scene, settings, input, world, state, {&output, 1}, none);
+        (void)hand.tick(settings,
+                        sampleAt(source != nullptr ? path.positionIn(time, time) : path.position(time)), time,
+                        kTick);
         felt.contact += output.contacts > 0;
         felt.began = felt.began || (tick == 0 && output.contacts > 0);
         felt.inside = felt.inside || has(output.flags, TickFlag::StartedInside);

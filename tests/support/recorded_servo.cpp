@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <thread>
 
 namespace touchstone::test {
@@ -19,18 +21,29 @@ void pause() {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
+std::vector<DevicePort> portsOf(std::vector<RecordedServo::Hand>& hands) {
+    std::vector<DevicePort> ports;
+    for (RecordedServo::Hand& hand : hands)
+        ports.push_back({.context = &hand,
+                         .sample =
+                             [](void* context, double time) noexcept {
+                                 return (*static_cast<RecordedServo::Hand*>(context))(time);
+                             },
+                         .apply = [](void*, const DeviceCommand&) noexcept {}});
+    return ports;
+}
+
 } // namespace
 
-TouchedScene touchedScene(const std::string& file, const DeviceLimits& limits) {
+TouchedScene touchedScene(const std::string& file) {
     TouchedScene scene;
     scene.source = loadScene(std::filesystem::path(TOUCHSTONE_ASSETS) / file);
-    scene.haptic =
-        compileHapticScene(*scene.source, workspaceFromScene(*scene.source, Fit::Workspace), limits);
+    scene.haptic = compileHapticScene(*scene.source, workspaceFromScene(*scene.source, Fit::Workspace));
     scene.identity = identify(*scene.haptic, *scene.source, Fit::Workspace);
     return scene;
 }
 
-TouchedScene floorScene(float height, const DeviceLimits& limits) {
+TouchedScene floorScene(float height) {
     auto source = std::make_shared<Scene>();
     Mesh mesh;
     mesh.positions = {
@@ -43,7 +56,7 @@ TouchedScene floorScene(float height, const DeviceLimits& limits) {
     source->nodes.emplace_back();
     source->instances.push_back({.node = 0, .mesh = 0});
     TouchedScene scene;
-    scene.haptic = compileHapticScene(*source, Similarity{}, limits);
+    scene.haptic = compileHapticScene(*source, Similarity{});
     scene.source = std::move(source);
     scene.identity = identify(*scene.haptic, *scene.source, Fit::None);
     return scene;
@@ -58,6 +71,11 @@ TouchedScene withChanged(const TouchedScene& scene, const std::function<void(Hap
     changed.identity.feltHash = feltHash(*changed.haptic, *source);
     changed.source = std::move(source);
     return changed;
+}
+
+TouchedScene floorOf(float height, float stiffness) {
+    return withChanged(floorScene(height),
+                       [&](HapticMaterial& material) { material.stiffness.value = stiffness; });
 }
 
 glm::dvec3 overTheDoughnut(double time) {
@@ -75,13 +93,8 @@ DeviceSample at(const glm::dvec3& position) {
     return sample;
 }
 
-RecordedServo::RecordedServo(Hand hand, const ServoConfig& config)
-    : servo({.context = this,
-             .sample = [](void* context,
-                          double time) noexcept { return static_cast<RecordedServo*>(context)->hand_(time); },
-             .apply = [](void*, const DeviceCommand&) noexcept {}},
-            config),
-      recorder(servo), hand_(std::move(hand)) {}
+RecordedServo::RecordedServo(std::vector<Hand> hands, const ServoConfig& config)
+    : hands_(std::move(hands)), servo(portsOf(hands_), config), recorder(servo) {}
 
 RecordedServo::~RecordedServo() {
     servo.stop();
@@ -96,7 +109,7 @@ void RecordedServo::drain() {
     TickRecord record;
     while (servo.popRecord(record)) {
         recorder.take(record);
-        records.push_back(record);
+        (record.hand == 0 ? records : others).push_back(record);
     }
     recorder.flush();
     servo.updateSnapshot();
@@ -128,13 +141,21 @@ void RecordedServo::finish() {
 }
 
 void RecordedServo::expectWithinLimits() const {
+    expectWithin(records);
+    for (uint32_t hand = 1; hand < servo.hands(); ++hand) {
+        std::vector<TickRecord> own;
+        std::ranges::copy_if(others, std::back_inserter(own),
+                             [&](const TickRecord& record) { return record.hand == hand; });
+        expectWithin(own);
+    }
+}
+
+void RecordedServo::expectWithin(const std::vector<TickRecord>& records) {
     glm::dvec3 last(0.0);
-    DeviceLimits limits;
     for (size_t i = 0; i < records.size(); ++i) {
         const TickRecord& record = records[i];
+        const DeviceLimits& limits = record.sample.limits;
         const glm::dvec3 force = record.output.command.force();
-        if (record.scene > 0)
-            limits = scenes[record.scene - 1].haptic->limits;
         ASSERT_TRUE(std::isfinite(force.x) && std::isfinite(force.y) && std::isfinite(force.z))
             << "tick " << i;
         ASSERT_LE(glm::length(force), limits.maxForce) << "tick " << i;
@@ -164,8 +185,7 @@ ReplayReport replayOf(const std::filesystem::path& file, const std::vector<Touch
     Replayer replayer([&](const RecordedScene& scene) {
         // Compiled anew, as another process would: nothing that the first run built is there.
         const TouchedScene& offered = scenes.at(scene.number - 1);
-        const auto haptic =
-            compileHapticScene(*offered.source, offered.haptic->workspaceFromScene, scene.identity.limits);
+        const auto haptic = compileHapticScene(*offered.source, offered.haptic->workspaceFromScene);
         EXPECT_EQ(feltHash(*haptic, *offered.source), scene.identity.feltHash);
         return ReplayScene{haptic, offered.source};
     });

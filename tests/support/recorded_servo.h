@@ -19,10 +19,12 @@ struct TouchedScene {
     std::shared_ptr<const HapticScene> haptic;
     SceneIdentity identity;
 };
-[[nodiscard]] TouchedScene touchedScene(const std::string& file, const DeviceLimits& limits = {});
+[[nodiscard]] TouchedScene touchedScene(const std::string& file);
 
 /// A square of 0.1 m, facing up, in the plane y = `height`, in the workspace.
-[[nodiscard]] TouchedScene floorScene(float height, const DeviceLimits& limits = {});
+[[nodiscard]] TouchedScene floorScene(float height);
+/// The same of a material of its own, N/m.
+[[nodiscard]] TouchedScene floorOf(float height, float stiffness);
 
 /// The scene with all its materials changed, on the same geometry.
 [[nodiscard]] TouchedScene withChanged(const TouchedScene& scene,
@@ -35,8 +37,10 @@ class RecordedServo {
   public:
     using Hand = std::function<DeviceSample(double time)>;
 
-    /// `hand` is called on the servo's thread and must not throw.
-    explicit RecordedServo(Hand hand, const ServoConfig& config = kQuick);
+    /// The hands are called on the servo's thread and must not throw.
+    explicit RecordedServo(Hand hand, const ServoConfig& config = kQuick)
+        : RecordedServo(std::vector<Hand>{std::move(hand)}, config) {}
+    explicit RecordedServo(std::vector<Hand> hands, const ServoConfig& config = kQuick);
     ~RecordedServo();
 
     /// Offered to the servo, named to the recorder.
@@ -50,21 +54,26 @@ class RecordedServo {
     /// Stops the servo and ends the recordings.
     void finish();
 
-    /// Whatever a tick's input: the command is finite, never above the limits of its scene, and never changes
-    /// faster than they allow; but a fault drops it to zero. Fails the test, naming the tick.
+    /// Whatever a tick's input: each hand's command is finite, never above the limits of its device, and
+    /// never changes faster than they allow; but a fault drops it to zero. Fails the test, naming the tick.
     void expectWithinLimits() const;
     [[nodiscard]] size_t countOf(TickFlag flag) const;
     [[nodiscard]] size_t inContact() const;
 
     static constexpr ServoConfig kQuick{.rateHz = 4000.0, .ringCapacity = 1 << 14, .wantRealtime = false};
 
+  private:
+    std::vector<Hand> hands_; // before the servo that uses them
+
+  public:
     ServoLoop servo;
     ServoRecorder recorder;
-    std::vector<TickRecord> records;  ///< that were read
+    std::vector<TickRecord> records;  ///< of hand 0 that were read
+    std::vector<TickRecord> others;   ///< of the other hands
     std::vector<TouchedScene> scenes; ///< offered, the first has number 1
 
   private:
-    Hand hand_;
+    static void expectWithin(const std::vector<TickRecord>& records);
 };
 
 [[nodiscard]] DeviceSample at(const glm::dvec3& position);

@@ -63,12 +63,13 @@ const HapticOutput& TouchBench::step(const glm::dvec3& hip) {
     sample.position = hip;
     sample.valid = true;
     sample.mapping = mapping;
+    sample.limits = limits;
     TickInput input;
     input.tick = tick;
     input.time = static_cast<double>(tick) * dt;
     input.dt = dt;
-    input.devices = {&sample, 1};
-    input.objects = motions;
+    input.hands = {&sample, 1};
+    world.place(motions);
     NoStopwatch none;
     hapticStep(*scene, settings, input, world, state, {&output, 1}, none);
     ++tick;

@@ -36,7 +36,8 @@ class TouchBench {
     WorldState world;
     HapticOutput output;
     std::vector<ObjectMotion> motions; ///< empty: at rest
-    DeviceMapping mapping;             ///< clutch and zoom; what `step` takes is in the device's frame
+    DeviceLimits limits;
+    DeviceMapping mapping; ///< clutch and zoom; what `step` takes is in the device's frame
     double dt = 1e-3;
     uint64_t tick = 0;
 };

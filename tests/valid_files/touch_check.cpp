@@ -4,8 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "haptics/scene/built_for.h"
-#include "haptics/scene/moving_objects.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 #include "tests/support/scene_promises.h"
 #include "tests/valid_files/draw.h"
 #include "workbench/figures/inspection.h"
@@ -65,28 +64,20 @@ bool finite(const glm::dvec3& v) {
 class Touch {
   public:
     Touch(const Model& model, const HapticSettings& settings, TouchReport& report)
-        : model_(model), settings_(settings), report_(report), moving_(model.scene, *model.haptic) {
+        : model_(model), settings_(settings), report_(report), hand_(*model.haptic, model.scene) {
         buildFor(*model.haptic, settings);
     }
 
     void step(const glm::dvec3& hip, bool valid = true) {
-        DeviceSample sample;
-        sample.position = hip;
+        DeviceSample sample = sampleAt(hip);
         sample.valid = valid;
-        TickInput input;
-        input.tick = tick_;
-        input.time = kTick * static_cast<double>(tick_);
-        input.dt = kTick;
-        input.devices = {&sample, 1};
-        input.objects = moving_.at(input.time);
-        NoStopwatch none;
-        hapticStep(*model_.haptic, settings_, input, world_, {&state_, 1}, {&output_, 1}, none);
+        (void)hand_.tick(settings_, sample, kTick * static_cast<double>(tick_), kTick);
         check(valid && finite(hip));
-        last_ = output_.command.force();
+        last_ = output().command.force();
         ++tick_;
     }
 
-    [[nodiscard]] const HapticOutput& output() const { return output_; }
+    [[nodiscard]] const HapticOutput& output() const { return hand_.output; }
 
   private:
     void require(bool holds, const char* what) {
@@ -100,7 +91,7 @@ class Touch {
     }
 
     void check(bool usable) {
-        const HapticOutput& o = output_;
+        const HapticOutput& o = output();
         require(finite(o.force), "a force that is not finite");
         require(finite(o.proxy) && finite(o.hip) && finite(o.hipVelocity), "a place that is not finite");
         require(std::isfinite(o.penetration) && std::isfinite(o.height), "a length that is not finite");
@@ -109,7 +100,7 @@ class Touch {
                     (o.normal == glm::dvec3(0.0) || std::abs(glm::length(o.normal) - 1.0) < 1e-6),
                 "a normal that is not unit");
         const glm::dvec3 command = o.command.force();
-        const DeviceLimits& limits = model_.haptic->limits;
+        const DeviceLimits limits;
         require(finite(command) && glm::length(command) <= limits.maxForce * (1.0 + 1e-9),
                 "a command beyond maxForce");
         require(glm::length(command - last_) <= limits.maxForceRate * kTick * (1.0 + 1e-9),
@@ -129,10 +120,7 @@ class Touch {
     const Model& model_;
     HapticSettings settings_;
     TouchReport& report_;
-    MovingObjects moving_;
-    DeviceState state_;
-    WorldState world_;
-    HapticOutput output_;
+    SteppedHand hand_;
     glm::dvec3 last_{0.0};
     uint64_t tick_ = 0;
     bool told_ = false;

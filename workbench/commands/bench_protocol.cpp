@@ -2,7 +2,7 @@
 
 #include "engine/core/float_mode.h"
 #include "haptics/servo/realtime_thread.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 #include "study/timing/bench_scene.h"
 #include "workbench/figures/settings_json.h"
 
@@ -39,27 +39,18 @@ struct Run {
 Run strokeFor(const BenchScene& scene, const HapticSettings& settings, double seconds) {
     constexpr double kTick = 1e-3, kSpeed = 0.1, kApproach = 0.02; // s, m/s, m
     constexpr uint64_t kBetweenClocks = 64;
-    WorldState world;
-    std::vector<DeviceState> state(1);
-    HapticOutput output;
+    SteppedHand hand(*scene.haptic);
     NoStopwatch none;
-    DeviceSample sample;
-    sample.valid = true;
-    TickInput input;
-    input.dt = kTick;
+    DeviceSample sample = sampleAt(glm::dvec3(0.0));
     Run run;
     const int64_t begin = monotonicNs();
     const auto end = begin + static_cast<int64_t>(1e9 * seconds);
     int64_t now = begin;
     while (now < end) {
         for (uint64_t i = 0; i < kBetweenClocks; ++i) {
-            input.tick = run.ticks++;
-            input.time = kTick * static_cast<double>(input.tick);
-            sample.position =
-                scene.stroke(kSpeed * input.time, std::max(0.0, kApproach - kSpeed * input.time));
-            input.devices = {&sample, 1};
-            hapticStep(*scene.haptic, settings, input, world, state, {&output, 1}, none);
-            run.contacts += output.contacts > 0 ? 1 : 0;
+            const double time = kTick * static_cast<double>(run.ticks++);
+            sample.position = scene.stroke(kSpeed * time, std::max(0.0, kApproach - kSpeed * time));
+            run.contacts += hand.step(settings, sample, kTick, none).contacts > 0 ? 1 : 0;
         }
         now = monotonicNs();
     }

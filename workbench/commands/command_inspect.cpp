@@ -90,7 +90,7 @@ void printInspection(const Json& json) {
 } // namespace
 
 int inspectCommand(const InspectOptions& options) {
-    const Model model = loadModelToTouch(options.scene, Fit::Workspace, DeviceLimits{});
+    const Model model = loadModelToTouch(options.scene, Fit::Workspace);
     const Json json = inspectionOf(model);
     printInspection(json);
     // A name that is not UTF-8 is replaced, so that the output stays valid.

@@ -33,7 +33,7 @@ int renderCommand(const RenderOptions& options) {
     const ViewMode mode = viewModeOf(options.view);
     // The plan belongs to the haptic scene.
     const Model model = mode == ViewMode::Effects
-                            ? loadModel(options.scene, Fit::Workspace, DeviceLimits{})
+                            ? loadModel(options.scene, Fit::Workspace)
                             : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded);
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));

@@ -89,6 +89,7 @@ nlohmann::ordered_json differenceJson(const std::optional<Difference>& first) {
         return nullptr;
     return {{"tick", first->tick},
             {"time", first->time},
+            {"hand", first->hand},
             {"stage", first->stage},
             {"recorded_proxy", vectorJson(first->recordedProxy)},
             {"replayed_proxy", vectorJson(first->replayedProxy)},
@@ -122,6 +123,7 @@ nlohmann::ordered_json reportJson(const ReplayOptions& options, const ReplayRepo
             {"scenes", sceneList},
             {"equal", !report.first.has_value()},
             {"first_difference", differenceJson(report.first)},
+            {"hands", report.hands},
             {"ticks", report.ticks},
             {"replayed", report.replayed},
             {"differing", report.differing},
@@ -149,10 +151,10 @@ void printResult(const ReplayReport& report) {
         return;
     }
     const Difference& first = *report.first;
-    std::printf("tick %llu (%.6g s) differs first, in the stage '%s'; %llu of %llu ticks differ\n",
-                static_cast<unsigned long long>(first.tick), first.time, first.stage.c_str(),
-                static_cast<unsigned long long>(report.differing), replayed);
-    if (first.stage == "state")
+    std::printf("tick %llu (%.6g s) differs first, %sin the stage '%s'; %llu of %llu ticks differ\n",
+                static_cast<unsigned long long>(first.tick), first.time, whichHand(report).c_str(),
+                first.stage.c_str(), static_cast<unsigned long long>(report.differing), replayed);
+    if (first.stage == "state" || first.stage == "poses")
         return;
     const auto row = [](const char* what, const glm::dvec3& proxy, const glm::dvec3& force) {
         std::printf("  %s: proxy %.17g %.17g %.17g m, force %.17g %.17g %.17g N\n", what, proxy.x, proxy.y,

@@ -1,16 +1,13 @@
-// The window's loops without a window: the simulated hand strokes the model in real time.
+// The window's loops without a window: devices and simulated hands touch the model in real time.
 
-#include "devices/device/mapped_device.h"
-#include "devices/plant/hand_impedance.h"
-#include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
-#include "haptics/servo/servo_loop.h"
 #include "renderer/draw_quality.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
-#include "workbench/commands/device_test.h"
+#include "session/session.h"
+#include "workbench/commands/run_hands.h"
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/stolen_time.h"
@@ -18,8 +15,6 @@
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/files/recording_controller.h"
 #include "workbench/guards/interrupt.h"
-#include "workbench/hand/device_menu.h"
-#include "workbench/hand/device_port.h"
 #include "workbench/model/animate.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
@@ -29,8 +24,12 @@
 
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace touchstone {
 
@@ -39,6 +38,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kFrameRate = 30.0;
+
+double secondsOf(Clock::time_point time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
 
 /// A view from slightly above and to the right, to show depth.
 View frontView(const Model& model, const glm::ivec2& size) {
@@ -50,51 +53,54 @@ View frontView(const Model& model, const glm::ivec2& size) {
     return viewOf(camera, model.workspaceFromScene, aspect);
 }
 
-/// Takes every tick since the last call.
-class TickReader {
+/// Statistics and files of the ticks.
+class TickReader final : public TickSubscriber {
   public:
     TickReader(const Model& model, const RunOptions& options)
-        : model_(model), options_(options), moving_(model.scene, *model.haptic) {
-        if (!options.recordTicks.empty()) {
-            csv_.emplace(options.recordTicks);
-            csv_->write(kTickCsvHeader);
+        : statistics(options.devices.size()), model_(model), options_(options),
+          world_(model.scene, *model.haptic), rows_(options.recordTicks.size()) {
+        for (const std::filesystem::path& file : options.recordTicks) {
+            csv_.push_back(std::make_unique<OutputFile>(file));
+            csv_.back()->write(kTickCsvHeader);
         }
     }
 
-    void drain(ServoLoop& servo, RecordingController& controller) {
-        TickRecord record;
-        rows_.clear();
-        while (servo.popRecord(record)) {
-            statistics.addLive(record);
-            controller.recorder().take(record);
-            if (record.output.contacts > 0) {
-                statistics.addProxyGap(
-                    proxyGap(*model_.haptic, moving_.at(record.time), record.output, options_.settings));
-                lastContact = record;
-            }
-            last = record;
-            if (csv_)
-                appendTickRow(rows_, record.time, record.output, record.stepNs);
+    void take(const TickRecord& record, const HapticSettings&) override {
+        TickStatistics& own = statistics[record.hand];
+        own.addLive(record);
+        if (record.output.contacts > 0)
+            own.addProxyGap(
+                proxyGap(*model_.haptic, world_.advance(record.time), record.output, options_.settings));
+        if (record.hand < rows_.size())
+            appendTickRow(rows_[record.hand], record.time, record.output, record.stepNs);
+        if (record.hand > 0)
+            return;
+        last = record;
+        if (record.output.contacts > 0)
+            lastContact = record;
+    }
+    void flush(double) override {
+        for (size_t hand = 0; hand < csv_.size(); ++hand) {
+            csv_[hand]->write(rows_[hand]);
+            rows_[hand].clear();
         }
-        if (csv_)
-            csv_->write(rows_);
-        controller.update();
     }
     void commit() {
-        if (csv_)
-            csv_->commit();
+        for (const auto& csv : csv_)
+            csv->commit();
     }
 
-    TickStatistics statistics;
+    std::vector<TickStatistics> statistics; ///< one per hand
+    // Of hand 0:
     TickRecord last;
     std::optional<TickRecord> lastContact;
 
   private:
     const Model& model_;
     const RunOptions& options_;
-    MovingObjects moving_;
-    std::optional<OutputFile> csv_;
-    std::string rows_;
+    WorldState world_;
+    std::vector<std::unique_ptr<OutputFile>> csv_; // of the hands that have one
+    std::vector<std::string> rows_;
 };
 
 struct Frames {
@@ -110,8 +116,7 @@ TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Mo
 }
 
 /// Draws at the frame rate until the time is over, beside the servo.
-Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& servo, SceneRenderer& renderer,
-                  TickReader& reader, RecordingController& controller) {
+Frames drawFrames(const RunOptions& options, const Model& model, Session& session, SceneRenderer& renderer) {
     View view = frontView(model, options.size);
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
@@ -124,13 +129,12 @@ Frames drawFrames(const RunOptions& options, const Model& model, ServoLoop& serv
     Overlay overlay;
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
-        servo.updateSnapshot();
-        reader.drain(servo, controller);
+        session.pump(secondsOf(begin));
+        const TickRecord& tick = session.tick();
         overlay.clear();
-        drawTick(servo.snapshot(), options.settings, lookOf(servo.snapshot(), options.settings, model),
-                 overlay);
-        view.probe = probeShadow(servo.snapshot(), options.settings);
-        poseAt(servo.snapshot().time, *model.scene, renderer);
+        drawTick(tick, options.settings, lookOf(tick, options.settings, model), overlay);
+        view.probe = probeShadow(tick, options.settings);
+        poseAt(tick.time, *model.scene, renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);
         frames.smallest = glm::min(frames.smallest, size);
         renderer.render(view, overlay, size.x, size.y);
@@ -164,23 +168,109 @@ nlohmann::ordered_json servoJson(const ServoLoop& servo, const TickStatistics& s
     return json;
 }
 
+/// The results of one hand.
+nlohmann::ordered_json handJson(const RunHands& hands, const TickStatistics& statistics, size_t hand) {
+    nlohmann::ordered_json json = hands.json(hand);
+    json.update({{"contact", statistics.contactJson()},
+                 {"force", statistics.forceJson()},
+                 {"energy", statistics.energyJson()},
+                 {"flags", statistics.flagsJson()}});
+    return json;
+}
+
+nlohmann::ordered_json framesJson(const Frames& frames, const glm::ivec2& size) {
+    return {{"count", frames.count},
+            {"fps", static_cast<double>(frames.count) / frames.seconds},
+            {"late", frames.late},
+            {"width", size.x},
+            {"height", size.y},
+            {"smallest_width", frames.smallest.x},
+            {"smallest_height", frames.smallest.y}};
+}
+
+nlohmann::ordered_json gpuJson(const Gpu& gpu) {
+    return {{"name", gpu.name()},
+            {"description", gpu.description()},
+            {"validation_active", gpu.validationActive()},
+            {"validation_messages", gpu.validationMessages().size()}};
+}
+
+/// What a run leaves behind.
+struct RunResult {
+    const Model& model;
+    const RunHands& hands;
+    const ServoLoop& servo;
+    const TickReader& reader;
+    const RecordingController& controller;
+    const Gpu& gpu;
+    Frames frames;
+    RealtimeViolations violations;
+    std::optional<double> stolen; // s
+};
+
+nlohmann::ordered_json reportOf(const RunOptions& options, const RunResult& run) {
+    const TickStatistics& first = run.reader.statistics[0];
+    nlohmann::ordered_json json{{"command", "run"},
+                                {"scene", options.scene.string()},
+                                {"seconds", run.frames.seconds},
+                                {"triangles", run.model.scene->triangleCount()}};
+    json.update(run.hands.json(0));
+    json.update({{"settings", settingsJson(options.settings)},
+                 {"setting_warnings", settingWarnings(options.settings)},
+                 {"servo", servoJson(run.servo, first, run.frames.seconds, run.stolen)},
+                 {"wake_histogram", histogramJson(first.wake())},
+                 {"step", first.stepJson()},
+                 {"stages", first.stagesJson()},
+                 {"step_histogram", histogramJson(first.step())},
+                 {"frames", framesJson(run.frames, options.size)},
+                 {"allocations_in_tick", run.violations.allocations},
+                 {"deallocations_in_tick", run.violations.deallocations},
+                 {"locks_in_tick", realtime::locksAreCounted() ? nlohmann::ordered_json(run.violations.locks)
+                                                               : nlohmann::ordered_json()},
+                 {"contact", first.contactJson()},
+                 {"force", first.forceJson()},
+                 {"energy", first.energyJson()},
+                 {"flags", first.flagsJson()}});
+    if (run.hands.count() > 1)
+        for (size_t hand = 0; hand < run.hands.count(); ++hand)
+            json["hands"].push_back(handJson(run.hands, run.reader.statistics[hand], hand));
+    json.update({{"recording", run.controller.json()}, {"gpu", gpuJson(run.gpu)}});
+    return json;
+}
+
+/// The last picture, with the last tick of hand 0 in contact: a hand in the air has no overlay.
+void writeScreenshot(const RunOptions& options, const Model& model, const TickReader& reader,
+                     SceneRenderer& renderer) {
+    Overlay overlay;
+    const TickRecord& shown = reader.lastContact.value_or(reader.last);
+    drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
+    View view = frontView(model, options.size);
+    view.probe = probeShadow(shown, options.settings);
+    poseAt(shown.time, *model.scene, renderer);
+    writePng(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
+}
+
+void printResult(const RunResult& run) {
+    const ServoLoop::Counters counters = run.servo.counters();
+    std::string contact;
+    for (const TickStatistics& statistics : run.reader.statistics)
+        contact += (contact.empty() ? "" : " and ") + std::to_string(statistics.contactTicks());
+    std::printf("%llu ticks (%llu missed) in %.1f s, %s in contact, %llu frames\n",
+                static_cast<unsigned long long>(counters.ticks),
+                static_cast<unsigned long long>(counters.missed), run.frames.seconds, contact.c_str(),
+                static_cast<unsigned long long>(run.frames.count));
+}
+
 } // namespace
 
 int runCommand(const RunOptions& options) {
     catchInterrupts();
-    const std::unique_ptr<LinkedDevice> device = openDeviceOrHand(options.device);
-    const DeviceLimits simulatedLimits = options.openLoop ? DeviceLimits{} : limitsOf(options.plant);
-    const Model model =
-        loadModel(options.scene, Fit::Workspace, device != nullptr ? device->limits() : simulatedLimits);
+    RunHands hands(options);
+    const Model model = loadModel(options.scene, Fit::Workspace);
     printWarnings(model);
     prepareFor(model, options.settings);
     model.haptic->buildRays(); // the report measures the proxy gap with Embree during the run
-    SimulatedHand path(
-        std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options.stroke)));
-    HandImpedance yielding(path, options.plant);
-    Device& simulated = options.openLoop ? static_cast<Device&>(path) : yielding;
-    MappedDevice hand(device != nullptr ? *device : simulated, options.zoom,
-                      device != nullptr ? glm::dvec3(0.0) : path.path().place());
+    std::vector<DevicePort> ports = hands.connect(model);
     std::optional<OutputFile> report;
     if (!options.json.empty())
         report.emplace(options.json);
@@ -194,89 +284,39 @@ int runCommand(const RunOptions& options) {
     renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);
     gpu->waitIdle();
 
-    ServoLoop servo(portOf(hand), {.rateHz = options.rateHz, .stageTimes = true});
-    servo.setSettings(options.settings);
-    RecordingController controller(servo, options.recording, "run");
-    controller.recorder().sceneOffered(servo.offerScene(model.haptic, model.scene),
-                                       identify(*model.haptic, *model.scene, Fit::Workspace));
+    Session session(std::move(ports), {.rateHz = options.rateHz, .stageTimes = true});
+    RecordingController controller(session.servo(), options.recording, "run");
+    session.subscribe(controller);
+    session.subscribe(reader);
+    session.set(options.settings);
+    (void)session.touch(model.haptic, model.scene, identify(*model.haptic, *model.scene, Fit::Workspace));
     realtime::resetViolations();
     const StolenTime stolenTime;
-    servo.start();
-    const Frames frames = drawFrames(options, model, servo, renderer, reader, controller);
-    servo.stop();
+    session.start();
+    const Frames frames = drawFrames(options, model, session, renderer);
+    session.stop();
     const std::optional<double> stolen = stolenTime.seconds();
     const RealtimeViolations violations = realtime::violations();
-    reader.drain(servo, controller);
+    session.pump(secondsOf(Clock::now()));
     controller.finish();
 
-    if (!options.screenshot.empty()) {
-        Overlay overlay; // of the last tick in contact: a hand in the air has none
-        const TickRecord& shown = reader.lastContact.value_or(reader.last);
-        drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
-        View view = frontView(model, options.size);
-        view.probe = probeShadow(shown, options.settings);
-        poseAt(shown.time, *model.scene, renderer);
-        writePng(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
-    }
+    if (!options.screenshot.empty())
+        writeScreenshot(options, model, reader, renderer);
     for (const std::string& message : gpu->validationMessages())
         std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
     reader.commit();
+    const RunResult run{model, hands, session.servo(), reader, controller, *gpu, frames, violations, stolen};
     if (report) {
-        const double fps = static_cast<double>(frames.count) / frames.seconds;
-        const nlohmann::ordered_json json{
-            {"command", "run"},
-            {"scene", options.scene.string()},
-            {"seconds", frames.seconds},
-            {"triangles", model.scene->triangleCount()},
-            {"device", hand.name()},
-            {"link", device != nullptr ? linkJson(device->report()) : nlohmann::ordered_json()},
-            {"stroke",
-             device != nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(options.stroke.name)},
-            {"workspace_scale", options.zoom},
-            {"loop", options.openLoop || device != nullptr ? nlohmann::ordered_json("open")
-                                                           : plantJson(yielding.plant())},
-            {"settings", settingsJson(options.settings)},
-            {"setting_warnings", settingWarnings(options.settings)},
-            {"servo", servoJson(servo, reader.statistics, frames.seconds, stolen)},
-            {"wake_histogram", histogramJson(reader.statistics.wake())},
-            {"step", reader.statistics.stepJson()},
-            {"stages", reader.statistics.stagesJson()},
-            {"step_histogram", histogramJson(reader.statistics.step())},
-            {"frames",
-             {{"count", frames.count},
-              {"fps", fps},
-              {"late", frames.late},
-              {"width", options.size.x},
-              {"height", options.size.y},
-              {"smallest_width", frames.smallest.x},
-              {"smallest_height", frames.smallest.y}}},
-            {"allocations_in_tick", violations.allocations},
-            {"deallocations_in_tick", violations.deallocations},
-            {"locks_in_tick", realtime::locksAreCounted() ? nlohmann::ordered_json(violations.locks)
-                                                          : nlohmann::ordered_json()},
-            {"contact", reader.statistics.contactJson()},
-            {"force", reader.statistics.forceJson()},
-            {"energy", reader.statistics.energyJson()},
-            {"flags", reader.statistics.flagsJson()},
-            {"recording", controller.json()},
-            {"gpu",
-             {{"name", gpu->name()},
-              {"description", gpu->description()},
-              {"validation_active", gpu->validationActive()},
-              {"validation_messages", gpu->validationMessages().size()}}},
-        };
-        report->write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        report->write(
+            reportOf(options, run).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+            "\n");
         report->commit();
     }
-    const ServoLoop::Counters counters = servo.counters();
-    std::printf("%llu ticks (%llu missed) in %.1f s, %llu in contact, %llu frames\n",
-                static_cast<unsigned long long>(counters.ticks),
-                static_cast<unsigned long long>(counters.missed), frames.seconds,
-                static_cast<unsigned long long>(reader.statistics.contactTicks()),
-                static_cast<unsigned long long>(frames.count));
-    if (device == nullptr)
-        requireTouch(options.scene, options.stroke, path.path().period(), frames.seconds,
-                     reader.statistics.contactTicks());
+    printResult(run);
+    for (size_t hand = 0; hand < hands.count(); ++hand)
+        if (hands.simulated(hand))
+            requireTouch(options.scene, options.stroke, hands.period(hand), frames.seconds,
+                         reader.statistics[hand].contactTicks());
     return controller.failed() ? 1 : 0;
 }
 

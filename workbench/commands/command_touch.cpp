@@ -8,9 +8,8 @@
 #include "engine/core/realtime_guard.h"
 #include "haptics/query/ray_floor.h"
 #include "haptics/recording/recording_writer.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/servo/realtime_thread.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 #include "study/timing/clock_cost.h"
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
@@ -47,6 +46,7 @@ struct OfflineTick {
     DeviceSample sample;
     StageTrace trace;
     HapticOutput output;
+    uint32_t poses = 0; // WorldState::poseHash
     int64_t stepNs = 0;
     Similarity touched; // workspaceFromObject of the touched object
     double gap = 0.0;   // m, of the proxy; in contact, if a report was requested
@@ -129,6 +129,7 @@ class OfflineRecorder {
         record.stepNs = static_cast<int32_t>(std::min<int64_t>(tick.stepNs, INT32_MAX));
         record.checkpoint = tick.number == 0;
         record.scene = kScene;
+        record.poses = tick.poses;
         record.sample = tick.sample;
         record.trace = tick.trace;
         record.output = tick.output;
@@ -150,55 +151,50 @@ class OfflineRecorder {
 class OfflineTouch {
   public:
     OfflineTouch(const Model& model, const TouchOptions& options)
-        : model_(model), settings_(options.settings), moving_(model.scene, *model.haptic),
+        : model_(model), settings_(options.settings), touch_(*model.haptic, model.scene),
           yielding_(path_, options.plant),
           hand_(options.closedLoop ? static_cast<Device&>(yielding_) : path_) {}
 
     void step(const PlannedTick& planned, OfflineTick& tick) {
         path_.next.position = planned.hip;
         path_.next.valid = true;
-        tick.sample = hand_.sample(planned.time);
-        TickInput input;
-        input.tick = tick.number = number_++;
-        input.time = tick.time = planned.time;
-        input.dt = tick.dt = planned.dt;
-        input.devices = {&tick.sample, 1};
-        input.objects = moving_.at(planned.time);
-        StageTracer tracer(device_, tick.trace);
+        tick.sample = sampleWithLimits(hand_, planned.time);
+        tick.number = touch_.input.tick;
+        tick.time = planned.time;
+        tick.dt = planned.dt;
+        touch_.advance(planned.time);
+        tick.poses = touch_.world.poseHash();
+        StageTracer tracer(touch_.state, tick.trace);
         const realtime::TickScope scope;
         const long long begin = monotonicNs();
-        hapticStep(*model_.haptic, settings_, input, world_, {&device_, 1}, {&tick.output, 1}, tracer);
+        (void)touch_.step(settings_, tick.sample, planned.dt, tracer);
         tick.stepNs = monotonicNs() - begin;
+        tick.output = touch_.output;
         hand_.apply(tick.output.command);
-        objects_ = input.objects;
         if (tick.output.object >= 0)
-            tick.touched = (objects_.empty() ? ObjectMotions(model_.haptic->restMotions)
-                                             : objects_)[static_cast<size_t>(tick.output.object)]
+            tick.touched = (objects().empty() ? ObjectMotions(model_.haptic->restMotions)
+                                              : objects())[static_cast<size_t>(tick.output.object)]
                                .workspaceFromObject;
     }
-    [[nodiscard]] bool moving() const { return moving_.moving(); }
+    [[nodiscard]] bool moving() const { return touch_.world.moving(); }
     /// Before the first step.
     [[nodiscard]] TouchCheckpoint checkpoint() {
         TouchCheckpoint checkpoint;
         checkpoint.scene = OfflineRecorder::kScene;
-        takeCheckpoint(device_, checkpoint);
+        takeCheckpoint(touch_.state, checkpoint);
         return checkpoint;
     }
     /// After the last step.
-    [[nodiscard]] ObjectMotions objects() const { return objects_; }
+    [[nodiscard]] ObjectMotions objects() const { return touch_.world.poses(); }
     [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
 
   private:
     const Model& model_;
     const HapticSettings& settings_;
-    MovingObjects moving_;
-    ObjectMotions objects_;
-    WorldState world_;
-    DeviceState device_;
+    SteppedHand touch_;
     PlannedHand path_;
     HandImpedance yielding_; // in the closed loop
     Device& hand_;
-    uint64_t number_ = 0;
 };
 
 /// The ray from proxy to HIP in every contact tick, each timed like the step.
@@ -247,8 +243,7 @@ int touchCommand(const TouchOptions& options) {
     if (!options.path.empty())
         path = readHipPath(options.path);
     StageClock clock;
-    const Model model = loadModelToTouch(
-        options.scene, options.fit, options.closedLoop ? limitsOf(options.plant) : DeviceLimits{}, &clock);
+    const Model model = loadModelToTouch(options.scene, options.fit, &clock);
     printWarnings(model);
     clock.at("preparing for the settings");
     prepareFor(model, options.settings);

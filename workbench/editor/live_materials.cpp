@@ -58,7 +58,7 @@ void readAnew(const MaterialJob& job, MadeMaterials& made) {
     const ScenePtr scene = loadScene(job.path, options);
     if (scene->file != job.stamp)
         throw Error(scene->path, "", "has changed since it was opened", "open it again");
-    const auto compiled = compileHapticScene(*scene, job.model.workspaceFromScene, job.model.haptic->limits);
+    const auto compiled = compileHapticScene(*scene, job.model.workspaceFromScene);
     made.haptic = copyOf(*compiled);
     made.haptic->warnings = compiled->warnings;
     made.materials = scene->materials;

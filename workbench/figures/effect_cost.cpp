@@ -3,7 +3,7 @@
 #include "engine/core/float_mode.h"
 #include "engine/time/samples.h"
 #include "haptics/servo/realtime_thread.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 
 #include <algorithm>
 #include <array>
@@ -73,47 +73,37 @@ glm::dvec3 handAt(const HapticScene& scene, const StrokeSpot& spot, int tick) {
 
 /// One configuration of the scene, timed tick by tick.
 struct Touch {
-    const HapticScene& scene;
-    DeviceState state{};
-    WorldState world{};
-    HapticOutput output{};
+    SteppedHand hand;
     int64_t nanoseconds = 0;
 
-    void step(const glm::dvec3& hand, uint64_t tick) {
-        DeviceSample sample;
-        sample.position = hand;
-        sample.valid = true;
-        TickInput input;
-        input.tick = tick;
-        input.time = kTick * static_cast<double>(tick);
-        input.dt = kTick;
-        input.devices = {&sample, 1};
+    void step(const glm::dvec3& position) {
+        const DeviceSample sample = sampleAt(position);
         NoStopwatch none;
         const long long begin = monotonicNs();
-        hapticStep(scene, HapticSettings{}, input, world, {&state, 1}, {&output, 1}, none);
+        (void)hand.step(HapticSettings{}, sample, kTick, none);
         nanoseconds = monotonicNs() - begin;
     }
 };
 
 EffectCost costOf(const HapticScene& scene, const HapticScene& without, int material,
                   const std::vector<StrokeSpot>& spots, int64_t longestNs) {
-    Touch with{scene}, plain{without};
+    Touch with{SteppedHand(scene)}, plain{SteppedHand(without)};
     Samples withTimes, plainTimes;
     uint64_t tick = 0;
     int64_t spent = 0;
     for (const StrokeSpot& spot : spots) {
-        with.state.forgetTouch();
-        plain.state.forgetTouch();
+        with.hand.state.forgetTouch();
+        plain.hand.state.forgetTouch();
         for (int i = 0; i < kTicksAtSpot && spent < longestNs; ++i, ++tick) {
             const glm::dvec3 hand = handAt(scene, spot, i);
             // The first one finds colder caches.
             Touch& first = tick % 2 == 0 ? with : plain;
             Touch& second = tick % 2 == 0 ? plain : with;
-            first.step(hand, tick);
-            second.step(hand, tick);
+            first.step(hand);
+            second.step(hand);
             spent += with.nanoseconds + plain.nanoseconds;
-            const int object = with.output.object;
-            if (with.output.contacts == 0 || plain.output.contacts == 0 || object < 0 ||
+            const int object = with.hand.output.object;
+            if (with.hand.output.contacts == 0 || plain.hand.output.contacts == 0 || object < 0 ||
                 scene.objects[static_cast<size_t>(object)]->material != material)
                 continue;
             withTimes.add(with.nanoseconds);

@@ -5,7 +5,7 @@
 #include "engine/core/float_mode.h"
 #include "engine/time/samples.h"
 #include "haptics/servo/realtime_thread.h"
-#include "haptics/tick/haptic_step.h"
+#include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
 
 #include <array>
@@ -165,19 +165,13 @@ Json tickCostJson(const Model& model) {
     enterFloatMode();
     SimulatedHand hand(path);
     constexpr int kTicks = 2000;
+    constexpr double kTick = 1e-3; // s
     std::array<Samples, kStageCount> stages;
     Samples whole;
-    DeviceState state;
-    WorldState world;
-    HapticOutput output;
+    SteppedHand touch(*model.haptic);
     StageStopwatch stopwatch;
     for (int i = 0; i < kTicks; ++i) {
-        TickInput input;
-        input.tick = static_cast<uint64_t>(i);
-        input.time = 1e-3 * i;
-        const DeviceSample sample = hand.sample(input.time);
-        input.devices = {&sample, 1};
-        hapticStep(*model.haptic, HapticSettings{}, input, world, {&state, 1}, {&output, 1}, stopwatch);
+        const HapticOutput& output = touch.step(HapticSettings{}, hand.sample(kTick * i), kTick, stopwatch);
         if (output.contacts == 0)
             continue;
         int64_t sum = 0;

@@ -2,6 +2,7 @@
 // Shared by `run` and the window: options of recording, file locations, and messages.
 
 #include "haptics/recording/servo_recorder.h"
+#include "session/tick_subscriber.h"
 #include "workbench/options/commands.h"
 
 #include <nlohmann/json.hpp>
@@ -12,8 +13,8 @@
 
 namespace touchstone {
 
-/// Main thread; the servo outlives it.
-class RecordingController {
+/// Records the ticks of a session. Main thread; the servo outlives it.
+class RecordingController final : public TickSubscriber {
   public:
     /// Starts the requested recordings. `tell` and stderr get every message for the user. Throws Error where
     /// `--record` fails; a failed flight recorder is only reported.
@@ -22,8 +23,11 @@ class RecordingController {
 
     [[nodiscard]] ServoRecorder& recorder() { return recorder_; }
     [[nodiscard]] const ServoRecorder& recorder() const { return recorder_; }
-    /// After each batch of records.
-    void update();
+    void sceneOffered(const OfferedScene& scene) override {
+        recorder_.sceneOffered(scene.number, scene.identity);
+    }
+    void take(const TickRecord& record, const HapticSettings&) override { recorder_.take(record); }
+    void flush(double) override { update(); }
     /// After the last record.
     void finish();
 
@@ -33,6 +37,7 @@ class RecordingController {
     [[nodiscard]] nlohmann::ordered_json json() const;
 
   private:
+    void update();
     void say(const std::string& message);
     void startFlightRecorder(const RecordingOptions& options);
 

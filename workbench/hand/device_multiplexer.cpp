@@ -14,7 +14,7 @@ std::string DeviceMultiplexer::name() const {
 }
 
 DeviceLimits DeviceMultiplexer::limits() const {
-    return device_ != nullptr ? device_->limits() : mouse_.limits();
+    return driven_ != nullptr ? driven_->limits() : mouse_.limits();
 }
 
 void DeviceMultiplexer::hold(std::shared_ptr<LinkedDevice> device) {

@@ -28,12 +28,12 @@ double gripOf(double holds, double slides) {
 
 } // namespace
 
-Picker::Hardest Picker::hardestOf(const HapticScene& scene) {
+Picker::Hardest Picker::hardestOf(const HapticScene& scene, const DeviceLimits& limits) {
     Hardest hardest;
     for (const auto& object : scene.objects) {
         const HapticMaterialData& material = scene.materials[static_cast<size_t>(object->material)];
         const double stated =
-            std::isnan(material.stiffness) ? scene.limits.recommendedStiffness : material.stiffness;
+            std::isnan(material.stiffness) ? limits.recommendedStiffness : material.stiffness;
         const double stiffer = mostOf(material.stiffnessMap), rougher = mostOf(material.friction);
         hardest.stiffness = std::max(hardest.stiffness, stiffer * mostOf(object->stiffness, stated));
         hardest.stiffnessFactor = std::max(hardest.stiffnessFactor, stiffer);
@@ -50,28 +50,31 @@ Picker::Hardest Picker::hardestOf(const HapticScene& scene) {
         if (material.staticFriction > 0.0)
             hardest.grip = std::max(hardest.grip, gripOf(material.staticFriction, material.dynamicFriction));
     }
-    hardest.stiffness = std::min(hardest.stiffness, scene.limits.maxStiffness);
+    hardest.stiffness = std::min(hardest.stiffness, limits.maxStiffness);
     return hardest;
 }
 
 void Picker::show(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
-    moving_ = source != nullptr ? MovingObjects(std::move(source), *scene) : MovingObjects();
+    world_ = WorldState(std::move(source), *scene);
     scene_ = std::move(scene);
-    hardest_ = hardestOf(*scene_);
+    hardest_ = hardestOf(*scene_, limits_);
 }
 
-std::optional<PointedSurface> Picker::look(const Ray& ray, double time, const HapticSettings& settings) {
+std::optional<PointedSurface> Picker::look(const Ray& ray, double time, const HapticSettings& settings,
+                                           const DeviceLimits& limits) {
     if (scene_ == nullptr)
         return std::nullopt;
-    const ObjectMotions motions = moving_.at(time);
+    if (limits_ != limits)
+        hardest_ = hardestOf(*scene_, limits_ = limits);
+    const ObjectMotions motions = world_.advance(time);
     const auto hit = pickSurface(*scene_, motions, ray.origin, ray.direction);
     if (!hit)
         return std::nullopt;
     const double own = scene_->materials[static_cast<size_t>(hit->material)].stiffness;
     const double stiffness = settings.stiffness > 0.0 ? settings.stiffness
-                             : std::isnan(own)        ? scene_->limits.recommendedStiffness
+                             : std::isnan(own)        ? limits.recommendedStiffness
                                                       : own;
-    PointedSurface surface{hit->point, hit->normal, std::min(stiffness, scene_->limits.maxStiffness)};
+    PointedSurface surface{hit->point, hit->normal, std::min(stiffness, limits.maxStiffness)};
     hardestWith(settings, surface);
     if (!motions.empty()) {
         surface.object = hit->object;
@@ -98,7 +101,7 @@ void Picker::hardestWith(const HapticSettings& settings, PointedSurface& surface
 }
 
 Similarity Picker::restFromNow(int object, double time) {
-    const ObjectMotions motions = moving_.at(time);
+    const ObjectMotions motions = world_.advance(time);
     const auto index = static_cast<size_t>(object);
     if (object < 0 || index >= motions.size() || index >= scene_->restMotions.size())
         return {};

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "devices/mouse/mouse_hand.h"
+#include "engine/device_io/device_io.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/settings/haptic_settings.h"
+#include "haptics/world/world_state.h"
 #include "renderer/camera.h"
 
 #include <cmath>
@@ -18,9 +19,9 @@ class Picker {
     /// `source`: its animation moves the objects.
     void show(std::shared_ptr<const HapticScene> scene, ScenePtr source);
     /// The first hit of a line of sight (workspace) at `time` (s, of the servo), its stiffness, and the
-    /// maximum stiffness and friction of the scene.
-    [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, double time,
-                                                     const HapticSettings& settings);
+    /// maximum stiffness and friction of the scene. `limits` of the hand in use.
+    [[nodiscard]] std::optional<PointedSurface>
+    look(const Ray& ray, double time, const HapticSettings& settings, const DeviceLimits& limits);
     /// Transform of an object (HapticScene::objects) from its pose at `time` to its rest pose, both in the
     /// workspace.
     [[nodiscard]] Similarity restFromNow(int object, double time);
@@ -33,11 +34,12 @@ class Picker {
         double grip = 1.0;                             // static over dynamic coefficient
         double sliding = INFINITY;                     // the minimum dynamic coefficient
     };
-    [[nodiscard]] static Hardest hardestOf(const HapticScene& scene);
+    [[nodiscard]] static Hardest hardestOf(const HapticScene& scene, const DeviceLimits& limits);
     void hardestWith(const HapticSettings& settings, PointedSurface& surface) const;
 
     std::shared_ptr<const HapticScene> scene_;
-    MovingObjects moving_;
+    WorldState world_;
+    DeviceLimits limits_; // of `hardest_`
     Hardest hardest_;
 };
 

@@ -1,6 +1,6 @@
 #include "workbench/model/animate.h"
 
-#include "haptics/scene/moving_objects.h"
+#include "haptics/world/world_state.h"
 
 namespace touchstone {
 

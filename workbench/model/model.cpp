@@ -1,14 +1,13 @@
 #include "workbench/model/model.h"
 
 #include "haptics/scene/built_for.h"
-#include "haptics/scene/moving_objects.h"
+#include "haptics/world/world_state.h"
 
 #include <cstdio>
 
 namespace touchstone {
 
-Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
-                const LoadOptions& options) {
+Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options) {
     constexpr double kReading = 0.25; // fraction of the time to load a million triangles on two cores
     const Progress whole(&options.progress, options.cancel);
     LoadOptions loading = options;
@@ -16,18 +15,17 @@ Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& 
     Model model;
     model.scene = loadScene(path, loading);
     model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
-    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene, limits,
+    model.haptic = compileHapticScene(*model.scene, model.workspaceFromScene,
                                       {.rays = false, .progress = whole.part(kReading, 1.0)});
     return model;
 }
 
-Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
-                       StageClock* clock) {
+Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock) {
     LoadOptions options;
     if (clock != nullptr)
         options.progress = [clock](double, const char* what) { clock->at(what); };
     options.images.visual = false;
-    return loadModel(path, fit, limits, options);
+    return loadModel(path, fit, options);
 }
 
 Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor) {

@@ -17,13 +17,11 @@ struct Model {
     Similarity workspaceFromScene;
 };
 
-/// Loads and compiles for a device, without the ray structure (HapticScene::buildRays). Any thread; throws
+/// Loads and compiles, without the ray structure (HapticScene::buildRays). Any thread; throws
 /// Error, and Cancelled.
-[[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
-                              const LoadOptions& options = {});
+[[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options = {});
 /// For haptics only: does not decode what only rendering needs. `clock` may be null.
-[[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, const DeviceLimits& limits,
-                                     StageClock* clock = nullptr);
+[[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock = nullptr);
 /// For rendering only; `falseColor`: with the data for false colours.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor);
 

@@ -24,12 +24,12 @@ void ModelLoader::abandon() {
     next_.reset();
 }
 
-void ModelLoader::start(const std::filesystem::path& path, const DeviceLimits& limits) {
+void ModelLoader::start(const std::filesystem::path& path) {
     path_ = path;
     if (!worker_.joinable())
-        return begin({path, limits});
+        return begin({path});
     abandon();
-    next_ = Request{path, limits};
+    next_ = Request{path};
 }
 
 namespace {
@@ -67,8 +67,7 @@ void ModelLoader::begin(const Request& request) {
             loading.progress = [&](double fraction, const char* what) {
                 whole.report(0.25 * fraction, what);
             };
-            LoadedModel loaded{
-                loadModel(request.path, Fit::Workspace, request.limits, loading), nullptr, {}, nullptr};
+            LoadedModel loaded{loadModel(request.path, Fit::Workspace, loading), nullptr, {}, nullptr};
             if (loaded.model.scene->touchable()) {
                 constexpr double kTimePerTriangle = 1e-7; // s
                 const EstimatedProgress estimate(

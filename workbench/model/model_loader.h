@@ -31,7 +31,7 @@ class ModelLoader {
     ModelLoader(const ModelLoader&) = delete;
     ModelLoader& operator=(const ModelLoader&) = delete;
 
-    void start(const std::filesystem::path& path, const DeviceLimits& limits);
+    void start(const std::filesystem::path& path);
 
     /// Cancels loading; `loading` stays true until the worker has ended.
     void abandon();
@@ -53,7 +53,6 @@ class ModelLoader {
   private:
     struct Request {
         std::filesystem::path path;
-        DeviceLimits limits;
     };
     void begin(const Request& request);
 

@@ -4,9 +4,9 @@
 
 namespace touchstone {
 
-void Opening::start(const std::filesystem::path& path, const DeviceLimits& limits, SceneRenderer& renderer) {
+void Opening::start(const std::filesystem::path& path, SceneRenderer& renderer) {
     cancel(renderer);
-    loader_.start(path, limits);
+    loader_.start(path);
 }
 
 std::optional<LoadedModel> Opening::update(SceneRenderer& renderer) {

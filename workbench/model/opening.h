@@ -15,7 +15,7 @@ namespace touchstone {
 class Opening {
   public:
     /// A second call replaces the first.
-    void start(const std::filesystem::path& path, const DeviceLimits& limits, SceneRenderer& renderer);
+    void start(const std::filesystem::path& path, SceneRenderer& renderer);
     /// Every frame: returns the model in the frame in which the renderer shows it. Throws the failure, Error
     /// or std::bad_alloc, which ends the opening; DeviceLost does not.
     [[nodiscard]] std::optional<LoadedModel> update(SceneRenderer& renderer);

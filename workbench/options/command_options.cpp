@@ -6,6 +6,7 @@
 #include "workbench/editor/presets.h"
 #include "workbench/options/shared_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
@@ -80,6 +81,31 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     addGpu(app, options.gpu);
 }
 
+namespace {
+
+/// Each hand has a device of its own.
+void requireHands(const RunOptions& options) {
+    const std::vector<std::string>& devices = options.devices;
+    if (devices.size() > kMaxHands)
+        throw CLI::ValidationError("--device", "names " + std::to_string(devices.size()) +
+                                                   " hands; one servo drives " + std::to_string(kMaxHands));
+    for (auto device = devices.begin(); device != devices.end(); ++device)
+        if (*device != "hand" && std::find(devices.begin(), device, *device) != device)
+            throw CLI::ValidationError("--device", "names " + *device + " for two hands");
+    const auto real = std::ranges::count_if(devices, [](const std::string& name) { return name != "hand"; });
+    if (real > 1 && std::ranges::count(devices, "auto") > 0)
+        throw CLI::ValidationError("--device", "auto takes what is plugged in: name each of several devices");
+    if (options.recordTicks.size() > devices.size())
+        throw CLI::ValidationError("--record-ticks", "names " + std::to_string(options.recordTicks.size()) +
+                                                         " files for " + std::to_string(devices.size()) +
+                                                         (devices.size() == 1 ? " hand" : " hands"));
+    for (auto file = options.recordTicks.begin(); file != options.recordTicks.end(); ++file)
+        if (std::find(options.recordTicks.begin(), file, *file) != file)
+            throw CLI::ValidationError("--record-ticks", "names " + file->string() + " for two hands");
+}
+
+} // namespace
+
 void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     addScene(app, options.scene)->required();
     app.add_flag("--headless", headless, "No window (this is what `run` is for)")->required();
@@ -89,7 +115,11 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
     app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
         ->type_name("FILE");
-    app.add_option("--record-ticks", options.recordTicks, "Write every tick here, as CSV")->type_name("FILE");
+    app.add_option("--record-ticks", options.recordTicks,
+                   "Write every tick here, as CSV; given again, those of the next hand")
+        ->type_name("FILE")
+        ->expected(1)
+        ->take_all();
     addRecording(app, options.recording);
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
                                      "The hand follows its path whatever the force, as no hand can");
@@ -97,12 +127,12 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     CLI::Option* stroke =
         addStroke(app, options.stroke, "How it strokes (listed at the end of --help) [tour]");
     addZoom(app, options.zoom);
-    addDevice(app, "hand (the simulated one, the default)",
-              [&options](const std::string& device) { options.device = device; });
+    addDevices(app, "hand (the simulated one, the default)", options.devices);
     app.parse_complete_callback([&options, open, plant, stroke] {
-        const bool real = !options.device.empty() && options.device != "hand";
+        requireHands(options);
+        const bool simulates = std::ranges::count(options.devices, "hand") > 0;
         for (const CLI::Option* simulated : {open, plant, stroke})
-            if (real && simulated->count() > 0)
+            if (!simulates && simulated->count() > 0)
                 throw CLI::ValidationError(simulated->get_name(),
                                            "is of the simulated hand, and --device names another");
     });

@@ -51,12 +51,14 @@ struct RunOptions {
     double rateHz = 1000.0;
     double seconds = 10.0;
     glm::ivec2 size{800, 450};
-    std::string device =
-        "hand"; ///< the hand in use: the simulated hand, or a device of devices/choice/device_choice.h
-    std::filesystem::path json, screenshot, recordTicks; ///< empty: not requested
+    /// The hands, kMaxHands at most: each a simulated one ("hand") or a device of
+    /// devices/choice/device_choice.h.
+    std::vector<std::string> devices{"hand"};
+    std::filesystem::path json, screenshot;         ///< empty: not requested
+    std::vector<std::filesystem::path> recordTicks; ///< one per hand, or fewer
     RecordingOptions recording;
-    StrokeRequest stroke;              ///< of the simulated hand
-    double zoom = 1.0;                 ///< workspace metres for one metre of the hand in use
+    StrokeRequest stroke;              ///< of the simulated hands
+    double zoom = 1.0;                 ///< workspace metres for one metre of the hands
     bool openLoop = false;             ///< the hand follows its path whatever the force
     PlantParameters plant;             ///< in the closed loop
     std::filesystem::path environment; ///< as in the window

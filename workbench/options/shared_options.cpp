@@ -186,4 +186,11 @@ void addDevice(CLI::App& app, const std::string& builtIn,
     app.add_option_function<std::string>("--device", take, help)->type_name("DEVICE");
 }
 
+void addDevices(CLI::App& app, const std::string& builtIn, std::vector<std::string>& devices) {
+    std::string help = kDeviceHelp;
+    help.replace(help.find('%'), 1, builtIn);
+    help += "; given again, another hand";
+    app.add_option("--device", devices, help)->type_name("DEVICE")->expected(1)->take_all();
+}
+
 } // namespace touchstone

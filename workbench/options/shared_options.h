@@ -40,5 +40,7 @@ CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene);
 /// --device; `builtIn`: names accepted besides devices.
 void addDevice(CLI::App& app, const std::string& builtIn,
                const std::function<void(const std::string&)>& take);
+/// The same, once per hand.
+void addDevices(CLI::App& app, const std::string& builtIn, std::vector<std::string>& devices);
 
 } // namespace touchstone

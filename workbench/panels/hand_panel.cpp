@@ -93,8 +93,8 @@ void workspace(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!text.empty())
         ImGui::TextColored(ImVec4(0.95f, 0.72f, 0.25f, 1.0f), "%s", text.c_str());
     const double scale = mapping.workspaceFromDevice.scale;
-    if (scale > 1.0 && input.haptic != nullptr) {
-        const DeviceLimits& limits = input.haptic->limits;
+    if (scale > 1.0) {
+        const DeviceLimits& limits = input.servo->last.sample.limits;
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         ImGui::TextWrapped("600 N/m feel like %.0f; the device bears %.0f",
                            std::min(600.0 * scale, limits.maxStiffness), limits.maxStiffness);

@@ -2,17 +2,7 @@
 
 namespace touchstone {
 
-void ServoView::drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder,
-                      study::LiveError& liveError, double now) {
-    TickRecord record;
-    while (servo.popRecord(record)) {
-        statistics_.addLive(record);
-        recorder.take(record);
-        forces.add(record, recorder.recording());
-        liveError.take(record, servo.settingsOf(record.settings));
-        last = record;
-    }
-    liveError.flush();
+void ServoView::renew(const ServoLoop& servo, const study::LiveError& liveError, double now) {
     counters = servo.counters();
     if (lastRenewal_ >= 0.0 && now - lastRenewal_ < kRenewal)
         return;

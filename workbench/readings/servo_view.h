@@ -1,11 +1,9 @@
 #pragma once
 
-#include "haptics/recording/servo_recorder.h"
 #include "haptics/servo/servo_loop.h"
 #include "study/live/live_error.h"
 #include "workbench/figures/stolen_time.h"
 #include "workbench/figures/tick_statistics.h"
-#include "workbench/readings/force_history.h"
 
 #include <array>
 #include <optional>
@@ -17,9 +15,12 @@ namespace touchstone {
 /// The servo's figures for display: percentiles over the last seconds, updated twice a second. Main thread.
 class ServoView {
   public:
-    /// Takes the ticks since the last call. `now`: s, any steady clock.
-    void drain(ServoLoop& servo, ForceHistory& forces, ServoRecorder& recorder, study::LiveError& liveError,
-               double now);
+    void add(const TickRecord& record) {
+        statistics_.addLive(record);
+        last = record;
+    }
+    /// After each batch. `now`: s, any steady clock.
+    void renew(const ServoLoop& servo, const study::LiveError& liveError, double now);
 
     ServoLoop::Counters counters;
     TickRecord last;

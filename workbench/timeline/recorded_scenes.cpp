@@ -37,7 +37,7 @@ FoundScene loadRecordedScene(const RecordedScene& recorded, const std::filesyste
     loading.edits = recorded.identity.edits;
     loading.images.visual = false;
     loading.cancel = cancel;
-    const Model model = loadModel(path, recorded.identity.fit, recorded.identity.limits, loading);
+    const Model model = loadModel(path, recorded.identity.fit, loading);
     const SceneIdentity now = identify(*model.haptic, *model.scene, recorded.identity.fit);
     return {.recorded = recorded,
             .path = path,

@@ -57,6 +57,9 @@ class TimelineMaker {
     }
     void take(const RecordedNote& note) { mark(TimelineMark::Kind::Note, note.text); }
     void take(const RecordedEnd&) {}
+    // The window shows hand 0.
+    void take(const RecordedHandTicks&) {}
+    void take(const RecordedHandState&) {}
     void take(const RecordedTicks& ticks);
     void take(const RecordedTick& tick);
     void changeScene(uint32_t scene);
@@ -102,8 +105,7 @@ void TimelineMaker::changeScene(uint32_t scene) {
         if (now == scenes.end())
             mark(TimelineMark::Kind::Scene, "nothing to touch");
         else if (before != scenes.end() && before->second.identity.path == now->second.identity.path)
-            mark(TimelineMark::Kind::Scene,
-                 fileName(now->second.identity) + " with other materials or limits");
+            mark(TimelineMark::Kind::Scene, fileName(now->second.identity) + " with other materials");
         else
             mark(TimelineMark::Kind::Scene, fileName(now->second.identity));
     }

@@ -1,6 +1,6 @@
 #include "workbench/timeline/timeline_controller.h"
 
-#include "haptics/scene/moving_objects.h"
+#include "haptics/world/world_state.h"
 
 #include <nlohmann/json.hpp>
 

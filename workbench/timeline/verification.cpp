@@ -30,9 +30,9 @@ std::string Verdict::text() const {
         std::snprintf(text, sizeof text, "equal to the last bit in %llu ticks", number(report.replayed));
     else
         std::snprintf(text, sizeof text,
-                      "tick %llu (%.3f s) differs first, in the stage '%s'; %llu of %llu ticks differ",
-                      number(report.first->tick), report.first->time, report.first->stage.c_str(),
-                      number(report.differing), number(report.replayed));
+                      "tick %llu (%.3f s) differs first, %sin the stage '%s'; %llu of %llu ticks differ",
+                      number(report.first->tick), report.first->time, whichHand(report).c_str(),
+                      report.first->stage.c_str(), number(report.differing), number(report.replayed));
     std::string all = text;
     if (report.ticks > report.replayed)
         all += "; " + std::to_string(report.ticks - report.replayed) + " ticks behind gaps were left out";

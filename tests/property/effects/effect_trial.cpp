@@ -47,6 +47,9 @@ Similarity swayed(const Similarity& rest, size_t k, double time) {
     return pose;
 }
 
+/// A slew limit that is met, too.
+const DeviceLimits kLimits{.maxForceRate = 2000.0};
+
 class EffectTrial {
   public:
     EffectTrial(const EffectCase& c, const EffectWorld& world, unsigned seed, ContactMethod contact)
@@ -69,13 +72,14 @@ class EffectTrial {
         DeviceSample sample;
         sample.position = hip;
         sample.valid = true;
+        sample.limits = kLimits;
         TickInput input;
         input.tick = tick_;
         input.time = static_cast<double>(tick_) * kDt;
         input.dt = kDt;
-        input.devices = {&sample, 1};
+        input.hands = {&sample, 1};
         if (case_.moving)
-            input.objects = motions_;
+            worldState_.place(motions_);
         NoStopwatch none;
         hapticStep(scene_, settings_, input, worldState_, state_, {&output_, 1}, none);
         ++tick_;
@@ -92,7 +96,7 @@ class EffectTrial {
     void checkLimits() {
         const glm::dvec3 force = output_.command.force();
         const double strength = glm::length(force), change = glm::length(force - last_);
-        const double most = scene_.limits.maxForce, fastest = scene_.limits.maxForceRate * kDt;
+        const double most = kLimits.maxForce, fastest = kLimits.maxForceRate * kDt;
         if (!(strength <= most * (1.0 + 1e-12)) || !(change <= fastest * (1.0 + 1e-9)) ||
             !std::isfinite(glm::length(output_.force)) || !std::isfinite(glm::length(output_.proxy)))
             ++figures.limits;

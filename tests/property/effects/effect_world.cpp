@@ -104,12 +104,10 @@ std::unique_ptr<EffectWorld> build(Scene scene, Fit fit, double bodyRadius) {
     const Similarity workspaceFromScene = touchstone::workspaceFromScene(scene, fit);
     addBump(scene, workspaceFromScene.scale);
     world->bodyRadius = bodyRadius;
-    DeviceLimits limits;
-    limits.maxForceRate = 2000.0; // that the slew limit is met, too
     for (const SideChoice sides : {SideChoice::Both, SideChoice::Front}) {
         for (Material& material : scene.materials)
             material.haptic.sides = sides;
-        auto compiled = compileHapticScene(scene, workspaceFromScene, limits);
+        auto compiled = compileHapticScene(scene, workspaceFromScene);
         compiled->buildNeighbourhoods();
         compiled->buildSlopes();
         (sides == SideChoice::Both ? world->bothSides : world->frontOnly) = std::move(compiled);

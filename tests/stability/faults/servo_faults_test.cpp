@@ -173,7 +173,7 @@ TEST_F(ServoFaults, ScenesSwappedInContact) {
     rig.ticks(400);
     const TouchedScene moving = touchedScene("moving.glb");
     for (int i = 0; i < 8; ++i) {
-        rig.offer(floorScene(i % 2 == 0 ? 0.1f : -0.02f, {.recommendedStiffness = 3000.0}));
+        rig.offer(floorOf(i % 2 == 0 ? 0.1f : -0.02f, 3000.0f));
         rig.ticks(120);
         const size_t before = rig.inContact();
         rig.offer(i % 3 == 0 ? moving : doughnut_);
@@ -224,7 +224,7 @@ TEST_F(ServoFaults, SettingsChangedInContactInEveryTick) {
     HapticOutput output;
     glm::dvec3 last(0.0);
     size_t contacts = 0;
-    const DeviceLimits limits = doughnut_.haptic->limits;
+    const DeviceLimits limits;
     doughnut_.haptic->buildNeighbourhoods();
     for (int tick = 0; tick < 30000; ++tick) {
         HapticSettings settings;
@@ -241,7 +241,7 @@ TEST_F(ServoFaults, SettingsChangedInContactInEveryTick) {
         settings.forceEnabled = random() % 50 != 0;
         const DeviceSample sample = at(overTheDoughnut(1e-3 * tick));
         TickInput input;
-        input.devices = {&sample, 1};
+        input.hands = {&sample, 1};
         NoStopwatch none;
         hapticStep(*doughnut_.haptic, settings, input, world, {&device, 1}, {&output, 1}, none);
         const glm::dvec3 force = output.command.force();

@@ -21,7 +21,8 @@ DeviceLimits limitsWith(double maxForceRate) {
 /// Presses until the device's full force is held.
 struct PressedHand {
     explicit PressedHand(const DeviceLimits& limits) : servo(device) {
-        const TouchedScene floor = floorScene(0.0f, limits);
+        const TouchedScene floor = floorScene(0.0f);
+        device.own = limits;
         (void)servo.loop.offerScene(floor.haptic, floor.source);
         device.next = at({0.0, 0.01, 0.0});
         run(200);

@@ -40,7 +40,7 @@ class StalledWindow {
     /// The goal that ViewControl gives.
     void frame(double press) {
         const double time = servo_.record.time;
-        const ObjectMotions motions = seen_.at(time);
+        const ObjectMotions motions = seen_.advance(time);
         const auto hit = pickSurface(*scene_.haptic, motions, picker_.eye, picker_.along);
         if (!hit)
             return mouse_.release();
@@ -76,7 +76,7 @@ class StalledWindow {
         const TickRecord& now = servo_.step();
         double& most = press_ > 0.0 ? maxForce : maxHovering;
         most = std::max(most, glm::length(now.output.force) / (press_ > 0.0 ? press_ : 1.0));
-        const ObjectMotions motions = moved_.at(now.time);
+        const ObjectMotions motions = moved_.advance(now.time);
         glm::dvec3 way = now.output.hip - before.output.hip;
         if (const int object = before.output.object; object >= 0 && !motions.empty()) {
             const ObjectMotion& motion = motions[static_cast<size_t>(object)];
@@ -119,7 +119,7 @@ class StalledWindow {
     Picker picker_;
     MouseDevice mouse_;
     SteppedServo servo_;
-    MovingObjects seen_, moved_{scene_.source, *scene_.haptic};
+    WorldState seen_, moved_{scene_.source, *scene_.haptic};
     FaultWatch watch_;
     double press_ = 0.0, stiffness_ = 600.0;
     double work_ = 0.0, storedBefore_ = 0.0;
@@ -181,7 +181,7 @@ TEST(MouseStall, NeverPressesHarderThanAsked) {
 /// A mouse on its way through the air, and a floor of 3500 N/m that it does not point at.
 struct HitFloor {
     HitFloor() : servo(mouse) {
-        const TouchedScene floor = floorScene(0.0f, {.recommendedStiffness = 3500.0});
+        const TouchedScene floor = floorOf(0.0f, 3500.0f);
         (void)servo.loop.offerScene(floor.haptic, floor.source);
         go({.position = {0.0, 0.02, 0.0}, .press = 0.0}, 300);
     }

@@ -87,7 +87,7 @@ Case openUnderTheHand(const TouchedScene& before, const TouchedScene& after, con
     result.felt = servo.record.output.contacts > 0;
 
     (void)servo.loop.offerScene(after.haptic, after.source);
-    MovingObjects moving(after.source, *after.haptic);
+    WorldState world(after.source, *after.haptic);
     bool left = false;
     const glm::dvec3 begin = hip, out = glm::normalize(hip + glm::dvec3(1e-6, 2e-6, 3e-6));
     for (int i = 0; !left && i < 300 + static_cast<int>(kOut / (kSpeed * kTick)); ++i) {
@@ -97,7 +97,7 @@ Case openUnderTheHand(const TouchedScene& before, const TouchedScene& after, con
         if (tick.output.force != glm::dvec3(0.0) || tick.output.contacts > 0 ||
             (i > 2 && tick.output.command.force() != glm::dvec3(0.0)))
             result.forceTooEarly = true;
-        const ObjectMotions motions = moving.at(tick.time);
+        const ObjectMotions motions = world.advance(tick.time);
         left = hasLeft(*after.haptic, motions.empty() ? ObjectMotions(after.haptic->restMotions) : motions,
                        tick.output.hip);
     }

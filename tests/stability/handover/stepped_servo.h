@@ -2,7 +2,7 @@
 // A servo that is stepped tick by tick, on one device.
 
 #include "engine/core/float_mode.h"
-#include "workbench/hand/device_port.h"
+#include "session/device_port.h"
 
 #include <cstdint>
 
@@ -32,9 +32,10 @@ struct SteppedServo {
 struct PlacedDevice final : Device {
     DeviceSample next;
     DeviceCommand command;
+    DeviceLimits own;
 
     [[nodiscard]] std::string name() const override { return "placed"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    [[nodiscard]] DeviceLimits limits() const override { return own; }
     [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
     void apply(const DeviceCommand& given) noexcept override { command = given; }
 };

@@ -108,7 +108,7 @@ TEST(Toggles, EveryEffectInEveryTickUnderAHandStaysFiniteAndWithinTheLaw) {
         TouchBench bench(everything(), s);
         double most = 0.0, step = 0.0;
         glm::dvec3 command(0.0);
-        const DeviceLimits& limits = bench.scene->limits;
+        const DeviceLimits& limits = bench.limits;
         for (int i = 0; i < 6000; ++i) {
             toggle(bench.settings, random());
             const double a = 4e-4 * i, t = 1.3 * a, tube = 0.025 - (i < 100 ? 1.3e-5 * i - 3e-4 : 1e-3);

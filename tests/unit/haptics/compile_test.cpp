@@ -41,7 +41,7 @@ TEST(CompileHapticScene, ReportsAllTheWayInSmallSteps) {
         reports.whats.emplace_back(what);
         reports.stages.insert(what);
     };
-    (void)compileHapticScene(scene, {}, {}, {.rays = true, .progress = Progress(&report, nullptr)});
+    (void)compileHapticScene(scene, {}, {.rays = true, .progress = Progress(&report, nullptr)});
     ASSERT_GT(reports.fractions.size(), 100u);
     EXPECT_GE(reports.stages.size(), 6u);
     EXPECT_EQ(reports.fractions.back(), 1.0);
@@ -57,7 +57,7 @@ TEST(CompileHapticScene, IsCancelledInsideEveryStageAndLeavesNoThread) {
     const Scene scene = largeScene();
     Reports all;
     const Progress::Report listen = [&](double, const char* what) { all.stages.insert(what); };
-    (void)compileHapticScene(scene, {}, {}, {.rays = true, .progress = Progress(&listen, nullptr)});
+    (void)compileHapticScene(scene, {}, {.rays = true, .progress = Progress(&listen, nullptr)});
     const size_t before = threads(); // Embree's own are there by now, and stay
     all.stages.erase("touchable");
     for (const std::string& stage : all.stages) {
@@ -70,7 +70,7 @@ TEST(CompileHapticScene, IsCancelledInsideEveryStageAndLeavesNoThread) {
                 cancel = true;
         };
         EXPECT_THROW(
-            (void)compileHapticScene(scene, {}, {}, {.rays = true, .progress = Progress(&report, &cancel)}),
+            (void)compileHapticScene(scene, {}, {.rays = true, .progress = Progress(&report, &cancel)}),
             Cancelled)
             << stage;
         later.erase(stage);
@@ -85,7 +85,7 @@ TEST(CompileHapticScene, TakesBoundedMemory) {
     const Scene scene = largeScene();
     const auto triangles = static_cast<double>(scene.triangleCount());
     resetPeakBytes();
-    const auto haptic = compileHapticScene(scene, {}, {}, {.rays = false, .progress = {}});
+    const auto haptic = compileHapticScene(scene, {}, {.rays = false, .progress = {}});
     const double peak = static_cast<double>(peakBytes()) / triangles,
                  kept = static_cast<double>(haptic->objects[0]->memoryBytes()) / triangles;
     // 32 of boxes for Embree, 44 of the object's own geometry and attributes; then its tree instead of the
@@ -99,8 +99,7 @@ TEST(CompileHapticScene, WithoutRaysContactRaysSweepsUntilTheyAreBuilt) {
     settings.contact = ContactMethod::Rays;
     settings.proxyRadius = 0.0;
     TouchBench bench(sceneOf(assets::plane(0.1, 0.1)), settings);
-    bench.scene =
-        compileHapticScene(sceneOf(assets::plane(0.1, 0.1)), {}, {}, {.rays = false, .progress = {}});
+    bench.scene = compileHapticScene(sceneOf(assets::plane(0.1, 0.1)), {}, {.rays = false, .progress = {}});
     EXPECT_EQ(bench.scene->objects[0]->rays.get(), nullptr) << "nobody has asked for it yet";
     bench.step({0.001, 0.01, 0.001});
     bench.step({0.001, -0.001, 0.001});

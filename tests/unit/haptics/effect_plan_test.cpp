@@ -343,7 +343,8 @@ TEST(EffectPlan, ASettingOfZeroOverrulesMaterialVertexAndMap) {
     for (size_t k = 0; k < 3; ++k)
         contact.point += glm::dvec3(object.vertices[object.indices[k]]) / 3.0;
     const auto feel = [&](const HapticSettings& settings) {
-        return readSurface(*scene, scene->restMotions, settings, 0, contact, contact.normal, 1e-3, 0.0, 1e-3);
+        return readSurface(*scene, scene->restMotions, settings, DeviceLimits{}, 0, contact, contact.normal,
+                           1e-3, 0.0, 1e-3);
     };
     HapticSettings settings;
     SurfaceSample stated = feel(settings);
@@ -374,7 +375,7 @@ TEST(EffectPlan, ASettingOfZeroOverrulesMaterialVertexAndMap) {
 TEST(EffectPlan, WhatSettingsNeedIsBuiltWhenItIsAskedFor) {
     CompileOptions withoutRays;
     withoutRays.rays = false;
-    const auto scene = compileHapticScene(richPlane(), Similarity{}, {}, withoutRays);
+    const auto scene = compileHapticScene(richPlane(), Similarity{}, withoutRays);
     HapticSettings settings;
     EXPECT_TRUE(isBuiltFor(*scene, settings));
     settings.contact = ContactMethod::Rays;

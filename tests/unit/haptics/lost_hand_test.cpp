@@ -31,8 +31,8 @@ struct LostHand {
         sample.position = position;
         sample.valid = valid;
         TickInput input;
-        input.devices = {&sample, 1};
-        input.objects = motions;
+        input.hands = {&sample, 1};
+        world.place(motions);
         NoStopwatch none;
         hapticStep(*scene, settings, input, world, {&state, 1}, {&output, 1}, none);
         return output;

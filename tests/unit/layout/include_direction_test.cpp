@@ -1,6 +1,6 @@
 // Links run one way only (docs/architecture.md): engine knows nobody; haptics, renderer, devices and
-// sound know engine and not each other; study knows haptics and devices; workbench knows them all; nobody
-// knows workbench. assets stand alone. Nor do the folders inside one of them form a circle.
+// sound know engine and not each other; study and session know haptics and devices; workbench knows them all;
+// nobody knows workbench. assets stand alone. Nor do the folders inside one of them form a circle.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -29,7 +29,8 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"assets", {}},
     {"shaders", {}},
     {"study", {"engine", "haptics", "devices", "assets"}},
-    {"workbench", {"engine", "haptics", "renderer", "devices", "sound", "assets", "study"}},
+    {"session", {"engine", "haptics", "devices"}},
+    {"workbench", {"engine", "haptics", "renderer", "devices", "sound", "assets", "study", "session"}},
 };
 
 struct Survey {

@@ -1,8 +1,8 @@
 // A checkpoint is all that touch carries from tick to tick: who goes on from one meets the same bits.
 
 #include "haptics/recording/stage_hashes.h"
-#include "haptics/scene/moving_objects.h"
 #include "haptics/state/touch_checkpoint.h"
+#include "haptics/world/world_state.h"
 #include "tests/support/recorded_servo.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,7 @@ namespace {
 struct Touch {
     const TouchedScene& scene;
     HapticSettings settings;
-    MovingObjects moving{scene.source, *scene.haptic};
-    WorldState world{};
+    WorldState world{scene.source, *scene.haptic};
     DeviceState device{};
     HapticOutput output{};
     double previousTime = std::nan("");
@@ -28,8 +27,8 @@ struct Touch {
         TickInput input;
         input.time = time;
         input.late = late;
-        input.devices = {&sample, 1};
-        input.objects = moving.at(time);
+        input.hands = {&sample, 1};
+        world.advance(time);
         StageTrace trace;
         StageTracer tracer(device, trace);
         hapticStep(*scene.haptic, settings, input, world, {&device, 1}, {&output, 1}, tracer);
@@ -93,9 +92,9 @@ TEST_P(Checkpoints, WhoGoesOnFromOneMeetsTheSameBits) {
                 takeCheckpoint(original.device, checkpoint);
                 // In a state that has lived through something else.
                 ASSERT_TRUE(restoreCheckpoint(checkpoint.state(), scene.haptic.get(), resumed.device));
-                resumed.moving.forget();
+                resumed.world.forget();
                 if (std::isfinite(original.previousTime))
-                    (void)resumed.moving.at(original.previousTime);
+                    resumed.world.advance(original.previousTime);
             }
             const DeviceSample sample = hand.next();
             const double time = 1e-3 * tick;
@@ -188,7 +187,7 @@ TEST(TouchCheckpoint, AnyBytesAreRefusedOrTouchSafely) {
         for (int tick = 0; tick < 5; ++tick) {
             touch.step(hand.next(), 1e-3 * tick, false);
             const glm::dvec3 force = touch.output.command.force();
-            ASSERT_TRUE(glm::length(force) <= scene.haptic->limits.maxForce) << turn;
+            ASSERT_TRUE(glm::length(force) <= DeviceLimits{}.maxForce) << turn;
         }
     }
     EXPECT_GT(taken, 200);

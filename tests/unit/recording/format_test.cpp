@@ -34,6 +34,8 @@ RecordedTick someTick() {
     tick.sample.buttons = 5;
     tick.sample.age = 2e-3;
     tick.sample.valid = true;
+    tick.sample.limits.maxForce = 4.5;
+    tick.poses = 0x1234;
     tick.settings = 7;
     tick.scene = 3;
     tick.late = tick.checkpoint = true;
@@ -62,10 +64,10 @@ RecordedTicks mappedTicks() {
 
 TEST(RecordingFormat, AMappingStandsBehindTheTicksWhereThereIsOne) {
     const RecordedTicks plain{{someTick(), someTick(), someTick()}};
-    const size_t without = encode(plain).size();
-    EXPECT_EQ(without, 4 + 3 * kTickSize) << "as before there was any";
+    const size_t without = 4 + 3 * kTickSize;
+    EXPECT_EQ(numberAt<uint32_t>(encode(plain), without), 0u);
     const std::vector<std::byte> bytes = encode(mappedTicks());
-    ASSERT_EQ(bytes.size(), without + 4 + 4 + 9 * 8) << "once for both ticks";
+    ASSERT_EQ(bytes.size(), encode(plain).size() + 4 + 9 * 8) << "once for both ticks";
     EXPECT_EQ(numberAt<uint32_t>(bytes, without), 1u);
     EXPECT_EQ(numberAt<uint32_t>(bytes, without + 4), 1u);
     EXPECT_EQ(numberAt<double>(bytes, without + 8), 2.5);
@@ -111,7 +113,7 @@ std::vector<RecordedItem> oneOfEach() {
     scene.identity.fileHash = 0x1122334455667788;
     scene.identity.feltHash = 0x99;
     scene.identity.fit = Fit::Workspace;
-    scene.identity.limits.maxForce = 3.3;
+    scene.identity.limits = DeviceLimits{.maxForce = 3.3};
     RecordedSettings settings{9, {}};
     settings.settings.friction = FrictionMode::Elastoplastic;
     settings.settings.forceEnabled = false;
@@ -123,6 +125,8 @@ std::vector<RecordedItem> oneOfEach() {
     checkpoint.size = 5;
     for (size_t i = 0; i < 5; ++i)
         checkpoint.bytes[i] = static_cast<std::byte>(200 + i);
+    TouchCheckpoint other = checkpoint;
+    other.hand = 3;
     return {recordingOrigin("touch", 1000.0),
             scene,
             settings,
@@ -130,7 +134,17 @@ std::vector<RecordedItem> oneOfEach() {
             RecordedTicks{{someTick(), {}}},
             RecordedLoss{12},
             RecordedNote{5, "what"},
-            RecordedEnd{99}};
+            RecordedEnd{99},
+            RecordedHandTicks{2, mappedTicks()},
+            RecordedHandState{other}};
+}
+
+/// Bytes of one change of limits and their count.
+size_t encodedLimits(const RecordedTicks& ticks) {
+    std::vector<std::byte> bytes;
+    ByteWriter writer(bytes);
+    putLimits(writer, ticks.ticks[0].sample.limits);
+    return 2 * sizeof(uint32_t) + bytes.size();
 }
 
 TEST(Checksum, IsTheCastagnoliPolynomialsAtAnyLength) {
@@ -152,7 +166,11 @@ TEST(Machine, NamesTheBuildAndTheProcessor) {
 
 TEST(RecordingFormat, ATickStandsWhereTheDocumentSays) {
     const std::vector<std::byte> bytes = encode(RecordedTicks{{someTick()}});
-    ASSERT_EQ(bytes.size(), 4 + kTickSize);
+    ASSERT_GE(bytes.size(), 4 + kTickSize);
+    EXPECT_EQ(numberAt<uint32_t>(bytes, 4 + kTickSize), 0u) << "mappings";
+    EXPECT_EQ(numberAt<uint32_t>(bytes, 4 + kTickSize + 4), 1u) << "limits, of the first tick";
+    EXPECT_EQ(numberAt<uint32_t>(bytes, bytes.size() - 8), 1u) << "poses";
+    EXPECT_EQ(numberAt<uint32_t>(bytes, bytes.size() - 4), 0x1234u);
     EXPECT_EQ(numberAt<uint32_t>(bytes, 0), 1u);
     const auto tick = std::vector(bytes.begin() + 4, bytes.end());
     EXPECT_EQ(numberAt<uint64_t>(tick, 0), 0x0102030405060708u);
@@ -187,7 +205,7 @@ TEST(RecordingFormat, EveryItemReadsBackToTheSameBytes) {
     }
     const auto scene = std::get<RecordedScene>(decode(1, encode(items[1])));
     EXPECT_EQ(scene.identity.path, "a b/ü.glb");
-    EXPECT_EQ(scene.identity.limits.maxForce, 3.3);
+    EXPECT_EQ(scene.identity.limits.value().maxForce, 3.3);
     EXPECT_EQ(scene.identity.fit, Fit::Workspace);
     EXPECT_EQ(std::get<RecordedSettings>(decode(2, encode(items[2]))).settings,
               std::get<RecordedSettings>(items[2]).settings);
@@ -195,6 +213,42 @@ TEST(RecordingFormat, EveryItemReadsBackToTheSameBytes) {
     ASSERT_EQ(ticks.size(), 2u);
     EXPECT_EQ(ticks[0].hashes, someTick().hashes);
     EXPECT_EQ(ticks[0].sample.orientation, someTick().sample.orientation);
+    EXPECT_EQ(ticks[0].sample.limits.maxForce, 4.5);
+    EXPECT_EQ(ticks[1].sample.limits, DeviceLimits{});
+    EXPECT_EQ(ticks[0].poses, 0x1234u);
+    EXPECT_EQ(std::get<RecordedHandTicks>(decode(8, encode(items[8]))).hand, 2u);
+    EXPECT_EQ(std::get<RecordedHandState>(decode(9, encode(items[9]))).checkpoint.hand, 3u);
+}
+
+TEST(RecordingFormat, AHandThatCannotBeIsRefused) {
+    for (const uint32_t hand : {0u, static_cast<uint32_t>(kMaxHands), 0xffffffffu}) {
+        EXPECT_THROW((void)decode(8, encode(RecordedHandTicks{hand, mappedTicks()})), Error) << hand;
+        RecordedHandState state;
+        state.checkpoint.hand = hand;
+        EXPECT_THROW((void)decode(9, encode(state)), Error) << hand;
+    }
+}
+
+/// The ticks of format 1 end behind themselves, or behind their mappings.
+TEST(RecordingFormat, ReadsTheTicksOfFormat1) {
+    for (const bool mapped : {false, true}) {
+        RecordedTicks ticks = mapped ? mappedTicks() : RecordedTicks{{someTick(), someTick()}};
+        for (RecordedTick& tick : ticks.ticks)
+            tick.sample.limits = DeviceLimits{}, tick.poses = 0;
+        std::vector<std::byte> bytes = encode(ticks);
+        const size_t limits = encodedLimits(ticks);
+        bytes.resize(bytes.size() - limits - sizeof(uint32_t)); // without limits and poses
+        if (!mapped)
+            bytes.resize(bytes.size() - sizeof(uint32_t));
+        RecordedItem item = decode(4, bytes, 1);
+        const std::vector<RecordedTick>& read = std::get<RecordedTicks>(item).ticks;
+        ASSERT_EQ(read.size(), ticks.ticks.size());
+        for (size_t i = 0; i < read.size(); ++i) {
+            EXPECT_EQ(read[i].hashes, ticks.ticks[i].hashes);
+            EXPECT_EQ(read[i].sample.mapping.coupling, ticks.ticks[i].sample.mapping.coupling);
+        }
+        EXPECT_THROW((void)decode(4, bytes, 2), Error) << "and of no other";
+    }
 }
 
 TEST(RecordingFormat, APayloadThatIsTooShortOrTooLongIsRefused) {

@@ -177,7 +177,7 @@ TEST_F(ReaderTest, ANewerFormatSaysSo) {
     std::string bytes(reinterpret_cast<const char*>(header.data()), header.size());
     bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
     const std::string said = problem(bytes + bytes_.substr(kFileHeaderSize));
-    EXPECT_NE(said.find("is of format 2"), std::string::npos) << said;
+    EXPECT_NE(said.find("is of format 3"), std::string::npos) << said;
     EXPECT_NE(said.find("newer Touchstone"), std::string::npos) << said;
 }
 
@@ -222,7 +222,7 @@ TEST(RecordingFile, WhereItMayNotGrowItEndsWithItsLastWholeChunk) {
         }
     });
     EXPECT_EQ(WEXITSTATUS(status), 3);
-    const size_t chunk = kChunkHeaderSize + 4 + 7 * kTickSize;
+    const size_t chunk = chunkOf(RecordedTicks{std::vector<RecordedTick>(7)}, 0).size();
     EXPECT_EQ(std::filesystem::file_size(path), kFileHeaderSize + (kLimit - kFileHeaderSize) / chunk * chunk);
     const Reading got = readingOf(path);
     EXPECT_EQ(got.items.size(), (kLimit - kFileHeaderSize) / chunk);

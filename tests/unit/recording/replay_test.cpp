@@ -105,7 +105,13 @@ TEST_F(ReplayTest, ClutchAndZoomInContact) {
 }
 
 TEST_F(ReplayTest, ObjectsThatMoveAndASceneThatIsSwappedInContact) {
-    RecordedServo rig(doughnutHand);
+    std::atomic<bool> weak{false}; // another device
+    RecordedServo rig([&](double time) {
+        DeviceSample sample = doughnutHand(time);
+        if (weak)
+            sample.limits = {.maxForce = 2.0, .recommendedStiffness = 900.0};
+        return sample;
+    });
     rig.recorder.start(file_, "test");
     rig.offer(touchedScene("doughnut.glb"));
     rig.ticks(3000);
@@ -113,7 +119,8 @@ TEST_F(ReplayTest, ObjectsThatMoveAndASceneThatIsSwappedInContact) {
     rig.ticks(5000);
     rig.offer(floorScene(0.03f)); // the hand is under it
     rig.ticks(2000);
-    rig.offer(touchedScene("doughnut.glb", {.maxForce = 2.0, .recommendedStiffness = 900.0}));
+    weak = true;
+    rig.offer(touchedScene("doughnut.glb"));
     rig.ticks(3000);
     rig.finish();
     const ReplayReport report = replayOf(file_, rig.scenes);

@@ -19,7 +19,7 @@ namespace touchstone {
 namespace {
 
 /// A square of 0.1 m in the plane y = `height`, seen from above.
-std::shared_ptr<const HapticScene> floorAt(float height, const DeviceLimits& limits = {}) {
+std::shared_ptr<const HapticScene> floorAt(float height) {
     Scene scene;
     Mesh mesh;
     mesh.positions = {
@@ -30,7 +30,7 @@ std::shared_ptr<const HapticScene> floorAt(float height, const DeviceLimits& lim
     scene.materials.emplace_back();
     scene.nodes.emplace_back();
     scene.instances.push_back({.node = 0, .mesh = 0});
-    return compileHapticScene(scene, Similarity{}, limits);
+    return compileHapticScene(scene, Similarity{});
 }
 
 /// A hand that goes up and down through the floor, and remembers what it was sent. Servo thread until joined.
@@ -230,6 +230,7 @@ TEST(ServoLoop, WithoutASceneTheForceGoesToZeroAndBeginsThere) {
                                   DeviceSample sample;
                                   sample.position = static_cast<StillHand*>(context)->place;
                                   sample.valid = true;
+                                  sample.limits.maxForceRate = 1000.0; // 1 N a tick
                                   return sample;
                               },
                           .apply =
@@ -238,9 +239,8 @@ TEST(ServoLoop, WithoutASceneTheForceGoesToZeroAndBeginsThere) {
                               }};
     enterFloatMode();
     ServoLoop loop(port, {.rateHz = 1000.0, .wantRealtime = false});
-    DeviceLimits limits;
-    limits.maxForceRate = 1000.0; // 1 N a tick
-    loop.offerScene(floorAt(0.0f, limits));
+    const DeviceLimits limits;
+    loop.offerScene(floorAt(0.0f));
     uint64_t tick = 0;
     const auto run = [&](int ticks) {
         for (int i = 0; i < ticks; ++i)
@@ -258,7 +258,7 @@ TEST(ServoLoop, WithoutASceneTheForceGoesToZeroAndBeginsThere) {
     run(20);
     EXPECT_EQ(hand.force, glm::dvec3(0.0));
     loop.updateSnapshot();
-    loop.offerScene(floorAt(0.0f, limits));
+    loop.offerScene(floorAt(0.0f));
     for (int i = 0; i < 200; ++i) {
         run(1);
         ASSERT_EQ(hand.force, glm::dvec3(0.0)) << "beneath the floor, where touch begins: tick " << i;
@@ -266,7 +266,7 @@ TEST(ServoLoop, WithoutASceneTheForceGoesToZeroAndBeginsThere) {
     // A scene that comes while the force is still going goes on from there.
     hand.place.y = 0.01;
     loop.updateSnapshot();
-    loop.offerScene(floorAt(0.0f, limits));
+    loop.offerScene(floorAt(0.0f));
     run(200);
     hand.place.y = -0.02;
     run(400);
@@ -274,7 +274,7 @@ TEST(ServoLoop, WithoutASceneTheForceGoesToZeroAndBeginsThere) {
     loop.offerScene(nullptr);
     run(3);
     loop.updateSnapshot();
-    loop.offerScene(floorAt(0.0f, limits));
+    loop.offerScene(floorAt(0.0f));
     glm::dvec3 before = hand.force;
     EXPECT_GT(before.y, 1.0);
     for (int i = 0; i < 20; ++i) {

@@ -214,6 +214,58 @@ TEST(RunWithDevice, UnpluggedInContactAndPluggedInAgain) {
     EXPECT_EQ(lastValues(*again), (std::array<int32_t, 6>{})) << "the last word is zero";
 }
 
+/// Two devices of different limits; one is unplugged in contact: its force is gone, the other's goes on.
+TEST(RunWithDevice, OfTwoOneVanishes) {
+    MockBus bus;
+    const ScratchFolder scratch;
+    std::string file = readFile(TOUCHSTONE_SOURCE "/devices/files/diy_position.json");
+    const auto limited = [&](const std::string& name, const std::string& force, const std::string& product) {
+        std::string own = file;
+        for (const auto& [from, to] :
+             {std::pair<std::string, std::string>{"\"maxForce\": 3.0", "\"maxForce\": " + force},
+              {"\"0001\"", "\"" + product + "\""}})
+            if (const size_t at = own.find(from); at != std::string::npos)
+                own.replace(at, from.size(), to);
+        writeTextFile(scratch / name, own);
+        return (scratch / name).string();
+    };
+    const std::string strong = limited("strong.json", "2.0", "0001"),
+                      weak = limited("weak.json", "0.75", "0002");
+    MockHidInfo other = kDiy;
+    other.product = 0x0002;
+    const std::string json = (scratch / "r.json").string(), recording = (scratch / "r.tsrec").string();
+    auto one = bus.plug(kDiy);
+    auto two = bus.plug(other);
+    const auto pressing = [](double t) { return glm::dvec3(0.0, 0.08 + 0.012 * std::cos(6.0 * t), 0.0); };
+    auto first = std::make_unique<Firmware>(*one, pressing);
+    auto second = std::make_unique<Firmware>(*two, pressing);
+    BackgroundProgram program({kProgram,   "run",       kSphere,    "--headless", "--rate",
+                               "250",      "--seconds", "600",      "--size",     "160x90",
+                               "--device", strong,      "--device", weak,         "--json",
+                               json,       "--record",  recording,  "--set",      "friction=off"},
+                              {}, scratch / "log");
+    const auto pushed = [](const MockHid& mock) { return lastValues(mock)[1] > 300'000; };
+    ASSERT_TRUE(eventually([&] { return pushed(*one); })) << readFile(scratch / "log");
+    ASSERT_TRUE(eventually([&] { return pushed(*two); })) << readFile(scratch / "log");
+    second.reset();
+    two->unplug();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    ASSERT_TRUE(eventually([&] { return lastValues(*one)[1] == 0; })); // in the air
+    ASSERT_TRUE(eventually([&] { return pushed(*one); })) << "the other one goes on touching";
+    ASSERT_EQ(program.stop(), 0) << readFile(scratch / "log");
+    first.reset();
+    EXPECT_LE(largestHeard(*one), 2.0);
+    EXPECT_GT(largestHeard(*one), 0.75);
+    EXPECT_LE(largestHeard(*two), 0.75);
+    const auto figures = nlohmann::json::parse(readFile(json));
+    ASSERT_EQ(figures["hands"].size(), 2u);
+    EXPECT_EQ(figures["hands"][0]["flags"]["force_fault"], 0);
+    EXPECT_LT(figures["hands"][0]["flags"]["input_invalid"], figures["hands"][1]["flags"]["input_invalid"]);
+    EXPECT_EQ(figures["allocations_in_tick"], 0);
+    const ProgramResult replay = runProgram({kProgram, "replay", recording});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+}
+
 /// A port that nobody has.
 std::string freePort() {
     const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);

@@ -95,6 +95,52 @@ TEST(Run, SettingsReachTheServo) {
         ASSERT_EQ(ticks["command_y"][i], 0.0);
 }
 
+/// Two hands on objects that move: both touch, each has its own file, and the recording replays with both.
+TEST(Run, DrivesTwoHandsInOneServo) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "r.json").string(), first = (scratch / "1.csv").string(),
+                      second = (scratch / "2.csv").string(), recording = (scratch / "r.tsrec").string();
+    const ProgramResult result = runProgram({kProgram,
+                                             "run",
+                                             TOUCHSTONE_ASSETS "/moving.glb",
+                                             "--headless",
+                                             "--seconds",
+                                             "6",
+                                             "--json",
+                                             json,
+                                             "--device",
+                                             "hand",
+                                             "--device",
+                                             "hand",
+                                             "--stroke",
+                                             "press",
+                                             "--record-ticks",
+                                             first,
+                                             "--record-ticks",
+                                             second,
+                                             "--record",
+                                             recording,
+                                             "--size",
+                                             "160x90"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto figures = nlohmann::json::parse(readFile(json));
+    ASSERT_EQ(figures["hands"].size(), 2u);
+    EXPECT_EQ(figures["allocations_in_tick"], 0);
+    EXPECT_EQ(figures["locks_in_tick"], 0);
+    for (const auto& hand : figures["hands"]) {
+        EXPECT_GT(hand["contact"]["ticks"], 50) << hand;
+        EXPECT_EQ(hand["flags"]["force_fault"], 0);
+        EXPECT_EQ(hand["stroke"], "press");
+    }
+    EXPECT_EQ(figures["contact"], figures["hands"][0]["contact"]);
+    EXPECT_NE(figures["hands"][0]["contact"], figures["hands"][1]["contact"]);
+    const Table one = readTable(first), two = readTable(second);
+    EXPECT_EQ(one.rows, two.rows);
+    const ProgramResult replay = runProgram({kProgram, "replay", recording, "--json", json});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    EXPECT_EQ(nlohmann::json::parse(readFile(json))["hands"], 2);
+}
+
 TEST(Run, AnInterruptStillWritesWhatWasAskedFor) {
     const ScratchFolder scratch;
     const std::filesystem::path json = scratch / "r.json";

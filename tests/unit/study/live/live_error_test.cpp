@@ -2,6 +2,7 @@
 // one is put in, some where a configuration is cheaper.
 
 #include "devices/stroke/stroke_path.h"
+#include "haptics/tick/stepped_hand.h"
 #include "study/live/live_error.h"
 #include "tests/support/recorded_servo.h"
 
@@ -33,9 +34,7 @@ std::vector<TickRecord> lived(const TouchedScene& scene, const HapticSettings& s
     if (settings.contact == ContactMethod::Neighbourhood)
         scene.haptic->buildNeighbourhoods();
     const StrokePath path = strokeOver(*scene.source, scene.haptic->workspaceFromScene);
-    MovingObjects moving(scene.source, *scene.haptic);
-    DeviceState state;
-    WorldState world;
+    SteppedHand hand(*scene.haptic, scene.source);
     std::vector<TickRecord> records(ticks);
     for (size_t i = 0; i < ticks; ++i) {
         TickRecord& record = records[i];
@@ -44,14 +43,9 @@ std::vector<TickRecord> lived(const TouchedScene& scene, const HapticSettings& s
         record.dt = 1.0 / kRate;
         record.scene = 1;
         record.sample = test::at(path.position(record.time));
-        TickInput input;
-        input.tick = record.tick;
-        input.time = record.time;
-        input.dt = record.dt;
-        input.devices = {&record.sample, 1};
-        input.objects = moving.at(record.time);
-        StageTracer tracer(state, record.trace);
-        hapticStep(*scene.haptic, settings, input, world, {&state, 1}, {&record.output, 1}, tracer);
+        hand.advance(record.time);
+        StageTracer tracer(hand.state, record.trace);
+        record.output = hand.step(settings, record.sample, record.dt, tracer);
     }
     return records;
 }

@@ -3,6 +3,7 @@
 #include "haptics/tick/haptic_step.h"
 #include "tests/support/recorded_servo.h"
 #include "workbench/hand/device_multiplexer.h"
+#include "workbench/timeline/playback_device.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ class ToldDevice final : public LinkedDevice {
   public:
     explicit ToldDevice(const DeviceSample& first) : next(first) {}
     std::string name() const override { return "told"; }
-    DeviceLimits limits() const override { return {}; }
+    DeviceLimits limits() const override { return own; }
     DeviceSample sample(double) noexcept override { return next; }
     void apply(const DeviceCommand& command) noexcept override {
         LinkedDevice::apply(command);
@@ -34,6 +35,7 @@ class ToldDevice final : public LinkedDevice {
     }
 
     DeviceSample next;
+    DeviceLimits own{.maxForce = 1.25};
     glm::dvec3 force{0.0};
     int commands = 0;
 };
@@ -43,7 +45,7 @@ class HandSwitchTest : public testing::Test {
   protected:
     HandSwitchTest() {
         limits_.maxForceRate = 40.0; // N/s: slower than what fades, so that every step shows
-        scene_ = floorScene(0.0f, limits_);
+        scene_ = floorScene(0.0f);
         constexpr std::array kTap{glm::dvec3(0.0, 0.005, 0.0), glm::dvec3(0.0, -0.001, 0.0)};
         hand_.offerPath(std::make_shared<const StrokePath>(StrokePath::around(kTap, 0.05)));
         hand_.simulate(true);
@@ -61,12 +63,12 @@ class HandSwitchTest : public testing::Test {
                 move(i);
             const int commands = device_->commands;
             sample_ = hand_.sample(kTick * static_cast<double>(tick_));
+            sample_.limits = limits_;
             hapticStep(*scene_.haptic, {},
                        {.tick = tick_,
                         .time = kTick * static_cast<double>(tick_),
                         .dt = kTick,
-                        .devices = std::span(&sample_, 1),
-                        .objects = {}},
+                        .hands = std::span(&sample_, 1)},
                        world_, std::span(&state_, 1), std::span(&output_, 1), stopwatch_);
             hand_.apply(output_.command);
             if (device_->commands == commands)
@@ -127,9 +129,28 @@ TEST_F(HandSwitchTest, ADeviceThatIsTakenUpFeelsNothingUntilTheHandIsWhereItIs) 
     EXPECT_LT(balance_, kNoticedEnergy);
 }
 
+/// From the tick on in which a device gets the command its limits are those of the tick, through all that
+/// stands before it; a device that takes over from another directly, too.
+TEST_F(HandSwitchTest, TheLimitsAreThoseOfTheDeviceThatIsDriven) {
+    PlaybackDevice playback(hand_);
+    const auto limitsNow = [&] {
+        return sampleWithLimits(playback, kTick * static_cast<double>(tick_++)).limits;
+    };
+    EXPECT_EQ(limitsNow(), DeviceLimits{}) << "the simulated hand's";
+    hand_.hold(device_);
+    EXPECT_EQ(limitsNow(), device_->own);
+    const auto other = std::make_shared<ToldDevice>(at({0.0, 0.01, 0.0}));
+    other->own.maxForce = 3.5;
+    hand_.hold(nullptr);
+    hand_.hold(other);
+    EXPECT_EQ(limitsNow(), other->own);
+    hand_.hold(nullptr);
+    EXPECT_EQ(limitsNow(), DeviceLimits{});
+}
+
 TEST_F(HandSwitchTest, WhatIsLeftOfTheOtherHandsForceIsNotItsOwn) {
     limits_.maxForceRate = 0.5; // slower than the glide
-    scene_ = floorScene(0.0f, limits_);
+    scene_ = floorScene(0.0f);
     run(1);
     hand_.hold(device_);
     run(kGlide + 5);

@@ -42,13 +42,14 @@ TEST(StrokeController, IsAroundTheTouchedPointWheneverTheHandIsChosen) {
 
 TEST(Picker, KnowsWhereWhatMovesIsAtRest) {
     const TouchedScene scene = touchedScene("moving.glb");
-    MovingObjects moving(scene.source, *scene.haptic);
+    WorldState world(scene.source, *scene.haptic);
     Picker picker;
     picker.show(scene.haptic, scene.source);
     int carried = 0;
     for (double x = -0.1; x <= 0.1; x += 0.01)
         for (const double time : {0.3, 0.8, 1.7}) {
-            const auto hit = pickSurface(*scene.haptic, moving.at(time), {x, 0.011, 1.0}, {0.0, 0.0, -1.0});
+            const auto hit =
+                pickSurface(*scene.haptic, world.advance(time), {x, 0.011, 1.0}, {0.0, 0.0, -1.0});
             if (!hit)
                 continue;
             const Similarity rest = picker.restFromNow(hit->object, time);
@@ -71,32 +72,32 @@ TEST(Picker, KnowsTheStiffestAndTheRoughest) {
     for (const auto& object : scene.haptic->objects) {
         const HapticMaterialData& material = scene.haptic->materials[static_cast<size_t>(object->material)];
         const double stiffness =
-            std::isnan(material.stiffness) ? scene.haptic->limits.recommendedStiffness : material.stiffness;
-        stiffest = std::max(stiffest, std::min(stiffness, scene.haptic->limits.maxStiffness));
+            std::isnan(material.stiffness) ? DeviceLimits{}.recommendedStiffness : material.stiffness;
+        stiffest = std::max(stiffest, std::min(stiffness, DeviceLimits{}.maxStiffness));
         roughest = std::max(roughest, material.staticFriction);
     }
     const Ray ray{{0.01, 0.02, 1.0}, {0.0, 0.0, -1.0}};
-    const auto seen = picker.look(ray, 0.0, {});
+    const auto seen = picker.look(ray, 0.0, {}, {});
     ASSERT_TRUE(seen);
     EXPECT_GT(roughest, 0.0);
     EXPECT_GE(seen->stiffest, stiffest);
-    EXPECT_LE(seen->stiffest, scene.haptic->limits.maxStiffness);
+    EXPECT_LE(seen->stiffest, DeviceLimits{}.maxStiffness);
     EXPECT_GE(seen->stiffest, seen->stiffness);
     EXPECT_GE(seen->friction, roughest);
     HapticSettings settings;
     settings.stiffness = 5000.0;
     settings.staticFriction = 3.0;
-    EXPECT_GE(picker.look(ray, 0.0, settings)->stiffest, 5000.0) << "what is asked for is not cut";
-    EXPECT_GE(picker.look(ray, 0.0, settings)->friction, 3.0);
-    EXPECT_EQ(picker.look(ray, 0.0, settings)->grip, 1.0);
+    EXPECT_GE(picker.look(ray, 0.0, settings, {})->stiffest, 5000.0) << "what is asked for is not cut";
+    EXPECT_GE(picker.look(ray, 0.0, settings, {})->friction, 3.0);
+    EXPECT_EQ(picker.look(ray, 0.0, settings, {})->grip, 1.0);
     settings.friction = FrictionMode::Ho;
     settings.dynamicFriction = 1.0;
-    EXPECT_EQ(picker.look(ray, 0.0, settings)->grip, 3.0);
+    EXPECT_EQ(picker.look(ray, 0.0, settings, {})->grip, 3.0);
     settings.dynamicFriction = 0.0;
-    EXPECT_GE(picker.look(ray, 0.0, settings)->grip, 100.0);
-    EXPECT_TRUE(std::isfinite(picker.look(ray, 0.0, settings)->grip));
+    EXPECT_GE(picker.look(ray, 0.0, settings, {})->grip, 100.0);
+    EXPECT_TRUE(std::isfinite(picker.look(ray, 0.0, settings, {})->grip));
     settings.friction = FrictionMode::Off;
-    EXPECT_EQ(picker.look(ray, 0.0, settings)->friction, 0.0);
+    EXPECT_EQ(picker.look(ray, 0.0, settings, {})->friction, 0.0);
 }
 
 } // namespace

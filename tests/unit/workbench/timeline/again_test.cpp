@@ -3,8 +3,8 @@
 
 #include "devices/device/mapped_device.h"
 #include "engine/core/error.h"
+#include "session/device_port.h"
 #include "tests/unit/workbench/timeline/recordings.h"
-#include "workbench/hand/device_port.h"
 #include "workbench/timeline/replay_cache.h"
 #include "workbench/timeline/touch_again.h"
 #include "workbench/timeline/verification.h"
@@ -225,9 +225,8 @@ TEST_F(AgainTest, ADeviceThatIsHeldFeelsNothingOfWhatIsTouchedAgain) {
 /// than it may.
 TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
     const TouchedScene scene = touchedScene("doughnut.glb");
-    const auto haptic = copyOf(*scene.haptic);
-    haptic->limits = scene.haptic->limits;
-    haptic->limits.maxForceRate = 20.0; // N/s
+    DeviceLimits limits;
+    limits.maxForceRate = 20.0; // N/s
     constexpr double kTick = 1e-3;
     StillHand own;
     PlaybackDevice hand(own);
@@ -241,12 +240,12 @@ TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
         for (int i = 0; i < ticks; ++i, ++tick) {
             own.place = place(i);
             const double time = kTick * static_cast<double>(tick);
-            const DeviceSample sample = hand.sample(time);
+            DeviceSample sample = hand.sample(time);
+            sample.limits = limits;
             HapticOutput output;
-            hapticStep(
-                *haptic, {},
-                {.tick = tick, .time = time, .dt = kTick, .devices = std::span(&sample, 1), .objects = {}},
-                world, std::span(&state, 1), std::span(&output, 1), stopwatch);
+            hapticStep(*scene.haptic, {},
+                       {.tick = tick, .time = time, .dt = kTick, .hands = std::span(&sample, 1)}, world,
+                       std::span(&state, 1), std::span(&output, 1), stopwatch);
             hand.apply(output.command);
             const glm::dvec3 force = output.command.force();
             steepest = std::max(steepest, glm::length(force - before) / kTick);
@@ -269,7 +268,7 @@ TEST_F(AgainTest, TheForceComesBackWithinTheDevicesSlew) {
     EXPECT_EQ(last, 0.0);
     run(470, [](int i) { return overTheDoughnut(kTick * i); });
     EXPECT_GT(last, 0.5 * held) << "it is back";
-    EXPECT_LE(steepest, 1.001 * haptic->limits.maxForceRate);
+    EXPECT_LE(steepest, 1.001 * limits.maxForceRate);
 }
 
 /// One's own hand is zoomed and presses; the recorded one is not zoomed. Between their frames lies no way.
@@ -293,10 +292,9 @@ TEST_F(AgainTest, GoingOverFromAZoomedHandBooksNoEnergy) {
             own.place = map.inversePoint(place(i));
             const double time = kTick * static_cast<double>(tick);
             const DeviceSample sample = hand.sample(time);
-            hapticStep(
-                *scene.haptic, {},
-                {.tick = tick, .time = time, .dt = kTick, .devices = std::span(&sample, 1), .objects = {}},
-                world, std::span(&state, 1), std::span(&output, 1), stopwatch);
+            hapticStep(*scene.haptic, {},
+                       {.tick = tick, .time = time, .dt = kTick, .hands = std::span(&sample, 1)}, world,
+                       std::span(&state, 1), std::span(&output, 1), stopwatch);
             hand.apply(output.command);
             balance = std::max(balance, state.limiter.passivity.balance);
             pressed = glm::length(output.command.force());

@@ -1,5 +1,6 @@
-#include "haptics/scene/moving_objects.h"
+#include "haptics/world/world_state.h"
 
+#include "engine/core/checksum.h"
 #include "engine/math/nearest_similarity.h"
 
 #include <cmath>
@@ -43,8 +44,8 @@ std::vector<Warning> animationWarnings(const Scene& scene) {
     return warnings;
 }
 
-MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
-    : scene_(std::move(scene)), animation_(playedAnimation(*scene_)),
+WorldState::WorldState(ScenePtr source, const HapticScene& haptic)
+    : scene_(std::move(source)), animation_(scene_ != nullptr ? playedAnimation(*scene_) : nullptr),
       workspaceFromScene_(haptic.workspaceFromScene) {
     if (animation_ == nullptr)
         return;
@@ -79,9 +80,9 @@ MovingObjects::MovingObjects(ScenePtr scene, const HapticScene& haptic)
         movers_[m].jumps = !meet(first[m], last[m]);
 }
 
-ObjectMotions MovingObjects::at(double time) noexcept {
+ObjectMotions WorldState::advance(double time) noexcept {
     if (movers_.empty())
-        return {};
+        return poses_;
     ScenePose& pose = pose_.front();
     pose.evaluate(*scene_, animation_, loopedTime(*animation_, time));
     const double lap = animation_->duration > 0.0 ? std::floor(time / animation_->duration) : 0.0;
@@ -98,7 +99,23 @@ ObjectMotions MovingObjects::at(double time) noexcept {
             motion.before = motion.workspaceFromObject;
     }
     sampled_ = true;
-    return motions_;
+    return poses_ = motions_;
+}
+
+uint32_t WorldState::poseHash() const noexcept {
+    if (movers_.empty())
+        return 0;
+    Hash64 hash;
+    for (const Mover& mover : movers_) {
+        const ObjectMotion& motion = motions_[mover.object];
+        const Similarity& pose = motion.workspaceFromObject;
+        for (const double number :
+             {pose.scale, pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w,
+              pose.translation.x, pose.translation.y, pose.translation.z})
+            hash.add(number);
+        hash.add(motion.jumped);
+    }
+    return hash.folded();
 }
 
 } // namespace touchstone

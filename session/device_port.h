@@ -10,7 +10,7 @@ namespace touchstone {
     return {
         .context = &device,
         .sample = [](void* context,
-                     double time) noexcept { return static_cast<Device*>(context)->sample(time); },
+                     double time) noexcept { return sampleWithLimits(*static_cast<Device*>(context), time); },
         .apply = [](void* context,
                     const DeviceCommand& command) noexcept { static_cast<Device*>(context)->apply(command); },
         .feel = [](void* context,

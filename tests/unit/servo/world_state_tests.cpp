@@ -1,5 +1,5 @@
-#include "haptics/scene/moving_objects.h"
 #include "haptics/tick/haptic_step.h"
+#include "haptics/world/world_state.h"
 
 #include <gtest/gtest.h>
 
@@ -38,17 +38,17 @@ AnimationChannel channel(int node, AnimatedPath path, std::vector<float> times,
 struct Moved {
     explicit Moved(Scene described, const Similarity& workspaceFromScene = {})
         : scene(std::make_shared<const Scene>(std::move(described))),
-          haptic(compileHapticScene(*scene, workspaceFromScene)), moving(scene, *haptic) {}
+          haptic(compileHapticScene(*scene, workspaceFromScene)), world(scene, *haptic) {}
 
     ScenePtr scene;
     std::shared_ptr<const HapticScene> haptic;
-    MovingObjects moving;
+    WorldState world;
 };
 
-TEST(MovingObjects, NothingMovesWithoutAnAnimationOfATouchableNode) {
+TEST(WorldState, NothingMovesWithoutAnAnimationOfATouchableNode) {
     Moved still(squareOnTwoNodes());
-    EXPECT_FALSE(still.moving.moving());
-    EXPECT_TRUE(still.moving.at(1.0).empty());
+    EXPECT_FALSE(still.world.moving());
+    EXPECT_TRUE(still.world.advance(1.0).empty());
 
     Scene scene = squareOnTwoNodes();
     scene.nodes.emplace_back(); // a node of its own: a camera, say
@@ -56,31 +56,32 @@ TEST(MovingObjects, NothingMovesWithoutAnAnimationOfATouchableNode) {
         {"camera",
          1.0,
          {channel(2, AnimatedPath::Translation, {0.0f, 1.0f}, {glm::vec4(0.0f), glm::vec4(1.0f)})}});
-    EXPECT_FALSE(Moved(std::move(scene)).moving.moving());
+    EXPECT_FALSE(Moved(std::move(scene)).world.moving());
 }
 
-TEST(MovingObjects, FollowsAParentsTranslationInTheWorkspaceAndRemembersTheTickBefore) {
+TEST(WorldState, FollowsAParentsTranslationInTheWorkspaceAndRemembersTheTickBefore) {
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back({"lift",
                                 1.0,
                                 {channel(0, AnimatedPath::Translation, {0.0f, 1.0f},
                                          {glm::vec4(0.0f), glm::vec4(0.0f, 0.2f, 0.0f, 0.0f)})}});
     Moved moved(std::move(scene), {.scale = 0.5});
-    ASSERT_TRUE(moved.moving.moving());
+    ASSERT_TRUE(moved.world.moving());
     const ObjectMotion rest = moved.haptic->restMotions[0];
-    ObjectMotion now = moved.moving.at(0.25)[0];
+    ObjectMotion now = moved.world.advance(0.25)[0];
     EXPECT_NEAR(now.workspaceFromObject.translation.y - rest.workspaceFromObject.translation.y, 0.025, 1e-9);
     EXPECT_NEAR(now.workspaceFromObject.scale, rest.workspaceFromObject.scale, 1e-12);
     EXPECT_EQ(now.before.translation.y, now.workspaceFromObject.translation.y)
         << "the first tick did not come from afar";
     const double before = now.workspaceFromObject.translation.y;
-    now = moved.moving.at(0.5)[0];
+    now = moved.world.advance(0.5)[0];
     EXPECT_NEAR(now.workspaceFromObject.translation.y - before, 0.025, 1e-9);
     EXPECT_EQ(now.before.translation.y, before);
-    EXPECT_NEAR(moved.moving.at(7.25)[0].workspaceFromObject.translation.y, before, 1e-7) << "plays again";
+    EXPECT_NEAR(moved.world.advance(7.25)[0].workspaceFromObject.translation.y, before, 1e-7)
+        << "plays again";
 }
 
-TEST(MovingObjects, AnAnimationThatEndsElsewhereThanItBeginsJumpsWhenItBeginsAgain) {
+TEST(WorldState, AnAnimationThatEndsElsewhereThanItBeginsJumpsWhenItBeginsAgain) {
     for (const float end : {0.2f, 0.0f}) {
         Scene scene = squareOnTwoNodes();
         scene.animations.push_back({"lift",
@@ -89,14 +90,14 @@ TEST(MovingObjects, AnAnimationThatEndsElsewhereThanItBeginsJumpsWhenItBeginsAga
                                              {glm::vec4(0.0f), glm::vec4(0.0f, 0.2f, 0.0f, 0.0f),
                                               glm::vec4(0.0f, end, 0.0f, 0.0f)})}});
         Moved moved(std::move(scene));
-        EXPECT_FALSE(moved.moving.at(0.9)[0].jumped);
-        EXPECT_FALSE(moved.moving.at(0.999)[0].jumped);
-        EXPECT_EQ(moved.moving.at(1.001)[0].jumped, end != 0.0f);
-        EXPECT_FALSE(moved.moving.at(1.002)[0].jumped);
+        EXPECT_FALSE(moved.world.advance(0.9)[0].jumped);
+        EXPECT_FALSE(moved.world.advance(0.999)[0].jumped);
+        EXPECT_EQ(moved.world.advance(1.001)[0].jumped, end != 0.0f);
+        EXPECT_FALSE(moved.world.advance(1.002)[0].jumped);
     }
 }
 
-TEST(MovingObjects, FollowsRotationAndEvenScale) {
+TEST(WorldState, FollowsRotationAndEvenScale) {
     const float half = std::sqrt(0.5f);
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back(
@@ -108,26 +109,26 @@ TEST(MovingObjects, FollowsRotationAndEvenScale) {
                   {glm::vec4(2.0f, 2.0f, 2.0f, 0.0f), glm::vec4(2.0f, 2.0f, 2.0f, 0.0f)})}});
     Moved moved(std::move(scene));
     const Similarity rest = moved.haptic->restMotions[0].workspaceFromObject;
-    const Similarity now = moved.moving.at(0.5)[0].workspaceFromObject;
+    const Similarity now = moved.world.advance(0.5)[0].workspaceFromObject;
     EXPECT_NEAR(now.scale, 2.0 * rest.scale, 1e-7);
     // A corner at (0.05, 0, z) turns a quarter about z to (0, 0.05, z), twice as far out.
     const glm::dvec3 corner = rest.inverse().point({0.05, 0.0, 0.02});
     EXPECT_NEAR(glm::length(now.point(corner) - glm::dvec3(0.0, 0.1, 0.04)), 0.0, 1e-7);
 }
 
-TEST(MovingObjects, AMirroringPoseLeavesTheObjectWhereItWas) {
+TEST(WorldState, AMirroringPoseLeavesTheObjectWhereItWas) {
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back({"flip",
                                 1.0,
                                 {channel(1, AnimatedPath::Scale, {0.0f, 1.0f},
                                          {glm::vec4(1.0f), glm::vec4(-1.0f, 1.0f, 1.0f, 0.0f)})}});
     Moved moved(std::move(scene));
-    const Similarity now = moved.moving.at(0.9)[0].workspaceFromObject;
+    const Similarity now = moved.world.advance(0.9)[0].workspaceFromObject;
     EXPECT_TRUE(std::isfinite(now.scale) && now.scale > 0.0);
     EXPECT_TRUE(std::isfinite(now.translation.y));
 }
 
-TEST(MovingObjects, AnUnevenScaleIsTold) {
+TEST(WorldState, AnUnevenScaleIsTold) {
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back({"squash",
                                 1.0,
@@ -139,7 +140,7 @@ TEST(MovingObjects, AnUnevenScaleIsTold) {
     EXPECT_TRUE(animationWarnings(squareOnTwoNodes()).empty());
 }
 
-TEST(MovingObjects, AnAnimationThatMovesNothingHidesNoOther) {
+TEST(WorldState, AnAnimationThatMovesNothingHidesNoOther) {
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back({"smile", 1.0, {}}); // of morph weights, say, which are left out
     scene.animations.push_back({"squash",
@@ -150,12 +151,12 @@ TEST(MovingObjects, AnAnimationThatMovesNothingHidesNoOther) {
     ASSERT_EQ(warnings.size(), 2u);
     EXPECT_NE(warnings[0].message.find("'squash'"), std::string::npos) << warnings[0].message;
     EXPECT_EQ(warnings[1].place, "animations[1]");
-    EXPECT_TRUE(Moved(std::move(scene)).moving.moving());
+    EXPECT_TRUE(Moved(std::move(scene)).world.moving());
 }
 
 /// A million objects at the end of a chain of a thousand nodes, beside three thousand channels: asked one by
 /// one up the chain it is an hour.
-TEST(MovingObjects, WhatMovesIsFoundInLittleMoreThanTheNumberOfNodesChannelsAndObjects) {
+TEST(WorldState, WhatMovesIsFoundInLittleMoreThanTheNumberOfNodesChannelsAndObjects) {
     constexpr size_t kDepth = 1000, kObjects = 1'000'000;
     Scene described = squareOnTwoNodes();
     described.nodes.resize(2 * kDepth);
@@ -175,13 +176,13 @@ TEST(MovingObjects, WhatMovesIsFoundInLittleMoreThanTheNumberOfNodesChannelsAndO
     HapticScene haptic;
     haptic.objects.assign(kObjects, standing);
     haptic.restMotions.resize(kObjects);
-    EXPECT_FALSE(MovingObjects(scene, haptic).moving());
+    EXPECT_FALSE(WorldState(scene, haptic).moving());
     haptic.objects.back() = moved;
-    EXPECT_TRUE(MovingObjects(scene, haptic).moving());
+    EXPECT_TRUE(WorldState(scene, haptic).moving());
 }
 
 /// A floor that rises through a hand at rest carries the proxy up with it and pushes.
-TEST(MovingObjects, ARisingFloorPushesARestingHand) {
+TEST(WorldState, ARisingFloorPushesARestingHand) {
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back({"rise",
                                 1.0,
@@ -191,7 +192,6 @@ TEST(MovingObjects, ARisingFloorPushesARestingHand) {
     HapticSettings settings;
     settings.stiffness = 500.0;
     DeviceState state;
-    WorldState world;
     HapticOutput output;
     DeviceSample sample;
     sample.position = {0.01, 0.01, 0.01};
@@ -201,9 +201,9 @@ TEST(MovingObjects, ARisingFloorPushesARestingHand) {
         TickInput input;
         input.tick = static_cast<uint64_t>(i);
         input.time = 1e-3 * i;
-        input.devices = {&sample, 1};
-        input.objects = moved.moving.at(input.time);
-        hapticStep(*moved.haptic, settings, input, world, {&state, 1}, {&output, 1}, none);
+        input.hands = {&sample, 1};
+        moved.world.advance(input.time);
+        hapticStep(*moved.haptic, settings, input, moved.world, {&state, 1}, {&output, 1}, none);
         const double floor = 0.02 * input.time, depth = floor - sample.position.y;
         if (depth < -1e-6) {
             EXPECT_EQ(output.contacts, 0u) << i;
@@ -220,11 +220,11 @@ bool jumps(AnimatedPath path, const glm::vec4& from, const glm::vec4& to) {
     Scene scene = squareOnTwoNodes();
     scene.animations.push_back({"goes on", 1.0, {channel(1, path, {0.0f, 1.0f}, {from, to})}});
     Moved moved(std::move(scene));
-    (void)moved.moving.at(0.9);
-    return moved.moving.at(1.1)[0].jumped;
+    (void)moved.world.advance(0.9);
+    return moved.world.advance(1.1)[0].jumped;
 }
 
-TEST(MovingObjects, ALapThatEndsWithinAThousandthOfWhereItBeganIsNoJump) {
+TEST(WorldState, ALapThatEndsWithinAThousandthOfWhereItBeganIsNoJump) {
     const glm::vec4 far(3.0f, 4.0f, -5.0f, 0.0f); // whose longest side, 0.1, is the unit
     EXPECT_FALSE(jumps(AnimatedPath::Translation, far, far));
     EXPECT_FALSE(jumps(AnimatedPath::Translation, far, far + glm::vec4(0.0f, 5e-5f, 0.0f, 0.0f)));
@@ -241,7 +241,7 @@ TEST(MovingObjects, ALapThatEndsWithinAThousandthOfWhereItBeganIsNoJump) {
     EXPECT_TRUE(jumps(AnimatedPath::Scale, glm::vec4(1.0f), glm::vec4(1.01f)));
 }
 
-TEST(MovingObjects, TheFirstNodeMovesAsAnyOther) {
+TEST(WorldState, TheFirstNodeMovesAsAnyOther) {
     Scene scene = squareOnTwoNodes();
     scene.instances[0].node = 0;
     scene.animations.push_back({"lift",
@@ -252,8 +252,8 @@ TEST(MovingObjects, TheFirstNodeMovesAsAnyOther) {
     scene.animations.push_back(scene.animations[0]);
     EXPECT_EQ(animationWarnings(scene).size(), 1u) << "of two only one plays";
     Moved moved(std::move(scene));
-    ASSERT_TRUE(moved.moving.moving());
-    EXPECT_NEAR(moved.moving.at(0.5)[0].workspaceFromObject.translation.y, 0.1, 1e-7);
+    ASSERT_TRUE(moved.world.moving());
+    EXPECT_NEAR(moved.world.advance(0.5)[0].workspaceFromObject.translation.y, 0.1, 1e-7);
 }
 
 } // namespace

@@ -1,0 +1,95 @@
+#pragma once
+// The part of a scene that changes while it is touched: the poses of its objects, and the forces that the
+// hands exert on them.
+
+#include "engine/math/object_motion.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/scene.h"
+#include "haptics/scene/haptic_scene.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+/// Warnings where the playing animation is felt differently from what is seen.
+[[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
+
+/// What all hands together exert on one object in a tick: stage 7, before safety. Workspace.
+struct ObjectReaction {
+    glm::dvec3 force{0.0};  ///< N
+    glm::dvec3 torque{0.0}; ///< N·m about the workspace's origin
+};
+
+/// The state of a world from tick to tick. A tick begins with `advance`, which alone computes poses; the
+/// haptic step reads `poses` and adds the hands' forces to `reactions`. Construct off the servo (it
+/// allocates); nothing else here allocates, locks or throws. One thread at a time.
+///
+/// An object moves as a similarity: rotation, translation and uniform scale are followed exactly. A pose that
+/// shears or scales unevenly is replaced by the similarity of the same volume with the nearest axes; one that
+/// mirrors or flattens leaves the object in place.
+class WorldState {
+  public:
+    /// Nothing moves.
+    WorldState() = default;
+    /// The animation that plays in `source` moves the objects of `haptic`, which was compiled from it. A null
+    /// source: nothing moves.
+    WorldState(ScenePtr source, const HapticScene& haptic);
+    WorldState(WorldState&&) = default;
+    WorldState& operator=(WorldState&&) = default;
+
+    [[nodiscard]] bool moving() const { return !movers_.empty(); }
+
+    /// Moves the objects to their poses at `time` (s since the start of the animation, any). Where the
+    /// animation restarts at another pose than its last, the object has `jumped`. Returns `poses`.
+    ObjectMotions advance(double time) noexcept;
+    /// Poses of this tick and of the preceding one; empty: every object is at rest where HapticScene placed
+    /// it.
+    [[nodiscard]] ObjectMotions poses() const noexcept { return poses_; }
+    /// Poses from the caller instead, who keeps them: one per object, or none for rest.
+    void place(ObjectMotions poses) noexcept { poses_ = poses; }
+    /// The next `advance` counts as the first: no object has a previous pose.
+    void forget() noexcept { sampled_ = false; }
+    /// Hash of the poses that `advance` computed for this tick; 0 where nothing moves.
+    [[nodiscard]] uint32_t poseHash() const noexcept;
+
+    /// Off the servo: from now on `reactions` has one entry per object. Otherwise they cost no time.
+    void collectReactions(const HapticScene& haptic) { reactions_.resize(haptic.objects.size()); }
+    [[nodiscard]] bool collectsReactions() const noexcept { return !reactions_.empty(); }
+    /// Of the last tick, one per object; empty without collectReactions.
+    [[nodiscard]] std::span<const ObjectReaction> reactions() const noexcept { return reactions_; }
+    void clearReactions() noexcept {
+        for (ObjectReaction& reaction : reactions_)
+            reaction = {};
+    }
+    /// Force `force` (N) on an object at `point` (m), both in the workspace.
+    void push(int object, const glm::dvec3& point, const glm::dvec3& force) noexcept {
+        ObjectReaction& reaction = reactions_[static_cast<size_t>(object)];
+        reaction.force += force;
+        reaction.torque += glm::cross(point, force);
+    }
+
+  private:
+    struct Mover {
+        size_t object;                  // HapticScene::objects
+        size_t instance;                // Scene::instances
+        glm::dmat4 meshFromObject{1.0}; // rest pose: from the object's frame to the mesh's, uneven
+        bool jumps = false;             // the animation does not end where it begins
+    };
+
+    ScenePtr scene_;
+    const Animation* animation_ = nullptr;
+    std::vector<ScenePose> pose_; // none or one: ScenePose has no empty state
+    Similarity workspaceFromScene_;
+    std::vector<Mover> movers_;
+    std::vector<ObjectMotion> motions_;
+    ObjectMotions poses_;
+    std::vector<ObjectReaction> reactions_;
+    double lap_ = 0.0; // of the animation, in the preceding tick
+    bool sampled_ = false;
+};
+
+} // namespace touchstone

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "session/tick_subscriber.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace touchstone {
+
+/// Hands, a servo, the scene that they touch, and the subscribers to its ticks: what a program that touches
+/// in real time consists of, with or without a window. Owner thread; the servo runs the ticks on its own.
+class Session {
+  public:
+    /// One port per hand; the devices outlive the session. Throws as ServoLoop.
+    explicit Session(std::vector<DevicePort> hands, const ServoConfig& config = {})
+        : servo_(std::move(hands), config) {}
+
+    /// From the next scene and the next tick on; it outlives the session's last `pump`.
+    void subscribe(TickSubscriber& subscriber) { subscribers_.push_back(&subscriber); }
+
+    void start() { servo_.start(); }
+    /// The last command of every device is zero. The remaining ticks wait for `pump`.
+    void stop() { servo_.stop(); }
+
+    /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number.
+    uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
+                   SceneSwap swap = SceneSwap::Anew);
+    /// The scene's file is another one now, or has been saved.
+    void identify(SceneIdentity identity);
+    /// The newest scene; its number is 0 before the first.
+    [[nodiscard]] const OfferedScene& scene() const { return scene_; }
+    /// The servo has adopted it.
+    [[nodiscard]] bool touching() const { return scene_.number != 0 && tick().scene == scene_.number; }
+
+    /// For the next tick; no-op where they are those of the last call.
+    void set(const HapticSettings& settings);
+    /// Any thread.
+    [[nodiscard]] ForceSwitch& forceSwitch() { return servo_.forceSwitch(); }
+
+    /// Passes all ticks since the last call to the subscribers, and renews `tick`. `now`: s, any steady
+    /// clock.
+    void pump(double now);
+    /// The newest tick of hand 0 at the last `pump`.
+    [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); }
+
+    [[nodiscard]] ServoLoop& servo() { return servo_; }
+    [[nodiscard]] const ServoLoop& servo() const { return servo_; }
+
+  private:
+    ServoLoop servo_;
+    std::vector<TickSubscriber*> subscribers_;
+    OfferedScene scene_;
+    std::optional<HapticSettings> settings_; // last sent
+};
+
+} // namespace touchstone

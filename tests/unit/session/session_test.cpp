@@ -1,0 +1,122 @@
+// A session passes every tick to every subscriber, with the scene and the settings that it had.
+
+#include "session/device_port.h"
+#include "session/session.h"
+#include "tests/support/recorded_servo.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+namespace touchstone::test {
+namespace {
+
+/// A device above a floor that taps it.
+class TappingDevice final : public Device {
+  public:
+    explicit TappingDevice(double x) : x_(x) {}
+    [[nodiscard]] std::string name() const override { return "tapping"; }
+    [[nodiscard]] DeviceLimits limits() const override { return {.maxForce = 2.0}; }
+    [[nodiscard]] DeviceSample sample(double time) noexcept override {
+        return at({x_, 0.002 + 0.004 * std::cos(60.0 * time), 0.0});
+    }
+    void apply(const DeviceCommand& command) noexcept override { sent = command.force(); }
+
+    glm::dvec3 sent{0.0};
+
+  private:
+    double x_;
+};
+
+struct Listener final : TickSubscriber {
+    void sceneOffered(const OfferedScene& scene) override { scenes.push_back(scene); }
+    void take(const TickRecord& record, const HapticSettings& settings) override {
+        records.push_back(record);
+        stiffness.push_back(settings.stiffness);
+    }
+    void flush(double now) override { flushes.push_back(now); }
+
+    std::vector<OfferedScene> scenes;
+    std::vector<TickRecord> records;
+    std::vector<double> stiffness, flushes;
+};
+
+class SessionTest : public testing::Test {
+  protected:
+    void ticks(uint64_t count, double now) {
+        const uint64_t goal = session_.servo().counters().ticks + count;
+        while (session_.servo().counters().ticks < goal)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        session_.pump(now);
+    }
+
+    TappingDevice first_{0.0}, second_{0.02};
+    Session session_{{portOf(first_), portOf(second_)}, RecordedServo::kQuick};
+    Listener one_, two_;
+};
+
+TEST_F(SessionTest, EverySubscriberTakesEveryTickOfEveryHandInOrder) {
+    session_.subscribe(one_);
+    session_.subscribe(two_);
+    const TouchedScene floor = floorScene(0.0f);
+    EXPECT_FALSE(session_.touching());
+    const uint32_t number = session_.touch(floor.haptic, floor.source, floor.identity);
+    HapticSettings settings;
+    settings.stiffness = 321.0;
+    session_.set(settings);
+    session_.start();
+    ticks(400, 1.5);
+    EXPECT_TRUE(session_.touching());
+    settings.stiffness = 432.0;
+    session_.set(settings);
+    session_.set(settings);
+    ticks(400, 2.5);
+    session_.stop();
+    session_.pump(3.5);
+    ASSERT_EQ(one_.records.size(), 2 * session_.servo().counters().ticks);
+    ASSERT_EQ(two_.records.size(), one_.records.size());
+    EXPECT_EQ(one_.stiffness, two_.stiffness);
+    EXPECT_EQ(one_.flushes, (std::vector<double>{1.5, 2.5, 3.5}));
+    size_t contacts = 0;
+    for (size_t i = 0; i < one_.records.size(); ++i) {
+        const TickRecord& record = one_.records[i];
+        ASSERT_EQ(record.step, i / 2);
+        ASSERT_EQ(record.hand, 1 - i % 2) << "that of hand 0 is the last";
+        ASSERT_EQ(record.scene, number);
+        ASSERT_LE(glm::length(record.output.command.force()), 2.0);
+        contacts += record.output.contacts > 0 ? 1 : 0;
+    }
+    EXPECT_GT(contacts, 100u);
+    EXPECT_EQ(one_.stiffness.front(), 321.0);
+    EXPECT_EQ(one_.stiffness.back(), 432.0);
+    EXPECT_EQ(session_.tick().step, session_.servo().counters().ticks - 1) << "the newest one";
+    EXPECT_EQ(session_.tick().hand, 0u);
+    EXPECT_EQ(first_.sent, glm::dvec3(0.0)) << "at the end";
+    EXPECT_EQ(second_.sent, glm::dvec3(0.0));
+}
+
+TEST_F(SessionTest, TellsOfScenesBeforeTheirTicksAndOfTheirNewFiles) {
+    session_.subscribe(one_);
+    const TouchedScene floor = floorScene(0.0f), lower = floorScene(-0.01f);
+    const uint32_t before = session_.touch(floor.haptic, floor.source, floor.identity);
+    SceneIdentity saved = floor.identity;
+    saved.path = "saved.glb";
+    session_.identify(saved);
+    ASSERT_EQ(one_.scenes.size(), 2u);
+    EXPECT_EQ(one_.scenes[0].number, before);
+    EXPECT_EQ(one_.scenes[1].number, before);
+    EXPECT_EQ(one_.scenes[1].identity.path, "saved.glb");
+    EXPECT_EQ(session_.scene().haptic, floor.haptic);
+    const uint32_t after = session_.touch(lower.haptic, lower.source, lower.identity);
+    EXPECT_NE(after, before);
+    EXPECT_FALSE(session_.touching());
+    session_.start();
+    ticks(100, 0.0);
+    EXPECT_TRUE(session_.touching());
+    session_.stop();
+    EXPECT_EQ(session_.scene().number, after);
+}
+
+} // namespace
+} // namespace touchstone::test
