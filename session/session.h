@@ -16,14 +16,15 @@ class Session {
     explicit Session(std::vector<DevicePort> hands, const ServoConfig& config = {})
         : servo_(std::move(hands), config) {}
 
-    /// From the next scene and the next tick on; it outlives the session's last `pump`.
+    /// From the next scene and the next tick on; it outlives the last `touch`, `identify` and `pump`.
     void subscribe(TickSubscriber& subscriber) { subscribers_.push_back(&subscriber); }
 
     void start() { servo_.start(); }
     /// The last command of every device is zero. The remaining ticks wait for `pump`.
     void stop() { servo_.stop(); }
 
-    /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number.
+    /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number. Null: nothing can
+    /// be touched, and the scene offered to the subscribers has the number 0.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
                    SceneSwap swap = SceneSwap::Anew);
     /// The scene's file is another one now, or has been saved.

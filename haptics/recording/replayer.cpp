@@ -11,7 +11,9 @@
 namespace touchstone {
 
 std::string whichHand(const ReplayReport& report) {
-    return report.hands > 1 && report.first ? "of hand " + std::to_string(report.first->hand + 1) + ", " : "";
+    if (report.hands == 1 || !report.first || report.first->stage == "poses")
+        return "";
+    return "of hand " + std::to_string(report.first->hand + 1) + ", ";
 }
 
 ReplayReport Replayer::replay(RecordingReader& reader, const Each& each) {
@@ -83,7 +85,7 @@ void Replayer::take(const RecordedTicks& ticks) {
     for (const RecordedTick& tick : ticks.ticks) {
         ++report_.ticks;
         const bool whole = gather(tick);
-        // Where the state of a hand was lost, a replay that knows it goes on.
+        // Where a hand's checkpoint is missing, a replay that knows the state continues.
         const bool states = checkpoint_ && otherStates_.size() + 1 == ticks_.size();
         if (whole && states && checkpoint_->tick == tick.tick && checkpoint_->scene == tick.scene)
             resume(tick);

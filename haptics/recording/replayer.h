@@ -27,7 +27,7 @@ struct ReplayScene {
 struct Difference {
     uint64_t tick = 0;
     double time = 0.0;
-    uint32_t hand = 0;
+    uint32_t hand = 0; ///< TickRecord::hand; 0 with "poses"
     /// One of kStageNames; "state" where a checkpoint differs from the state after the preceding ticks;
     /// "poses" where the objects are elsewhere.
     std::string stage;
@@ -50,7 +50,7 @@ struct ReplayReport {
     double seconds = 0.0; ///< from the first to the last replayed tick, on the recording's clock
 };
 
-/// "of hand 2, " for a difference of a recording of several hands; else empty.
+/// "of hand 2, " where one of several hands differs (they count from 1 here); else empty.
 [[nodiscard]] std::string whichHand(const ReplayReport& report);
 
 /// One thread; not the servo. Deterministic for the same scene, program and processor.

@@ -1,5 +1,5 @@
 #pragma once
-// One hand that is stepped without a servo: what `touch`, the studies, the reports and the tests do.
+// One hand that is stepped without a servo: for `touch`, studies, reports and tests.
 
 #include "haptics/tick/haptic_step.h"
 
@@ -17,32 +17,31 @@ namespace touchstone {
 }
 
 /// A scene with one hand and the world around it, tick by tick. Construct off the servo (it allocates a
-/// DeviceState); `advance` and `step` have no more in them than the tick itself. Deterministic; one thread.
+/// DeviceState); `advance` and `step` do not allocate. Deterministic; one thread.
 struct SteppedHand {
     /// `scene` outlives it. The animation of `source` moves its objects; null: nothing moves.
     explicit SteppedHand(const HapticScene& touched, ScenePtr source = nullptr)
         : scene(&touched), world(std::move(source), touched) {}
 
-    /// Begins the tick at `time` (s): the objects' poses.
-    void advance(double time) noexcept {
-        input.time = time;
-        world.advance(time);
+    /// Begins the tick at `now` (s): the objects' poses. May be omitted where nothing moves: `time` then
+    /// stays.
+    void advance(double now) noexcept {
+        time = now;
+        world.advance(now);
     }
     /// The tick itself, `dt` s long. Apart from `advance`, so that a study can time it alone.
     template <class Stopwatch>
     const HapticOutput& step(const HapticSettings& settings, const DeviceSample& sample, double dt,
                              Stopwatch& stopwatch) noexcept {
-        input.dt = dt;
-        input.hands = {&sample, 1};
+        const TickInput input{.tick = number++, .time = time, .dt = dt, .late = false, .hands = {&sample, 1}};
         hapticStep(*scene, settings, input, world, {&state, 1}, {&output, 1}, stopwatch);
-        ++input.tick;
         return output;
     }
     /// Both, without a stopwatch.
-    const HapticOutput& tick(const HapticSettings& settings, const DeviceSample& sample, double time,
+    const HapticOutput& tick(const HapticSettings& settings, const DeviceSample& sample, double now,
                              double dt) noexcept {
         NoStopwatch none;
-        advance(time);
+        advance(now);
         return step(settings, sample, dt, none);
     }
 
@@ -50,7 +49,8 @@ struct SteppedHand {
     WorldState world;
     DeviceState state;
     HapticOutput output; ///< of the last tick
-    TickInput input;     ///< `tick` is the number of the next one; `late` is the caller's
+    double time = 0.0;   ///< s, of the last `advance`
+    uint64_t number = 0; ///< of the next tick
 };
 
 } // namespace touchstone

@@ -6,7 +6,6 @@
 #include "haptics/tick/stepped_hand.h"
 
 #include <functional>
-#include <memory>
 
 namespace touchstone::study {
 
@@ -40,7 +39,7 @@ class ClosedLoop {
     class Target final : public Device {
       public:
         explicit Target(ClosedLoop& loop) : loop_(loop) {}
-        [[nodiscard]] std::string name() const override { return "wish"; }
+        [[nodiscard]] std::string name() const override { return "intention"; }
         [[nodiscard]] DeviceLimits limits() const override { return {}; }
         [[nodiscard]] DeviceSample sample(double time) noexcept override {
             return {.position = loop_.intention(time), .valid = true};

@@ -57,8 +57,11 @@ View frontView(const Model& model, const glm::ivec2& size) {
 class TickReader final : public TickSubscriber {
   public:
     TickReader(const Model& model, const RunOptions& options)
-        : statistics(options.devices.size()), model_(model), options_(options),
-          world_(model.scene, *model.haptic), rows_(options.recordTicks.size()) {
+        : model_(model), options_(options), world_(model.scene, *model.haptic),
+          rows_(options.recordTicks.size()) {
+        // Times are those of all hands: percentiles of the first hand's records suffice.
+        for (size_t hand = 0; hand < options.devices.size(); ++hand)
+            statistics.emplace_back(hand == 0 ? 0 : 1);
         for (const std::filesystem::path& file : options.recordTicks) {
             csv_.push_back(std::make_unique<OutputFile>(file));
             csv_.back()->write(kTickCsvHeader);
@@ -315,7 +318,7 @@ int runCommand(const RunOptions& options) {
     printResult(run);
     for (size_t hand = 0; hand < hands.count(); ++hand)
         if (hands.simulated(hand))
-            requireTouch(options.scene, options.stroke, hands.period(hand), frames.seconds,
+            requireTouch(options.scene, options.stroke, hands.period(hand), frames.seconds - hands.wait(hand),
                          reader.statistics[hand].contactTicks());
     return controller.failed() ? 1 : 0;
 }

@@ -158,11 +158,11 @@ class OfflineTouch {
     void step(const PlannedTick& planned, OfflineTick& tick) {
         path_.next.position = planned.hip;
         path_.next.valid = true;
+        touch_.advance(planned.time);
         tick.sample = sampleWithLimits(hand_, planned.time);
-        tick.number = touch_.input.tick;
+        tick.number = touch_.number;
         tick.time = planned.time;
         tick.dt = planned.dt;
-        touch_.advance(planned.time);
         tick.poses = touch_.world.poseHash();
         StageTracer tracer(touch_.state, tick.trace);
         const realtime::TickScope scope;

@@ -38,10 +38,6 @@ std::vector<DevicePort> RunHands::connect(const Model& model) {
     return ports;
 }
 
-double RunHands::period(size_t hand) const {
-    return hands_[hand].wait + hands_[hand].path->path().period();
-}
-
 nlohmann::ordered_json RunHands::json(size_t hand) const {
     const Hand& own = hands_[hand];
     const bool real = own.device != nullptr;

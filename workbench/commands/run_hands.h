@@ -17,7 +17,7 @@
 
 namespace touchstone {
 
-/// Main thread; the servo uses the hands through `ports`. They outlive the servo.
+/// Main thread; the servo uses the hands through the ports of `connect`. They outlive the servo.
 class RunHands {
   public:
     /// Opens the devices. Throws Error.
@@ -25,15 +25,17 @@ class RunHands {
     RunHands(const RunHands&) = delete;
     RunHands& operator=(const RunHands&) = delete;
 
-    /// Connects all hands; a simulated one gets the stroke on the model. Of n simulated hands the i-th
-    /// follows the first after i/n of the stroke. Throws Error where the stroke cannot be laid.
+    /// Connects all hands; a simulated one gets the stroke on the model. Of n simulated hands hand i
+    /// (from 0) starts i/n of the period later. Throws Error where the stroke cannot be laid.
     [[nodiscard]] std::vector<DevicePort> connect(const Model& model);
 
     [[nodiscard]] size_t count() const { return hands_.size(); }
     [[nodiscard]] bool simulated(size_t hand) const { return hands_[hand].device == nullptr; }
-    /// s, of the stroke of a simulated hand, from the start to its end.
-    [[nodiscard]] double period(size_t hand) const;
-    /// {device, link, stroke, loop} of one hand.
+    /// s, once round the stroke of a simulated hand.
+    [[nodiscard]] double period(size_t hand) const { return hands_[hand].path->path().period(); }
+    /// s after which it starts.
+    [[nodiscard]] double wait(size_t hand) const { return hands_[hand].wait; }
+    /// {device, link, stroke, workspace_scale, loop} of one hand.
     [[nodiscard]] nlohmann::ordered_json json(size_t hand) const;
 
   private:

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,14 +96,15 @@ void requireHands(const RunOptions& options) {
             throw CLI::ValidationError("--device", "names " + *device + " for two hands");
     const auto real = std::ranges::count_if(devices, [](const std::string& name) { return name != "hand"; });
     if (real > 1 && std::ranges::count(devices, "auto") > 0)
-        throw CLI::ValidationError("--device", "auto takes what is plugged in: name each of several devices");
+        throw CLI::ValidationError("--device", "auto cannot be combined with another device: name each");
     if (options.recordTicks.size() > devices.size())
         throw CLI::ValidationError("--record-ticks", "names " + std::to_string(options.recordTicks.size()) +
                                                          " files for " + std::to_string(devices.size()) +
                                                          (devices.size() == 1 ? " hand" : " hands"));
-    for (auto file = options.recordTicks.begin(); file != options.recordTicks.end(); ++file)
-        if (std::find(options.recordTicks.begin(), file, *file) != file)
-            throw CLI::ValidationError("--record-ticks", "names " + file->string() + " for two hands");
+    std::set<std::filesystem::path> files;
+    for (const std::filesystem::path& file : options.recordTicks)
+        if (!files.insert(std::filesystem::absolute(file).lexically_normal()).second)
+            throw CLI::ValidationError("--record-ticks", "names " + file.string() + " for two hands");
 }
 
 } // namespace
@@ -116,7 +119,7 @@ void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
     app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
         ->type_name("FILE");
     app.add_option("--record-ticks", options.recordTicks,
-                   "Write every tick here, as CSV; given again, those of the next hand")
+                   "Write every tick here, as CSV; repeat the option for each further hand")
         ->type_name("FILE")
         ->expected(1)
         ->take_all();

@@ -189,7 +189,7 @@ void addDevice(CLI::App& app, const std::string& builtIn,
 void addDevices(CLI::App& app, const std::string& builtIn, std::vector<std::string>& devices) {
     std::string help = kDeviceHelp;
     help.replace(help.find('%'), 1, builtIn);
-    help += "; given again, another hand";
+    help += "; repeat the option for each further hand";
     app.add_option("--device", devices, help)->type_name("DEVICE")->expected(1)->take_all();
 }
 

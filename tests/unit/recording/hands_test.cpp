@@ -163,9 +163,14 @@ TEST_F(HandsTest, AChangedTickOfTheSecondHandIsNamed) {
     EXPECT_EQ(report.first->stage, "sample");
     EXPECT_LT(report.differing, 400u) << "the next checkpoint has the recorded state";
 
-    // Without its state, or without its ticks, nothing can be said of either.
-    std::erase_if(items,
+    // Without its states, or without its ticks, no tick can be replayed.
+    std::vector<RecordedItem> stateless = items;
+    std::erase_if(stateless,
                   [](const RecordedItem& item) { return std::holds_alternative<RecordedHandState>(item); });
+    writeItems(file_, stateless);
+    EXPECT_THROW((void)replayOf(file_, rig.scenes), Error);
+    std::erase_if(items,
+                  [](const RecordedItem& item) { return std::holds_alternative<RecordedHandTicks>(item); });
     writeItems(file_, items);
     EXPECT_THROW((void)replayOf(file_, rig.scenes), Error);
 }

@@ -1,4 +1,4 @@
-// A session passes every tick to every subscriber, with the scene and the settings that it had.
+// A session passes every tick to every subscriber, with the settings that it had.
 
 #include "session/device_port.h"
 #include "session/session.h"
@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -17,7 +19,7 @@ class TappingDevice final : public Device {
   public:
     explicit TappingDevice(double x) : x_(x) {}
     [[nodiscard]] std::string name() const override { return "tapping"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {.maxForce = 2.0}; }
+    [[nodiscard]] DeviceLimits limits() const override { return {.maxForce = 0.5}; }
     [[nodiscard]] DeviceSample sample(double time) noexcept override {
         return at({x_, 0.002 + 0.004 * std::cos(60.0 * time), 0.0});
     }
@@ -32,6 +34,9 @@ class TappingDevice final : public Device {
 struct Listener final : TickSubscriber {
     void sceneOffered(const OfferedScene& scene) override { scenes.push_back(scene); }
     void take(const TickRecord& record, const HapticSettings& settings) override {
+        EXPECT_TRUE(std::ranges::any_of(scenes, [&](const OfferedScene& scene) {
+            return scene.number == record.scene;
+        })) << "each scene comes before its ticks";
         records.push_back(record);
         stiffness.push_back(settings.stiffness);
     }
@@ -79,15 +84,18 @@ TEST_F(SessionTest, EverySubscriberTakesEveryTickOfEveryHandInOrder) {
     EXPECT_EQ(one_.stiffness, two_.stiffness);
     EXPECT_EQ(one_.flushes, (std::vector<double>{1.5, 2.5, 3.5}));
     size_t contacts = 0;
+    double strongest = 0.0;
     for (size_t i = 0; i < one_.records.size(); ++i) {
         const TickRecord& record = one_.records[i];
         ASSERT_EQ(record.step, i / 2);
         ASSERT_EQ(record.hand, 1 - i % 2) << "that of hand 0 is the last";
         ASSERT_EQ(record.scene, number);
-        ASSERT_LE(glm::length(record.output.command.force()), 2.0);
+        ASSERT_EQ(record.sample.limits.maxForce, 0.5) << "the device's, through its port";
+        strongest = std::max(strongest, glm::length(record.output.command.force()));
         contacts += record.output.contacts > 0 ? 1 : 0;
     }
     EXPECT_GT(contacts, 100u);
+    EXPECT_NEAR(strongest, 0.5, 1e-9);
     EXPECT_EQ(one_.stiffness.front(), 321.0);
     EXPECT_EQ(one_.stiffness.back(), 432.0);
     EXPECT_EQ(session_.tick().step, session_.servo().counters().ticks - 1) << "the newest one";
@@ -96,7 +104,7 @@ TEST_F(SessionTest, EverySubscriberTakesEveryTickOfEveryHandInOrder) {
     EXPECT_EQ(second_.sent, glm::dvec3(0.0));
 }
 
-TEST_F(SessionTest, TellsOfScenesBeforeTheirTicksAndOfTheirNewFiles) {
+TEST_F(SessionTest, OffersEachSceneBeforeItsTicksAndAgainWithANewFile) {
     session_.subscribe(one_);
     const TouchedScene floor = floorScene(0.0f), lower = floorScene(-0.01f);
     const uint32_t before = session_.touch(floor.haptic, floor.source, floor.identity);
@@ -108,14 +116,18 @@ TEST_F(SessionTest, TellsOfScenesBeforeTheirTicksAndOfTheirNewFiles) {
     EXPECT_EQ(one_.scenes[1].number, before);
     EXPECT_EQ(one_.scenes[1].identity.path, "saved.glb");
     EXPECT_EQ(session_.scene().haptic, floor.haptic);
+    session_.start();
+    ticks(100, 0.0);
     const uint32_t after = session_.touch(lower.haptic, lower.source, lower.identity);
     EXPECT_NE(after, before);
     EXPECT_FALSE(session_.touching());
-    session_.start();
     ticks(100, 0.0);
     EXPECT_TRUE(session_.touching());
     session_.stop();
+    session_.pump(0.0);
     EXPECT_EQ(session_.scene().number, after);
+    EXPECT_EQ(one_.records.front().scene, before);
+    EXPECT_EQ(one_.records.back().scene, after);
 }
 
 } // namespace
