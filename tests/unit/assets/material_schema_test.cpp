@@ -165,7 +165,8 @@ constexpr const char* kWrong[] = {R"({"stiffness": 0})",
 TEST(MaterialSchema, AcceptsEveryFieldAndRefusesWhatIsWrong) {
     const json every = json::parse(kEveryField);
     EXPECT_EQ(complaint(every), "");
-    for (const auto& [name, rule] : schema()["properties"].items())
+    const json rules = schema();
+    for (const auto& [name, rule] : rules["properties"].items())
         EXPECT_TRUE(name == "extensions" || every.contains(name)) << name;
     for (const char* wrong : kWrong)
         EXPECT_NE(complaint(json::parse(wrong)), "") << wrong;
