@@ -129,13 +129,13 @@ TEST(Places, AModelScaledInContactNeitherKicksNorLetsThrough) {
         TouchBench& bench = run.bench;
         const Similarity rest = bench.scene->restMotions[0].workspaceFromObject;
         bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
-        run.side([&](const glm::dvec3& p) {
-            return glm::length(p) - kInscribed * 0.5 * bench.motions[0].workspaceFromObject.scale;
-        });
+        double scale = rest.scale;
+        run.side([&](const glm::dvec3& p) { return glm::length(p) - kInscribed * 0.5 * scale; });
         const glm::dvec3 hip = bench.output.hip;
         const auto scaleTo = [&](double factor) {
+            scale = factor * rest.scale;
             bench.motions[0].before = bench.motions[0].workspaceFromObject;
-            bench.motions[0].workspaceFromObject.scale = factor * rest.scale;
+            bench.motions[0].workspaceFromObject.scale = scale;
             bench.step(hip);
             run.take();
         };
