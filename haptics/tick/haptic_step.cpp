@@ -72,16 +72,14 @@ template <class Solver, class Stopwatch>
 template <class Solver, class Stopwatch>
 [[gnu::noinline]] void touch(const HandTick& tick, WorldState& world, DeviceState& state,
                              HapticOutput& output, Stopwatch& stopwatch) {
-    const HapticScene& scene = tick.scene;
-    const HapticSettings& settings = tick.settings;
-    const bool effects = !callsForNoEffect(scene, settings);
+    const bool effects = !callsForNoEffect(tick.scene, tick.settings);
 
     // 2. Contact query: the proxy moves with its object and is swept against the objects that moved.
     SolveResult& rest = state.rest;
     if (state.reference < 0)
-        state.reference = nearestObject(scene, tick.motions, state.hip);
-    Solver::followObjects(scene, tick.motions, settings, state, output.flags);
-    Solver proxy(scene, tick.motions, settings, state, rest);
+        state.reference = nearestObject(tick.scene, tick.motions, state.hip);
+    Solver::followObjects(tick.scene, tick.motions, tick.settings, state, output.flags);
+    Solver proxy(tick.scene, tick.motions, tick.settings, state, rest);
     if (!proxy.begin()) {
         state.friction = FrictionState::Free;
         state.shaded = false;
@@ -101,7 +99,7 @@ template <class Solver, class Stopwatch>
 
     // 3. Proxy solve: as near to the goal as free space allows. 4. Force shading: the same solve against the
     // interpolated planes.
-    if (effects && anyTwoPass(scene.plan, settings)) {
+    if (effects && anyTwoPass(tick.scene.plan, tick.settings)) {
         solveShaded(tick, hip, glm::length(state.travel) / workspaceFromReference.scale, proxy, state,
                     stopwatch);
     } else {
