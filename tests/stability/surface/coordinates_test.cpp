@@ -144,7 +144,8 @@ TEST(TextureStability, CollapsedCoordinatesHaveTheSlopeThatIsLeft) {
                     EXPECT_NEAR(out.force.y / out.force.z, 0.0, 1e-6);
                     most = std::max(most, std::abs(out.force.x));
                 });
-                EXPECT_EQ(most > 0.0, anyU);
+                constexpr double kRounding = 1e-12; // N; which code is inlined decides its last bits
+                EXPECT_EQ(most > kRounding, anyU) << most;
                 EXPECT_EQ(held(bench), 0.0);
             }
         }

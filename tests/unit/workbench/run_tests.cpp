@@ -30,6 +30,12 @@ std::pair<uint32_t, uint32_t> pngSize(const std::string& bytes) {
     return {number(16), number(20)};
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+const nlohmann::json kNoLock; // null: the sanitizer stands in the counter's place
+#else
+const nlohmann::json kNoLock = 0;
+#endif
+
 TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     const ScratchFolder scratch;
     const std::string json = (scratch / "r.json").string(), shot = (scratch / "s.png").string(),
@@ -41,7 +47,7 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     const auto figures = nlohmann::json::parse(readFile(json));
     EXPECT_EQ(figures["allocations_in_tick"], 0);
     EXPECT_EQ(figures["deallocations_in_tick"], 0);
-    EXPECT_EQ(figures["locks_in_tick"], 0);
+    EXPECT_EQ(figures["locks_in_tick"], kNoLock);
     EXPECT_GT(figures["servo"]["ticks"], 100);
     EXPECT_TRUE(figures["servo"].contains("stolen_s"));
     for (const char* name : {"wake_histogram", "step_histogram"}) {
@@ -126,7 +132,7 @@ TEST(Run, DrivesTwoHandsInOneServo) {
     const auto figures = nlohmann::json::parse(readFile(json));
     ASSERT_EQ(figures["hands"].size(), 2u);
     EXPECT_EQ(figures["allocations_in_tick"], 0);
-    EXPECT_EQ(figures["locks_in_tick"], 0);
+    EXPECT_EQ(figures["locks_in_tick"], kNoLock);
     for (const auto& hand : figures["hands"]) {
         EXPECT_GT(hand["contact"]["ticks"], 50) << hand;
         EXPECT_EQ(hand["flags"]["force_fault"], 0);
