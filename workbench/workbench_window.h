@@ -4,6 +4,7 @@
 // workbench_picture.cpp draws a frame and handles its buttons.
 
 #include "engine/core/error.h"
+#include "engine/time/seconds_now.h"
 #include "renderer/draw_quality.h"
 #include "renderer/frame_pace.h"
 #include "workbench/editor/drawn_materials.h"
@@ -37,7 +38,6 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <new>
 #include <optional>
@@ -46,11 +46,6 @@
 #include <vector>
 
 namespace touchstone {
-
-/// s, of the steady clock.
-[[nodiscard]] inline double secondsNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 /// Draw quality of a device: coarser for a software device.
 [[nodiscard]] DrawQuality qualityOn(const Gpu& gpu);
 

@@ -155,25 +155,56 @@ bool same(const DeviceMapping& a, const DeviceMapping& b) {
            a.coupling == b.coupling;
 }
 
+/// For each tick i for which `changes(i)` is true, i and what `put` writes of its sample.
+template <class Changes, class Put>
+void putChanges(ByteWriter& bytes, const std::vector<RecordedTick>& ticks, const Changes& changes,
+                const Put& put) {
+    std::vector<uint32_t> places;
+    for (uint32_t i = 0; i < ticks.size(); ++i)
+        if (changes(i))
+            places.push_back(i);
+    bytes.put(static_cast<uint32_t>(places.size()));
+    for (const uint32_t i : places) {
+        bytes.put(i);
+        put(ticks[i].sample);
+    }
+}
+
+/// Gives every tick the value of the last change at or before it; before the first change the default.
+/// `read` reads the value of a change at a tick. `what`: for a message.
+template <class Value, class Read>
+void getChanges(ByteReader& bytes, std::vector<RecordedTick>& ticks, Value DeviceSample::*field,
+                const char* what, const Read& read) {
+    uint32_t changes = 0, next = 0;
+    bytes.get(changes);
+    Value value{};
+    const auto upTo = [&](uint32_t end) {
+        for (; next < end; ++next)
+            ticks[next].sample.*field = value;
+    };
+    for (uint32_t change = 0; change < changes; ++change) {
+        uint32_t at = 0;
+        bytes.get(at);
+        if (at < next || at >= ticks.size())
+            throw Error("", "", std::string("has the ") + what + " of a tick that it does not have", "");
+        upTo(at);
+        value = read("tick " + std::to_string(ticks[at].tick));
+    }
+    upTo(static_cast<uint32_t>(ticks.size()));
+}
+
 /// After the ticks: the mappings that differ from that of the preceding tick, the first from the identity.
 void putMappings(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
-    std::vector<uint32_t> changes;
-    DeviceMapping last;
-    for (uint32_t i = 0; i < ticks.size(); ++i) {
-        if (same(ticks[i].sample.mapping, last))
-            continue;
-        last = ticks[i].sample.mapping;
-        changes.push_back(i);
-    }
-    bytes.put(static_cast<uint32_t>(changes.size()));
-    for (const uint32_t i : changes) {
-        const DeviceMapping& mapping = ticks[i].sample.mapping;
-        bytes.put(i);
-        bytes.put(mapping.workspaceFromDevice.scale);
-        bytes.put(mapping.workspaceFromDevice.rotation);
-        bytes.put(mapping.workspaceFromDevice.translation);
-        bytes.put(mapping.coupling);
-    }
+    const auto changes = [&](uint32_t i) {
+        return !same(ticks[i].sample.mapping, i > 0 ? ticks[i - 1].sample.mapping : DeviceMapping{});
+    };
+    putChanges(bytes, ticks, changes, [&](const DeviceSample& sample) {
+        const Similarity& map = sample.mapping.workspaceFromDevice;
+        bytes.put(map.scale);
+        bytes.put(map.rotation);
+        bytes.put(map.translation);
+        bytes.put(sample.mapping.coupling);
+    });
 }
 
 /// The step accepts any mapping, but the writer writes only finite ones.
@@ -188,63 +219,34 @@ bool meant(const DeviceMapping& mapping) {
 }
 
 void getMappings(ByteReader& bytes, std::vector<RecordedTick>& ticks) {
-    uint32_t changes = 0, next = 0;
-    bytes.get(changes);
-    DeviceMapping mapping;
-    const auto upTo = [&](uint32_t end) {
-        for (; next < end; ++next)
-            ticks[next].sample.mapping = mapping;
-    };
-    for (uint32_t change = 0; change < changes; ++change) {
-        uint32_t at = 0;
-        bytes.get(at);
-        if (at < next || at >= ticks.size())
-            throw Error("", "", "has the mapping of a tick that it does not have", "");
-        upTo(at);
+    getChanges(bytes, ticks, &DeviceSample::mapping, "mapping", [&](const std::string& tick) {
+        DeviceMapping mapping;
         bytes.get(mapping.workspaceFromDevice.scale);
         bytes.get(mapping.workspaceFromDevice.rotation);
         bytes.get(mapping.workspaceFromDevice.translation);
         bytes.get(mapping.coupling);
         if (!meant(mapping))
-            throw Error("", "tick " + std::to_string(ticks[at].tick), "has a mapping that cannot be", "");
-    }
-    upTo(static_cast<uint32_t>(ticks.size()));
+            throw Error("", tick, "has a mapping that cannot be", "");
+        return mapping;
+    });
 }
 
 /// After the mappings: for each tick whose device has other limits than that of the preceding tick, its index
 /// and the limits; those of the first tick always.
 void putLimitChanges(ByteWriter& bytes, const std::vector<RecordedTick>& ticks) {
-    std::vector<uint32_t> changes;
-    for (uint32_t i = 0; i < ticks.size(); ++i)
-        if (i == 0 || ticks[i].sample.limits != ticks[i - 1].sample.limits)
-            changes.push_back(i);
-    bytes.put(static_cast<uint32_t>(changes.size()));
-    for (const uint32_t i : changes) {
-        bytes.put(i);
-        putLimits(bytes, ticks[i].sample.limits);
-    }
+    const auto changes = [&](uint32_t i) {
+        return i == 0 || ticks[i].sample.limits != ticks[i - 1].sample.limits;
+    };
+    putChanges(bytes, ticks, changes, [&](const DeviceSample& sample) { putLimits(bytes, sample.limits); });
 }
 
 void getLimitChanges(ByteReader& bytes, std::vector<RecordedTick>& ticks) {
-    uint32_t changes = 0, next = 0;
-    bytes.get(changes);
-    DeviceLimits limits;
-    const auto upTo = [&](uint32_t end) {
-        for (; next < end; ++next)
-            ticks[next].sample.limits = limits;
-    };
-    for (uint32_t change = 0; change < changes; ++change) {
-        uint32_t at = 0;
-        bytes.get(at);
-        if (at < next || at >= ticks.size())
-            throw Error("", "", "has the limits of a tick that it does not have", "");
-        upTo(at);
-        const std::optional<DeviceLimits> changed = getLimits(bytes);
-        if (!changed)
-            throw Error("", "tick " + std::to_string(ticks[at].tick), "has no limits", "");
-        limits = *changed;
-    }
-    upTo(static_cast<uint32_t>(ticks.size()));
+    getChanges(bytes, ticks, &DeviceSample::limits, "limits", [&](const std::string& tick) {
+        const std::optional<DeviceLimits> limits = getLimits(bytes);
+        if (!limits)
+            throw Error("", tick, "has no limits", "");
+        return *limits;
+    });
 }
 
 /// After the limits: the hash of each tick's poses, or none where nothing moves.

@@ -1,6 +1,7 @@
 #include "tests/support/recorded_servo.h"
 
 #include "engine/load/scene_loader.h"
+#include "haptics/tick/stepped_hand.h"
 
 #include <gtest/gtest.h>
 
@@ -87,10 +88,7 @@ glm::dvec3 overTheDoughnut(double time) {
 }
 
 DeviceSample at(const glm::dvec3& position) {
-    DeviceSample sample;
-    sample.position = position;
-    sample.valid = true;
-    return sample;
+    return sampleAt(position);
 }
 
 RecordedServo::RecordedServo(std::vector<Hand> hands, const ServoConfig& config)

@@ -1,5 +1,7 @@
 #include "tests/support/touch_bench.h"
 
+#include "haptics/tick/stepped_hand.h"
+
 #include <cmath>
 
 namespace touchstone::test {
@@ -59,9 +61,7 @@ TouchBench::TouchBench(const Scene& from, const HapticSettings& chosen, Fit fit)
     : settings(chosen), scene(compileHapticScene(from, workspaceFromScene(from, fit))), state(1) {}
 
 const HapticOutput& TouchBench::step(const glm::dvec3& hip) {
-    DeviceSample sample;
-    sample.position = hip;
-    sample.valid = true;
+    DeviceSample sample = sampleAt(hip);
     sample.mapping = mapping;
     sample.limits = limits;
     TickInput input;

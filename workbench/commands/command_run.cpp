@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "engine/time/seconds_now.h"
 #include "renderer/draw_quality.h"
 #include "renderer/png.h"
 #include "renderer/scene_renderer.h"
@@ -38,10 +39,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kFrameRate = 30.0;
-
-double secondsOf(Clock::time_point time) {
-    return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
 
 /// A view from slightly above and to the right, to show depth.
 View frontView(const Model& model, const glm::ivec2& size) {
@@ -132,7 +129,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
     Overlay overlay;
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
-        session.pump(secondsOf(begin));
+        session.pump(secondsNow());
         const TickRecord& tick = session.tick();
         overlay.clear();
         drawTick(tick, options.settings, lookOf(tick, options.settings, model), overlay);
@@ -300,7 +297,7 @@ int runCommand(const RunOptions& options) {
     session.stop();
     const std::optional<double> stolen = stolenTime.seconds();
     const RealtimeViolations violations = realtime::violations();
-    session.pump(secondsOf(Clock::now()));
+    session.pump(secondsNow());
     controller.finish();
 
     if (!options.screenshot.empty())

@@ -1,19 +1,11 @@
 #include "workbench/touch/live_touch.h"
 
+#include "engine/time/seconds_now.h"
 #include "session/device_port.h"
 
-#include <chrono>
 #include <utility>
 
 namespace touchstone {
-
-namespace {
-
-double secondsNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-} // namespace
 
 LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell)
     : session_({portOf(sound_.hand())}, {.rateHz = options.rateHz, .stageTimes = true}),

@@ -37,8 +37,7 @@ class LiveTouch {
 
     [[nodiscard]] bool hasModel() const { return shown_.model.scene != nullptr; }
     [[nodiscard]] const LoadedModel& shown() const { return shown_; } ///< empty before the first model
-    /// Touches another model. `generated`: a procedural scene of ours,
-    /// which can be regenerated anywhere.
+    /// Touches another model. `generated`: a procedural scene of ours, which can be regenerated anywhere.
     void show(LoadedModel loaded, bool generated);
     /// Continues with other materials of the same model; contact is kept where possible.
     void change(const MadeMaterials& made);

@@ -40,6 +40,15 @@ std::vector<TickRecord> recordsOf(const RecordedServo& rig, uint32_t hand) {
     return own;
 }
 
+/// Every stage of every tick is equal to the last bit.
+void expectSameBits(const std::vector<TickRecord>& records, const std::vector<TickRecord>& expected) {
+    ASSERT_EQ(records.size(), expected.size());
+    for (size_t i = 0; i < records.size(); ++i)
+        ASSERT_EQ(stageHashes(records[i].trace, records[i].output),
+                  stageHashes(expected[i].trace, expected[i].output))
+            << "hand " << records[i].hand << ", tick " << i;
+}
+
 /// Steps the servo without a clock.
 void step(RecordedServo& rig, uint64_t ticks) {
     enterFloatMode();
@@ -68,15 +77,10 @@ TEST_F(HandsTest, OfTwoOnAMovingObjectEachIsWhatItIsAlone) {
         alone.offer(scene);
         step(alone, 4000);
         const std::vector<TickRecord> records = recordsOf(both, hand);
-        ASSERT_EQ(records.size(), alone.records.size());
-        size_t contacts = 0;
-        for (size_t i = 0; i < records.size(); ++i) {
-            ASSERT_EQ(stageHashes(records[i].trace, records[i].output),
-                      stageHashes(alone.records[i].trace, alone.records[i].output))
-                << "hand " << hand << ", tick " << i;
-            contacts += records[i].output.contacts > 0 ? 1 : 0;
-        }
-        EXPECT_GT(contacts, 200u) << "hand " << hand;
+        expectSameBits(records, alone.records);
+        const auto contacts = std::ranges::count_if(
+            records, [](const TickRecord& record) { return record.output.contacts > 0; });
+        EXPECT_GT(contacts, 200) << "hand " << hand;
     }
     both.expectWithinLimits();
     double strongest[2] = {0.0, 0.0};
@@ -127,10 +131,7 @@ TEST_F(HandsTest, AHandThatVanishesChangesNothingForTheOther) {
         rig->offer(scene);
         step(*rig, 2000);
     }
-    for (size_t i = 0; i < alone.records.size(); ++i)
-        ASSERT_EQ(stageHashes(both.records[i].trace, both.records[i].output),
-                  stageHashes(alone.records[i].trace, alone.records[i].output))
-            << i;
+    expectSameBits(both.records, alone.records);
     const std::vector<TickRecord> lost = recordsOf(both, 1);
     EXPECT_GT(glm::length(lost[469].output.command.force()), 0.1);
     double other = 0.0;
