@@ -9,6 +9,7 @@
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -99,11 +100,20 @@ void walk(PanelState& state) {
         io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
+/// ImGui closes popups itself only while the keyboard walks through the panels, and a text field's first
+/// Escape restores its text.
+void closeTopPopup(const PanelState& state) {
+    if (!state.walking && !ImGui::GetIO().WantTextInput)
+        ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
+}
+
 /// Escape closes the topmost item.
 void escape(const PanelInput& input, PanelState& state) {
-    if (!keyPressed(GLFW_KEY_ESCAPE) || ImGui::IsPopupOpen("", kAnyPopup))
+    if (!keyPressed(GLFW_KEY_ESCAPE))
         return;
-    if (state.help)
+    if (ImGui::IsPopupOpen("", kAnyPopup))
+        closeTopPopup(state);
+    else if (state.help)
         state.help = false;
     else if (state.leaving)
         state.leave = PanelState::Leave::Stay;

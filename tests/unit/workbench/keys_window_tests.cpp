@@ -45,9 +45,8 @@ class KeysTest : public WindowTest {
         EXPECT_EQ(s["force_presses"], presses + 1) << where;
     }
     void giveBack() {
-        // A menu that is still open takes the first click.
-        for (int tries = 0; tries < 2 && forceOff(later()); ++tries)
-            display_.click(middleOf("forceEnabled"));
+        later();
+        display_.click(middleOf("forceEnabled"));
         until("the force to be back", forceOn);
     }
 };
@@ -175,6 +174,80 @@ TEST_F(KeysTest, TheForceKeyWorksWhateverHasTheFocus) {
     until("the problem", [](const Json& s) { return s["problem"] != ""; });
     expectSpaceTakesTheForceAway("a problem's card");
     giveBack();
+    expectCleanEnd();
+}
+
+TEST_F(KeysTest, TheForceKeyWorksInTheMaterialEditor) {
+    const std::filesystem::path model = scratch_ / "doughnut.glb";
+    std::filesystem::copy_file(kDoughnut, model);
+    open(model.string(), {"--hand", "simulated"});
+    display_.key("e");
+    until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
+    slide("edit.staticFriction", 0.8);
+    until("an edit", [](const Json& s) { return s["materials"]["edited"].get<bool>(); });
+    for (const char* number : {"edit.staticFriction", "edit.stiffness"}) {
+        display_.xdotool({"keydown", "ctrl"});
+        display_.click(middleOf(number));
+        display_.xdotool({"keyup", "ctrl"});
+        until("a number to be typed", [](const Json& s) { return s["typing"] == true; });
+        expectSpaceTakesTheForceAway(std::string("the editor's number ") + number);
+        display_.key("Escape");
+        giveBack();
+    }
+    for (const char* combo : {"edit.material", "edit.preset"}) {
+        display_.click(middleOf(combo));
+        later();
+        expectSpaceTakesTheForceAway(std::string("the editor's choice ") + combo);
+        display_.key("Escape");
+        giveBack();
+    }
+    display_.click(middleOf("saveAs"));
+    until("the name to be asked for", [](const Json& s) { return s["widgets"].contains("target"); });
+    later(); // the buttons have made room for it
+    display_.click(middleOf("target"));
+    until("a name to be typed", [](const Json& s) { return s["typing"] == true; });
+    expectSpaceTakesTheForceAway("the name of the file to save");
+    display_.key("Escape");
+    giveBack();
+    display_.key("ctrl+q");
+    until("the question", [](const Json& s) { return s["leaving"].get<bool>(); });
+    expectSpaceTakesTheForceAway("the question about unsaved materials");
+    display_.key("Escape");
+    until("to stay", [](const Json& s) { return !s["leaving"].get<bool>(); });
+    giveBack();
+    expectCleanEnd();
+}
+
+/// While a recording is looked at the force is off; Space then decides that it stays off with the live hand.
+TEST_F(KeysTest, TheForceKeyWorksWhileARecordingIsLookedAt) {
+    open(kDoughnut, {"--hand", "simulated"});
+    until("the hand to touch", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
+    display_.key("F9");
+    until("a second", [](const Json& s) { return s["recording"]["seconds"] > 1.0; });
+    display_.key("F9");
+    const std::string file =
+        until("the end", [](const Json& s) { return s["recording"]["on"] == false; })["recording"]["file"];
+    const std::string row = "recording:" + std::filesystem::path(file).filename().string();
+    const auto look = [&] {
+        display_.click(middleOf("recorded"));
+        until("the list", [&](const Json& s) { return s["widgets"].contains(row); });
+        later();
+        display_.click(middleOf(row));
+        until("the recording", [](const Json& s) { return s["timeline"]["looking"] == true; });
+        later();
+    };
+    for (const char* focus : {"picture", "speed", "timeline"}) {
+        look();
+        display_.click(middleOf(focus));
+        later();
+        expectSpaceTakesTheForceAway(std::string("the recording's ") + focus);
+        for (int tries = 0; tries < 3 && later()["timeline"]["looking"] == true; ++tries)
+            display_.key("Escape");
+        const Json live = until(std::string("the live hand after ") + focus,
+                                [](const Json& s) { return s["timeline"]["looking"] == false; });
+        EXPECT_TRUE(forceOff(live)) << focus;
+        giveBack();
+    }
     expectCleanEnd();
 }
 
