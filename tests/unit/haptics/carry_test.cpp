@@ -151,6 +151,24 @@ TEST(MovingObstacles, AJumpOntoTheHandEndsTheTouchAndOneElsewhereDoesNot) {
     }
 }
 
+/// A proxy that sticks goes with its surface by all of the way, at least as far as its depth in a tick.
+TEST(MovingObstacles, AStickingProxyGoesAllTheWayWithItsSurface) {
+    constexpr double kDepth = 1e-3;
+    for (const double way : {1e-5, 3e-4, 8e-4}) {
+        Boxes bench({{0.0, -0.05, 0.0}});
+        bench.settings.staticFriction = bench.settings.dynamicFriction = 50.0;
+        bench.moveTo({0.01, 0.002, 0.003}, 0.1);
+        bench.moveTo({0.01, -kDepth, 0.003}, 0.1);
+        ASSERT_EQ(bench.output.friction, FrictionState::Sticking);
+        const glm::dvec3 proxy = bench.output.proxy;
+        for (int i = 1; i <= 5; ++i) {
+            bench.tick({0.01, -kDepth, 0.003}, 0, {way, 0.0, 0.0});
+            EXPECT_EQ(bench.output.friction, FrictionState::Sticking);
+            EXPECT_NEAR(bench.output.proxy.x, proxy.x + i * way, 1e-9) << way << " in tick " << i;
+        }
+    }
+}
+
 TEST(MovingObstacles, InASceneThatComesToRestNothingStaysPinched) {
     Boxes bench({{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}});
     const glm::dvec3 hip(0.003, 0.01, 0.0);

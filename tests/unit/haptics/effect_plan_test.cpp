@@ -317,6 +317,21 @@ TEST(EffectPlan, TheSecondSetOfCoordinatesIsHeldAndToldLikeTheFirst) {
               scene->materials[0].friction.map.memoryBytes() + sizeof(float) * vertices);
 }
 
+/// Any finite tangent of the file is a direction, whatever the scale; one of no length stays none.
+TEST(EffectPlan, TangentsAreUnitAtEveryScale) {
+    for (const double scale : {1e-3, 0.5, 1.0, 20.0}) {
+        Scene source = richPlane();
+        source.instances[0].sceneFromMesh = glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
+        source.meshes[0].tangents[0] = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+        const auto scene = compiled(source);
+        const std::vector<glm::vec4>& tangents = scene->objects[0]->tangents;
+        ASSERT_GT(tangents.size(), 1u);
+        EXPECT_EQ(glm::length(glm::vec3(tangents[0])), 0.0f);
+        for (size_t v = 1; v < tangents.size(); ++v)
+            EXPECT_NEAR(glm::length(glm::vec3(tangents[v])), 1.0f, 1e-6f) << scale;
+    }
+}
+
 TEST(EffectPlan, AnObjectTellsAllThatItHolds) {
     for (const Scene& source : {plainPlane(), richPlane()}) {
         const auto scene = compiled(source);

@@ -87,5 +87,19 @@ TEST(SubGoal, PlanesThatShareADirectionHoldItFree) {
     }
 }
 
+/// Two jaws that overlap leave no feasible point: the result says so and stays at the origin.
+TEST(SubGoal, JawsThatOverlapHaveNoSolution) {
+    for (const glm::dvec3& n : {glm::dvec3(1.0, 0.0, 0.0), glm::normalize(glm::dvec3(1.0, -2.0, 0.5))})
+        for (const double overlap : {1e-6, 0.1}) {
+            const std::vector<ConstraintPlane> planes{{n, overlap}, {-n, overlap}};
+            for (const glm::dvec3& goal : {glm::dvec3(0.0), glm::dvec3(-1.0, 0.3, 0.2), 2.0 * n}) {
+                const SubGoal found = nearestFeasible(goal, planes);
+                EXPECT_FALSE(found.exact) << overlap;
+                EXPECT_EQ(found.point, glm::dvec3(0.0));
+                EXPECT_EQ(found.count, 0);
+            }
+        }
+}
+
 } // namespace
 } // namespace touchstone

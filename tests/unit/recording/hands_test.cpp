@@ -368,5 +368,21 @@ TEST_F(HandsTest, AServoDrivesOneToFourHands) {
     EXPECT_EQ(ServoLoop(std::vector<DevicePort>(kMaxHands, port)).hands(), kMaxHands);
 }
 
+/// The hand is named only where there are several and it is a hand that differs.
+TEST(WhichHand, IsNamedWhereThereAreSeveral) {
+    ReplayReport report;
+    report.hands = 2;
+    EXPECT_EQ(whichHand(report), "") << "nothing differs";
+    report.first.emplace();
+    report.first->hand = 1;
+    report.first->stage = "force";
+    EXPECT_EQ(whichHand(report), "of hand 2, ");
+    report.first->stage = "poses";
+    EXPECT_EQ(whichHand(report), "") << "the poses are of all hands";
+    report.first->stage = "force";
+    report.hands = 1;
+    EXPECT_EQ(whichHand(report), "");
+}
+
 } // namespace
 } // namespace touchstone::test

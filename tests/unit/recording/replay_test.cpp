@@ -446,6 +446,36 @@ TEST_F(TamperedTest, AMissingBlockIsAGap) {
     EXPECT_EQ(report.lost, lost);
     EXPECT_LT(report.replayed, report.ticks);
 }
+/// A scene that comes without a checkpoint: the state that the hand had in it is unknown until the next one.
+TEST_F(TamperedTest, AnotherSceneWithoutAStateIsNotReplayed) {
+    each<RecordedScene>([](RecordedScene& scene) { scene.number = 1; });
+    RecordedScene second;
+    each<RecordedScene>([&](RecordedScene& scene) { second = scene; });
+    second.number = 2;
+    std::vector<RecordedItem> kept;
+    size_t checkpoints = 0, unknown = 0;
+    for (const RecordedItem& item : items_) {
+        if (std::holds_alternative<TouchCheckpoint>(item) && ++checkpoints == 2) {
+            kept.emplace_back(second);
+            continue; // the state with which the second scene begins
+        }
+        kept.push_back(item);
+        if (auto* checkpoint = std::get_if<TouchCheckpoint>(&kept.back()); checkpoint && checkpoints > 2)
+            checkpoint->scene = 2;
+        if (auto* block = std::get_if<RecordedTicks>(&kept.back()); block && checkpoints >= 2) {
+            for (RecordedTick& tick : block->ticks)
+                tick.scene = 2;
+            unknown += checkpoints == 2 ? block->ticks.size() : 0;
+        }
+    }
+    ASSERT_GE(checkpoints, 2u);
+    ASSERT_GT(unknown, 0u);
+    items_ = kept;
+    scenes_.push_back(scenes_[0]);
+    const ReplayReport report = replay();
+    EXPECT_FALSE(report.first.has_value()) << report.first->stage;
+    EXPECT_EQ(report.ticks - report.replayed, unknown);
+}
 TEST_F(TamperedTest, WhatContradictsItselfIsAnError) {
     const std::vector<RecordedItem> good = items_;
     std::erase_if(items_,
