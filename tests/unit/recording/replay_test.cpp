@@ -32,6 +32,7 @@ TEST_F(ReplayTest, ARunFromItsFirstTick) {
     rig.offer(touchedScene("doughnut.glb"));
     rig.ticks(6000);
     rig.finish();
+    EXPECT_FALSE(rig.recorder.recording()) << "the file is complete before the recorder goes";
     const ReplayReport report = replayOf(file_, rig.scenes);
     expectEqualReplay(report);
     EXPECT_EQ(report.ticks, rig.servo.counters().ticks) << "every one";
