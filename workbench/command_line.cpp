@@ -63,7 +63,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         app.add_subcommand("study", "What accuracy costs in time: errors and times of every way to touch");
     defineStudy(*studyApp, study);
     CLI::App* compareApp = studyApp->add_subcommand(
-        "compare", "Whether rungs that one run tells apart keep their order in another");
+        "compare", "Whether configurations that one run distinguishes keep their order in another");
     defineCompare(*compareApp, compare);
     CLI::App* mergeApp = studyApp->add_subcommand("merge", "One study of the parts that --shard made");
     defineMerge(*mergeApp, merge);

@@ -29,7 +29,7 @@ constexpr std::array kFields{
                              "single: contact=rays finds contacts and solves for the proxy in floats"),
     wordField<&S::forceShading>("forceShading", kShading,
                                 "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's "
-                                "direction, what each material says, or the two passes once a tick"),
+                                "direction, the choice of each material, or the two passes once a tick"),
     wordField<&S::texture>(
         "texture", kTexture,
         "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force, or "
@@ -61,7 +61,7 @@ constexpr std::array kFields{
                                      "scales heights and the normal map's tilt"),
     wordField<&S::textureFilter>("textureFilter", kFilter,
                                  "how maps are read between texels; mip: bilinear, coarser the faster the "
-                                 "stroke; the others let fine relief buzz"),
+                                 "stroke; the others let fine bump height buzz"),
     wordField<&S::textureGradient>(
         "textureGradient", kGradient,
         "slope of height maps: differences over a texel, kept for each texel, or the "

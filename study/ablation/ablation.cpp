@@ -19,7 +19,7 @@ constexpr std::array kAblations{
              "contact=sweep iterationBudget=1000", Against::Shape},
     Ablation{"shading", "what smooth normals do to the force", kUntextured,
              "contact=sweep forceShading=twoPass iterationBudget=1000", Against::Smooth},
-    Ablation{"texture", "how relief becomes force", kBump, "contact=sweep texture=law", Against::Bump},
+    Ablation{"texture", "how bump height becomes force", kBump, "contact=sweep texture=law", Against::Bump},
     Ablation{"filter", "how maps are read between their texels", kBump,
              "contact=sweep texture=law textureFilter=bicubic textureGradient=central", Against::Bump},
     Ablation{"gradient", "where the slope of a height map comes from", kBump,
@@ -89,7 +89,7 @@ std::span<const Ablation> ablations() {
     return kAblations;
 }
 
-std::span<const ConfigurationLine> rungLines() {
+std::span<const ConfigurationLine> configurationLines() {
     return kConfigurations;
 }
 

@@ -45,7 +45,7 @@ struct Product {
 };
 
 [[nodiscard]] std::span<const Ablation> ablations();
-[[nodiscard]] std::span<const ConfigurationLine> rungLines();
+[[nodiscard]] std::span<const ConfigurationLine> configurationLines();
 [[nodiscard]] std::span<const Product> products();
 
 /// Applies "NAME=VALUE NAME=VALUE". Throws Error for an invalid setting.

@@ -57,7 +57,7 @@ struct Choice {
 
 std::vector<Choice> linesOf(std::string_view ablation) {
     std::vector<Choice> choices;
-    for (const ConfigurationLine& line : rungLines())
+    for (const ConfigurationLine& line : configurationLines())
         if (line.ablation == ablation)
             choices.push_back({std::string(line.name), std::string(line.settings), line.need});
     return choices;
@@ -179,9 +179,9 @@ std::vector<PlannedConfiguration> planAblation(const Ablation& ablation, const H
         leaveOut(rest.second + (rest.first > 1 ? " and " + std::to_string(rest.first - 1) + " more" : ""),
                  std::string("nothing there has ") + wordFor(need));
     if (same > 0)
-        leaveOut(std::to_string(same) + " rungs", "they would be felt like another one");
+        leaveOut(std::to_string(same) + " configurations", "each feels the same as another one");
     if (configurations.size() == 1 && linesOf(ablation.name).size() > 1) {
-        leaveOut("the whole ladder", "one rung alone tells nothing");
+        leaveOut("the whole ablation", "a single configuration has nothing to be compared with");
         configurations.clear();
     }
     return configurations;

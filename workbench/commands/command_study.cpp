@@ -61,15 +61,15 @@ const ShapeKind* kindNamed(const std::string& name) {
 
 void printAblations() {
     for (const Ablation& ablation : ablations()) {
-        std::printf("%s: %s\n  under every rung: %s\n", std::string(ablation.name).c_str(),
+        std::printf("%s: %s\n  all configurations: %s\n", std::string(ablation.name).c_str(),
                     std::string(ablation.question).c_str(), std::string(ablation.base).c_str());
-        for (const ConfigurationLine& line : rungLines())
+        for (const ConfigurationLine& line : configurationLines())
             if (line.ablation == ablation.name)
                 std::printf("  %-18s %s\n", std::string(line.name).c_str(),
                             std::string(line.settings).c_str());
         for (const Product& product : products())
             if (product.ablation == ablation.name) {
-                std::printf("  every choice of one rung each of:");
+                std::printf("  all combinations of one configuration each of:");
                 for (const std::string_view axis : product.axes)
                     std::printf(" %s", std::string(axis).c_str());
                 std::printf("\n");
@@ -77,7 +77,7 @@ void printAblations() {
     }
     std::printf(
         "%s: how often the servo ticks: the stiffest stable wall, energy and processor at 0.5, 1, 2, 4 kHz; "
-        "no ladder of a scene, named like a shape\n",
+        "an ablation without a scene, named like a shape\n",
         kRate);
     std::printf("shapes:\n");
     for (const ShapeKind& kind : shapeKinds())
@@ -177,8 +177,8 @@ void printTable(const StudyResult& result) {
             scene = configuration.scene;
             std::printf("\n%s, %s\n  * on the Pareto front, = what the program does by itself\n",
                         scene.c_str(), configuration.path.c_str());
-            std::printf("  %-56s %9s %17s %8s %10s %9s %9s\n", "rung", "ns", "95 %", "stages", "force mN",
-                        "angle", "proxy um");
+            std::printf("  %-56s %9s %17s %8s %10s %9s %9s\n", "configuration", "ns", "95 %", "stages",
+                        "force mN", "angle", "proxy um");
         }
         const Errors& e = configuration.errors;
         std::printf("%c%c %-56s %9.0f %8.0f..%-7.0f %7.1f%% %10.4g %8.3f° %9.4g\n",
@@ -196,7 +196,8 @@ void printTable(const StudyResult& result) {
             furthest =
                 std::max(furthest, std::fabs(sum(configuration.stages) / configuration.stepMean.value - 1.0));
     if (furthest > 0.0)
-        std::printf("\nthe stages of every rung add up to its step within %.1f %%\n", 100.0 * furthest);
+        std::printf("\nthe stages of each configuration add up to its step within %.1f %%\n",
+                    100.0 * furthest);
     for (const RateResult& r : result.rates)
         std::printf(
             "servo at %4.0f Hz: stiffest stable wall %6.0f N/m, bound from theory %6.0f N/m; a stroke is "
@@ -224,7 +225,7 @@ void publish(const StudyResult& result, const std::filesystem::path& out, bool p
         std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
     for (const std::string& problem : drawn.problems)
         std::fprintf(stderr, "touchstone: problem: %s\n", problem.c_str());
-    std::printf("%s: %zu rungs, %zu problems, %zu plots\n", (out / "study.json").c_str(),
+    std::printf("%s: %zu configurations, %zu problems, %zu plots\n", (out / "study.json").c_str(),
                 result.configurations.size(), result.problems.size(), drawn.files.size());
 }
 
@@ -238,7 +239,7 @@ int studyCommand(const StudyCommandOptions& options) {
     for (const std::string& name : options.ablations)
         if (std::none_of(ablations().begin(), ablations().end(),
                          [&](const Ablation& ablation) { return ablation.name == name; }))
-            throw Error("study", "--ladder", "there is no ladder '" + name + "'",
+            throw Error("study", "--ladder", "there is no ablation '" + name + "'",
                         "see touchstone study --list");
     StudyOptions plan;
     plan.ablations = options.ablations;
@@ -288,9 +289,9 @@ int studyMerge(const StudyMergeOptions& options) {
 
 int studyCompare(const StudyCompareOptions& options) {
     const OrderKept kept = compareOrder(readStudyJson(options.first), readStudyJson(options.second));
-    std::printf("%zu rungs in both, %zu in one only; errors differ in %zu\n", kept.matched, kept.onlyInOne,
-                kept.errorsChanged);
-    std::printf("Pareto front: %zu rungs in both, %zu in one only\n", kept.frontBoth, kept.frontOne);
+    std::printf("%zu configurations in both, %zu in one only; errors differ in %zu\n", kept.matched,
+                kept.onlyInOne, kept.errorsChanged);
+    std::printf("Pareto front: %zu configurations in both, %zu in one only\n", kept.frontBoth, kept.frontOne);
     std::printf("%zu pairs; %zu apart in the first study, %zu of these in the other order in the second\n"
                 "%zu apart in both studies, %zu of these in the other order\n",
                 kept.pairs, kept.apart, kept.swapped.size(), kept.bothApart, kept.swappedApart);

@@ -12,23 +12,24 @@ namespace {
 constexpr std::array kPresets{
     MaterialPreset{"glass", 3000.0f, 0.0f, 0.15f, 0.12f, 0.0f, 0.0f,
                    "as hard as the device can; friction as derived for a mirror (roughness 0); polished: no "
-                   "relief"},
+                   "bump height"},
     MaterialPreset{
         "wood", 2000.0f, 0.0f, 0.45f, 0.3f, 0.0f, 1.0f,
         "textbooks give 0.25 to 0.5 and 0.2 to 0.3 for dry wood on wood; less hard than glass; the "
         "grain of a normal map is felt"},
-    MaterialPreset{"rubber", 500.0f, 2.0f, 1.0f, 0.8f, 0.0f, 1.0f,
-                   "textbooks give 1.0 and 0.8 for rubber on dry concrete; soft, and what it takes it keeps: "
-                   "damping"},
+    MaterialPreset{
+        "rubber", 500.0f, 2.0f, 1.0f, 0.8f, 0.0f, 1.0f,
+        "textbooks give 1.0 and 0.8 for rubber on dry concrete; soft, and keeps the energy that it takes: "
+        "damping"},
     MaterialPreset{"sandpaper", 1500.0f, 0.0f, 0.75f, 0.6f, 0.0f, 1.0f,
                    "friction as derived for roughness 1; grit on paper gives way a little"},
     MaterialPreset{
         "felt", 150.0f, 1.0f, 0.29f, 0.22f, 1.0f, 0.3f,
         "0.29 and 0.22 for wood on felt (The Physics Hypertextbook, Friction); the softest; fibres "
-        "drag with speed and hide most of the relief"},
+        "drag with speed and hide most of the bump height"},
     MaterialPreset{"ice", 2500.0f, 0.0f, 0.1f, 0.03f, 0.2f, 0.0f,
                    "textbooks give 0.1 and 0.03 for ice on ice; the film of water drags with speed; no "
-                   "relief"}};
+                   "bump height"}};
 
 std::optional<float> unless(float value, float unset) {
     return value == unset ? std::nullopt : std::optional(value);

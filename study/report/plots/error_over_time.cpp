@@ -28,7 +28,7 @@ constexpr std::array<Quantity, 3> kQuantities{{
 
 /// By Truth.
 constexpr std::array<std::string_view, 4> kAgainst{"the shape in closed form", "the mesh solved exactly",
-                                                   "its most exact rung", "Coulomb's law"};
+                                                   "its most exact configuration", "Coulomb's law"};
 
 struct Point {
     const ConfigurationResult* configuration;
@@ -255,10 +255,10 @@ class ErrorPlot {
                 }
             down(kKeyAblation - kKeyTitle);
         }
-        script +=
-            "set arrow from screen " + at(left - 3.0, y) + " to screen " + at(left + 14.0, y) +
-            " nohead lw 2 lc rgb '#666666' front\n" +
-            labelAt(paper_, left + 20.0, y, "Pareto front: no rung of the ladder beats these", "", 11.5);
+        script += "set arrow from screen " + at(left - 3.0, y) + " to screen " + at(left + 14.0, y) +
+                  " nohead lw 2 lc rgb '#666666' front\n" +
+                  labelAt(paper_, left + 20.0, y,
+                          "Pareto front: no configuration of the ablation beats these", "", 11.5);
         down(0.5 * kKeyEnd);
         script += "set label '' at screen " + at(left + 5.0, y) +
                   " point pt 6 ps 1.9 lw 1.6 lc rgb '#000000' front\n" +

@@ -34,7 +34,7 @@ std::vector<Figure> errorOverTessellation(const StudyResult& result) {
     plot.thresholdTitle = "just noticeable facet angle, [004 Table 2]";
     plot.xWords = "angle between adjacent facets under the path, degrees (mean)";
     plot.yWords = "error of the force's direction, degrees (99 % of ticks are nearer)";
-    plot.colourTitle = "rung";
+    plot.colourTitle = "configuration";
     plot.markTitle = "shape";
     plot.minY = 1e-5;
     plot.leastText = "below 0.00001°";

@@ -58,7 +58,7 @@ Figure ofShapes(const StudyResult& result) {
     plot.paper.subtitle = "The same shapes cut finer and finer. Flat curves are what one hopes for.";
     plot.xWords = kTriangles;
     plot.yWords = kTime;
-    plot.colourTitle = "rung";
+    plot.colourTitle = "configuration";
     plot.markTitle = "shape";
     std::map<std::pair<std::string, std::string>, size_t> at;
     for (const ConfigurationResult* r : configurations) {

@@ -24,7 +24,7 @@ TEST(Ablations, AreMadeOfSettingsThatThereAre) {
         EXPECT_NO_THROW(applySettings(settings, ablation.exact)) << ablation.name;
     }
     std::set<std::pair<std::string_view, std::string_view>> names;
-    for (const ConfigurationLine& line : rungLines()) {
+    for (const ConfigurationLine& line : configurationLines()) {
         HapticSettings settings;
         EXPECT_NO_THROW(applySettings(settings, line.settings)) << line.ablation << ", " << line.name;
         EXPECT_TRUE(isAblation(line.ablation)) << line.ablation;

@@ -35,14 +35,15 @@ StudyResult studyShape(std::string_view name, size_t triangles = 0) {
     return result;
 }
 
-const ConfigurationResult& rungOf(const StudyResult& study, std::string_view ablation,
-                                  std::string_view configuration) {
+const ConfigurationResult& resultOf(const StudyResult& study, std::string_view ablation,
+                                    std::string_view configuration) {
     const auto found = std::find_if(study.configurations.begin(), study.configurations.end(),
                                     [&](const ConfigurationResult& r) {
                                         return r.ablation == ablation && r.configuration == configuration;
                                     });
     if (found == study.configurations.end())
-        throw std::runtime_error("no rung " + std::string(ablation) + ", " + std::string(configuration));
+        throw std::runtime_error("no configuration " + std::string(ablation) + ", " +
+                                 std::string(configuration));
     return *found;
 }
 
@@ -71,34 +72,35 @@ TEST(Study, OnThePlaneEverythingThatMovesFreelyIsExact) {
     }
     // Ideal friction is 0.3 of 0.6 N; without any that is missing, and every law but the sawtooth comes near
     // it.
-    EXPECT_NEAR(rungOf(study, "friction", "off").errors.force.median, 0.18, 1e-3);
-    EXPECT_LT(rungOf(study, "friction", "elasto-plastic").errors.force.median, 0.02);
-    EXPECT_LT(rungOf(study, "friction", "Ho").errors.force.median, 0.02);
-    EXPECT_GT(rungOf(study, "friction", "Zilles").errors.force.p99, 0.03);
-    EXPECT_LT(rungOf(study, "friction", "elasto-plastic").errors.energyCreated, 1e-3);
-    EXPECT_GT(rungOf(study, "friction", "off").errors.energyCreated, 1e-3)
+    EXPECT_NEAR(resultOf(study, "friction", "off").errors.force.median, 0.18, 1e-3);
+    EXPECT_LT(resultOf(study, "friction", "elasto-plastic").errors.force.median, 0.02);
+    EXPECT_LT(resultOf(study, "friction", "Ho").errors.force.median, 0.02);
+    EXPECT_GT(resultOf(study, "friction", "Zilles").errors.force.p99, 0.03);
+    EXPECT_LT(resultOf(study, "friction", "elasto-plastic").errors.energyCreated, 1e-3);
+    EXPECT_GT(resultOf(study, "friction", "off").errors.energyCreated, 1e-3)
         << "what friction would have taken";
 }
 
 TEST(Study, OnTheSphereShadingBringsTheForceNearerTheTruth) {
     const StudyResult study = studyShape("sphere");
-    const Errors flat = rungOf(study, "shading", "off").errors,
-                 shaded = rungOf(study, "shading", "two-pass").errors;
+    const Errors flat = resultOf(study, "shading", "off").errors,
+                 shaded = resultOf(study, "shading", "two-pass").errors;
     EXPECT_GT(flat.forceDirection.median, 0.01);
     EXPECT_LT(shaded.forceDirection.p99, 0.1 * flat.forceDirection.p99);
     EXPECT_LT(shaded.largestJump, 0.5 * flat.largestJump + shaded.truthJump);
-    EXPECT_LT(rungOf(study, "shading", "direction").errors.forceDirection.p99, 0.1 * flat.forceDirection.p99);
-    EXPECT_TRUE(rungOf(study, "shading", "two-pass").isDefault);
-    EXPECT_FALSE(rungOf(study, "shading", "off").isDefault);
-    EXPECT_GT(rungOf(study, "contact", "sweep r = 0").facetAngle, 0.1);
-    EXPECT_LT(rungOf(study, "contact", "sweep r = 0").facetAngle, 0.5);
+    EXPECT_LT(resultOf(study, "shading", "direction").errors.forceDirection.p99,
+              0.1 * flat.forceDirection.p99);
+    EXPECT_TRUE(resultOf(study, "shading", "two-pass").isDefault);
+    EXPECT_FALSE(resultOf(study, "shading", "off").isDefault);
+    EXPECT_GT(resultOf(study, "contact", "sweep r = 0").facetAngle, 0.1);
+    EXPECT_LT(resultOf(study, "contact", "sweep r = 0").facetAngle, 0.5);
 }
 
 TEST(Study, AMoveATickLagsAndMoreDoNot) {
     const StudyResult study = studyShape("torus");
-    const double one = rungOf(study, "budget", "1 move").errors.position.p99;
-    const double two = rungOf(study, "budget", "2 moves").errors.position.p99;
-    const double all = rungOf(study, "budget", "64 moves").errors.position.p99;
+    const double one = resultOf(study, "budget", "1 move").errors.position.p99;
+    const double two = resultOf(study, "budget", "2 moves").errors.position.p99;
+    const double all = resultOf(study, "budget", "64 moves").errors.position.p99;
     EXPECT_GT(one, 1.5 * all);
     EXPECT_GE(two, 0.999 * all);
     EXPECT_LT(two, one);
@@ -106,10 +108,10 @@ TEST(Study, AMoveATickLagsAndMoreDoNot) {
 
 TEST(Study, AtTheRidgeTheRestIsWhereTheClosedFormSays) {
     const StudyResult study = studyShape("wedge");
-    EXPECT_LT(rungOf(study, "contact", "sweep r = 0").errors.position.max, 2e-7);
-    EXPECT_LT(rungOf(study, "contact", "sweep r = 0.5 mm").errors.position.max, 2e-7);
+    EXPECT_LT(resultOf(study, "contact", "sweep r = 0").errors.position.max, 2e-7);
+    EXPECT_LT(resultOf(study, "contact", "sweep r = 0.5 mm").errors.position.max, 2e-7);
     // Over the ridge the force turns by up to 60 degrees of itself.
-    EXPECT_GT(rungOf(study, "contact", "sweep r = 0").errors.truthJump, 0.3);
+    EXPECT_GT(resultOf(study, "contact", "sweep r = 0").errors.truthJump, 0.3);
 }
 
 TEST(Study, FinerMeshesAreNearerTheShape) {
@@ -162,34 +164,35 @@ TEST(Study, AFileIsComparedWithTheOracle) {
     const Subject subject = loadSubject(std::string(TOUCHSTONE_ASSETS) + "/prism_smooth.glb");
     EXPECT_EQ(subject.shape, "prism_smooth.glb");
     studySubject(subject, small(), study, quietly);
-    const ConfigurationResult& exact = rungOf(study, "contact", "sweep r = 0");
+    const ConfigurationResult& exact = resultOf(study, "contact", "sweep r = 0");
     EXPECT_EQ(exact.truth, Truth::Oracle);
     EXPECT_GT(exact.errors.compared, 200u);
     EXPECT_LT(exact.errors.position.p99, 1e-9);
-    const ConfigurationResult& shaded = rungOf(study, "shading", "two-pass");
+    const ConfigurationResult& shaded = resultOf(study, "shading", "two-pass");
     EXPECT_EQ(shaded.truth, Truth::Reference);
-    EXPECT_LT(shaded.errors.force.p99, 1e-9) << "the most exact rung is its own reference";
-    EXPECT_GT(rungOf(study, "shading", "off").errors.force.p99, 0.02);
+    EXPECT_LT(shaded.errors.force.p99, 1e-9) << "the most exact configuration is its own reference";
+    EXPECT_GT(resultOf(study, "shading", "off").errors.force.p99, 0.02);
 }
 
 TEST(Study, TextureIsComparedWithTheAblation) {
     StudyResult study;
     studySubject(loadSubject(std::string(TOUCHSTONE_ASSETS) + "/doughnut.glb"), small(), study, quietly);
-    EXPECT_EQ(rungOf(study, "texture", "law").truth, Truth::Reference);
-    EXPECT_GT(rungOf(study, "texture", "off").errors.force.p99, 0.01);
-    EXPECT_LT(rungOf(study, "contact", "sweep r = 0").errors.position.p99, 1e-9)
+    EXPECT_EQ(resultOf(study, "texture", "law").truth, Truth::Reference);
+    EXPECT_GT(resultOf(study, "texture", "off").errors.force.p99, 0.01);
+    EXPECT_LT(resultOf(study, "contact", "sweep r = 0").errors.position.p99, 1e-9)
         << "material and maps have no part in what is compared with the oracle";
 }
 
 /// Height maps mean a shape of their own: the law comes within the texels' bend of it.
 TEST(Study, ReliefIsComparedWithWhatItsMapMeans) {
     const StudyResult study = studyShape("relief");
-    const Errors law = rungOf(study, "texture", "law").errors, off = rungOf(study, "texture", "off").errors;
-    EXPECT_EQ(rungOf(study, "texture", "law").truth, Truth::Analytic);
+    const Errors law = resultOf(study, "texture", "law").errors,
+                 off = resultOf(study, "texture", "off").errors;
+    EXPECT_EQ(resultOf(study, "texture", "law").truth, Truth::Analytic);
     EXPECT_GT(off.force.median, 0.005);
     EXPECT_LT(law.force.median, 0.05 * off.force.median);
     EXPECT_LT(law.force.max, 0.05 * off.force.max + 1e-4);
-    EXPECT_GT(rungOf(study, "texture", "Minsky").errors.force.median, law.force.median);
+    EXPECT_GT(resultOf(study, "texture", "Minsky").errors.force.median, law.force.median);
 }
 
 TEST(Study, SaysWhatCannotBeStudied) {

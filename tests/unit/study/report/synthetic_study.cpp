@@ -52,8 +52,8 @@ StudyResult everyField() {
 
 namespace {
 
-ConfigurationResult rungOf(const std::string& scene, const std::string& ablation,
-                           const std::string& configuration, double ns, double error) {
+ConfigurationResult resultOf(const std::string& scene, const std::string& ablation,
+                             const std::string& configuration, double ns, double error) {
     ConfigurationResult r;
     r.scene = r.shape = scene;
     r.triangles = 64'800;
@@ -75,19 +75,19 @@ ConfigurationResult rungOf(const std::string& scene, const std::string& ablation
 void addScene(StudyResult& result, const std::string& scene) {
     for (const double error : {0.0, 1e-13, 2e-3})
         result.configurations.push_back(
-            rungOf(scene, "contact", "e " + std::to_string(error), 400.0 + 1e4 * error, error));
+            resultOf(scene, "contact", "e " + std::to_string(error), 400.0 + 1e4 * error, error));
     result.configurations.back().isDefault = true;
     result.configurations.push_back(
-        rungOf(scene, "friction `touch gotcha`", "Coulomb's \"law\" <&>", 700.0, 1e-2));
+        resultOf(scene, "friction `touch gotcha`", "Coulomb's \"law\" <&>", 700.0, 1e-2));
     for (int i = 0; i < 24; ++i)
-        result.configurations.push_back(rungOf(scene, "combination", "rung " + std::to_string(i),
-                                               300.0 + 37.0 * ((7 * i) % 24),
-                                               1e-5 * std::pow(1.7, (13 + 11 * i) % 24)));
+        result.configurations.push_back(resultOf(scene, "combination", "rung " + std::to_string(i),
+                                                 300.0 + 37.0 * ((7 * i) % 24),
+                                                 1e-5 * std::pow(1.7, (13 + 11 * i) % 24)));
     for (const size_t triangles : {1'024, 16'384, 262'144})
         for (const double share : {1.0, 0.03}) {
-            result.configurations.push_back(rungOf(scene + " " + std::to_string(triangles), "tessellation",
-                                                   share == 1.0 ? "flat" : "two-pass", 500.0,
-                                                   share / std::sqrt(triangles)));
+            result.configurations.push_back(resultOf(scene + " " + std::to_string(triangles), "tessellation",
+                                                     share == 1.0 ? "flat" : "two-pass", 500.0,
+                                                     share / std::sqrt(triangles)));
             result.configurations.back().shape = scene;
             result.configurations.back().triangles = triangles;
             result.configurations.back().facetAngle = 4.0 / std::sqrt(static_cast<double>(triangles));
