@@ -825,5 +825,39 @@ TEST(NeighbourhoodWatch, AfterAJumpUnderAHillItEndsWhereTheSweepDoes) {
     }
 }
 
+/// A T-junction that is closed by triangles without area, six in a row at its far end: the walk leaves each
+/// over the edge nearest to the place where it enters.
+TEST(NeighbourhoodWatch, WalksOverTrianglesWithoutArea) {
+    constexpr int kParts = 7;
+    constexpr float kHalf = 0.035f;
+    assets::Shape sheet;
+    for (int i = 0; i <= kParts; ++i)
+        sheet.positions.emplace_back(0.0f, 0.0f, kHalf * (2.0f * static_cast<float>(i) / kParts - 1.0f));
+    sheet.positions.emplace_back(-0.05f, 0.0f, 0.0f);
+    sheet.positions.emplace_back(0.05f, 0.0f, 0.0f);
+    constexpr uint32_t kLast = kParts, kLeft = kParts + 1, kRight = kParts + 2;
+    sheet.indices = {kLeft, kLast, 0};
+    for (uint32_t i = 0; i < kParts; ++i)
+        sheet.indices.insert(sheet.indices.end(), {kRight, i, i + 1});
+    for (uint32_t i = 0; i + 2 <= kLast; ++i)
+        sheet.indices.insert(sheet.indices.end(), {i, kLast, i + 1});
+    for (const double side : {1.0, -1.0})
+        for (const double z : {-0.030, -0.021, 0.001, 0.011, 0.0205, 0.0265}) {
+            TouchBench bench = watchBench(sceneOf(sheet));
+            bench.moveTo({-0.004, side * 0.004, z}, 0.2);
+            bench.moveTo({-0.004, -side * 0.001, z}, 0.1);
+            int lost = 0;
+            double off = 0.0;
+            const auto each = [&](const HapticOutput& out) {
+                lost += out.contacts == 0 ? 1 : 0;
+                off = std::max(off, glm::distance(out.proxy, {out.hip.x, 0.0, out.hip.z}));
+            };
+            bench.moveTo({0.004, -side * 0.001, z}, 0.1, each);
+            bench.moveTo({-0.004, -side * 0.001, z}, 0.1, each);
+            EXPECT_EQ(lost, 0) << z;
+            EXPECT_LT(off, 1e-8) << z;
+        }
+}
+
 } // namespace
 } // namespace touchstone::test

@@ -213,5 +213,27 @@ TEST(Texture, TheTangentsOfTheFileSayWhichWayANormalMapLeans) {
         }
 }
 
+/// A texel whose normal lies in the surface, or points into it, tilts as far as the steepest slope, 1 / 0.05,
+/// and never turns the force around.
+TEST(Texture, ANormalMapThatPointsIntoTheSurfaceTiltsByTheSteepestSlope) {
+    for (const float blue : {127.0f / 255.0f, 0.25f, 0.0f}) { // z = -0.004, -0.5, -1
+        Scene scene;
+        scene.materials.emplace_back().normalTexture = texture(0);
+        scene.images.push_back(
+            image("steep", 4, 4, 3, [&](double, double) { return glm::vec4(1.0f, 0.5f, blue, 1.0f); }));
+        Mesh mesh = quadMesh(0.05, 2);
+        mesh.tangents.assign(mesh.positions.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+        place(scene, std::move(mesh), 0);
+        TouchBench bench(scene);
+        bench.settings.textureTiltLimit = glm::half_pi<double>();
+        bench.settings.textureFilter = TextureFilter::Bilinear;
+        bench.settings.textureStrength = 0.5;
+        bench.step({0.003, 0.004, 0.001});
+        const glm::dvec3 normal = bench.step({0.003, 0.004, -0.001}).normal;
+        EXPECT_NEAR(normal.x / normal.z, 1.0 / 0.05, 1e-2) << blue;
+        EXPECT_GT(normal.z, 0.0) << blue;
+    }
+}
+
 } // namespace
 } // namespace touchstone::test

@@ -107,6 +107,40 @@ TEST_P(Checkpoints, WhoGoesOnFromOneMeetsTheSameBits) {
     EXPECT_GT(contacts, 500);
 }
 
+/// Nothing of a later state survives in an earlier one that is restored over it, no cache either.
+TEST_P(Checkpoints, AnEarlierStateIsRestoredOverALaterOne) {
+    const TouchedScene scene = touchedScene(GetParam().file);
+    const HapticSettings settings = settingsOf(GetParam());
+    if (settings.contact == ContactMethod::Neighbourhood)
+        scene.haptic->buildNeighbourhoods();
+    constexpr int kTicks = 400;
+    for (unsigned seed = 10; seed < 14; ++seed) {
+        RestlessHand hand(seed);
+        Touch touch{scene, settings};
+        struct Lived {
+            TouchCheckpoint checkpoint;
+            double previousTime;
+            DeviceSample sample;
+            StageHashes hashes;
+        };
+        std::vector<Lived> lived(kTicks);
+        for (int tick = 0; tick < kTicks; ++tick) {
+            Lived& now = lived[static_cast<size_t>(tick)];
+            takeCheckpoint(touch.device, now.checkpoint);
+            now.previousTime = touch.previousTime;
+            now.sample = hand.next();
+            now.hashes = touch.step(now.sample, 1e-3 * tick, false);
+        }
+        for (int tick = kTicks - 1; tick > 0; tick -= 7) {
+            const Lived& then = lived[static_cast<size_t>(tick)];
+            ASSERT_TRUE(restoreCheckpoint(then.checkpoint.state(), scene.haptic.get(), touch.device));
+            touch.world.forget();
+            touch.world.advance(then.previousTime);
+            ASSERT_EQ(touch.step(then.sample, 1e-3 * tick, false), then.hashes) << seed << ", tick " << tick;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Checkpoints,
     testing::Values(
