@@ -151,6 +151,28 @@ TEST(MovingObstacles, AJumpOntoTheHandEndsTheTouchAndOneElsewhereDoesNot) {
     }
 }
 
+/// Jaws that close in one tick on a proxy whose reference object is out of reach: it stays with one of them.
+TEST(MovingObstacles, BetweenJawsThatAreNotItsReferenceItStaysWithOne) {
+    Boxes bench({{0.0, -6.0, 0.0}, {-10.0, 0.0, 0.0}, {10.0, 0.0, 0.0}});
+    const glm::dvec3 hip(0.0, 0.01, 0.0);
+    const auto close = [&](double way) {
+        for (ObjectMotion& motion : bench.motions)
+            motion.before = motion.workspaceFromObject;
+        bench.motions[1].workspaceFromObject.translation.x += way;
+        bench.motions[2].workspaceFromObject.translation.x -= way;
+        bench.step(hip);
+    };
+    bench.step(hip);
+    close(10.0 - 0.05 - 0.01); // 10 mm to either side of the hand
+    ASSERT_EQ(bench.state[0].reference, 0);
+    ASSERT_EQ(bench.output.contacts, 0u);
+    close(0.011);
+    EXPECT_TRUE(has(bench.output.flags, TickFlag::Jammed));
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::CandidatesFull));
+    EXPECT_EQ(bench.state[0].jammed.count, 1u);
+    EXPECT_NEAR(std::abs(bench.output.proxy.x), 1e-3, 1e-6) << "on the face of the other jaw";
+}
+
 /// A proxy that sticks goes with its surface by all of the way, at least as far as its depth in a tick.
 TEST(MovingObstacles, AStickingProxyGoesAllTheWayWithItsSurface) {
     constexpr double kDepth = 1e-3;

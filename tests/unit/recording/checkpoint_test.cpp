@@ -240,6 +240,17 @@ TEST(TouchCheckpoint, RefusesPinchedObjectsThatAreNone) {
     EXPECT_FALSE(taken(1, {0.0, 0.1, 0.0}));
     EXPECT_FALSE(taken(-1, {0.0, 0.1, 0.0}));
     EXPECT_FALSE(taken(0, {0.0, 1e16, 0.0}));
+    // As many as there is room for, and not one more.
+    DeviceState full;
+    while (full.jammed.add(0, {0.0, 0.1, 0.0})) {
+    }
+    ASSERT_EQ(full.jammed.count, JammedObjects::kMax);
+    TouchCheckpoint checkpoint;
+    takeCheckpoint(full, checkpoint);
+    EXPECT_TRUE(restoreCheckpoint(checkpoint.state(), scene.haptic.get(), full));
+    full.jammed.count = JammedObjects::kMax + 1;
+    takeCheckpoint(full, checkpoint);
+    EXPECT_FALSE(restoreCheckpoint(checkpoint.state(), scene.haptic.get(), full));
     EXPECT_FALSE(taken(0, {0.0, std::nan(""), 0.0}));
 }
 

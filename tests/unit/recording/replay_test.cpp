@@ -7,9 +7,11 @@
 #include "tests/support/recorded_servo.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <random>
 #include <thread>
 
@@ -42,6 +44,44 @@ TEST_F(ReplayTest, ARunFromItsFirstTick) {
     EXPECT_EQ(report.origin.rateHz, 4000.0);
     EXPECT_GT(rig.inContact(), 2000u);
     EXPECT_TRUE(rig.recorder.takeProblem().empty());
+}
+
+/// No file may grow beyond `bytes` during its lifetime, as on a disk that is full.
+class SmallDisk {
+  public:
+    explicit SmallDisk(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit small{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~SmallDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    SmallDisk(const SmallDisk&) = delete;
+    SmallDisk& operator=(const SmallDisk&) = delete;
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST_F(ReplayTest, ARecordingThatFailsEndsAndSaysSo) {
+    RecordedServo rig(doughnutHand);
+    rig.recorder.start(file_, "test");
+    rig.offer(touchedScene("doughnut.glb"));
+    {
+        const SmallDisk disk(100'000);
+        rig.ticks(3000);
+        rig.finish();
+    }
+    EXPECT_TRUE(rig.recorder.failed());
+    EXPECT_FALSE(rig.recorder.recording());
+    EXPECT_NE(rig.recorder.takeProblem(), "");
+    EXPECT_EQ(rig.recorder.takeProblem(), "") << "once";
+    const ReplayReport report = replayOf(file_, rig.scenes); // what was written before is whole
+    EXPECT_FALSE(report.first.has_value());
+    EXPECT_GT(report.replayed, 100u);
 }
 
 TEST_F(ReplayTest, OfATickWhoseStagesWereTimed) {
