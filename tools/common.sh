@@ -46,3 +46,26 @@ count_tests() {
     sed -n '/<testsuite /,/>/p' "$1" | tr '\n' ' ' |
         sed -n 's/.*tests="\([0-9]*\)".*skipped="\([0-9]*\)".*/\1 tests, \2 skipped\n/p'
 }
+
+# figures_of_the_window <SCRIPT: runs a Python script that drives the real window on a virtual screen and saves parts
+# of it to docs/figures (tools/workbench_driver.py): Workbench(*where, SCENE, OPTION...).
+figures_of_the_window() {
+    local program work status=0
+    for program in import convert xdotool; do
+        command -v $program >/dev/null || stop "$program is missing" "apt-get install imagemagick xdotool"
+    done
+    build release touchstone
+    work=$(mktemp -d)
+    mkdir -p "$work/touchstone"
+    {
+        echo 'import sys, time'
+        echo 'sys.path.insert(0, "tools")'
+        echo 'from workbench_driver import Workbench, run'
+        echo 'where = sys.argv[1:4]'
+        cat
+    } >"$work/script.py"
+    XDG_STATE_HOME=$work XDG_CACHE_HOME=$work xvfb-run -a -s '-screen 0 1280x800x24' \
+        env PYTHONDONTWRITEBYTECODE=1 python3 "$work/script.py" "$PWD/build/release/bin/touchstone" "$work" docs/figures || status=$?
+    rm -rf "$work"
+    return "$status"
+}
