@@ -1,4 +1,7 @@
+#include "workbench/screen/ui_scale.h"
 #include "workbench/workbench_window.h"
+
+#include <cstdio>
 
 namespace touchstone {
 
@@ -30,7 +33,7 @@ DrawQuality qualityOn(const Gpu& gpu) {
 }
 
 WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
-    : memory_(readMemory(stateFolder() / kMemoryFile)),
+    : memory_(readMemory(stateFolder() / kMemoryFile, &memoryWarning_)),
       window_("Touchstone", firstSize(options.size, memory_.size)), screen_(window_, gpuOptions(options.gpu)),
       quality_(qualityOn(screen_.gpu())),
       touch_(options, [this](const std::string& text) { notice_ = text; }),
@@ -46,7 +49,11 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     state_.sound = memory_.sound;
     state_.sound.on = state_.sound.on || options.sound;
     state_.folds = memory_.folds;
+    state_.uiScale = options.uiScale > 0.0f ? options.uiScale : memory_.uiScale;
     state_.introduced = memory_.introduced;
+    for (const std::string& warning : {memoryWarning_, window_.sizeWarning()})
+        if (!warning.empty())
+            std::fprintf(stderr, "touchstone: warning: %s\n", warning.c_str());
     state_.simulatedHand = options.simulatedHand;
     state_.stroke = options.stroke;
     state_.workspace.zoom = options.zoom;
@@ -69,6 +76,7 @@ void WorkbenchWindow::frame() {
     const double start = secondsNow();
     pace_.begin(start);
     onScreen([this] {
+        followScale();
         takeModel();
         if (const auto wrong = environment_.update(screen_.renderer()))
             problem_ = *wrong;
@@ -160,9 +168,15 @@ void WorkbenchWindow::remember() {
     memory_.settings.forceEnabled = true;
     memory_.sound = state_.sound;
     memory_.folds = state_.folds;
+    memory_.uiScale = state_.uiScale;
     memory_.introduced = state_.introduced;
     memory_.size = glm::ivec2(glm::vec2(window_.size()) / window_.layoutScale()); // the requested size
     writeMemory(stateFolder() / kMemoryFile, memory_);
+}
+
+void WorkbenchWindow::followScale() {
+    scale_ = fittingScale(state_.uiScale, window_.layoutScale(), glm::vec2(window_.size()));
+    screen_.restyle(scale_);
 }
 
 double WorkbenchWindow::aspect() const {

@@ -1,3 +1,4 @@
+#include "workbench/figures/quantity.h"
 #include "workbench/workbench_window.h"
 
 namespace touchstone {
@@ -7,6 +8,7 @@ void WorkbenchWindow::draw() {
     const PixelRect area = pictureArea();
     const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
     const PanelFolds folds = state_.folds;
+    const float uiScale = state_.uiScale;
     auto widgets = drawPanels(input, state_);
     widgets.merge(drawMaterials(input.scale));
     const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
@@ -21,7 +23,7 @@ void WorkbenchWindow::draw() {
                  state_.view);
     doWhatWasAsked(widgets);
     sendSettings();
-    if (!(state_.folds == folds))
+    if (!(state_.folds == folds) || state_.uiScale != uiScale)
         remember();
 
     if (hasModel()) {
@@ -38,7 +40,7 @@ void WorkbenchWindow::draw() {
                                     .sceneSize = input.sceneSize,
                                     .allowedError = quality_.allowedError(),
                                     .pixelsPerPoint = static_cast<float>(points),
-                                    .scale = window_.layoutScale(),
+                                    .scale = scale_,
                                     .software = screen_.gpu().isSoftware()};
     screen_.target().endFrame(&screen_.renderer(), picture_.draw(frame, screen_.renderer()));
     if (picture_.save(screen_.target(), frame))
@@ -60,8 +62,8 @@ std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
         if (object >= 0 && static_cast<size_t>(object) < objects.size())
             input.probed = objects[static_cast<size_t>(object)]->material;
     }
-    Widgets widgets(scale);
-    const PictureRect picture = pictureRect(state_.folds, {display.x, display.y}, scale);
+    Widgets widgets(scale, &state_.hovered);
+    const PictureRect picture = pictureRect(state_, {display.x, display.y}, scale);
     drawMaterialWindow(input, {picture.x, picture.y, picture.width, picture.height}, state_.editMaterials,
                        materials_, materialState_, widgets);
     return widgets.take();
@@ -74,7 +76,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
         input.scene = &scene;
         input.haptic = touch_.shown().model.haptic.get();
         input.modelName = std::filesystem::path(scene.path).filename().string();
-        input.modelFacts = std::to_string(scene.triangleCount()) + " triangles" +
+        input.modelFacts = figure(static_cast<double>(scene.triangleCount()), 1) + " triangles" +
                            (scene.touchable() ? "" : ": nothing to touch");
         for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
             for (const Warning& warning : *warnings)
@@ -125,7 +127,14 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.picture = picture_.message();
     input.sceneSize = sceneSize;
     input.gpuName = screen_.gpu().name();
-    input.scale = window_.layoutScale();
+    input.scale = scale_;
+    input.scaleFits = scale_ >= 0.999f * state_.uiScale * window_.layoutScale();
+    if (!input.scaleFits)
+        input.warnings.push_back("A UI scale of " + figure(100.0 * static_cast<double>(state_.uiScale)) +
+                                 " % does not fit this window.");
+    for (const std::string& warning : {memoryWarning_, window_.sizeWarning()})
+        if (!warning.empty())
+            input.warnings.push_back(warning);
     return input;
 }
 
@@ -174,7 +183,7 @@ PixelRect WorkbenchWindow::pixelsOf(const WidgetRect& rect) {
 PixelRect WorkbenchWindow::pictureArea() const {
     const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
     const glm::vec2 size(screen_.target().size());
-    const PictureRect rect = pictureRect(state_.folds, size, window_.layoutScale() * pixels);
+    const PictureRect rect = pictureRect(state_, size, scale_ * pixels);
     return {static_cast<int>(rect.x), static_cast<int>(rect.y), std::max(16, static_cast<int>(rect.width)),
             std::max(16, static_cast<int>(rect.height))};
 }

@@ -114,8 +114,11 @@ class WorkbenchWindow {
     /// The part of the framebuffer without bar and panels, pixels.
     [[nodiscard]] PixelRect pictureArea() const;
     [[nodiscard]] double aspect() const;
+    /// The scale that was asked for, as far as it fits the window.
+    void followScale();
     /// Adapts the resolution to the frame time and waits for the next frame, handling events meanwhile.
     void pace(double start);
+    std::string memoryWarning_;
     WindowMemory memory_;
     const std::vector<std::filesystem::path> samples_ = sampleScenes();
     const std::vector<std::string> sampleNotes_ = notesOf(samples_);
@@ -145,6 +148,7 @@ class WorkbenchWindow {
     bool left_ = false;          // the user has answered the prompt for unsaved materials
     FramePace pace_{1.0 / 30.0}; // s, between frames
     double longestFrame_ = 0.0;  // s, since a model was last opened
+    float scale_ = 1.0f;         // window coordinates per layout unit
 };
 
 } // namespace touchstone

@@ -5,6 +5,7 @@
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
 #include "workbench/options/shared_options.h"
+#include "workbench/screen/ui_scale.h"
 
 #include <algorithm>
 #include <charconv>
@@ -75,6 +76,15 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
     addZoom(app, options.zoom);
     addSize(app, options.size, "Size of the window [1280x800]");
+    app.add_option_function<std::string>(
+           "--ui-scale",
+           [&options](const std::string& text) {
+               if (const std::string problem = readUiScale(text, options.uiScale); !problem.empty())
+                   throw CLI::ValidationError("--ui-scale", problem);
+           },
+           "Size of type and widgets beside what the monitor asks for, 0.75 to 4 [the last run's, at first "
+           "1]")
+        ->type_name("FACTOR");
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
         ->type_name("FILE");

@@ -1,10 +1,12 @@
 #include "workbench/panels/budget_panel.h"
 
+#include "workbench/figures/quantity.h"
+#include "workbench/panels/scale.h"
+
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <string>
@@ -28,15 +30,6 @@ constexpr ImU32 kEmpty = IM_COL32(38, 42, 47, 255);
 constexpr ImU32 kLabel = IM_COL32(150, 157, 165, 255);
 constexpr ImU32 kText = IM_COL32(228, 231, 234, 255);
 
-/// The next of 1, 2, 5, 10 … µs not below `most`.
-double niceCeiling(double most) {
-    const double decade = std::pow(10.0, std::floor(std::log10(std::max(most, 1.0))));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (factor * decade >= most)
-            return factor * decade;
-    return 10.0 * decade;
-}
-
 double sum(const std::array<double, kStageCount>& stages) {
     return std::accumulate(stages.begin(), stages.end(), 0.0);
 }
@@ -46,7 +39,7 @@ class Strips {
     Strips(const ServoView& servo, const Widgets& widgets)
         : servo_(servo), widgets_(widgets), draw_(*ImGui::GetWindowDrawList()),
           corner_(ImGui::GetCursorScreenPos()), width_(ImGui::GetContentRegionAvail().x),
-          top_(niceCeiling(1.02 * std::max(sum(servo.stageP50Us), sum(servo.stageP99Us)))) {}
+          top_(niceCeiling(std::max(1.0, 1.02 * std::max(sum(servo.stageP50Us), sum(servo.stageP99Us))))) {}
 
     void draw() {
         const float line = ImGui::GetTextLineHeight(), bar = widgets_.units(15.0f);
@@ -54,10 +47,10 @@ class Strips {
         if (sum(servo_.stageP99Us) <= 0.0)
             std::snprintf(text, sizeof text, "in contact: touch something");
         else
-            std::snprintf(text, sizeof text, "half of all ticks within %.1f µs", servo_.contactP50Us);
+            std::snprintf(text, sizeof text, "median %.1f µs", servo_.contactP50Us);
         y_ = corner_.y;
         strip(text, servo_.stageP50Us, line, bar);
-        std::snprintf(text, sizeof text, "99 of 100 within %.1f µs", servo_.contactP99Us);
+        std::snprintf(text, sizeof text, "99th percentile (p99) %.1f µs", servo_.contactP99Us);
         strip(text, servo_.stageP99Us, line, bar);
         ticks(line);
         whole(line);
@@ -80,11 +73,10 @@ class Strips {
     /// The scale of both strips.
     void ticks(float line) {
         for (const double share : {0.0, 0.5, 1.0}) {
-            char text[32];
-            std::snprintf(text, sizeof text, share > 0.0 ? "%g µs" : "%g", share * top_);
-            const float width = ImGui::CalcTextSize(text).x;
+            const std::string text = figure(share * top_) + (share > 0.0 ? " µs" : "");
+            const float width = ImGui::CalcTextSize(text.c_str()).x;
             const float x = at(share * top_) - static_cast<float>(share) * width;
-            draw_.AddText(ImVec2(x, y_), kLabel, text);
+            draw_.AddText(ImVec2(x, y_), kLabel, text.c_str());
         }
         y_ += line + widgets_.units(5.0f);
     }
@@ -99,9 +91,8 @@ class Strips {
                             ImVec2(corner_.x + std::max(1.0f, width_ * share), y_ + height), kText, 2.0f);
         y_ += height + widgets_.units(2.0f);
         char text[96];
-        std::snprintf(text, sizeof text, "%.1f %% of the tick's %.0f µs", 100.0 * static_cast<double>(share),
-                      period);
-        draw_.AddText(ImVec2(corner_.x, y_), kLabel, text);
+        std::snprintf(text, sizeof text, "p99 is %.1f %% of the tick's ", 100.0 * static_cast<double>(share));
+        draw_.AddText(ImVec2(corner_.x, y_), kLabel, (text + quantity(1e-6 * period, "s")).c_str());
         y_ += line;
     }
 
@@ -118,29 +109,36 @@ class Strips {
     float y_ = 0.0f;
 };
 
-/// Swatch, name, p50 and p99 of each stage, in two columns.
+/// Swatch and name of each stage, its median and its 99th percentile, under heads.
 void drawLegend(const ServoView& servo, Widgets& widgets) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float column = 0.5f * ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight(),
-                side = widgets.units(9.0f), pitch = line + widgets.units(3.0f);
-    constexpr size_t kRows = kStageCount / 2;
+    const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight(),
+                side = widgets.units(9.0f), pitch = line + widgets.units(2.0f);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const auto rightAt = [&](float part, float y, ImU32 color, const std::string& text) {
+        draw.AddText(ImVec2(corner.x + part * width - ImGui::CalcTextSize(text.c_str()).x, y), color,
+                     text.c_str());
+    };
+    constexpr float kMedian = 0.68f, kP99 = 1.0f; // right edges of the columns
+    draw.AddText(corner, kLabel, "stage");
+    rightAt(kMedian, corner.y, kLabel, "median, µs");
+    rightAt(kP99, corner.y, kLabel, "p99, µs");
     for (size_t i = 0; i < kStageCount; ++i) {
-        const ImVec2 at(corner.x + static_cast<float>(i / kRows) * column,
-                        corner.y + static_cast<float>(i % kRows) * pitch);
+        const ImVec2 at(corner.x, corner.y + static_cast<float>(i + 1) * pitch);
         const float low = 0.5f * (line - side);
         draw.AddRectFilled(ImVec2(at.x, at.y + low), ImVec2(at.x + side, at.y + low + side), kColors[i],
                            2.0f);
         draw.AddText(ImVec2(at.x + widgets.units(14.0f), at.y), kText, kStageNames[i].data());
-        char text[32];
-        std::snprintf(text, sizeof text, "%.1f  %.1f", servo.stageP50Us[i], servo.stageP99Us[i]);
-        draw.AddText(ImVec2(at.x + column - widgets.units(10.0f) - ImGui::CalcTextSize(text).x, at.y), kLabel,
-                     text);
+        const auto tenths = [](double us) {
+            char text[32];
+            std::snprintf(text, sizeof text, "%.1f", us);
+            return std::string(text);
+        };
+        rightAt(kMedian, at.y, kText, tenths(servo.stageP50Us[i]));
+        rightAt(kP99, at.y, kText, tenths(servo.stageP99Us[i]));
     }
-    ImGui::Dummy(ImVec2(2.0f * column, static_cast<float>(kRows) * pitch));
+    ImGui::Dummy(ImVec2(width, static_cast<float>(kStageCount + 1) * pitch));
     widgets.mark("budgetLegend");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("µs of each stage: median and 99th percentile of the last 4000 ticks in contact");
 }
 
 } // namespace

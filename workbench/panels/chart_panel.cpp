@@ -168,25 +168,29 @@ class Charts {
 
 void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const bool paused = state.stopped.has_value();
+    const float fold = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x; // of the panel's arrow
+    widgets.beside(widgets.lampWidth("Paused"), fold);
     if (widgets.lampButton("pause", paused ? "Paused" : "Pause", paused, kAmber))
         state.stopped = paused ? std::nullopt : std::optional(*input.forces);
-    ImGui::SameLine();
-    if (ImGui::Button("Save CSV"))
+    widgets.beside(Widgets::buttonWidth("Save CSV"), fold);
+    if (widgets.button("saveCsv", "Save CSV"))
         state.chartWanted = ChartFile::Csv;
-    widgets.mark("saveCsv");
-    ImGui::SameLine();
-    if (ImGui::Button("Save PNG"))
+    widgets.beside(Widgets::buttonWidth("Save PNG"), fold);
+    if (widgets.button("savePng", "Save PNG"))
         state.chartWanted = ChartFile::Picture;
-    widgets.mark("savePng");
-    if (input.recording || !input.recordingFile.empty()) {
-        ImGui::SameLine();
-        ImGui::AlignTextToFramePadding();
-    }
+    char text[256] = "";
     if (input.recording)
-        ImGui::TextColored(ImColor(kRecorded), "recording: %.1f s", input.recordedSeconds);
+        std::snprintf(text, sizeof text, "recording: %.1f s", input.recordedSeconds);
     else if (!input.recordingFile.empty())
-        ImGui::TextDisabled("recorded %.1f s in %s", input.recordedSeconds,
-                            std::filesystem::path(input.recordingFile).filename().c_str());
+        std::snprintf(text, sizeof text, "recorded %.1f s in %s", input.recordedSeconds,
+                      std::filesystem::path(input.recordingFile).filename().c_str());
+    if (*text != '\0') {
+        widgets.beside(ImGui::CalcTextSize(text).x, fold);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextColored(input.recording ? ImColor(kRecorded)
+                                           : ImColor(ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)),
+                           "%s", text);
+    }
     Charts(state.stopped ? *state.stopped : *input.forces, widgets).draw();
 }
 

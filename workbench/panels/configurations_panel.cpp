@@ -1,7 +1,9 @@
+#include "workbench/figures/quantity.h"
 #include "workbench/panels/panels.h"
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -36,21 +38,22 @@ void moves(HapticSettings& settings, Widgets& widgets) {
     ImGui::PopItemWidth();
 }
 
+/// Largest typed values: those of the settings, N/m and mm.
+constexpr double kMaxStiffness = 1e5, kMaxRadius = 50.0;
+
 void sliders(HapticSettings& settings, Widgets& widgets) {
     ImGui::PushItemWidth(-1.0f);
     auto stiffness = static_cast<float>(settings.stiffness);
-    const char* shown = stiffness <= 0.0f ? "stiffness: the material's" : "stiffness %.0f N/m";
-    if (ImGui::SliderFloat("##stiffness", &stiffness, 0.0f, 3000.0f, shown))
-        settings.stiffness = static_cast<double>(stiffness);
-    widgets.mark("stiffness");
+    if (widgets.slider("stiffness", "stiffness", stiffness, {.low = 0.0f, .high = 3000.0f},
+                       stiffness <= 0.0f ? "the material's" : quantity(settings.stiffness, "N/m")))
+        settings.stiffness = std::clamp(static_cast<double>(stiffness), 0.0, kMaxStiffness);
     const bool point = settings.contact != ContactMethod::Sweep;
     if (point)
         ImGui::BeginDisabled();
-    auto radius = static_cast<float>(1e3 * settings.proxyRadius);
-    if (ImGui::SliderFloat("##proxyRadius", &radius, 0.0f, 5.0f,
-                           point ? "proxy radius: a point" : "proxy radius %.2f mm"))
-        settings.proxyRadius = 1e-3 * static_cast<double>(radius);
-    widgets.mark("proxyRadius");
+    auto radius = static_cast<float>(1e3 * settings.proxyRadius); // mm: what is typed
+    if (widgets.slider("proxyRadius", "proxy radius", radius, {.low = 0.0f, .high = 5.0f},
+                       point ? "a point" : quantity(settings.proxyRadius, "m")))
+        settings.proxyRadius = 1e-3 * std::clamp(static_cast<double>(radius), 0.0, kMaxRadius);
     if (point)
         ImGui::EndDisabled();
     ImGui::PopItemWidth();

@@ -169,14 +169,12 @@ void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& p
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, place.height - 2.0f * margin));
     if (beginCardWindow("gallery", widgets, kAnsweredCard)) {
         ImGui::TextUnformatted("What would you like to touch?");
-        ImGui::SameLine();
-        ImGui::TextDisabled(
-            "Arrow keys and Enter, or a click; Escape goes back. A file may be dropped here, too.");
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("x").x -
-                        2.0f * ImGui::GetStyle().FramePadding.x);
-        if (ImGui::Button("x"))
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - Widgets::buttonWidth("x"));
+        if (widgets.button("galleryClose", "x"))
             state.gallery = false;
-        widgets.mark("galleryClose");
+        widgets.wrapped(
+            "Arrow keys and Enter, or a click; Escape goes back. A file may be dropped here, too.",
+            ImGui::GetColorU32(ImGuiCol_TextDisabled));
         if (grid.count > 0) {
             const size_t before = state.galleryAt;
             moveChoice(grid, state);

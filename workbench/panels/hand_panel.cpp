@@ -1,3 +1,4 @@
+#include "workbench/figures/quantity.h"
 #include "workbench/panels/panels.h"
 
 #include <imgui.h>
@@ -25,9 +26,11 @@ void devices(const PanelInput& input, PanelState& state, Widgets& widgets) {
             shown = offer.name.c_str();
     ImGui::PushItemWidth(-1.0f);
     if (ImGui::BeginCombo("##device", shown)) {
-        for (const DeviceOffer& offer : input.devices)
+        for (const DeviceOffer& offer : input.devices) {
             if (ImGui::Selectable((offer.name + "  " + offer.choice).c_str(), offer.choice == state.device))
                 state.device = offer.choice;
+            widgets.mark(("device:" + offer.choice).c_str());
+        }
         ImGui::EndCombo();
     }
     widgets.mark("device");
@@ -43,32 +46,33 @@ void strokes(const PanelInput& input, PanelState& state, Widgets& widgets) {
         for (const StrokeInfo& info : strokeInfos()) {
             if (ImGui::Selectable(std::string(info.name).c_str(), info.name == stroke.name))
                 stroke = {.name = std::string(info.name)};
-            if (ImGui::IsItemHovered())
-                ImGui::SetTooltip("%s", std::string(info.meaning).c_str());
+            widgets.mark(("stroke:" + std::string(info.name)).c_str(), info.meaning);
         }
         ImGui::EndCombo();
     }
     widgets.mark("stroke");
-    const auto slider = [&](const char* name, double& value, double own, double most, double unit,
-                            const char* format) {
-        auto shown = static_cast<float>((value > 0.0 ? value : own) * unit);
+    // `unit`: of the typed value.
+    const auto slider = [&](const char* name, const char* label, double& value, double own, double most,
+                            const ShownUnit& unit) {
         constexpr float kLeastOfMost = 0.02f;
-        const auto high = static_cast<float>(most * unit);
-        ImGui::SliderFloat((std::string("##") + name).c_str(), &shown, kLeastOfMost * high, high, format,
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-        // Laid again on release, not at every pixel of the drag.
-        float& dragged = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(name), shown);
-        if (ImGui::IsItemActive())
-            dragged = shown;
+        const auto high = static_cast<float>(most / unit.size);
+        // Laid again on release, not at every pixel of the drag: until then the value is here.
+        ImGuiStorage& storage = *ImGui::GetStateStorage();
+        const ImGuiID dragged = ImGui::GetID(name);
+        const auto set = static_cast<float>((value > 0.0 ? value : own) / unit.size);
+        float shown = storage.GetFloat(dragged, 0.0f) > 0.0f ? storage.GetFloat(dragged) : set;
+        widgets.slider(name, label, shown,
+                       {.low = kLeastOfMost * high, .high = high, .logarithmic = true, .clamp = true},
+                       quantity(unit.size * static_cast<double>(shown), unit));
         if (ImGui::IsItemDeactivatedAfterEdit())
-            value = dragged / unit;
-        widgets.mark(name);
+            value = unit.size * static_cast<double>(shown);
+        storage.SetFloat(dragged, ImGui::IsItemActive() ? shown : 0.0f);
     };
-    slider("strokeSpeed", stroke.speed, chosen.speed, 1.0, 1e3, "%.0f mm/s");
-    slider("strokeDepth", stroke.depth, chosen.depth, kDeepestStroke, 1e3, "%.1f mm deep");
+    slider("strokeSpeed", "speed", stroke.speed, chosen.speed, 1.0, {1e-3, "mm/s"});
+    slider("strokeDepth", "depth", stroke.depth, chosen.depth, kDeepestStroke, {1e-3, "mm"});
     ImGui::PopItemWidth();
     if (!input.strokeNotice.empty())
-        ImGui::TextWrapped("%s", input.strokeNotice.c_str());
+        widgets.wrapped(input.strokeNotice);
 }
 
 /// Clutch and zoom of hands with a workspace map.
@@ -76,29 +80,30 @@ void workspace(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const DeviceMapping& mapping = input.servo->last.sample.mapping;
     auto zoom = static_cast<float>(state.workspace.zoom);
     ImGui::PushItemWidth(-1.0f);
-    if (ImGui::SliderFloat("##zoom", &zoom, static_cast<float>(kMinZoom), static_cast<float>(kMaxZoom),
-                           "zoom %.2fx", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+    if (widgets.slider("zoom", "zoom", zoom,
+                       {.low = static_cast<float>(kMinZoom),
+                        .high = static_cast<float>(kMaxZoom),
+                        .logarithmic = true,
+                        .clamp = true},
+                       quantity(state.workspace.zoom, "x")))
         state.workspace.zoom = static_cast<double>(zoom);
-    widgets.mark("zoom");
     ImGui::PopItemWidth();
     ImGui::Button("Clutch (hold C)");
     if (ImGui::IsItemActive())
         state.workspace.clutch = true;
     widgets.mark("clutch");
-    ImGui::SameLine();
-    if (ImGui::Button("Centre"))
+    widgets.beside(Widgets::buttonWidth("Centre"));
+    if (widgets.button("centre", "Centre"))
         state.centrePressed = true;
-    widgets.mark("centre");
     const std::string text = workspaceText(mapping);
     if (!text.empty())
         ImGui::TextColored(ImVec4(0.95f, 0.72f, 0.25f, 1.0f), "%s", text.c_str());
     const double scale = mapping.workspaceFromDevice.scale;
     if (scale > 1.0) {
         const DeviceLimits& limits = input.servo->last.sample.limits;
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        ImGui::TextWrapped("600 N/m feel like %.0f; the device bears %.0f",
-                           std::min(600.0 * scale, limits.maxStiffness), limits.maxStiffness);
-        ImGui::PopStyleColor();
+        widgets.wrapped("600 N/m feel like " + quantity(std::min(600.0 * scale, limits.maxStiffness), "N/m") +
+                            "; the device bears " + quantity(limits.maxStiffness, "N/m"),
+                        ImGui::GetColorU32(ImGuiCol_TextDisabled));
     }
 }
 
@@ -131,7 +136,7 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (ImGui::RadioButton("Mouse", !held && !state.simulatedHand))
         letGo(state, false);
     widgets.mark("mouse");
-    ImGui::SameLine();
+    widgets.beside(Widgets::buttonWidth("Simulated hand") + ImGui::GetFrameHeight());
     if (!input.canSimulate)
         ImGui::BeginDisabled();
     if (ImGui::RadioButton("Simulated hand", !held && state.simulatedHand))
@@ -142,17 +147,16 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!held && state.simulatedHand)
         strokes(input, state, widgets);
     if (!held && !state.simulatedHand) {
-        ImGui::Checkbox("free in space", &state.view.freeHand);
-        widgets.mark("freeHand");
+        widgets.check("freeHand", "free in space", state.view.freeHand);
         if (!state.view.freeHand)
-            ImGui::TextDisabled("presses with %.2f N", state.view.press);
+            ImGui::TextDisabled("presses with %s", quantity(state.view.press, "N").c_str());
     }
     if (held || !input.devices.empty())
         devices(input, state, widgets);
     if (held || state.simulatedHand)
         workspace(input, state, widgets);
     if (!input.deviceStatus.empty())
-        ImGui::TextWrapped("%s", input.deviceStatus.c_str());
+        widgets.wrapped(input.deviceStatus);
 }
 
 } // namespace touchstone

@@ -57,6 +57,7 @@ constexpr Line kWindow[]{
     {"F10, Escape", "arrows and Enter work the panels; leaves them"},
     {"Ctrl+O", "opens a model or a recording; drop it here, too"},
     {"Ctrl+G", "our scenes and what was opened before"},
+    {"Ctrl+Shift, + and -", "larger and smaller type"},
     {"Ctrl+Q", "quits"},
     {"F1 or ?, Escape", "shows this; puts it away"},
 };
@@ -87,14 +88,15 @@ void drawHelp(const PanelInput& input, PanelState& state, Widgets& widgets) {
     // Scrolls in a window too small for all of it.
     ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), display);
     ImGui::SetNextWindowBgAlpha(1.0f);
-    if (beginCardWindow("help", widgets, kAnsweredCard | ImGuiWindowFlags_HorizontalScrollbar)) {
+    if (beginCardWindow("help", widgets, kAnsweredCard)) {
         drawTopics(kLeft, widgets);
-        ImGui::SameLine(0.0f, widgets.units(28.0f));
+        constexpr float kTwoColumns = 940.0f; // units
+        if (display.x >= widgets.units(kTwoColumns))
+            ImGui::SameLine(0.0f, widgets.units(28.0f));
         drawTopics(kRight, widgets);
         ImGui::Separator();
-        if (ImGui::Button("Close"))
+        if (widgets.button("helpClose", "Close"))
             state.help = false;
-        widgets.mark("helpClose");
         ImGui::SameLine();
         ImGui::TextDisabled("%s, %d x %d", input.gpuName.c_str(), input.sceneSize.x, input.sceneSize.y);
     }

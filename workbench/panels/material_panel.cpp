@@ -3,6 +3,7 @@
 #include "engine/scene/haptic_layers.h"
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
+#include "workbench/figures/quantity.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -127,7 +128,8 @@ class MaterialPanel {
             ImGui::SameLine();
             ImGui::TextDisabled("touched now");
         } else if (in_.probed >= 0 && probed() < 0) {
-            ImGui::TextDisabled("What is touched has no material in the file.");
+            widgets_.wrapped("What is touched has no material in the file.",
+                             ImGui::GetColorU32(ImGuiCol_TextDisabled));
         }
     }
 
@@ -142,7 +144,6 @@ class MaterialPanel {
                     edits_.endGesture();
                 }
                 widgets_.mark(("preset." + std::string(each.name)).c_str());
-                tip(each.reason);
             }
             ImGui::EndCombo();
         }
@@ -157,11 +158,13 @@ class MaterialPanel {
         ImGui::PushStyleColor(ImGuiCol_Text, edited ? kEdited : stated ? kStated : kUnset);
         ImGui::TextUnformatted(text.data(), text.data() + text.size());
         ImGui::PopStyleColor();
-        tip(std::string(meaning) + (edited   ? "\nedited, not in the file yet"
-                                    : stated ? "\nas the file says"
-                                             : "\nthe file says nothing"));
+        if (ImGui::IsItemHovered())
+            showNote(std::string(meaning) + (edited   ? "\nedited, not in the file yet"
+                                             : stated ? "\nas the file states"
+                                                      : "\nthe file states nothing"));
         ImGui::SameLine(widgets_.units(112.0f));
-        ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x - widgets_.units(26.0f));
+        ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x - Widgets::buttonWidth("x") -
+                             widgets_.units(4.0f)); // of the button that resets it
     }
 
     /// Button that removes a field from the extension; at the end of its row, where the field is stated.
@@ -178,7 +181,6 @@ class MaterialPanel {
             edits_.endGesture();
         }
         widgets_.mark(("reset." + id).c_str());
-        tip("back to what holds when the file says nothing");
     }
 
     void number(const NumberField& field) {
@@ -186,26 +188,24 @@ class MaterialPanel {
         const std::optional<float> stated = field.get(now_);
         const HapticMaterial::Field<float>* settled = settledField(haptic_, field.name);
         float value = stated.value_or(0.0f);
-        std::string format = "%.3g " + std::string(field.unit);
+        std::string origin;
         if (!stated && settled != nullptr) {
             value =
                 settled->value.value_or(field.name == "stiffness" ? static_cast<float>(in_.deviceStiffness)
                                         : field.name == "normalTextureInfluence" ? 1.0f
                                                                                  : 0.0f);
-            format +=
-                std::string("  ") +
-                (field.name == "stiffness" && !settled->value ? "the device's" : originOf(settled->source));
+            origin = field.name == "stiffness" && !settled->value ? "device" : originOf(settled->source);
         }
         const size_t dot = field.name.find('.');
         const std::string shown = (dot == std::string_view::npos ? "" : "   ") + std::string(field.label);
         label(shown, stated.has_value(), stated != field.get(was_), field.meaning);
-        if (ImGui::SliderFloat(("##" + id).c_str(), &value, field.low, field.high, format.c_str(),
-                               field.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None)) {
+        if (widgets_.slider(("edit." + id).c_str(), origin.c_str(), value,
+                            {.low = field.low, .high = field.high, .logarithmic = field.logarithmic},
+                            quantity(static_cast<double>(value), field.unit))) {
             HapticStatement next = now_;
             if (field.set(next, std::clamp(value, field.least, field.most)))
                 change(std::move(next), std::string(field.label));
         }
-        widgets_.mark(("edit." + id).c_str());
         reset(field.name, stated.has_value() && dot == std::string_view::npos);
     }
 
@@ -286,11 +286,9 @@ class MaterialPanel {
     bool button(const char* text, const char* name, bool enabled, const std::string& hint) {
         if (!enabled)
             ImGui::BeginDisabled();
-        const bool pressed = ImGui::Button(text);
-        widgets_.mark(name);
+        const bool pressed = widgets_.button(name, text, hint);
         if (!enabled)
             ImGui::EndDisabled();
-        tip(hint);
         return pressed && enabled;
     }
 
@@ -327,10 +325,8 @@ class MaterialPanel {
         if (state_.askTarget)
             askTarget();
         if (!controller_.notice().empty()) {
-            ImGui::PushStyleColor(ImGuiCol_Text, controller_.failed() ? ImVec4(0.95f, 0.5f, 0.42f, 1.0f)
-                                                                      : ImVec4(0.6f, 0.8f, 0.65f, 1.0f));
-            ImGui::TextWrapped("%s", controller_.notice().c_str());
-            ImGui::PopStyleColor();
+            widgets_.wrapped(controller_.notice(), controller_.failed() ? IM_COL32(242, 128, 107, 255)
+                                                                        : IM_COL32(153, 204, 166, 255));
         }
     }
 
@@ -361,16 +357,6 @@ class MaterialPanel {
         edits_.change(m_, std::move(next), std::move(what));
     }
 
-    static void tip(std::string_view text) {
-        if (text.empty() || !ImGui::IsItemHovered())
-            return;
-        ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
-        ImGui::TextUnformatted(text.data(), text.data() + text.size());
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-    }
-
     const MaterialPanelInput& in_;
     MaterialController& controller_;
     MaterialEdits& edits_;
@@ -388,7 +374,7 @@ void drawMaterialPanel(const MaterialPanelInput& input, MaterialController& cont
     if (input.scene == nullptr)
         return;
     if (controller.edits().size() == 0) {
-        ImGui::TextWrapped("The file has no materials: what it feels like cannot be kept in it.");
+        widgets.wrapped("The file has no materials: what it feels like cannot be kept in it.");
         return;
     }
     if (state.followProbe && input.probed >= 0) {

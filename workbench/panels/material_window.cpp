@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string>
 
 namespace touchstone {
 
@@ -44,7 +45,9 @@ void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& pictu
     ImGui::SetNextWindowSize(
         ImVec2(std::min(room.x, widgets.units(kWidth)), std::min(room.y, widgets.units(kHeight))),
         ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Material", &open, ImGuiWindowFlags_NoSavedSettings))
+    // Another scale begins with another window: one of the right size and place.
+    const std::string title = "Material##" + std::to_string(widgets.units(1.0f));
+    if (ImGui::Begin(title.c_str(), &open, ImGuiWindowFlags_NoSavedSettings))
         drawMaterialPanel(input, controller, state, widgets);
     ImGui::End();
 }

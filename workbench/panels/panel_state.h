@@ -69,7 +69,8 @@ struct PanelInput {
     OrbitCamera camera;
     glm::ivec2 sceneSize{0};
     std::string gpuName;
-    float scale = 1.0f; ///< window coordinates per layout unit
+    float scale = 1.0f;    ///< window coordinates per layout unit
+    bool scaleFits = true; ///< false: the UI scale is smaller than asked for, since the window is
 };
 
 /// Which panels are folded away.
@@ -92,6 +93,8 @@ struct PanelState {
     SoundChoice sound;
     ViewOptions view;
     PanelFolds folds;
+    float uiScale = 1.0f; ///< asked for, beside the monitor's
+    HoveredWidget hovered;
     bool help = false;
     bool walking = false;       ///< the arrow keys move between the panels' widgets
     bool gallery = false;       ///< is open

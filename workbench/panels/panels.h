@@ -31,7 +31,9 @@ void drawServo(const PanelInput& input, Widgets& widgets);
 /// Force, depth, energy and step time over the last seconds, with the recorded intervals.
 void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets);
 
-/// Cards over the picture: loading, problems, introduction.
+/// How to touch, until it is dismissed: a strip beneath the bar.
+void drawIntroduction(PanelState& state, const WidgetRect& strip, Widgets& widgets);
+/// Cards over the picture: loading, problems, unsaved materials.
 void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets);
 /// Pictures of our own and of recent scenes, to open one; over everything but the bar.
 void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& place, Widgets& widgets);

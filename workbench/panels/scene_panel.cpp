@@ -26,8 +26,8 @@ int touchedNode(const PanelInput& input) {
 
 class NodeTree {
   public:
-    NodeTree(const Scene& scene, int touched)
-        : scene_(scene), touched_(touched), children_(scene.nodes.size()) {
+    NodeTree(const Scene& scene, int touched, Widgets& widgets)
+        : scene_(scene), touched_(touched), widgets_(widgets), children_(scene.nodes.size()) {
         for (size_t i = 0; i < scene.nodes.size(); ++i)
             if (scene.nodes[i].parent >= 0)
                 children_[static_cast<size_t>(scene.nodes[i].parent)].push_back(i);
@@ -54,6 +54,7 @@ class NodeTree {
         const bool open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen |
                                                               ImGuiTreeNodeFlags_SpanAvailWidth |
                                                               (leaf ? ImGuiTreeNodeFlags_Leaf : 0));
+        widgets_.mark(("node:" + std::to_string(node)).c_str());
         if (touched)
             ImGui::PopStyleColor();
         if (open) {
@@ -66,6 +67,7 @@ class NodeTree {
 
     const Scene& scene_;
     int touched_;
+    Widgets& widgets_;
     std::vector<std::vector<size_t>> children_;
     size_t drawn_ = 0;
 };
@@ -73,25 +75,23 @@ class NodeTree {
 } // namespace
 
 void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets) {
-    ImGui::TextUnformatted(input.modelName.empty() ? "none yet" : input.modelName.c_str());
-    widgets.mark("model");
+    widgets.wrapped(input.modelName.empty() ? "none yet" : input.modelName);
+    widgets.mark("model", input.scene != nullptr ? input.scene->path : "");
     if (!input.modelFacts.empty())
-        ImGui::TextDisabled("%s", input.modelFacts.c_str());
+        widgets.wrapped(input.modelFacts, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     if (input.scene != nullptr && !input.scene->nodes.empty())
-        NodeTree(*input.scene, touchedNode(input)).draw();
+        NodeTree(*input.scene, touchedNode(input), widgets).draw();
     if (input.warnings.empty() && input.notice.empty())
         return;
     widgets.section("WARNINGS");
-    ImGui::PushTextWrapPos(0.0f);
     if (!input.notice.empty()) {
-        ImGui::TextUnformatted(input.notice.c_str());
+        widgets.wrapped(input.notice);
         if (ImGui::SmallButton("Dismiss##notice"))
             state.noticeDismissed = true;
         widgets.mark("dismissNotice");
     }
     for (const std::string& warning : input.warnings)
-        ImGui::TextUnformatted(warning.c_str());
-    ImGui::PopTextWrapPos();
+        widgets.wrapped(warning);
 }
 
 } // namespace touchstone

@@ -19,17 +19,13 @@ namespace {
 
 constexpr double kShiftStep = 0.1; // s
 
-/// On the same line where it fits.
-void beside(float width) {
-    const float spacing = ImGui::GetStyle().ItemSpacing.x;
-    ImGui::SameLine();
-    // The arrow that folds the panel is the last item of the first line.
-    if (ImGui::GetContentRegionAvail().x < width + spacing + ImGui::GetFrameHeight())
-        ImGui::NewLine();
+/// On the same line where it fits. The arrow that folds the panel is the last item of the first line.
+void beside(float width, const Widgets& widgets) {
+    widgets.beside(width, ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight());
 }
 
 bool button(const char* label, const char* name, const char* tip, Widgets& widgets) {
-    beside(ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x);
+    beside(Widgets::buttonWidth(label), widgets);
     const bool pressed = ImGui::Button(label);
     widgets.mark(name);
     if (ImGui::IsItemHovered())
@@ -51,7 +47,7 @@ void transport(TimelineController& controller, Widgets& widgets) {
         at.step(1);
     if (button(">|", "toEnd", "End", widgets))
         at.toEnd();
-    beside(widgets.units(66.0f));
+    beside(widgets.units(66.0f), widgets);
     ImGui::SetNextItemWidth(widgets.units(66.0f));
     char speed[16];
     std::snprintf(speed, sizeof speed, "%gx", at.speed());
@@ -86,7 +82,7 @@ void examination(TimelineController& controller, Widgets& widgets) {
     }
     const bool again = controller.again().running();
     const char* const text = again ? "Stop" : "Touch again";
-    beside(ImGui::CalcTextSize(text).x + widgets.units(32.0f));
+    beside(widgets.lampWidth(text), widgets);
     if (widgets.lampButton("touchAgain", text, again, kBlue)) {
         if (again)
             controller.stopTouchingAgain();
@@ -214,7 +210,7 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
     if (!controller.looking())
         return list(controller, state, widgets);
     if (state.list) {
-        beside(widgets.units(60.0f));
+        beside(widgets.lampWidth("List"), widgets);
         if (widgets.lampButton("recordings", "List", true, kBlue))
             state.list = false;
         return list(controller, state, widgets);
@@ -223,7 +219,7 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
                         ImVec2(widgets.units(4.0f), ImGui::GetStyle().ItemSpacing.y));
     transport(controller, widgets);
     examination(controller, widgets);
-    beside(widgets.units(55.0f));
+    beside(widgets.lampWidth("List"), widgets);
     if (widgets.lampButton("recordings", "List", false, kBlue))
         state.list = true;
     ImGui::PopStyleVar();

@@ -1,6 +1,9 @@
+#include "workbench/figures/quantity.h"
 #include "workbench/panels/colors.h"
 #include "workbench/panels/effect_switch.h"
+#include "workbench/panels/notes.h"
 #include "workbench/panels/panels.h"
+#include "workbench/screen/ui_scale.h"
 #include "workbench/screen/view_menu.h"
 
 #include <imgui.h>
@@ -71,18 +74,39 @@ void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!input.recent.empty()) {
         ImGui::Separator();
         ImGui::TextDisabled("opened before");
-        for (const std::filesystem::path& file : input.recent)
-            fileItem(file, file.parent_path().string(), state);
+        for (const std::filesystem::path& file : input.recent) {
+            fileItem(file, "", state);
+            widgets.mark(("menu:recent:" + file.filename().string()).c_str(), file.string());
+        }
     }
     ImGui::Separator();
     if (ImGui::MenuItem("Save the picture", "F12"))
         state.view.savePicture = true;
+    widgets.mark("menu:savePicture");
     if (ImGui::MenuItem("Quit", "Ctrl+Q"))
         state.quitPressed = true;
+    widgets.mark("menu:quit");
     ImGui::EndPopup();
 }
 
-void viewMenu(PanelState& state, Widgets& widgets) {
+/// Smaller and larger type, and what fits the window.
+void uiScale(const PanelInput& input, PanelState& state, Widgets& widgets) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("UI scale %s %%", figure(100.0 * static_cast<double>(state.uiScale)).c_str());
+    widgets.mark("uiScale");
+    ImGui::SameLine();
+    if (widgets.button("smaller", "-"))
+        state.uiScale = steppedUiScale(state.uiScale, -1);
+    ImGui::SameLine();
+    if (widgets.button("larger", "+"))
+        state.uiScale = steppedUiScale(state.uiScale, 1);
+    if (!input.scaleFits) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("more than fits this window");
+    }
+}
+
+void viewMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (ImGui::Button("View"))
         ImGui::OpenPopup("view");
     widgets.mark("viewMenu");
@@ -92,14 +116,17 @@ void viewMenu(PanelState& state, Widgets& widgets) {
         return;
     drawViewMenu(state.view, [&](const char* name) { widgets.mark(name); });
     ImGui::Separator();
-    const auto fold = [](const char* label, const char* key, bool& folded) {
+    const auto fold = [&](const char* label, const char* key, bool& folded) {
         bool shown = !folded;
         if (ImGui::MenuItem(label, key, &shown))
             folded = !shown;
+        widgets.mark((std::string("panel:") + key).c_str());
     };
     fold("Scene", "F2", state.folds.left);
     fold("What is felt", "F3", state.folds.right);
     fold("Charts", "F4", state.folds.bottom);
+    ImGui::Separator();
+    uiScale(input, state, widgets);
     ImGui::EndPopup();
 }
 
@@ -124,23 +151,19 @@ void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
     bool& on = state.settings.forceEnabled;
     const bool looking = state.timeline.looking;
     const char* label = latched ? "Force: fault" : on && !looking ? "Force on" : "Force off";
-    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen))
+    const char* const note = !looking ? ""
+                             : on     ? "Off while a recording is open; on again with the live hand"
+                                      : "Stays off with the live hand";
+    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen, note))
         on = !on && !looking;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(!looking ? "Space"
-                          : on     ? "off while a recording is looked at; on again with the live hand"
-                                   : "stays off with the live hand");
 }
 
 void record(const PanelInput& input, PanelState& state, Widgets& widgets) {
     char label[32] = "Record";
     if (input.recording)
         std::snprintf(label, sizeof label, "Stop %.0f s", input.recordedSeconds);
-    if (widgets.lampButton("record", label, input.recording, kRed))
+    if (widgets.lampButton("record", label, input.recording, kRed, input.recordingFile))
         state.recordPressed = true;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", input.recordingFile.empty() ? "keeps every tick, for `touchstone replay`"
-                                                            : input.recordingFile.c_str());
 }
 
 /// Right end of the bar: the servo's rate and its 99th percentile, and help.
@@ -162,16 +185,12 @@ void servoLamp(const PanelInput& input, PanelState& state, Widgets& widgets) {
         ImGui::SetCursorPosX(from + 2.0f * radius + widgets.units(8.0f));
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(text);
-        widgets.mark("servo");
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("Servo at %.0f Hz, %s; 99 of 100 steps within %.1f µs", servo.rateHz,
-                              servo.scheduling.c_str(), servo.stepP99Us);
+        widgets.mark("servo", noteOf("servo") + "\n" + figure(servo.rateHz, 4) + " Hz, " + servo.scheduling);
         ImGui::SameLine();
     }
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - help);
-    if (ImGui::Button("?"))
+    if (widgets.button("help", "?"))
         state.help = !state.help;
-    widgets.mark("help");
 }
 
 } // namespace
@@ -180,7 +199,7 @@ void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const float gap = widgets.units(18.0f);
     fileMenu(input, state, widgets);
     ImGui::SameLine();
-    viewMenu(state, widgets);
+    viewMenu(input, state, widgets);
     ImGui::SameLine(0.0f, gap);
     effects(state, widgets);
     ImGui::SameLine(0.0f, gap);
@@ -188,8 +207,13 @@ void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::SameLine();
     record(input, state, widgets);
     if (state.walking) {
+        constexpr const char* kWalking = "Arrows work the panels (Escape)";
         ImGui::SameLine(0.0f, gap);
-        ImGui::TextColored(ImColor(kAmber), "Arrows work the panels (Escape)");
+        if (ImGui::GetContentRegionAvail().x >
+            ImGui::CalcTextSize(kWalking).x + Widgets::buttonWidth("?") + gap)
+            ImGui::TextColored(ImColor(kAmber), kWalking);
+        else
+            ImGui::NewLine();
     }
     servoLamp(input, state, widgets);
 }

@@ -38,7 +38,7 @@ void figures(const HapticMaterialData& material, const Widgets& widgets) {
 }
 
 /// Active effects with their reasons beneath; reasons of inactive ones as tooltips.
-void effects(const EffectPlan& plan, int material) {
+void effects(const EffectPlan& plan, int material, const Widgets& widgets) {
     for (const bool on : {true, false})
         for (const PlannedEffect& effect : plan.effects) {
             if (effect.material != material || effect.on != on)
@@ -50,9 +50,7 @@ void effects(const EffectPlan& plan, int material) {
                 ImGui::SetTooltip("%s", effect.reason.c_str());
             if (!on)
                 continue;
-            ImGui::PushTextWrapPos(0.0f);
-            ImGui::TextDisabled("%s", effect.reason.c_str());
-            ImGui::PopTextWrapPos();
+            widgets.wrapped(effect.reason, ImGui::GetColorU32(ImGuiCol_TextDisabled));
         }
 }
 
@@ -74,7 +72,7 @@ void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextUnformatted(name.empty() ? "without a name" : name.c_str());
     widgets.mark("material");
     figures(input.haptic->materials[at], widgets);
-    effects(input.haptic->plan, index);
+    effects(input.haptic->plan, index, widgets);
 }
 
 } // namespace touchstone

@@ -17,8 +17,9 @@ GpuOptions withLog(GpuOptions options) {
 } // namespace
 
 Screen::Screen(Window& window, const GpuOptions& options)
-    : window_(window), options_(withLog(options)), gpu_(createGpuForWindow(window.handle(), options_)),
-      target_(*gpu_, window.handle(), [this] { applyStyle(window_.layoutScale()); }),
+    : window_(window), options_(withLog(options)), scale_(window.layoutScale()),
+      gpu_(createGpuForWindow(window.handle(), options_)),
+      target_(*gpu_, window.handle(), [this] { applyStyle(scale_); }),
       renderer_(std::make_unique<SceneRenderer>(*gpu_)) {}
 
 Screen::~Screen() {
@@ -51,6 +52,15 @@ void Screen::renew(const DeviceLost& lost, double now) {
             problem = error.problem();
         }
     }
+}
+
+void Screen::restyle(float scale) {
+    if (scale == scale_)
+        return;
+    scale_ = scale;
+    target_.leaveDevice(); // with the font's picture
+    applyStyle(scale_);
+    target_.takeDevice(*gpu_);
 }
 
 double Screen::busy() const {

@@ -30,6 +30,9 @@ class Screen {
     /// After `lost`, at `now`, s: with an empty renderer. Throws Error where no device is available, or on
     /// the third loss within ten seconds.
     void renew(const DeviceLost& lost, double now);
+    /// Fonts and spacing for another `scale`, window coordinates per layout unit. Between frames; takes as
+    /// long as a new swapchain. Nothing where it is as it was.
+    void restyle(float scale);
     /// Over all devices so far.
     [[nodiscard]] size_t validationMessages() const { return options_.log->messages().size(); }
     /// s of device time of the last finished frame; 0 where it cannot be measured.
@@ -40,6 +43,7 @@ class Screen {
 
     Window& window_;
     GpuOptions options_;
+    float scale_;
     DeviceLosses losses_;
     std::unique_ptr<Gpu> gpu_;
     WindowTarget target_;

@@ -46,6 +46,7 @@ void applyStyle(float scale) {
     io.IniFilename = nullptr; // no saved ImGui layout
     // With keyboard navigation Enter presses widgets: space always switches the force off.
     io.KeyMap[ImGuiKey_Space] = GLFW_KEY_ENTER;
+    io.Fonts->Clear();
     if (std::filesystem::exists(kFont)) {
         static const ImWchar kRanges[] = {0x20, 0xFF, 0x2013, 0x2026, 0x03BC, 0x03BC, 0, 0};
         for (const float size : {kFontSize, kLargeFontSize})

@@ -156,7 +156,7 @@ void ViewControl::turnWithKeys(const Situation& now) {
     // On a US keyboard plus is Shift with the key of the equals sign.
     const double nearer = keyAxis({keyOf('-'), GLFW_KEY_KP_SUBTRACT},
                                   {keyOf('+') == '+' ? keyOf('=') : keyOf('+'), GLFW_KEY_KP_ADD});
-    if (nearer != 0.0)
+    if (nearer != 0.0 && !ImGui::GetIO().KeyCtrl) // with Ctrl they change the UI scale
         camera_.zoom(std::pow(kKeyZoom, nearer * now.seconds));
 }
 

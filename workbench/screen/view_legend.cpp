@@ -1,10 +1,12 @@
 #include "workbench/screen/view_legend.h"
 
+#include "workbench/figures/quantity.h"
+
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace touchstone {
 
@@ -44,9 +46,10 @@ void drawBar(ImDrawList& draw, const FalseColorScale& scale, ImVec2 at, float wi
                            ImVec2(at.x + width * static_cast<float>(i + 1) / kSteps, at.y + height),
                            colorOf(falseColor((i + 0.5) / kSteps)));
     }
-    // Labels at both ends and in the middle.
+    // Labels at both ends and in the middle, all in one unit.
+    const ShownUnit unit = shownUnit(std::max(std::abs(scale.low), std::abs(scale.high)), scale.unit);
     for (const double t : {0.0, 0.5, 1.0}) {
-        const std::string text = scaleLabel(scale.low + t * (scale.high - scale.low), scale.unit);
+        const std::string text = quantity(scale.low + t * (scale.high - scale.low), unit);
         const float textWidth = ImGui::CalcTextSize(text.c_str()).x, x = at.x + width * static_cast<float>(t);
         draw.AddLine(ImVec2(x, at.y + height), ImVec2(x, at.y + 1.35f * height),
                      IM_COL32(220, 224, 228, 255));
@@ -70,22 +73,6 @@ const char* viewTitle(ViewMode mode) {
                                  "effects that the plan switches on"};
     static_assert(kTitles.size() == kViewModeNames.size());
     return kTitles[static_cast<size_t>(mode)];
-}
-
-std::string scaleLabel(double value, std::string_view unit) {
-    char text[64];
-    if (unit == "m") {
-        const bool small = std::abs(value) < 1e-3;
-        std::snprintf(text, sizeof text, "%.3g %s", small ? 1e6 * value : 1e3 * value,
-                      small && value != 0.0 ? "µm" : "mm");
-    } else if (unit == "1") {
-        std::snprintf(text, sizeof text, "%.3g", value);
-    } else {
-        const char* space = unit == "°" ? "" : " ";
-        std::snprintf(text, sizeof text, "%.3g%s%.*s", value, space, static_cast<int>(unit.size()),
-                      unit.data());
-    }
-    return text;
 }
 
 void drawViewLegend(const ViewLegend& legend, const glm::vec2& corner, float scale) {

@@ -15,9 +15,6 @@ struct ViewLegend {
 /// "height", "friction coefficient": the quantity of a view.
 [[nodiscard]] const char* viewTitle(ViewMode mode);
 
-/// A number of the scale with its unit, in a readable magnitude: metres as mm or µm.
-[[nodiscard]] std::string scaleLabel(double value, std::string_view unit);
-
 /// Draws the legend over the picture, beneath all ImGui windows, with its lower left corner at `corner` in
 /// window coordinates. Nothing for the shaded view. `scale`: window coordinates per layout unit.
 void drawViewLegend(const ViewLegend& legend, const glm::vec2& corner, float scale);

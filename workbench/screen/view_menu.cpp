@@ -50,21 +50,21 @@ void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& 
         mark(toggles[i].name);
     }
     struct Move {
-        const char* label;
+        const char *label, *name;
         CameraMove move;
     };
     for (const Move& to :
-         {Move{"All", CameraMove::Fit}, Move{"Front", CameraMove::Front}, Move{"Right", CameraMove::Right},
-          Move{"Top", CameraMove::Top}, Move{"Near", CameraMove::Probe}}) {
+         {Move{"All", "camera:all", CameraMove::Fit}, Move{"Front", "camera:front", CameraMove::Front},
+          Move{"Right", "camera:right", CameraMove::Right}, Move{"Top", "camera:top", CameraMove::Top},
+          Move{"Near", "camera:near", CameraMove::Probe}}) {
         if (ImGui::SmallButton(to.label))
             options.move = to.move;
+        mark(to.name);
         ImGui::SameLine();
     }
     if (ImGui::SmallButton("Save picture"))
         options.savePicture = true;
     mark("savePicture");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("F12: what the window shows of the model, as PNG");
 }
 
 } // namespace touchstone

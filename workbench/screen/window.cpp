@@ -1,6 +1,7 @@
 #include "workbench/screen/window.h"
 
 #include "engine/core/error.h"
+#include "workbench/screen/ui_scale.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -24,11 +25,37 @@ namespace {
                 "touchstone run SCENE --headless --seconds 10 --screenshot shot.png");
 }
 
+/// Width and height over all monitors, screen coordinates; the largest window where there is none.
+glm::ivec2 desktopExtent() {
+    constexpr int kLargest = 16384;
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    glm::ivec2 low(kLargest), high(-kLargest);
+    for (int i = 0; i < count; ++i) {
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        if (mode == nullptr)
+            continue;
+        glm::ivec2 corner(0);
+        glfwGetMonitorPos(monitors[i], &corner.x, &corner.y);
+        low = glm::min(low, corner);
+        high = glm::max(high, corner + glm::ivec2(mode->width, mode->height));
+    }
+    return high.x > low.x && high.y > low.y ? high - low : glm::ivec2(kLargest);
+}
+
+std::string sizeText(const glm::ivec2& size) {
+    return std::to_string(size.x) + "x" + std::to_string(size.y);
+}
+
 } // namespace
 
-Window::Window(const char* title, const glm::ivec2& size) {
+Window::Window(const char* title, const glm::ivec2& asked) {
     if (glfwInit() != GLFW_TRUE)
         failWith("no display can be reached");
+    const glm::ivec2 least(kMinLayout), size = glm::clamp(asked, least, glm::max(least, desktopExtent()));
+    if (size != asked)
+        sizeWarning_ = "a window of " + sizeText(asked) + " does not fit this desktop: it is opened as " +
+                       sizeText(size);
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     window_ = glfwCreateWindow(size.x, size.y, title, nullptr, nullptr);
@@ -46,7 +73,7 @@ Window::Window(const char* title, const glm::ivec2& size) {
         if (count > 0)
             static_cast<Window*>(glfwGetWindowUserPointer(handle))->dropped_ = paths[0];
     });
-    glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowSizeLimits(window_, least.x, least.y, GLFW_DONT_CARE, GLFW_DONT_CARE);
 }
 
 Window::~Window() {

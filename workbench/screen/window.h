@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 struct GLFWwindow;
 
@@ -12,7 +13,8 @@ namespace touchstone {
 /// The window and GLFW's lifetime. Main thread only.
 class Window {
   public:
-    /// Throws Error where no display can be reached.
+    /// `size` in screen coordinates, cut to what a window may have: kMinLayout at least, the monitors' extent
+    /// at most. Throws Error where no display can be reached.
     Window(const char* title, const glm::ivec2& size);
     ~Window();
     Window(const Window&) = delete;
@@ -28,13 +30,16 @@ class Window {
     /// The file dropped on the window since the last call.
     [[nodiscard]] std::optional<std::filesystem::path> takeDropped();
     [[nodiscard]] glm::ivec2 size() const; ///< screen coordinates
-    void stayOpen();                       ///< revokes shouldClose
-    void close();                          ///< sets shouldClose
+    /// What is wrong with the size given to the constructor; empty: nothing.
+    [[nodiscard]] const std::string& sizeWarning() const { return sizeWarning_; }
+    void stayOpen(); ///< revokes shouldClose
+    void close();    ///< sets shouldClose
     void setTitle(const std::string& title);
 
   private:
     GLFWwindow* window_ = nullptr;
     std::optional<std::filesystem::path> dropped_;
+    std::string sizeWarning_;
 };
 
 } // namespace touchstone

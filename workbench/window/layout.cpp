@@ -6,6 +6,7 @@
 #include "workbench/panels/error_panel.h"
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
+#include "workbench/screen/ui_scale.h"
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
@@ -21,9 +22,9 @@ namespace touchstone {
 namespace {
 
 // Units of layout.
-constexpr float kBar = 42.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
+constexpr float kBar = 42.0f, kIntroduction = 44.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
 constexpr float kMinWidth = 320.0f, kMinHeight = 180.0f; // of the picture
-constexpr float kFolded = 20.0f;                         // width of a folded panel: the arrow that unfolds it
+constexpr float kFolded = 23.0f;                         // width of a folded panel: the arrow that unfolds it
 
 // Without a background: the cleared colour is the same, and a software device fills slowly.
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoTitleBar |
@@ -35,6 +36,11 @@ struct Rect {
     float x, y, width, height;
 };
 
+/// Of all that lies above the picture.
+float topOf(const PanelState& state) {
+    return kBar + (state.introduced ? 0.0f : kIntroduction);
+}
+
 /// A panel in its place, or the arrow that unfolds it. `out`, `in`: directions of the arrows. True where it
 /// was pressed.
 template <class Content>
@@ -42,11 +48,13 @@ bool panel(const char* name, const Rect& rect, bool folded, ImGuiDir out, ImGuiD
            const Content& content) {
     ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
     ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
-    if (folded)
+    if (folded) {
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+    }
     ImGui::Begin(name, nullptr, folded ? kFixed | ImGuiWindowFlags_NoScrollbar : kFixed);
     if (folded)
-        ImGui::PopStyleVar();
+        ImGui::PopStyleVar(2);
     const float side = ImGui::GetFrameHeight();
     const ImVec2 begin = ImGui::GetCursorPos();
     if (folded)
@@ -64,13 +72,13 @@ bool panel(const char* name, const Rect& rect, bool folded, ImGuiDir out, ImGuiD
 }
 
 /// Toggles a side panel: where both sides do not fit, the opened one replaces the other.
-void foldSide(PanelFolds& folds, bool PanelFolds::*side, bool PanelFolds::*other, const PanelInput& input) {
+void foldSide(PanelState& state, bool PanelFolds::*side, bool PanelFolds::*other, const PanelInput& input) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const auto fitting = [&] { return fittingFolds(folds, {display.x, display.y}, input.scale); };
+    const auto fitting = [&] { return fittingFolds(state, {display.x, display.y}, input.scale); };
     const bool folded = fitting().*side;
-    folds.*side = !folded;
+    state.folds.*side = !folded;
     if (folded && fitting().*side)
-        folds.*other = true;
+        state.folds.*other = true;
 }
 
 void effectKeys(PanelState& state) {
@@ -169,14 +177,24 @@ void coveredKeys(const PanelInput& input, PanelState& state) {
         state.editMaterials = !state.editMaterials;
 }
 
+/// Ctrl+Shift with plus and minus. On a US keyboard plus is Shift with the key of the equals sign.
+void scaleKeys(PanelState& state) {
+    if (!ImGui::GetIO().KeyShift)
+        return;
+    if (ctrlPressed(keyOf('+') == '+' ? keyOf('=') : keyOf('+')) || ctrlPressed(GLFW_KEY_KP_ADD))
+        state.uiScale = steppedUiScale(state.uiScale, 1);
+    if (ctrlPressed(keyOf('-')) || ctrlPressed(GLFW_KEY_KP_SUBTRACT))
+        state.uiScale = steppedUiScale(state.uiScale, -1);
+}
+
 void windowKeys(const PanelInput& input, PanelState& state) {
     PanelFolds& folds = state.folds;
     if (keyPressed(GLFW_KEY_F1) || (keyPressed(keyOf('/')) && ImGui::GetIO().KeyShift))
         state.help = !state.help;
     if (keyPressed(GLFW_KEY_F2))
-        foldSide(folds, &PanelFolds::left, &PanelFolds::right, input);
+        foldSide(state, &PanelFolds::left, &PanelFolds::right, input);
     if (keyPressed(GLFW_KEY_F3))
-        foldSide(folds, &PanelFolds::right, &PanelFolds::left, input);
+        foldSide(state, &PanelFolds::right, &PanelFolds::left, input);
     if (keyPressed(GLFW_KEY_F4))
         folds.bottom = !folds.bottom;
     if (keyPressed(GLFW_KEY_TAB) && !state.walking) {
@@ -187,6 +205,7 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         state.simulatedHand = !state.simulatedHand || !state.device.empty();
         state.device.clear();
     }
+    scaleKeys(state);
     if (ctrlPressed(keyOf('g')))
         state.gallery = !state.gallery;
     if (ctrlPressed(keyOf('q')))
@@ -240,35 +259,36 @@ void bottomPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
         recording = true;
     if (recording)
         return drawTimeline(*input.timeline, state.timeline, widgets);
-    ImGui::SameLine();
     drawCharts(input, state, widgets);
 }
 
 } // namespace
 
-PanelFolds fittingFolds(const PanelFolds& folds, const glm::vec2& window, float scale) {
+PanelFolds fittingFolds(const PanelState& state, const glm::vec2& window, float scale) {
     const glm::vec2 units = window / scale;
-    PanelFolds fitting = folds;
+    PanelFolds fitting = state.folds;
     const auto width = [&] {
         return units.x - (fitting.left ? kFolded : kLeft) - (fitting.right ? kFolded : kRight);
     };
     fitting.left = fitting.left || width() < kMinWidth;
     fitting.right = fitting.right || width() < kMinWidth;
-    fitting.bottom = fitting.bottom || units.y - kBar - kBottom < kMinHeight;
+    fitting.bottom = fitting.bottom || units.y - topOf(state) - kBottom < kMinHeight;
     return fitting;
 }
 
-PictureRect pictureRect(const PanelFolds& wanted, const glm::vec2& window, float scale) {
-    const PanelFolds folds = fittingFolds(wanted, window, scale);
+PictureRect pictureRect(const PanelState& state, const glm::vec2& window, float scale) {
+    const PanelFolds folds = fittingFolds(state, window, scale);
     const float left = (folds.left ? kFolded : kLeft) * scale,
                 right = (folds.right ? kFolded : kRight) * scale,
-                bottom = (folds.bottom ? kFolded : kBottom) * scale, bar = kBar * scale;
-    return {left, bar, std::max(1.0f, window.x - left - right), std::max(1.0f, window.y - bar - bottom)};
+                bottom = (folds.bottom ? kFolded : kBottom) * scale, top = topOf(state) * scale;
+    return {left, top, std::max(1.0f, window.x - left - right), std::max(1.0f, window.y - top - bottom)};
 }
 
 std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    Widgets widgets(input.scale);
+    Widgets widgets(input.scale, &state.hovered);
+    if (state.hovered.frame + 1 < ImGui::GetFrameCount())
+        state.hovered.shown.clear();
     effectKeys(state);
     escape(input, state);
     answerKeys(input, state);
@@ -283,17 +303,20 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     walk(state);
     if (followController(*input.timeline, state.timeline))
         state.folds.bottom = false;
-    const PictureRect picture = pictureRect(state.folds, {display.x, display.y}, input.scale);
+    const PictureRect picture = pictureRect(state, {display.x, display.y}, input.scale);
     const float below = picture.y + picture.height, beyond = picture.x + picture.width;
     widgets.place("picture", {picture.x, picture.y, picture.width, picture.height});
-    topBar(input, state, {0.0f, 0.0f, display.x, picture.y}, widgets);
-    const PanelFolds folds = fittingFolds(state.folds, {display.x, display.y}, input.scale);
+    const float bar = widgets.units(kBar);
+    const PanelFolds folds = fittingFolds(state, {display.x, display.y}, input.scale);
+    topBar(input, state, {0.0f, 0.0f, display.x, bar}, widgets);
+    if (picture.y > bar)
+        drawIntroduction(state, {0.0f, bar, display.x, picture.y - bar}, widgets);
     if (panel("scene", {0.0f, picture.y, picture.x, display.y - picture.y}, folds.left, ImGuiDir_Right,
               ImGuiDir_Left, widgets, [&] { leftPanel(input, state, widgets); }))
-        foldSide(state.folds, &PanelFolds::left, &PanelFolds::right, input);
+        foldSide(state, &PanelFolds::left, &PanelFolds::right, input);
     if (panel("felt", {beyond, picture.y, display.x - beyond, display.y - picture.y}, folds.right,
               ImGuiDir_Left, ImGuiDir_Right, widgets, [&] { rightPanel(input, state, widgets); }))
-        foldSide(state.folds, &PanelFolds::right, &PanelFolds::left, input);
+        foldSide(state, &PanelFolds::right, &PanelFolds::left, input);
     if (panel("charts", {picture.x, below, picture.width, display.y - below}, folds.bottom, ImGuiDir_Up,
               ImGuiDir_Down, widgets, [&] { bottomPanel(input, state, widgets); }))
         state.folds.bottom = !state.folds.bottom;

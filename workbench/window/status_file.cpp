@@ -62,7 +62,11 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
     const bool mouse = state.device.empty() && !state.simulatedHand;
     nlohmann::ordered_json rects = nlohmann::ordered_json::object();
     for (const auto& [name, rect] : widgets)
-        rects[name] = {{"x", rect.x}, {"y", rect.y}, {"width", rect.width}, {"height", rect.height}};
+        rects[name] = {{"x", rect.x},
+                       {"y", rect.y},
+                       {"width", rect.width},
+                       {"height", rect.height},
+                       {"note", rect.note}};
     const nlohmann::ordered_json json{
         {"update", ++updates_},
         {"model", input.modelName},
@@ -91,6 +95,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"mouse", {{"free", state.view.freeHand}, {"press_n", state.view.press}}},
         {"folded",
          {{"scene", state.folds.left}, {"felt", state.folds.right}, {"charts", state.folds.bottom}}},
+        {"ui_scale", {{"asked", state.uiScale}, {"scale", input.scale}, {"fits", input.scaleFits}}},
+        {"tooltip", state.hovered.shown},
         {"help", state.help},
         {"walking", state.walking},
         {"gallery", galleryJson(input, state)},

@@ -1,7 +1,9 @@
 #include "workbench/window/window_memory.h"
 
 #include "engine/core/output_file.h"
+#include "workbench/figures/quantity.h"
 #include "workbench/figures/settings_json.h"
+#include "workbench/screen/ui_scale.h"
 
 #include <nlohmann/json.hpp>
 
@@ -35,10 +37,29 @@ HapticSettings settingsOf(const Json& json) {
     return settings;
 }
 
-WindowMemory memoryOf(const Json& json) {
+/// Also of absurd numbers; `warning` says where another one is used.
+float uiScaleOf(const Json& json, std::string& warning) {
+    const auto found = json.find("ui_scale");
+    if (found == json.end())
+        return 1.0f;
+    const float scale = found->is_number() ? clampedUiScale(found->get<double>()) : 1.0f;
+    if (!found->is_number() || found->get<double>() != static_cast<double>(scale))
+        warning =
+            "its UI scale " + found->dump() + " is none: " + figure(static_cast<double>(scale)) + " is used";
+    return scale;
+}
+
+WindowMemory memoryOf(const Json& json, std::string& warning) {
     WindowMemory memory;
-    if (!json.is_object() || json.value("version", 0) != kVersion)
+    const auto version = json.is_object() ? json.find("version") : json.end();
+    if (version == json.end() || !version->is_number_integer() || version->get<int64_t>() != kVersion) {
+        warning = version == json.end()
+                      ? "it has no version: the window begins with the defaults"
+                      : "its version is " + version->dump() + ", not " + std::to_string(kVersion) +
+                            ": the window begins with the defaults";
         return memory;
+    }
+    memory.uiScale = uiScaleOf(json, warning);
     if (const auto settings = json.find("settings"); settings != json.end() && settings->is_object())
         memory.settings = settingsOf(*settings);
     if (const auto folds = json.find("folded"); folds != json.end() && folds->is_object())
@@ -69,15 +90,20 @@ void WindowMemory::opened(const std::filesystem::path& file) {
     recent.resize(std::min(recent.size(), kMaxRecent));
 }
 
-WindowMemory readMemory(const std::filesystem::path& file) {
+WindowMemory readMemory(const std::filesystem::path& file, std::string* warning) {
     std::ifstream stream(file);
     if (!stream)
         return {};
+    WindowMemory memory;
+    std::string found;
     try {
-        return memoryOf(Json::parse(stream));
+        memory = memoryOf(Json::parse(stream), found);
     } catch (const std::exception&) {
-        return {};
+        found = "it cannot be read: the window begins with the defaults";
     }
+    if (warning != nullptr && !found.empty())
+        *warning = file.string() + ": " + found;
+    return memory;
 }
 
 bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory) {
@@ -90,6 +116,7 @@ bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory) 
         {"folded",
          {{"scene", memory.folds.left}, {"felt", memory.folds.right}, {"charts", memory.folds.bottom}}},
         {"sound", {{"on", memory.sound.on}, {"volume", memory.sound.volume}}},
+        {"ui_scale", memory.uiScale},
         {"introduced", memory.introduced},
         {"size", {memory.size.x, memory.size.y}},
         {"recent", std::move(recent)},

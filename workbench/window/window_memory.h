@@ -3,6 +3,7 @@
 #include "workbench/panels/panel_state.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace touchstone {
@@ -12,6 +13,7 @@ struct WindowMemory {
     HapticSettings settings;
     PanelFolds folds;
     SoundChoice sound;
+    float uiScale = 1.0f; ///< within kMinUiScale..kMaxUiScale
     bool introduced = false;
     glm::ivec2 size{0};                        ///< screen coordinates; 0: unknown
     std::vector<std::filesystem::path> recent; ///< files opened, newest first
@@ -23,8 +25,8 @@ struct WindowMemory {
 };
 
 /// The contents of `file`; defaults for the rest. A missing or invalid file, or one of another version, gives
-/// the defaults.
-[[nodiscard]] WindowMemory readMemory(const std::filesystem::path& file);
+/// the defaults. `warning`: what was not taken of a file that is there; may be null.
+[[nodiscard]] WindowMemory readMemory(const std::filesystem::path& file, std::string* warning = nullptr);
 
 /// False where it cannot be written: the state is lost then.
 bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory);

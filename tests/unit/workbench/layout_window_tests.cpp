@@ -151,6 +151,72 @@ TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
     expectCleanEnd();
 }
 
+TEST_F(LayoutTest, TypeGrowsByKeysAsFarAsItFitsAndIsKept) {
+    open(kDoughnut, {"--ui-scale", "1"});
+    const auto height = [](const Json& s) { return s["widgets"]["file"]["height"].get<double>(); };
+    const double before = height(later());
+    display_.key("ctrl+shift+plus");
+    const Json larger = until("larger type", [](const Json& s) { return s["ui_scale"]["scale"] == 1.25; });
+    EXPECT_NEAR(height(larger), 1.25 * before, 2.0);
+    EXPECT_EQ(larger["ui_scale"]["fits"], true);
+    for (int i = 0; i < 3; ++i)
+        display_.key("ctrl+shift+plus");
+    const Json most = until("what does not fit", [](const Json& s) { return s["ui_scale"]["asked"] == 2.0; });
+    EXPECT_EQ(most["ui_scale"]["scale"], 1.5) << "1000 x 780 has no more than 666 x 520 units";
+    EXPECT_EQ(most["ui_scale"]["fits"], false);
+    display_.key("ctrl+shift+minus");
+    until("the one asked for before", [](const Json& s) { return s["ui_scale"]["asked"] == 1.75; });
+    expectCleanEnd();
+    std::filesystem::remove(status_);
+    open(kDoughnut);
+    EXPECT_EQ(later()["ui_scale"]["asked"], 1.75) << "kept";
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, AnAbsurdScaleOrSizeIsRefusedOrClampedWithAWarning) {
+    for (const char* scale : {"0", "-1", "1e9", "nan", "two"}) {
+        const ProgramResult result = runProgram(
+            {TOUCHSTONE_BINARY, kDoughnut, std::string("--ui-scale=") + scale}, display_.environment());
+        EXPECT_EQ(result.status, 2) << scale;
+        EXPECT_NE(result.err.find("write a number from 0.75 to 4"), std::string::npos) << result.err;
+    }
+    std::filesystem::create_directories(scratch_ / "state/touchstone");
+    std::ofstream(scratch_ / "state/touchstone/window.json")
+        << R"({"version": 1, "ui_scale": -1e9, "introduced": true})";
+    size_ = "1x1";
+    open(kDoughnut);
+    const Json small = later();
+    EXPECT_EQ(small["ui_scale"]["asked"], 0.75);
+    EXPECT_EQ(small["introduced"], true);
+    expectCleanEnd();
+    EXPECT_NE(readFile(scratch_ / "log").find("UI scale"), std::string::npos);
+    EXPECT_NE(readFile(scratch_ / "log").find("it is opened as 640x400"), std::string::npos);
+
+    std::ofstream(scratch_ / "state/touchstone/window.json") << R"({"version": 7, "ui_scale": 3})";
+    std::filesystem::remove(status_);
+    size_ = "16384x16384";
+    open(kDoughnut);
+    const Json large = later();
+    EXPECT_EQ(large["ui_scale"]["asked"], 1.0);
+    EXPECT_EQ(large["introduced"], false);
+    expectCleanEnd();
+    EXPECT_NE(readFile(scratch_ / "log").find("its version is 7, not 1"), std::string::npos);
+    EXPECT_NE(readFile(scratch_ / "log").find("it is opened as 1280x800"), std::string::npos);
+}
+
+TEST_F(LayoutTest, AControlTellsWhatItDoesWhereThePointerRests) {
+    open(kDoughnut);
+    display_.move(middleOf("texture"));
+    const Json told = until("the tooltip", [](const Json& s) { return s["tooltip"] != ""; });
+    EXPECT_EQ(told["tooltip"], told["widgets"]["texture"]["note"]);
+    EXPECT_NE(told["tooltip"].get<std::string>().find("--set texture="), std::string::npos);
+    for (const auto& [name, rect] : told["widgets"].items())
+        EXPECT_TRUE(name == "picture" || rect["note"] != "") << name;
+    display_.move(inPicture(0.5, 0.5));
+    until("no tooltip", [](const Json& s) { return s["tooltip"] == ""; });
+    expectCleanEnd();
+}
+
 TEST_F(LayoutTest, AFileThatIsWrongIsToldAndTheOldModelStays) {
     open(kDoughnut);
     const std::string bad = (scratch_ / "bad.glb").string();

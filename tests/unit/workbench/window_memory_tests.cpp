@@ -31,6 +31,7 @@ TEST_F(WindowMemoryTest, ComesBackAsItWasButForTheForceSwitch) {
     memory.settings.forceEnabled = false;
     memory.folds = {true, false, true};
     memory.sound = {true, 0.25f};
+    memory.uiScale = 1.37f;
     memory.introduced = true;
     memory.size = {1111, 777};
     memory.recent = {"/models/a b.glb", "/models/\u00e4.gltf"};
@@ -65,6 +66,43 @@ TEST_F(WindowMemoryTest, KeepsWhatIsRightBesideWhatIsWrong) {
     EXPECT_EQ(memory.settings.proxyRadius, HapticSettings{}.proxyRadius);
     EXPECT_EQ(readOf("{\"version\": 1, \"size\": [99999999, 5]}").size, glm::ivec2(16384, 320));
     EXPECT_EQ(readOf("{\"version\": 1, \"size\": [99999999999999, 700]}").size.y, 700);
+}
+
+TEST_F(WindowMemoryTest, WarnsOfAFileThatItDoesNotTake) {
+    std::filesystem::create_directories(file_.parent_path());
+    const auto warningOf = [&](const std::string& text) {
+        std::ofstream(file_) << text;
+        std::string warning;
+        (void)readMemory(file_, &warning);
+        return warning;
+    };
+    EXPECT_EQ(warningOf(R"({"version": 1, "ui_scale": 1.5})"), "");
+    EXPECT_NE(warningOf(R"({"version": 7, "ui_scale": 2})").find("its version is 7, not 1"),
+              std::string::npos);
+    EXPECT_NE(warningOf(R"({"version": 1e300})").find("its version is"), std::string::npos);
+    EXPECT_NE(warningOf(R"({"ui_scale": 2})").find("no version"), std::string::npos);
+    EXPECT_NE(warningOf("[1]").find("no version"), std::string::npos);
+    EXPECT_NE(warningOf("{ \"version\": 1, \"folded\"").find("cannot be read"), std::string::npos);
+    std::filesystem::remove(file_);
+    std::string warning;
+    (void)readMemory(file_, &warning);
+    EXPECT_EQ(warning, "") << "the first run";
+}
+
+TEST_F(WindowMemoryTest, ClampsAnAbsurdUiScaleAndWarns) {
+    std::filesystem::create_directories(file_.parent_path());
+    for (const auto& [text, scale] :
+         {std::pair("0", 0.75f), std::pair("-1", 0.75f), std::pair("1e9", 4.0f), std::pair("1e999", 4.0f),
+          std::pair("null", 1.0f), std::pair("\"2\"", 1.0f), std::pair("[2]", 1.0f)}) {
+        std::ofstream(file_) << R"({"version": 1, "introduced": true, "ui_scale": )" << text << "}";
+        std::string warning;
+        const WindowMemory memory = readMemory(file_, &warning);
+        EXPECT_NE(warning, "") << text;
+        if (std::string_view(text) == "1e999") // the reader refuses the number and with it the file
+            continue;
+        EXPECT_EQ(memory.uiScale, scale) << text;
+        EXPECT_TRUE(memory.introduced) << text;
+    }
 }
 
 TEST_F(WindowMemoryTest, NamesEachFileOnceNewestFirst) {

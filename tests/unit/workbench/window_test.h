@@ -27,8 +27,8 @@ class WindowTest : public testing::Test {
               [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
     }
     void start(const std::string& scene, const std::vector<std::string>& more = {}) {
-        std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size",
-                                           "1000x780",        "--status-json", status_.string()};
+        std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size", size_,
+                                           "--status-json",   status_.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
@@ -107,6 +107,7 @@ class WindowTest : public testing::Test {
 
     ScratchFolder scratch_;
     std::filesystem::path status_ = scratch_ / "status.json";
+    std::string size_ = "1000x780"; ///< of the window
     VirtualDisplay display_{1280, 800};
     Environment environment_; ///< of the program, besides what all have
     std::unique_ptr<BackgroundProgram> program_;

@@ -1,0 +1,200 @@
+#include "workbench/panels/notes.h"
+
+#include "haptics/settings/haptic_settings.h"
+#include "workbench/editor/haptic_fields.h"
+#include "workbench/editor/presets.h"
+
+#include <algorithm>
+#include <array>
+
+namespace touchstone {
+
+namespace {
+
+struct Note {
+    std::string_view name; ///< of the widget; with ':' or '.' at its end: of all whose names begin so
+    std::string_view text;
+    std::string_view setting = ""; ///< its meaning follows the text
+};
+
+constexpr std::array kNotes{
+    // The bar.
+    Note{"file", "Open a model or a recording, save the picture, quit"},
+    Note{"openPath", "Path of a .glb, a .gltf or a recording; Enter opens it"},
+    Note{"open", "Open what the path names"},
+    Note{"menu:recordings", "List the recordings in the panel below"},
+    Note{"gallery", "Our scenes and recent files as pictures"},
+    Note{"sample:", "Open this scene of ours"},
+    Note{"menu:recent:", "Open this file again"},
+    Note{"menu:savePicture", "Save what the window shows of the model, as PNG"},
+    Note{"menu:quit", "Close the window; asks first where materials are not saved"},
+    Note{"viewMenu", "What the picture shows, which panels are open, the size of type"},
+    Note{"view", "What the colours of the model show; V is the next one"},
+    Note{"showProbe", "Hand (red) and proxy (blue)"},
+    Note{"showShadow", "Shadow of the proxy on what is below it"},
+    Note{"showForce", "The force as an arrow, 40 mm for a newton"},
+    Note{"showPlanes", "The constraint planes that hold the proxy"},
+    Note{"showFriction", "Stiction point and friction cone"},
+    Note{"showNormal", "The normal that is felt"},
+    Note{"magnifier", "A second view of the 12 mm around the probe"},
+    Note{"turntable", "The camera circles the model once in 12.6 s"},
+    Note{"camera:all", "Show the whole model (Home)"},
+    Note{"camera:front", "Look from the front (1)"},
+    Note{"camera:right", "Look from the right (3)"},
+    Note{"camera:top", "Look from above (7)"},
+    Note{"camera:near", "Go near the probe (.)"},
+    Note{"savePicture", "F12: save what the window shows of the model, as PNG"},
+    Note{"panel:", "Show or fold this panel"},
+    Note{"uiScale", "Size of type and widgets beside what the monitor asks for; kept for the next run"},
+    Note{"smaller", "Smaller type and widgets (Ctrl+Shift+-)"},
+    Note{"larger", "Larger type and widgets (Ctrl+Shift++)"},
+    Note{"forceShading", "Force shading off and on (F5); the panel on the right has its model",
+         "forceShading"},
+    Note{"texture", "Texture off and on (F6); the panel on the right has its law", "texture"},
+    Note{"friction", "Friction off and on (F7); the panel on the right has its law", "friction"},
+    Note{"forceEnabled", "Force off and on (Space)", "forceEnabled"},
+    Note{"record", "Record every tick, for `touchstone replay` (F9)"},
+    Note{"servo", "Rate of the servo and 99th percentile of the time of its step; green: the rate is kept"},
+    Note{"help", "All keys (F1)"},
+    Note{"helpClose", "Back to the window (Escape)"},
+    Note{"fold:", "Fold or unfold this panel (F2, F3, F4)"},
+    // The hand.
+    Note{"mouse", "The mouse is the hand: left button presses on the model, wheel sets how hard (F8)"},
+    Note{"simulatedHand", "A simulated hand strokes the model (F8)"},
+    Note{"freeHand", "The mouse moves its hand free in space: drag in the view's plane, wheel in depth (G)"},
+    Note{"device", "A plugged-in device is the hand"},
+    Note{"device:", "Touch with this device"},
+    Note{"stroke", "How the simulated hand strokes (N, Shift+N)"},
+    Note{"strokeSpeed", "Speed of the hand on the surface at its fastest"},
+    Note{"strokeDepth", "How far the hand presses in"},
+    Note{"zoom", "Way of the hand in the model over way of the device (Page Up, Page Down)"},
+    Note{"clutch", "While held, the device moves and the hand stays (C)"},
+    Note{"centre", "The device's place now is the middle of the model (Shift+C)"},
+    // The scene.
+    Note{"model", "The open file"},
+    Note{"node:", "A node of the file; green while it is touched"},
+    Note{"dismissNotice", "Remove this note"},
+    Note{"editMaterials", "Change what the materials feel like, and save it (E)"},
+    Note{"material", "Material under the probe"},
+    // What is felt.
+    Note{"lamp", "State of the touch"},
+    Note{"force", "Force on the hand now, before the safety stage"},
+    Note{"passivity", "Damp what the device gives the hand beyond what it took", "passivity"},
+    Note{"sound", "Make the force audible; texture sounds as it is stroked (S)"},
+    Note{"volume", "Volume of the sound"},
+    Note{"soundStatus", "The sound card, and how long after the force it sounds"},
+    Note{"budget", "Time of a step by stage over the last 4000 ticks in contact: the median, the 99th "
+                   "percentile, and its part of the servo's period"},
+    Note{"budgetLegend", "Median and 99th percentile of each stage over the last 4000 ticks in contact"},
+    Note{"error",
+         "Difference from the most exact methods over the last 2 s, run beside the servo on the same "
+         "hand; noticed: from what on people feel it (docs/accuracy.md)"},
+    Note{"shadingModel", "Model of force shading", "forceShading"},
+    Note{"textureLaw", "Force law of texture", "texture"},
+    Note{"frictionLaw", "Law of friction", "friction"},
+    Note{"servoRate", "Ticks of the last second, and the rate asked for"},
+    Note{"servoMissed", "Ticks that began more than a period late, of all ticks"},
+    Note{"servoStolen", "Part of the servo's processor that other programs took"},
+    Note{"servoPicture", "Pictures drawn in a second"},
+    // Charts and recordings.
+    Note{"live", "Charts of the last 10 s"},
+    Note{"recorded", "Recordings, and the timeline of the open one"},
+    Note{"pause", "Hold the charts; the servo goes on (P)"},
+    Note{"saveCsv", "Save the charts as a table"},
+    Note{"savePng", "Save the charts as a picture"},
+    Note{"charts", "The pointer reads the values of a tick"},
+    Note{"recordings", "The list of recordings"},
+    Note{"recording:", "Open this recording"},
+    Note{"timeline", "The whole recording; drag moves the cursor"},
+    Note{"near", "The part near the cursor; drag, wheel: more or less of it"},
+    Note{"recordingNews", "The open recording, and what became of a replay"},
+    Note{"toBegin", "First tick (Home)"},
+    Note{"toEnd", "Last tick (End)"},
+    Note{"stepBack", "A tick back (Left); 100 ms with Shift"},
+    Note{"stepOn", "A tick on (Right); 100 ms with Shift"},
+    Note{"play", "Play and pause (K)"},
+    Note{"speed", "Speed of playing, as a multiple of real time"},
+    Note{"speed:", "Play this fast"},
+    Note{"markBegin", "The loop begins at the cursor (A)"},
+    Note{"markEnd", "The loop ends at the cursor (B)"},
+    Note{"clearMarks", "No loop (Shift+A)"},
+    Note{"verify", "Replay all ticks as fast as possible and compare every bit"},
+    Note{"touchAgain", "The recorded hand touches again, with the settings and materials of now"},
+    Note{"openModel", "Open the model of the recording"},
+    Note{"backToLive", "Leave the recording (Escape)"},
+    // Cards and gallery.
+    Note{"gotIt", "Put this strip away for good"},
+    Note{"otherModels", "Our scenes and recent files as pictures"},
+    Note{"cancel", "Keep the model that is open"},
+    Note{"dismiss", "Put this message away (Escape)"},
+    Note{"leaveSave", "Save the materials into the file, then go on"},
+    Note{"leaveDiscard", "Lose the changes of the materials, and go on"},
+    Note{"leaveStay", "Keep the model that is open"},
+    Note{"galleryClose", "Back to the model (Escape)"},
+    Note{"gallery:", "Open this scene of ours"},
+    Note{"recent:", "Open this file again"},
+    // The material editor.
+    Note{"edit.material", "The material that is edited"},
+    Note{"edit.preset", "Numbers of a known material to begin with"},
+    Note{"followProbe", "Edit the material that is touched"},
+    Note{"reset.", "Back to what holds when the file states nothing"},
+    Note{"undo", "Take the last change back (Ctrl+Z)"},
+    Note{"redo", "Make it again (Ctrl+Shift+Z)"},
+    Note{"resetMaterial", "Take back all changes of this material"},
+    Note{"save", "Save into the file (Ctrl+S)"},
+    Note{"saveAs", "Save under another name"},
+    Note{"target", "Path of the new file"},
+    Note{"saveTarget", "Save under this path"},
+};
+
+std::string settingNote(std::string_view name) {
+    const auto* field = findField(settingFields(), name);
+    if (field == nullptr)
+        return {};
+    return std::string(field->meaning) + "\n--set " + std::string(name) + "=" + allowedValues(*field) +
+           (field->unit.empty() ? "" : " " + std::string(field->unit));
+}
+
+template <class Fields>
+std::string meaningIn(const Fields& fields, std::string_view name) {
+    const auto found = std::ranges::find(fields, name, [](const auto& field) { return field.name; });
+    return found != fields.end() ? std::string(found->meaning) : std::string();
+}
+
+/// Of a field of the material editor.
+std::string fieldNote(std::string_view name) {
+    for (std::string meaning :
+         {meaningIn(numberFields(), name), meaningIn(mapFields(), name), meaningIn(choiceFields(), name)})
+        if (!meaning.empty())
+            return meaning + "\n`touchstone edit --field " + std::string(name) + "=VALUE`";
+    return {};
+}
+
+bool names(const Note& note, std::string_view name) {
+    const bool group = note.name.ends_with(':') || note.name.ends_with('.');
+    return group ? name.starts_with(note.name) : name == note.name;
+}
+
+} // namespace
+
+std::string noteOf(std::string_view name) {
+    if (const auto note = std::ranges::find_if(kNotes, [&](const Note& n) { return names(n, name); });
+        note != kNotes.end()) {
+        const std::string setting = settingNote(note->setting);
+        return std::string(note->text) + (setting.empty() ? "" : "\n" + setting);
+    }
+    constexpr std::string_view kField = "edit.", kPreset = "preset.";
+    if (name.starts_with(kField))
+        return fieldNote(name.substr(kField.size()));
+    if (name.starts_with(kPreset))
+        if (const MaterialPreset* preset = findPreset(name.substr(kPreset.size())))
+            return std::string(preset->reason);
+    return settingNote(name);
+}
+
+bool isArea(std::string_view name) {
+    constexpr std::array kAreas{"picture", "charts", "timeline", "near", "recordingNews"};
+    return std::ranges::find(kAreas, name) != kAreas.end();
+}
+
+} // namespace touchstone
