@@ -136,7 +136,8 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (ImGui::RadioButton("Mouse", !held && !state.simulatedHand))
         letGo(state, false);
     widgets.mark("mouse");
-    widgets.beside(Widgets::buttonWidth("Simulated hand") + ImGui::GetFrameHeight());
+    widgets.beside(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x +
+                   ImGui::CalcTextSize("Simulated hand").x);
     if (!input.canSimulate)
         ImGui::BeginDisabled();
     if (ImGui::RadioButton("Simulated hand", !held && state.simulatedHand))

@@ -200,10 +200,12 @@ bool Widgets::slider(const char* name, const char* label, float& value, const Sl
                            style.FrameRounding);
         const float edge = low.x + (high.x - low.x) * fractionOf(value, range);
         // No knob: what lies under the number is the fill, and a line below it.
-        draw.AddRectFilled(low, ImVec2(edge, high.y), ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.4f),
-                           style.FrameRounding, ImDrawFlags_RoundCornersLeft);
-        draw.AddRectFilled(ImVec2(low.x, high.y - units(2.0f)), ImVec2(edge, high.y),
-                           ImGui::GetColorU32(ImGuiCol_SliderGrab));
+        if (edge > low.x + 0.5f) {
+            draw.AddRectFilled(low, ImVec2(edge, high.y), ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.4f),
+                               style.FrameRounding, ImDrawFlags_RoundCornersLeft);
+            draw.AddRectFilled(ImVec2(low.x, high.y - units(2.0f)), ImVec2(edge, high.y),
+                               ImGui::GetColorU32(ImGuiCol_SliderGrab));
+        }
         // ImGui's own frame, knob and number are not drawn.
         for (const ImGuiCol hidden : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive,
                                       ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_Text})

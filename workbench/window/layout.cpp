@@ -59,8 +59,10 @@ bool panel(const char* name, const Rect& rect, bool folded, ImGuiDir out, ImGuiD
     const ImVec2 begin = ImGui::GetCursorPos();
     if (folded)
         ImGui::SetCursorPos(ImVec2(0.5f * (rect.width - std::min(rect.width, side)), 0.0f));
-    else // on the first line, right
-        ImGui::SetCursorPos(ImVec2(ImGui::GetWindowContentRegionMax().x - side, begin.y));
+    else // on the first line, right; that of a side panel is plain text, above a line
+        ImGui::SetCursorPos(
+            ImVec2(ImGui::GetWindowContentRegionMax().x - side,
+                   begin.y - (in == ImGuiDir_Down ? 0.0f : ImGui::GetStyle().FramePadding.y)));
     const bool pressed = ImGui::ArrowButton("##fold", folded ? out : in);
     widgets.mark((std::string("fold:") + name).c_str());
     if (!folded) {
