@@ -244,15 +244,19 @@ void drawLookingCard(TimelineController& controller, const WidgetRect& picture, 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(8.0f)));
     if (beginCardWindow("looking", widgets)) {
         ImGui::AlignTextToFramePadding();
-        ImGui::TextColored(ImColor(kAmber), controller.again().running()
-                                                ? "The recorded hand touches again; the force is off"
-                                                : "A recording; the force is off");
-        ImGui::SameLine();
-        if (ImGui::Button("Back to the live hand"))
+        constexpr const char* kBack = "Back to the live hand";
+        const char* const text = controller.again().running()
+                                     ? "The recorded hand touches again; the force is off"
+                                     : "A recording; the force is off";
+        const float room = picture.width - widgets.units(50.0f);
+        const bool oneLine =
+            ImGui::CalcTextSize(text).x + Widgets::buttonWidth(kBack) + ImGui::GetStyle().ItemSpacing.x <
+            room;
+        ImGui::TextColored(ImColor(kAmber), "%s", brokenLines(text, room).c_str());
+        if (oneLine)
+            ImGui::SameLine();
+        if (widgets.button("backToLive", kBack))
             controller.leave();
-        widgets.mark("backToLive");
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("Escape");
     }
     ImGui::End();
     ImGui::PopStyleVar();
