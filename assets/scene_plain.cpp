@@ -97,6 +97,7 @@ std::vector<SceneFile> allScenes() {
         scenes.insert(scenes.end(), std::make_move_iterator(family.begin()),
                       std::make_move_iterator(family.end()));
     scenes.push_back(swatches());
+    scenes.push_back(effects());
     scenes.push_back(moving());
     scenes.push_back(virtualBump());
     scenes.push_back(materials());

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace touchstone::assets {
 
@@ -16,7 +18,8 @@ constexpr double kTile = 0.040, kGap = 0.004, kThickness = 0.012; // m
 constexpr int kMapSize = 256;                                     // 0.16 mm a texel
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-constexpr double kBumpHeight = 0.0006, kRibHeight = 0.0004, kGrainHeight = 0.00015; // m
+constexpr double kBumpHeight = 0.0006, kRibHeight = 0.0004, kTallRibHeight = 0.001,
+                 kGrainHeight = 0.00015; // m
 
 /// Round bumps 8 mm apart, flat between them.
 double bumps(double u, double v) {
@@ -142,14 +145,12 @@ std::vector<double> cuts(size_t tiles) {
     return result;
 }
 
-} // namespace
-
-SceneFile swatches() {
-    // One closed box whose front (+z) is cut into tiles and the frame between them, each tile a primitive
-    // with its own material: a stroke between tiles meets no edge, only a change of material.
-    GlbWriter glb("swatches");
-    glb.describe("ten materials side by side");
-    const std::vector<double> x = cuts(kColumns), y = cuts(kRows), z{-0.5 * kThickness, 0.5 * kThickness};
+/// Primitives of one closed box whose front (+z) is cut into tiles, row by row from the upper left, and the
+/// frame between them, each with its own material: a stroke between tiles meets no edge, only a change of
+/// material. The first primitive is the frame.
+std::vector<std::pair<Shape, int>> board(GlbWriter& glb, size_t columns, std::span<const Swatch> tiles) {
+    const size_t rows = tiles.size() / columns;
+    const std::vector<double> x = cuts(columns), y = cuts(rows), z{-0.5 * kThickness, 0.5 * kThickness};
     const Face front{2, 1.0, z[1], x, y};
     const auto isTile = [](size_t i, size_t j) { return i % 2 == 1 && j % 2 == 1; };
     const auto everywhere = [](size_t, size_t) { return true; };
@@ -167,18 +168,101 @@ SceneFile swatches() {
                                         {"metallicFactor", 0.0},
                                         {"roughnessFactor", 0.8}}}});
     std::vector<std::pair<Shape, int>> parts{{frame, wood}};
-    const auto swatches = palette();
-    for (size_t i = 0; i < swatches.size(); ++i) {
+    for (size_t i = 0; i < tiles.size(); ++i) {
         // From the upper left, row by row; cell 2 i + 1 of the cuts is tile i, and y grows upwards.
-        const size_t column = i % kColumns, rowFromBelow = kRows - 1 - i / kColumns;
+        const size_t column = i % columns, rowFromBelow = rows - 1 - i / columns;
         Shape tile;
         appendCell(tile, front, 2 * column + 1, 2 * rowFromBelow + 1);
         tile.uv = {{0.0f, 1.0f}, {1.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
         tile.tangents.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
-        parts.emplace_back(tile, addSwatchMaterial(glb, swatches[i]));
+        parts.emplace_back(tile, addSwatchMaterial(glb, tiles[i]));
     }
-    glb.addNode("swatches", glb.addMesh("swatches", parts));
+    return parts;
+}
+
+/// The tile that shading is felt on lies beneath a ridge of four flat facets, 21.8 degrees from one to the
+/// next, whose vertex normals are those of the cylinder through its corners.
+constexpr double kRidgeHeight = 0.008, kRidgeFoot = 0.003; // m; the foot is in the board
+constexpr uint32_t kRidgeFacets = 4;
+
+/// Runs along y, as wide as a tile, its rim at z = 0. A closed prism: the label's UVs on the facets.
+Shape ridge() {
+    constexpr double kHalf = 0.5 * kTile;
+    constexpr double kRadius = (kHalf * kHalf + kRidgeHeight * kRidgeHeight) / (2.0 * kRidgeHeight);
+    const double halfAngle = std::asin(kHalf / kRadius);
+    std::vector<glm::dvec2> outline; // x, z, clockwise seen from -y
+    std::vector<glm::dvec2> radial;
+    for (uint32_t i = 0; i <= kRidgeFacets; ++i) {
+        const double angle = halfAngle * (2.0 * i / kRidgeFacets - 1.0);
+        radial.emplace_back(std::sin(angle), std::cos(angle));
+        outline.emplace_back(kRadius * radial[i].x, kRadius * radial[i].y - kRadius + kRidgeHeight);
+    }
+    outline.emplace_back(kHalf, -kRidgeFoot);
+    outline.emplace_back(-kHalf, -kRidgeFoot);
+
+    Shape shape;
+    const auto vertex = [&](const glm::dvec2& at, double y, const glm::dvec3& normal) {
+        shape.positions.emplace_back(at.x, y, at.y);
+        shape.normals.emplace_back(normal);
+        shape.uv.emplace_back(at.x / kTile + 0.5, 0.5 - y / kTile);
+        return static_cast<uint32_t>(shape.positions.size() - 1);
+    };
+    const size_t corners = outline.size();
+    for (size_t i = 0; i < corners; ++i) {
+        const size_t next = (i + 1) % corners;
+        const glm::dvec2 along = glm::normalize(outline[next] - outline[i]);
+        const bool facet = i < kRidgeFacets;
+        const auto normalAt = [&](size_t corner) {
+            return facet ? glm::dvec3(radial[corner].x, 0.0, radial[corner].y)
+                         : glm::dvec3(-along.y, 0.0, along.x);
+        };
+        const uint32_t a = vertex(outline[i], -kHalf, normalAt(i));
+        const uint32_t b = vertex(outline[next], -kHalf, normalAt(next));
+        const uint32_t c = vertex(outline[next], kHalf, normalAt(next));
+        const uint32_t d = vertex(outline[i], kHalf, normalAt(i));
+        shape.indices.insert(shape.indices.end(), {a, b, c, a, c, d});
+    }
+    for (const double side : {-1.0, 1.0}) {
+        const auto first = static_cast<uint32_t>(shape.positions.size());
+        for (const glm::dvec2& at : outline)
+            vertex(at, side * kHalf, {0.0, side, 0.0});
+        for (uint32_t i = 1; i + 1 < corners; ++i)
+            shape.indices.insert(shape.indices.end(),
+                                 {first, first + (side > 0.0 ? i : i + 1), first + (side > 0.0 ? i + 1 : i)});
+    }
+    return shape;
+}
+
+} // namespace
+
+SceneFile swatches() {
+    GlbWriter glb("swatches");
+    glb.describe("ten materials side by side");
+    glb.addNode("swatches", glb.addMesh("swatches", board(glb, kColumns, palette())));
     return {"swatches.glb", glb.finish()};
+}
+
+SceneFile effects() {
+    GlbWriter glb("effects");
+    glb.describe("shading, texture and friction, a tile each");
+    const Json smooth{{"staticFriction", 0.0}, {"dynamicFriction", 0.0}};
+    Json ribbed = smooth;
+    ribbed["normalTextureInfluence"] = 0.0;
+    const std::array<Swatch, 3> tiles{{{.name = "SHADING", .colour = {205, 95, 75}, .haptic = smooth},
+                                       {.name = "TEXTURE",
+                                        .colour = {115, 150, 190},
+                                        .haptic = ribbed,
+                                        .bump = ribs,
+                                        .reliefHeight = kTallRibHeight,
+                                        .reliefAsHeight = true},
+                                       {.name = "FRICTION",
+                                        .colour = {222, 196, 140},
+                                        .haptic = {{"staticFriction", 0.7}, {"dynamicFriction", 0.5}}}}};
+    const auto parts = board(glb, tiles.size(), tiles);
+    glb.addNode("board", glb.addMesh("board", parts));
+    glb.addNode("ridge", glb.addMesh("ridge", ridge(), parts[1].second),
+                {-(kTile + kGap), 0.0, 0.5 * kThickness});
+    return {"effects.glb", glb.finish()};
 }
 
 } // namespace touchstone::assets

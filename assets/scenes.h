@@ -21,6 +21,9 @@ struct SceneFile {
 [[nodiscard]] std::vector<SceneFile> plainShapes();
 /// A board of tiles of equal shape and different haptic materials.
 [[nodiscard]] SceneFile swatches();
+/// A tile for each of shading (under a ridge of flat facets with smooth normals), texture and friction, so
+/// that every switch of the window changes what is felt on its tile and nothing on the others.
+[[nodiscard]] SceneFile effects();
 /// A box that rises over a plate, turns once about the vertical and sinks again, in a loop of 4 s.
 [[nodiscard]] SceneFile moving();
 
