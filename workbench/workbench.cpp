@@ -50,6 +50,7 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     state_.sound.on = state_.sound.on || options.sound;
     state_.folds = memory_.folds;
     state_.uiScale = options.uiScale > 0.0f ? options.uiScale : memory_.uiScale;
+    state_.charts = memory_.charts;
     state_.introduced = memory_.introduced;
     for (const std::string& warning : {memoryWarning_, window_.sizeWarning()})
         if (!warning.empty())
@@ -118,11 +119,19 @@ const TickRecord& WorkbenchWindow::shownTick() const {
     return timeline_.looking() && !timeline_.again().running() ? timeline_.tick() : touch_.tick();
 }
 
-void WorkbenchWindow::sendSettings() {
-    forceKey_.set(state_.settings.forceEnabled);
+HapticSettings WorkbenchWindow::shownSettings() const {
+    return timeline_.looking() && !timeline_.again().running() ? timeline_.settings() : sentSettings();
+}
+
+HapticSettings WorkbenchWindow::sentSettings() const {
     HapticSettings settings = state_.settings;
     settings.forceEnabled = settings.forceEnabled && !timeline_.looking();
-    touch_.send(settings);
+    return settings;
+}
+
+void WorkbenchWindow::sendSettings() {
+    forceKey_.set(state_.settings.forceEnabled);
+    touch_.send(sentSettings());
 }
 
 void WorkbenchWindow::keyDown(int key, int modifiers) {
@@ -169,6 +178,7 @@ void WorkbenchWindow::remember() {
     memory_.sound = state_.sound;
     memory_.folds = state_.folds;
     memory_.uiScale = state_.uiScale;
+    memory_.charts = state_.charts;
     memory_.introduced = state_.introduced;
     memory_.size = glm::ivec2(glm::vec2(window_.size()) / window_.layoutScale()); // the requested size
     writeMemory(stateFolder() / kMemoryFile, memory_);

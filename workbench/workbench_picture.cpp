@@ -7,8 +7,6 @@ void WorkbenchWindow::draw() {
     gallery_.update(state_.gallery, samples_, memory_.recent, screen_.target());
     const PixelRect area = pictureArea();
     const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
-    const PanelFolds folds = state_.folds;
-    const float uiScale = state_.uiScale;
     auto widgets = drawPanels(input, state_);
     widgets.merge(drawMaterials(input.scale));
     const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
@@ -23,17 +21,20 @@ void WorkbenchWindow::draw() {
                  state_.view);
     doWhatWasAsked(widgets);
     sendSettings();
-    if (!(state_.folds == folds) || state_.uiScale != uiScale)
+    // While an edge is dragged nothing is written.
+    if ((memory_.folds != state_.folds || memory_.charts != state_.charts || memory_.uiScale != state_.uiScale) &&
+        !ImGui::IsAnyMouseDown())
         remember();
 
     if (hasModel()) {
         showMaterials();
         poseAt(shownTick().time, *touch_.shown().model.scene, screen_.renderer());
     }
+    const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{.model = touch_.shown().model,
                                     .tick = shownTick(),
                                     .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
-                                    .settings = shownSettings(),
+                                    .settings = settings,
                                     .camera = view_.camera(),
                                     .options = state_.view,
                                     .place = area,
@@ -43,10 +44,9 @@ void WorkbenchWindow::draw() {
                                     .scale = scale_,
                                     .software = screen_.gpu().isSoftware()};
     screen_.target().endFrame(&screen_.renderer(), picture_.draw(frame, screen_.renderer()));
-    if (picture_.save(screen_.target(), frame))
-        notice_ = picture_.message();
-    if (chartPictures_.update(screen_.target()))
-        notice_ = chartPictures_.message();
+    (void)picture_.save(screen_.target(), frame);
+    (void)chartPictures_.update(screen_.target());
+    chartSaver_.update();
     status_.update(secondsNow(), input, state_, widgets, screen_.validationMessages());
 }
 
@@ -80,13 +80,15 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
                            (scene.touchable() ? "" : ": nothing to touch");
         for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
             for (const Warning& warning : *warnings)
-                input.warnings.push_back(warning.place + ": " + warning.message);
+                input.warnings.push_back((warning.place.empty() ? "" : warning.place + ": ") +
+                                         warning.message);
         for (std::string& warning : settingWarnings(state_.settings))
             input.warnings.push_back(std::move(warning));
         if (has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
             input.warnings.emplace_back("the contact method is being prepared: swept until then");
     }
     input.problem = problem_;
+    input.now = secondsNow();
     input.gallery = gallery_.entries();
     input.showPicture = [this](size_t place, const glm::vec2& from, const glm::vec2& to) {
         screen_.target().showPicture(place, from, to);
@@ -124,7 +126,11 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.frames = screen_.target().statistics().framesPresented;
     input.framesPerSecond = pace_.rate();
     input.camera = view_.camera();
-    input.picture = picture_.message();
+    input.forceSent = forceSent(input.tick->output, shownSettings());
+    input.savedPicture = picture_.note();
+    const SavedNote &drawn = chartPictures_.note(), &written = chartSaver_.note();
+    input.savedCharts = drawn.at > written.at ? drawn : written;
+    input.chartsSaving = chartSaver_.busy();
     input.sceneSize = sceneSize;
     input.gpuName = screen_.gpu().name();
     input.scale = scale_;
@@ -157,21 +163,24 @@ void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& wi
         if (const auto path = std::exchange(*asked, std::nullopt))
             leaveFor(*path);
     if (const auto wanted = std::exchange(state_.chartWanted, std::nullopt)) {
+        const ForceHistory& history = state_.stopped ? *state_.stopped : touch_.forces();
         if (*wanted == ChartFile::Picture)
             chartPictures_.request(screen_.target(), pixelsOf(widgets.at("charts")), "charts");
+        else if (*wanted == ChartFile::Csv)
+            chartSaver_.saveCsv(history);
         else
-            saveChart();
+            chartSaver_.saveFigure(
+                history, state_.charts,
+                {.model = std::filesystem::path(touch_.shown().identity.path).filename().string(),
+                 .hand = handName(),
+                 .settings = state_.settings});
     }
 }
 
-void WorkbenchWindow::saveChart() {
-    try {
-        const std::filesystem::path file = savedFile("charts", ".csv");
-        writeChart(file, state_.stopped ? *state_.stopped : touch_.forces());
-        notice_ = "saved " + file.string();
-    } catch (const std::exception& error) {
-        problem_ = error.what();
-    }
+std::string WorkbenchWindow::handName() const {
+    return !state_.device.empty() ? state_.device
+           : state_.simulatedHand ? "simulated hand, stroke " + state_.stroke.name
+                                  : "mouse";
 }
 
 PixelRect WorkbenchWindow::pixelsOf(const WidgetRect& rect) {

@@ -8,7 +8,7 @@
 #include "renderer/draw_quality.h"
 #include "renderer/frame_pace.h"
 #include "workbench/editor/drawn_materials.h"
-#include "workbench/files/saved_file.h"
+#include "workbench/files/chart_file.h"
 #include "workbench/files/state_folder.h"
 #include "workbench/gallery/file_note.h"
 #include "workbench/gallery/gallery.h"
@@ -20,6 +20,7 @@
 #include "workbench/options/commands.h"
 #include "workbench/options/gpu_options.h"
 #include "workbench/panels/material_window.h"
+#include "workbench/readings/force_parts.h"
 #include "workbench/screen/key_queue.h"
 #include "workbench/screen/key_watch.h"
 #include "workbench/screen/model_picture.h"
@@ -85,14 +86,14 @@ class WorkbenchWindow {
     void leaveFor(const std::filesystem::path& path);
     /// Continues to the user's target once unsaved materials are handled.
     void leave();
-    [[nodiscard]] const HapticSettings& shownSettings() const {
-        return timeline_.looking() && !timeline_.again().running() ? timeline_.settings() : state_.settings;
-    }
+    /// Settings of the displayed tick.
+    [[nodiscard]] HapticSettings shownSettings() const;
+    /// The chosen settings, but with the force off while a recording is open.
+    [[nodiscard]] HapticSettings sentSettings() const;
     /// Updates the open recording and opens its model. Without any model, throws where that fails.
     void lookBack(double now);
     /// The displayed tick: the recording's while one is open.
     [[nodiscard]] const TickRecord& shownTick() const;
-    /// The chosen settings, but with the force off while a recording is open.
     void sendSettings();
     /// Called when the event is handled, not in the frame that takes it.
     void keyDown(int key, int modifiers);
@@ -106,7 +107,8 @@ class WorkbenchWindow {
     [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize);
     /// Handles the requests of this frame's buttons and menus.
     void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets);
-    void saveChart();
+    /// Of the hand in use: "mouse".
+    [[nodiscard]] std::string handName() const;
     /// Framebuffer pixels of a rectangle in window coordinates.
     [[nodiscard]] static PixelRect pixelsOf(const WidgetRect& rect);
     /// Saves the window's state for the next run.
@@ -142,6 +144,7 @@ class WorkbenchWindow {
     PanelState state_;
     ModelPicture picture_{stateFolder() / "pictures"};
     PictureController chartPictures_{stateFolder() / "pictures"};
+    ChartSaver chartSaver_;
     StatusFile status_;
     std::string problem_;
     UnsavedChangesPrompt unsavedChanges_;

@@ -10,7 +10,7 @@ std::filesystem::path defaultScene() {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (!error) {
-        const std::filesystem::path beside = program.parent_path() / "../../../assets/scenes/doughnut.glb";
+        const std::filesystem::path beside = program.parent_path() / "../../../assets/scenes/effects.glb";
         if (std::filesystem::exists(beside, error))
             return std::filesystem::weakly_canonical(beside, error);
     }

@@ -5,7 +5,7 @@
 
 namespace touchstone {
 
-/// The doughnut: beside the build tree of this program, or where the project was configured.
+/// The board of effects: beside the build tree of this program, or where the project was configured.
 [[nodiscard]] std::filesystem::path defaultScene();
 
 /// Our own scenes, sorted by name, for the menu.

@@ -1,5 +1,6 @@
 #include "workbench/panels/colors.h"
 #include "workbench/panels/panels.h"
+#include "workbench/readings/force_parts.h"
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
@@ -46,18 +47,23 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
 
     const HapticOutput& tick = input.tick->output;
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
-    ImGui::Text("%.2f N", glm::length(tick.force));
+    const bool unsent = !input.forceSent && tick.contacts > 0;
+    ImGui::TextColored(ImGui::GetStyleColorVec4(unsent ? ImGuiCol_TextDisabled : ImGuiCol_Text), "%.2f N",
+                       glm::length(tick.force));
     ImGui::PopFont();
     widgets.mark("force");
     ImGui::SameLine(widgets.units(110.0f));
-    const glm::dvec3 along = tick.force - glm::dot(tick.force, tick.normal) * tick.normal;
     ImGui::BeginGroup();
     ImGui::TextDisabled("%.2f mm deep", 1e3 * tick.penetration);
     // A recorded tick that cannot be recomputed has no normal.
-    if (tick.contacts > 0 && tick.normal == glm::dvec3(0.0))
+    if (tick.contacts > 0 && surfaceNormal(tick) == glm::dvec3(0.0))
         ImGui::TextDisabled("its direction is not recorded");
     else
-        ImGui::TextDisabled("%.2f N along the surface", tick.contacts > 0 ? glm::length(along) : 0.0);
+        ImGui::TextDisabled("%.2f N along the surface", forceParts(tick).tangential);
+    // Always there, so that nothing below it moves when the force is switched.
+    ImGui::TextColored(unsent ? ImColor(kAmber) : ImColor(ImGui::GetColorU32(ImGuiCol_TextDisabled)),
+                       "%.2f N sent to the device", glm::length(tick.command.force()));
+    widgets.mark("sent");
     ImGui::EndGroup();
 
     PassivityMode& passivity = state.settings.passivity;

@@ -7,9 +7,11 @@
 #include "haptics/settings/effect_plan.h"
 #include "haptics/settings/haptic_settings.h"
 #include "renderer/camera.h"
+#include "workbench/files/saved_file.h"
 #include "workbench/gallery/gallery_entry.h"
 #include "workbench/panels/timeline_panel.h"
 #include "workbench/panels/widgets.h"
+#include "workbench/readings/chart_quantities.h"
 #include "workbench/readings/force_history.h"
 #include "workbench/readings/servo_view.h"
 #include "workbench/screen/view_options.h"
@@ -40,6 +42,7 @@ struct PanelInput {
     std::string problem;       ///< of the last load, with its remedy; empty: none
     uint32_t forcePresses = 0; ///< presses of the force key so far
     bool typing = false;       ///< a text field has the focus
+    double now = 0.0;          ///< s, secondsNow() of the frame
     double servoStart = 0.0;   ///< CLOCK_MONOTONIC, s, at time 0 of the ticks
     std::string notice;        ///< of the recorder: a problem, or a kept file
     bool recording = false;
@@ -62,8 +65,11 @@ struct PanelInput {
     TimelineController* timeline = nullptr;
     const TickRecord* tick = nullptr; ///< on display: the servo's latest, or the recording's at the cursor
     const ForceHistory* forces = nullptr;
-    std::string picture; ///< result of the last saved picture; empty: none yet
-    uint64_t frames = 0; ///< presented since the window opened
+    bool forceSent = true;     ///< the force of `tick` is sent to the device (readings/force_parts.h)
+    SavedNote savedPicture;    ///< result of the last saved picture
+    SavedNote savedCharts;     ///< of the last file of charts
+    bool chartsSaving = false; ///< one is being drawn
+    uint64_t frames = 0;       ///< presented since the window opened
     double framesPerSecond = 0.0;
     double longestFrame = 0.0; ///< s of work in one frame since a model was last opened
     OrbitCamera camera;
@@ -73,13 +79,16 @@ struct PanelInput {
     bool scaleFits = true; ///< false: the UI scale is smaller than asked for, since the window is
 };
 
-/// Which panels are folded away.
+/// Which panels are folded away, and how tall the lower one is where it is not.
 struct PanelFolds {
+    static constexpr float kBottomHeight = 196.0f;
+
     bool left = false, right = false, bottom = false;
+    float bottomHeight = kBottomHeight; ///< units of layout; less where the window has no room for it
     bool operator==(const PanelFolds&) const = default;
 };
 
-enum class ChartFile : uint8_t { Csv, Picture };
+enum class ChartFile : uint8_t { Csv, Picture, Figure };
 
 /// Output of the panels.
 struct PanelState {
@@ -95,6 +104,7 @@ struct PanelState {
     PanelFolds folds;
     float uiScale = 1.0f; ///< asked for, beside the monitor's
     HoveredWidget hovered;
+    ShownQuantities charts = kFirstQuantities;
     bool help = false;
     bool walking = false;       ///< the arrow keys move between the panels' widgets
     bool gallery = false;       ///< is open

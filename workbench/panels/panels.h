@@ -19,7 +19,7 @@ void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Effective properties of the touched material, and its effects with reasons.
 void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);
 
-/// Current force and depth, and the state of touch.
+/// Current force and depth, and the state of touch; grey where the force is not sent to the device.
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Sound on and off, volume and status.
 void drawSound(const PanelInput& input, PanelState& state, Widgets& widgets);
@@ -28,13 +28,15 @@ void drawConfigurations(PanelState& state, Widgets& widgets);
 /// Timing of the servo and of rendering.
 void drawServo(const PanelInput& input, Widgets& widgets);
 
-/// Force, depth, energy and step time over the last seconds, with the recorded intervals.
+/// The chosen quantities over the last seconds, with the recorded intervals; which, and the files of them.
 void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets);
 
 /// How to touch, until it is dismissed: a strip beneath the bar.
 void drawIntroduction(PanelState& state, const WidgetRect& strip, Widgets& widgets);
 /// Cards over the picture: loading, problems, unsaved materials.
 void drawCards(const PanelInput& input, PanelState& state, const WidgetRect& picture, Widgets& widgets);
+/// On the picture, for some seconds: where it was saved, or why it was not.
+void drawSavedPicture(const PanelInput& input, const WidgetRect& picture, Widgets& widgets);
 /// Pictures of our own and of recent scenes, to open one; over everything but the bar.
 void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& place, Widgets& widgets);
 /// All keys and pointer actions.

@@ -1,10 +1,13 @@
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
 #include "workbench/panels/panels.h"
+#include "workbench/readings/active_effects.h"
 
 #include <imgui.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -37,21 +40,24 @@ void figures(const HapticMaterialData& material, const Widgets& widgets) {
         row(widgets, "viscous", "%.2f N s/m", material.viscousFriction);
 }
 
-/// Active effects with their reasons beneath; reasons of inactive ones as tooltips.
-void effects(const EffectPlan& plan, int material, const Widgets& widgets) {
-    for (const bool on : {true, false})
-        for (const PlannedEffect& effect : plan.effects) {
-            if (effect.material != material || effect.on != on)
-                continue;
-            ImGui::TextColored(on ? ImVec4(0.45f, 0.82f, 0.55f, 1.0f)
-                                  : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled),
-                               "%s: %s", on ? "on" : "off", effectName(effect.effect));
-            if (!on && ImGui::IsItemHovered())
+/// Effects with their reasons beneath; reasons of those that the scene does not call for as tooltips.
+void effects(const std::vector<ActiveEffect>& effects, Widgets& widgets) {
+    using State = ActiveEffect::State;
+    for (const ActiveEffect& effect : effects) {
+        const ImVec4 color = effect.state == State::On ? ImVec4(0.45f, 0.82f, 0.55f, 1.0f)
+                             : effect.state == State::SwitchedOff
+                                 ? ImVec4(0.96f, 0.72f, 0.30f, 1.0f)
+                                 : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+        ImGui::TextColored(color, "%s: %s", effect.state == State::On ? "on" : "off",
+                           effectName(effect.effect));
+        widgets.mark((std::string("effect:") + effectName(effect.effect)).c_str());
+        if (effect.state == State::Absent) {
+            if (ImGui::IsItemHovered())
                 ImGui::SetTooltip("%s", effect.reason.c_str());
-            if (!on)
-                continue;
-            widgets.wrapped(effect.reason, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+            continue;
         }
+        widgets.wrapped(effect.reason, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    }
 }
 
 } // namespace
@@ -72,7 +78,7 @@ void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextUnformatted(name.empty() ? "without a name" : name.c_str());
     widgets.mark("material");
     figures(input.haptic->materials[at], widgets);
-    effects(input.haptic->plan, index, widgets);
+    effects(activeEffects(input.haptic->plan, index, state.settings), widgets);
 }
 
 } // namespace touchstone

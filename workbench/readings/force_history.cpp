@@ -1,5 +1,7 @@
 #include "workbench/readings/force_history.h"
 
+#include "workbench/readings/force_parts.h"
+
 #include <algorithm>
 
 namespace touchstone {
@@ -7,9 +9,15 @@ namespace touchstone {
 void ForceHistory::add(const TickRecord& record, bool recorded) {
     const HapticOutput& output = record.output;
     const glm::dvec3 along = output.force - glm::dot(output.force, output.normal) * output.normal;
+    const ForceParts parts = forceParts(output);
     entries_[next_] = {.time = record.time,
                        .force = static_cast<float>(glm::length(output.force)),
                        .tangential = output.contacts > 0 ? static_cast<float>(glm::length(along)) : 0.0f,
+                       .normal = static_cast<float>(parts.normal),
+                       .surfaceTangential = static_cast<float>(parts.tangential),
+                       .x = static_cast<float>(output.force.x),
+                       .y = static_cast<float>(output.force.y),
+                       .z = static_cast<float>(output.force.z),
                        .penetration = static_cast<float>(output.penetration),
                        .energy = static_cast<float>(output.energyBalance),
                        .step = 1e-9f * static_cast<float>(record.stepNs),

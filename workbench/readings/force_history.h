@@ -14,12 +14,15 @@ class ForceHistory {
     explicit ForceHistory(size_t ticks) : entries_(ticks) {}
 
     struct Entry {
-        double time = 0.0;        ///< s since the servo started
-        float force = 0.0f;       ///< N, magnitude of stage 7
-        float tangential = 0.0f;  ///< N, magnitude of the component perpendicular to the felt normal
-        float penetration = 0.0f; ///< m
-        float energy = 0.0f;      ///< J, energy balance of the passivity observer
-        float step = 0.0f;        ///< s, time of the whole step
+        double time = 0.0;              ///< s since the servo started
+        float force = 0.0f;             ///< N, magnitude of stage 7
+        float tangential = 0.0f;        ///< N, magnitude of the component perpendicular to the felt normal
+        float normal = 0.0f;            ///< N, along the normal of the mesh (surfaceNormal)
+        float surfaceTangential = 0.0f; ///< N, magnitude of the component perpendicular to it
+        float x = 0.0f, y = 0.0f, z = 0.0f; ///< N, workspace
+        float penetration = 0.0f;           ///< m
+        float energy = 0.0f;                ///< J, energy balance of the passivity observer
+        float step = 0.0f;                  ///< s, time of the whole step
         bool contact = false;
         bool recorded = false; ///< during a recording
     };

@@ -34,9 +34,9 @@ class ModelPicture {
     /// A new renderer.
     void takeDevice() { colored_.reset(); }
 
-    /// After endFrame: saves the picture requested in `options`. True when `message` has changed.
+    /// After endFrame: saves the picture requested in `options`. True when `note` has changed.
     bool save(WindowTarget& target, const Frame& frame);
-    [[nodiscard]] const std::string& message() const { return controller_.message(); }
+    [[nodiscard]] const SavedNote& note() const { return controller_.note(); }
 
   private:
     void colorMaterials(const Frame& frame, SceneRenderer& renderer);

@@ -1,5 +1,7 @@
 #include "workbench/screen/overlays.h"
 
+#include "workbench/readings/force_parts.h"
+
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -25,6 +27,7 @@ constexpr int kConeSides = 24;
 constexpr glm::vec4 kHipColor{0.95f, 0.16f, 0.08f, 1.0f};
 constexpr glm::vec4 kProxyColor{0.10f, 0.45f, 1.0f, 1.0f};
 constexpr glm::vec4 kForceColor{1.0f, 0.72f, 0.05f, 1.0f};
+constexpr glm::vec4 kUnsentColor{0.55f, 0.57f, 0.6f, 1.0f}; // a force that is not sent to the device
 constexpr glm::vec4 kPlaneColor{0.35f, 0.8f, 1.0f, 0.25f};
 constexpr glm::vec4 kStictionColor{0.1f, 0.9f, 0.35f, 1.0f};
 constexpr glm::vec4 kConeColor{0.1f, 0.9f, 0.35f, 0.55f};
@@ -69,8 +72,9 @@ void drawTick(const TickRecord& record, const HapticSettings& settings, const Ti
     const double force = glm::length(tick.force);
     if (look.shown.force && force > 0.0) {
         const double length = scale * std::min(kForceLength * force, kMaxForceLength);
-        overlay.arrows.push_back(
-            {tick.proxy, tick.proxy + tick.force * (length / force), scale * kArrowRadius, kForceColor});
+        overlay.arrows.push_back({tick.proxy, tick.proxy + tick.force * (length / force),
+                                  scale * kArrowRadius,
+                                  forceSent(tick, settings) ? kForceColor : kUnsentColor});
     }
     if (look.shown.planes)
         for (uint32_t i = 0; i < tick.planeCount; ++i)

@@ -16,8 +16,8 @@ struct TickLook {
     double scale = 1.0; ///< of all sizes except the proxy's own radius; less than 1 in a magnifier
 };
 
-/// Overlays of a tick: HIP, proxy, force arrow, active planes, stiction point with the friction cone (a force
-/// inside it sticks), felt normal. Main thread.
+/// Overlays of a tick: HIP, proxy, force arrow (grey where it is not sent to the device), active planes,
+/// stiction point with the friction cone (a force inside it sticks), felt normal. Main thread.
 void drawTick(const TickRecord& record, const HapticSettings& settings, const TickLook& look,
               Overlay& overlay);
 

@@ -1,5 +1,6 @@
 #include "workbench/screen/picture_controller.h"
 
+#include "engine/time/seconds_now.h"
 #include "renderer/png.h"
 
 #include <algorithm>
@@ -9,15 +10,18 @@ namespace touchstone {
 
 namespace {
 
-std::string saved(const std::filesystem::path& folder, const std::string& stem, const PixelData& pixels) {
+SavedNote saved(const std::filesystem::path& folder, const std::string& stem, const PixelData& pixels) {
+    SavedNote note;
     try {
         std::filesystem::create_directories(folder);
         const std::filesystem::path file = freePictureName(folder, stem);
         writePng(file, pixels);
-        return "saved " + file.string();
+        note.file = file;
     } catch (const std::exception& error) {
-        return std::string("the picture is not saved: ") + error.what();
+        note.problem = std::string("the picture is not saved: ") + error.what();
     }
+    note.at = secondsNow();
+    return note;
 }
 
 } // namespace
@@ -41,7 +45,7 @@ bool PictureController::update(WindowTarget& target) {
     }
     if (!saving_.valid() || saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return false;
-    message_ = saving_.get();
+    note_ = saving_.get();
     return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/window_target.h"
+#include "workbench/files/saved_file.h"
 
 #include <filesystem>
 #include <future>
@@ -17,17 +18,17 @@ class PictureController {
 
     /// Requests `part` of the next frame; `stem` starts the name: stem-1.png, stem-2.png, …
     void request(WindowTarget& target, const PixelRect& part, const std::string& stem);
-    /// Every frame, after endFrame. True when `message` has changed.
+    /// Every frame, after endFrame. True when `note` has changed.
     bool update(WindowTarget& target);
 
-    /// "saved /…/doughnut-1.png", or the problem; empty before the first picture.
-    [[nodiscard]] const std::string& message() const { return message_; }
+    [[nodiscard]] const SavedNote& note() const { return note_; } ///< of the last picture
 
   private:
     std::filesystem::path folder_;
     std::optional<PixelRect> part_; ///< of a requested picture that is not ready
-    std::string stem_, message_;
-    std::future<std::string> saving_;
+    std::string stem_;
+    SavedNote note_;
+    std::future<SavedNote> saving_;
 };
 
 /// The part of a picture that lies within it; empty where there is none.

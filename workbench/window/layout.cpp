@@ -22,9 +22,10 @@ namespace touchstone {
 namespace {
 
 // Units of layout.
-constexpr float kBar = 42.0f, kIntroduction = 44.0f, kLeft = 236.0f, kRight = 296.0f, kBottom = 196.0f;
+constexpr float kBar = 42.0f, kIntroduction = 44.0f, kLeft = 236.0f, kRight = 296.0f;
 constexpr float kMinWidth = 320.0f, kMinHeight = 180.0f; // of the picture
-constexpr float kFolded = 23.0f;                         // width of a folded panel: the arrow that unfolds it
+constexpr float kMinBottom = 120.0f;
+constexpr float kFolded = 23.0f; // width of a folded panel: the arrow that unfolds it
 
 // Without a background: the cleared colour is the same, and a software device fills slowly.
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoTitleBar |
@@ -201,7 +202,7 @@ void windowKeys(const PanelInput& input, PanelState& state) {
         folds.bottom = !folds.bottom;
     if (keyPressed(GLFW_KEY_TAB) && !state.walking) {
         const bool all = folds.left && folds.right && folds.bottom;
-        folds = {!all, !all, !all};
+        folds.left = folds.right = folds.bottom = !all;
     }
     if (keyPressed(GLFW_KEY_F8) && input.canSimulate) {
         state.simulatedHand = !state.simulatedHand || !state.device.empty();
@@ -252,6 +253,32 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     drawServo(input, widgets);
 }
 
+/// The upper edge of the lower panel: drags its height, a double click restores it.
+void dragBottom(const Rect& panel, PanelFolds& folds, float room, Widgets& widgets) {
+    const float grip = widgets.units(6.0f);
+    ImGui::SetNextWindowPos(ImVec2(panel.x, panel.y - 0.5f * grip));
+    ImGui::SetNextWindowSize(ImVec2(panel.width, grip));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+    ImGui::Begin("chartsEdge", nullptr,
+                 (kFixed | ImGuiWindowFlags_NoNav) & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PopStyleVar(2);
+    ImGui::InvisibleButton("edge", ImVec2(panel.width, grip));
+    widgets.mark("chartsEdge");
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
+        ImGui::GetWindowDrawList()->AddLine(ImVec2(panel.x, panel.y), ImVec2(panel.x + panel.width, panel.y),
+                                            ImGui::GetColorU32(ImGuiCol_SeparatorActive), 2.0f);
+    }
+    if (ImGui::IsItemActive())
+        folds.bottomHeight =
+            std::clamp((panel.y + panel.height - ImGui::GetIO().MousePos.y) / widgets.units(1.0f), kMinBottom,
+                       std::max(kMinBottom, room));
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
+        folds.bottomHeight = PanelFolds::kBottomHeight;
+    ImGui::End();
+}
+
 void bottomPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     bool& recording = state.timeline.shown;
     if (widgets.lampButton("live", "Live", !recording, kBlue))
@@ -274,7 +301,9 @@ PanelFolds fittingFolds(const PanelState& state, const glm::vec2& window, float 
     };
     fitting.left = fitting.left || width() < kMinWidth;
     fitting.right = fitting.right || width() < kMinWidth;
-    fitting.bottom = fitting.bottom || units.y - topOf(state) - kBottom < kMinHeight;
+    const float room = units.y - topOf(state) - kMinHeight;
+    fitting.bottom = fitting.bottom || room < PanelFolds::kBottomHeight;
+    fitting.bottomHeight = std::clamp(fitting.bottomHeight, kMinBottom, std::max(kMinBottom, room));
     return fitting;
 }
 
@@ -282,7 +311,7 @@ PictureRect pictureRect(const PanelState& state, const glm::vec2& window, float 
     const PanelFolds folds = fittingFolds(state, window, scale);
     const float left = (folds.left ? kFolded : kLeft) * scale,
                 right = (folds.right ? kFolded : kRight) * scale,
-                bottom = (folds.bottom ? kFolded : kBottom) * scale, top = topOf(state) * scale;
+                bottom = (folds.bottom ? kFolded : folds.bottomHeight) * scale, top = topOf(state) * scale;
     return {left, top, std::max(1.0f, window.x - left - right), std::max(1.0f, window.y - top - bottom)};
 }
 
@@ -322,7 +351,11 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     if (panel("charts", {picture.x, below, picture.width, display.y - below}, folds.bottom, ImGuiDir_Up,
               ImGuiDir_Down, widgets, [&] { bottomPanel(input, state, widgets); }))
         state.folds.bottom = !state.folds.bottom;
+    if (!folds.bottom)
+        dragBottom({picture.x, below, picture.width, display.y - below}, state.folds,
+                   display.y / input.scale - kBar - kMinHeight, widgets);
     drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
+    drawSavedPicture(input, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawGallery(input, state, {0.0f, picture.y, display.x, display.y - picture.y}, widgets);
     drawHelp(input, state, widgets);

@@ -7,6 +7,9 @@
 #include "workbench/panels/panels.h"
 #include "workbench/timeline/timeline_controller.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace touchstone {
 
 namespace {
@@ -34,7 +37,7 @@ nlohmann::ordered_json errorJson(const study::LiveErrorFigures& error) {
             {"compared_share", error.comparedShare},
             {"dropped", error.dropped},
             {"reference_step_ns", error.stepNs},
-            {"below_perception", belowPerception(error)}};
+            {"below_perception", errorPerception(error).below()}};
 }
 
 nlohmann::ordered_json galleryJson(const PanelInput& input, const PanelState& state) {
@@ -48,6 +51,26 @@ nlohmann::ordered_json galleryJson(const PanelInput& input, const PanelState& st
     return {{"open", state.gallery}, {"at", state.galleryAt}, {"entries", std::move(entries)}};
 }
 
+/// `recent`: number of the last ticks of which the largest magnitudes are told, SI units.
+nlohmann::ordered_json chartsJson(const PanelInput& input, const PanelState& state, size_t recent) {
+    nlohmann::ordered_json shown = nlohmann::ordered_json::array(), peaks = nlohmann::ordered_json::object();
+    const ForceHistory& history = *input.forces;
+    for (size_t i = 0; i < kChartQuantityCount; ++i) {
+        const ChartQuantity& quantity = chartQuantities()[i];
+        if (state.charts[i])
+            shown.push_back(quantity.name);
+        float peak = 0.0f;
+        for (size_t t = history.size() - std::min(recent, history.size()); t < history.size(); ++t)
+            peak = std::max(peak, std::abs(history.at(t).*quantity.value));
+        peaks[quantity.name] = peak;
+    }
+    return {{"shown", std::move(shown)},
+            {"peaks", std::move(peaks)},
+            {"height", state.folds.bottomHeight},
+            {"saved", input.savedCharts.file.string()},
+            {"problem", input.savedCharts.problem}};
+}
+
 } // namespace
 
 void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
@@ -57,7 +80,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
     last_ = now;
     const ServoView& servo = *input.servo;
     const HapticOutput& tick = servo.last.output;
-    const ForceHistory::Entry recent = input.forces->mean(static_cast<size_t>(servo.rateHz * kInterval));
+    const auto recentTicks = static_cast<size_t>(servo.rateHz * kInterval);
+    const ForceHistory::Entry recent = input.forces->mean(recentTicks);
     // The mouse has no clutch; it receives no force while it hovers.
     const bool mouse = state.device.empty() && !state.simulatedHand;
     nlohmann::ordered_json rects = nlohmann::ordered_json::object();
@@ -103,6 +127,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"leaving", state.leaving.has_value()},
         {"introduced", state.introduced},
         {"charts_paused", state.stopped.has_value()},
+        {"charts", chartsJson(input, state, recentTicks)},
         {"sound",
          {{"on", state.sound.on},
           {"volume", state.sound.volume},
@@ -147,7 +172,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"turntable", state.view.turntable},
           {"magnifier", state.view.magnifier},
           {"overlays", state.view.overlays.probe},
-          {"picture", input.picture},
+          {"picture", input.savedPicture.text()},
           {"yaw", input.camera.yaw},
           {"pitch", input.camera.pitch},
           {"distance", input.camera.distance},

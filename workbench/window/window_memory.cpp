@@ -25,6 +25,21 @@ bool flag(const Json& json, const char* name, bool otherwise) {
     return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
 }
 
+/// Of the lower panel; a value that no drag could leave is the usual one.
+float height(const Json& json) {
+    const auto found = json.find("charts_height");
+    const double value = found != json.end() && found->is_number() ? found->get<double>() : 0.0;
+    return value >= 1.0 && value <= kLargest ? static_cast<float>(value) : PanelFolds::kBottomHeight;
+}
+
+/// Names of quantities; the usual ones where none is known.
+ShownQuantities shownIn(const Json& names) {
+    ShownQuantities shown{};
+    for (size_t i = 0; i < kChartQuantityCount; ++i)
+        shown[i] = std::ranges::find(names, chartQuantities()[i].name) != names.end();
+    return std::ranges::find(shown, true) != shown.end() ? shown : kFirstQuantities;
+}
+
 /// Ignores names and values that are no longer known.
 HapticSettings settingsOf(const Json& json) {
     HapticSettings settings;
@@ -63,8 +78,12 @@ WindowMemory memoryOf(const Json& json, std::string& warning) {
     if (const auto settings = json.find("settings"); settings != json.end() && settings->is_object())
         memory.settings = settingsOf(*settings);
     if (const auto folds = json.find("folded"); folds != json.end() && folds->is_object())
-        memory.folds = {flag(*folds, "scene", false), flag(*folds, "felt", false),
-                        flag(*folds, "charts", false)};
+        memory.folds = {.left = flag(*folds, "scene", false),
+                        .right = flag(*folds, "felt", false),
+                        .bottom = flag(*folds, "charts", false),
+                        .bottomHeight = height(json)};
+    if (const auto charts = json.find("charts"); charts != json.end() && charts->is_array())
+        memory.charts = shownIn(*charts);
     memory.introduced = flag(json, "introduced", false);
     if (const auto sound = json.find("sound"); sound != json.end() && sound->is_object()) {
         memory.sound.on = flag(*sound, "on", false);
@@ -110,11 +129,17 @@ bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory) 
     nlohmann::ordered_json recent = nlohmann::ordered_json::array();
     for (const std::filesystem::path& path : memory.recent)
         recent.push_back(path.string());
+    nlohmann::ordered_json charts = nlohmann::ordered_json::array();
+    for (size_t i = 0; i < kChartQuantityCount; ++i)
+        if (memory.charts[i])
+            charts.push_back(chartQuantities()[i].name);
     const nlohmann::ordered_json json{
         {"version", kVersion},
         {"settings", settingsJson(memory.settings)},
         {"folded",
          {{"scene", memory.folds.left}, {"felt", memory.folds.right}, {"charts", memory.folds.bottom}}},
+        {"charts", std::move(charts)},
+        {"charts_height", memory.folds.bottomHeight},
         {"sound", {{"on", memory.sound.on}, {"volume", memory.sound.volume}}},
         {"ui_scale", memory.uiScale},
         {"introduced", memory.introduced},

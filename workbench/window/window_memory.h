@@ -12,6 +12,7 @@ namespace touchstone {
 struct WindowMemory {
     HapticSettings settings;
     PanelFolds folds;
+    ShownQuantities charts = kFirstQuantities;
     SoundChoice sound;
     float uiScale = 1.0f; ///< within kMinUiScale..kMaxUiScale
     bool introduced = false;

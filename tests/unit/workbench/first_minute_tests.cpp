@@ -60,9 +60,49 @@ class FirstMinute : public WindowTest {
     void welcomed() {
         open("", {});
         const Json s = later();
-        EXPECT_EQ(s["model"], "doughnut.glb") << "there is something to touch from the beginning";
+        EXPECT_EQ(s["model"], "effects.glb") << "there is something to touch from the beginning";
         EXPECT_TRUE(s["widgets"].contains("gotIt")) << "how to touch is said";
         expectAPicture();
+    }
+
+    /// The largest force across the mesh that the charts hold while the hand strokes to and fro around a
+    /// place.
+    double stroked(double x, double y) {
+        const Place from = inPicture(x - 0.05, y), to = inPicture(x + 0.05, y);
+        display_.move(from);
+        display_.press();
+        until("contact", touching);
+        double most = 0.0;
+        for (int turn = 0; turn < 32; ++turn) {
+            const double share = 0.5 - 0.5 * std::cos(0.2 * turn);
+            display_.move({static_cast<int>(from.x + share * (to.x - from.x)),
+                           static_cast<int>(from.y + share * (to.y - from.y))});
+            if (turn > 6) // the peaks are those of half a second
+                most = std::max(most, status()["charts"]["peaks"]["tangential"].get<double>());
+        }
+        display_.release();
+        until("no contact", [](const Json& s) { return !touching(s); });
+        return most;
+    }
+
+    /// Each switch changes what the charts show of its tile, by mouse.
+    void seesWhatEachSwitchDoes() {
+        display_.key("3");
+        display_.key("1"); // from the front: three tiles side by side
+        later();
+        struct Tile {
+            const char* key;
+            double place;
+            double least; // N across the mesh
+        };
+        for (const Tile& tile : {Tile{"F5", 0.24, 0.05}, Tile{"F6", 0.5, 0.08}, Tile{"F7", 0.76, 0.2}}) {
+            SCOPED_TRACE(tile.key);
+            EXPECT_GT(stroked(tile.place, 0.5), tile.least);
+            display_.key(tile.key);
+            EXPECT_LT(stroked(tile.place, 0.5), 0.02);
+            display_.key(tile.key);
+        }
+        display_.key("Home");
     }
 
     void dropsTheirModel() {
@@ -214,6 +254,7 @@ class FirstMinute : public WindowTest {
 
 TEST_F(FirstMinute, OpensTouchesChangesSavesReopensRecordsAndReplays) {
     welcomed();
+    seesWhatEachSwitchDoes();
     dropsTheirModel();
     looksAround();
     touches();

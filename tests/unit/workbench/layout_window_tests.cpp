@@ -237,17 +237,60 @@ TEST_F(LayoutTest, ChartsPauseAndAreSaved) {
     until("some contact", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
     display_.key("p");
     until("the charts to stand", [](const Json& s) { return s["charts_paused"] == true; });
-    display_.click(middleOf("saveCsv"));
-    const Json csv =
-        until("the table", [](const Json& s) { return s["notice"].get<std::string>().ends_with(".csv"); });
-    const std::string text = readFile(csv["notice"].get<std::string>().substr(6));
-    EXPECT_TRUE(text.starts_with("t,force,tangential,penetration,energy,step,contact,recorded\n"));
+    const auto saved = [&](const std::string& button, const std::string& ending) -> std::string {
+        display_.click(middleOf(button));
+        return until("the file", [&](const Json& s) {
+            return s["charts"]["saved"].get<std::string>().ends_with(ending);
+        })["charts"]["saved"];
+    };
+    const std::string text = readFile(saved("saveCsv", ".csv"));
+    EXPECT_TRUE(text.starts_with("t,force,tangential,penetration,energy,step,contact,recorded,surface_normal,"
+                                 "surface_tangential,force_x,force_y,force_z\n"));
     EXPECT_GT(std::ranges::count(text, '\n'), 500);
-    EXPECT_NE(text.find(",1,0\n"), std::string::npos) << "in contact, not recorded";
-    display_.click(middleOf("savePng"));
-    const Json png =
-        until("the picture", [](const Json& s) { return s["notice"].get<std::string>().ends_with(".png"); });
-    EXPECT_GT(std::filesystem::file_size(png["notice"].get<std::string>().substr(6)), 2000u);
+    EXPECT_NE(text.find(",1,0,"), std::string::npos) << "in contact, not recorded";
+    EXPECT_EQ(status()["notice"], "") << "a confirmation is no warning";
+    EXPECT_TRUE(later()["widgets"].contains("chartOutcome")) << "it stands beside the buttons";
+    EXPECT_GT(std::filesystem::file_size(saved("savePng", ".png")), 2000u);
+    const std::string svg = readFile(saved("saveSvg", ".svg"));
+    for (const char* words : {"tangential force", "force, N", "time before the last tick, s"})
+        EXPECT_NE(svg.find(words), std::string::npos) << words;
+    expectCleanEnd();
+}
+
+TEST_F(LayoutTest, StripsAreChosenMadeTallerAndKept) {
+    open(kDoughnut);
+    const auto height = [](const Json& s) { return s["widgets"]["charts"]["height"].get<double>(); };
+    const Json before = later();
+    EXPECT_EQ(before["charts"]["shown"], (Json{"normal", "tangential", "depth"}));
+    const Json edge = before["widgets"]["chartsEdge"];
+    const VirtualDisplay::Place from{
+        corner_.x + static_cast<int>(edge["x"].get<double>() + 0.5 * edge["width"].get<double>()),
+        corner_.y + static_cast<int>(edge["y"].get<double>() + 0.5 * edge["height"].get<double>())};
+    display_.drag(from, {from.x, from.y - 100});
+    const Json taller =
+        until("taller strips", [&](const Json& s) { return height(s) > height(before) + 80.0; });
+    EXPECT_LT(taller["widgets"]["picture"]["height"], before["widgets"]["picture"]["height"]);
+    display_.click(middleOf("strips"));
+    for (const char* name : {"strip:x", "strip:depth"}) {
+        until("the menu", [&](const Json& s) { return s["widgets"].contains(name); });
+        display_.click(middleOf(name));
+    }
+    until("other strips", [](const Json& s) {
+        return s["charts"]["shown"] == Json{"normal", "tangential", "x"};
+    });
+    display_.key("Escape");
+    // Far beyond the window's top: the picture keeps some room.
+    const Json now = later()["widgets"]["chartsEdge"];
+    const VirtualDisplay::Place edgeNow{from.x, corner_.y + static_cast<int>(now["y"].get<double>() + 3.0)};
+    display_.drag(edgeNow, {from.x, corner_.y});
+    EXPECT_GE(later()["widgets"]["picture"]["height"], 180.0);
+    const double kept = status()["charts"]["height"];
+    expectCleanEnd();
+    std::filesystem::remove(status_);
+    open(kDoughnut);
+    const Json again = later();
+    EXPECT_EQ(again["charts"]["shown"], (Json{"normal", "tangential", "x"}));
+    EXPECT_EQ(again["charts"]["height"], kept);
     expectCleanEnd();
 }
 

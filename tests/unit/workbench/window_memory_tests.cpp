@@ -29,7 +29,8 @@ TEST_F(WindowMemoryTest, ComesBackAsItWasButForTheForceSwitch) {
     ASSERT_EQ(setSetting(memory.settings, "proxyRadius", "0.00125"), "");
     ASSERT_EQ(setSetting(memory.settings, "friction", "ho"), "");
     memory.settings.forceEnabled = false;
-    memory.folds = {true, false, true};
+    memory.folds = {.left = true, .right = false, .bottom = true, .bottomHeight = 321.5f};
+    memory.charts = {false, true, false, true, true, false, false, false, true};
     memory.sound = {true, 0.25f};
     memory.uiScale = 1.37f;
     memory.introduced = true;
@@ -53,11 +54,15 @@ TEST_F(WindowMemoryTest, KeepsWhatIsRightBesideWhatIsWrong) {
     const WindowMemory memory = readOf(
         "{\"version\": 1, \"introduced\": 3, \"folded\": {\"scene\": true, \"felt\": \"yes\"}, \"size\": "
         "[1e9, -4], "
+        "\"charts\": [\"magic\", 3], \"charts_height\": -1e9, "
         "\"sound\": {\"on\": 1, \"volume\": 7}, \"recent\": [7, \"/a.glb\", null], \"settings\": "
         "{\"friction\": \"ho\", \"stiffness\": \"-5\", "
         "\"proxyRadius\": 0.1, \"magic\": \"on\"}}");
     EXPECT_FALSE(memory.introduced);
-    EXPECT_EQ(memory.folds, (PanelFolds{true, false, false}));
+    EXPECT_EQ(memory.folds, (PanelFolds{.left = true}));
+    EXPECT_EQ(memory.charts, kFirstQuantities) << "none of them is known";
+    EXPECT_EQ(readOf("{\"version\": 1, \"charts\": [\"x\", \"magic\", 3]}").charts,
+              (ShownQuantities{0, 0, 0, 1}));
     EXPECT_EQ(memory.sound, (SoundChoice{false, 1.0f}));
     EXPECT_EQ(memory.size, glm::ivec2(0)) << "no whole numbers";
     EXPECT_EQ(memory.recent, std::vector<std::filesystem::path>{"/a.glb"});
