@@ -96,12 +96,14 @@ void WorkbenchWindow::leave() {
 }
 
 void WorkbenchWindow::lookBack(double now) {
+    const ServoRecorder& recorder = touch_.recording().recorder();
     timeline_.update({.now = now,
                       .model = hasModel() ? &touch_.shown().model : nullptr,
                       .open = hasModel() ? &touch_.shown().identity : nullptr,
                       .live = &touch_.forces(),
                       .servoTime = touch_.tick().time,
-                      .listed = state_.timeline.shown});
+                      .listed = state_.timeline.shown,
+                      .recorded = recorder.recording() ? recorder.file() : std::filesystem::path()});
     // Switching off and on clears a latch, which must not happen unintentionally: the force then stays off.
     if (timeline_.looking() && has(touch_.tick().output.flags, TickFlag::SafetyLatched))
         state_.settings.forceEnabled = false;

@@ -1,7 +1,9 @@
 #include "workbench/panels/timeline_panel.h"
 
+#include "workbench/panels/beside.h"
 #include "workbench/panels/card.h"
 #include "workbench/panels/colors.h"
+#include "workbench/panels/recording_list_panel.h"
 #include "workbench/panels/timeline_curves.h"
 #include "workbench/screen/keys.h"
 #include "workbench/timeline/timeline_controller.h"
@@ -24,9 +26,11 @@ void beside(float width, const Widgets& widgets) {
     widgets.beside(width, ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight());
 }
 
-bool button(const char* label, const char* name, const char* tip, Widgets& widgets) {
-    beside(Widgets::buttonWidth(label), widgets);
-    const bool pressed = ImGui::Button(label);
+/// `widest`: a label for which it has room, where its own changes and nothing beside it must move.
+bool button(const char* label, const char* name, const char* tip, Widgets& widgets, const char* widest = "") {
+    const float width = std::max(Widgets::buttonWidth(label), Widgets::buttonWidth(widest));
+    beside(width, widgets);
+    const bool pressed = ImGui::Button(label, ImVec2(width, 0.0f));
     widgets.mark(name);
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s", tip);
@@ -39,7 +43,7 @@ void transport(TimelineController& controller, Widgets& widgets) {
         at.toBegin();
     if (button("<", "stepBack", "a tick back: Left; with Shift 100 ms", widgets))
         at.step(-1);
-    if (button(at.playing() ? "Pause##play" : "Play##play", "play", "K", widgets)) {
+    if (button(at.playing() ? "Pause##play" : "Play##play", "play", "K", widgets, "Pause")) {
         controller.stopTouchingAgain();
         at.play(!at.playing());
     }
@@ -65,8 +69,10 @@ void transport(TimelineController& controller, Widgets& widgets) {
         at.markBegin();
     if (button("B", "markEnd", "the loop ends here: B", widgets))
         at.markEnd();
-    if ((at.beginMark() || at.endMark()) && button("x", "clearMarks", "no loop: Shift+A", widgets))
+    ImGui::BeginDisabled(!at.beginMark() && !at.endMark()); // there all the time: nothing beside it moves
+    if (button("x", "clearMarks", "no loop: Shift+A", widgets))
         at.clearMarks();
+    ImGui::EndDisabled();
 }
 
 void examination(TimelineController& controller, Widgets& widgets) {
@@ -74,7 +80,8 @@ void examination(TimelineController& controller, Widgets& widgets) {
     if (controller.verifying())
         std::snprintf(label, sizeof label, "Cancel (%.0f %%)", 100.0 * controller.verifyingFraction());
     if (button((std::string(label) + "##verify").c_str(), "verify",
-               "touches all of it again, as fast as it goes, and compares every bit", widgets)) {
+               "touches all of it again, as fast as it goes, and compares every bit", widgets,
+               "Cancel (100 %)")) {
         if (controller.verifying())
             controller.cancelVerifying();
         else
@@ -82,8 +89,8 @@ void examination(TimelineController& controller, Widgets& widgets) {
     }
     const bool again = controller.again().running();
     const char* const text = again ? "Stop" : "Touch again";
-    beside(widgets.lampWidth(text), widgets);
-    if (widgets.lampButton("touchAgain", text, again, kBlue)) {
+    beside(widgets.lampWidth("Touch again"), widgets);
+    if (widgets.lampButton("touchAgain", text, again, kBlue, "Touch again")) {
         if (again)
             controller.stopTouchingAgain();
         else if (controller.modelIsOpen())
@@ -93,8 +100,12 @@ void examination(TimelineController& controller, Widgets& widgets) {
         ImGui::SetTooltip(controller.modelIsOpen()
                               ? "the recorded hand, with the settings and materials of now"
                               : "the model that was touched is not open");
+}
+
+/// Last on its line: it comes and goes.
+void openModel(TimelineController& controller, Widgets& widgets) {
     if (!controller.modelIsOpen() && controller.modelFile() &&
-        button("Open its model", "openModel", "", widgets))
+        button("Open its model", "openModel", "the model that was touched", widgets))
         controller.wantModel();
 }
 
@@ -151,49 +162,6 @@ void tell(const News& news, const TimelineController& controller, Widgets& widge
     ImGui::EndTooltip();
 }
 
-std::string lengthText(const RecordingFacts& facts) {
-    char text[32];
-    const int minutes = static_cast<int>(facts.seconds / 60.0);
-    if (minutes > 0)
-        std::snprintf(text, sizeof text, "%d min %.0f s", minutes, facts.seconds - 60.0 * minutes);
-    else
-        std::snprintf(text, sizeof text, "%.1f s", facts.seconds);
-    return facts.wholeLength ? text : "about " + std::string(text);
-}
-
-void list(TimelineController& controller, TimelinePanelState& state, Widgets& widgets) {
-    if (!ImGui::BeginChild("recordings", ImVec2(0.0f, 0.0f))) {
-        ImGui::EndChild();
-        return;
-    }
-    if (controller.list().recordings().empty())
-        ImGui::TextDisabled(controller.list().read()
-                                ? "Nothing is recorded yet: F9 begins and ends a recording."
-                                : "Looking for recordings");
-    for (const RecordingFacts& facts : controller.list().recordings()) {
-        const std::string name = facts.file.filename().string();
-        const bool open = controller.looking() && controller.timeline().file() == facts.file;
-        ImGui::PushID(facts.file.c_str());
-        if (ImGui::Selectable(facts.date.c_str(), open))
-            state.open = facts.file;
-        widgets.mark(("recording:" + name).c_str());
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", facts.problem.empty() ? facts.file.c_str() : facts.problem.c_str());
-        ImGui::PopID();
-        ImGui::SameLine(widgets.units(130.0f));
-        if (!facts.problem.empty()) {
-            ImGui::TextColored(ImColor(kRed), "%s cannot be opened", name.c_str());
-            continue;
-        }
-        ImGui::TextUnformatted(lengthText(facts).c_str());
-        ImGui::SameLine(widgets.units(230.0f));
-        ImGui::TextUnformatted(facts.model.empty() ? "nothing touched" : facts.model.c_str());
-        ImGui::SameLine(widgets.units(390.0f));
-        ImGui::TextDisabled("%s", facts.madeBy == "window" ? "" : facts.madeBy.c_str());
-    }
-    ImGui::EndChild();
-}
-
 } // namespace
 
 bool followController(const TimelineController& controller, TimelinePanelState& state) {
@@ -208,12 +176,12 @@ bool followController(const TimelineController& controller, TimelinePanelState& 
 
 void drawTimeline(TimelineController& controller, TimelinePanelState& state, Widgets& widgets) {
     if (!controller.looking())
-        return list(controller, state, widgets);
+        return drawRecordingList(controller, state, widgets);
     if (state.list) {
         beside(widgets.lampWidth("List"), widgets);
         if (widgets.lampButton("recordings", "List", true, kBlue))
             state.list = false;
-        return list(controller, state, widgets);
+        return drawRecordingList(controller, state, widgets);
     }
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                         ImVec2(widgets.units(4.0f), ImGui::GetStyle().ItemSpacing.y));
@@ -222,6 +190,7 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
     beside(widgets.lampWidth("List"), widgets);
     if (widgets.lampButton("recordings", "List", false, kBlue))
         state.list = true;
+    openModel(controller, widgets);
     ImGui::PopStyleVar();
     const float gap = ImGui::GetStyle().ItemSpacing.y;
     const News news = newsOf(controller);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace touchstone {
 
@@ -18,6 +19,13 @@ struct TimelinePanelState {
     double nearBegin = 0.0; ///< s, its start
     /// Requests of this frame; cleared by the code that handles them.
     std::optional<std::filesystem::path> open;
+    /// Of the list: the recording whose name is being typed, or that waits for an answer before it is
+    /// deleted.
+    std::optional<std::filesystem::path> renaming, deleting;
+    std::string name = std::string(256, '\0'); ///< the text being typed
+    bool nameBegins = false;                   ///< the text field takes the keyboard
+    std::string outcome;                       ///< of the last action: "deleted …", or the problem
+    bool failed = false;
 };
 
 /// Shows a recording when it is opened and hides it when it is closed. True in the frame in which it was

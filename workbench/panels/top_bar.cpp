@@ -154,7 +154,7 @@ void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const char* const note = !looking ? ""
                              : on     ? "Off while a recording is open; on again with the live hand"
                                       : "Stays off with the live hand";
-    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen, note))
+    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen, "Force: fault", note))
         on = !on && !looking;
 }
 
@@ -162,7 +162,7 @@ void record(const PanelInput& input, PanelState& state, Widgets& widgets) {
     char label[32] = "Record";
     if (input.recording)
         std::snprintf(label, sizeof label, "Stop %.0f s", input.recordedSeconds);
-    if (widgets.lampButton("record", label, input.recording, kRed, input.recordingFile))
+    if (widgets.lampButton("record", label, input.recording, kRed, "Stop 0000 s", input.recordingFile))
         state.recordPressed = true;
 }
 

@@ -161,7 +161,7 @@ bool Widgets::combo(const char* name, int& chosen, std::span<const char* const> 
     return changed;
 }
 
-bool Widgets::lampButton(const char* name, const char* label, bool on, unsigned color,
+bool Widgets::lampButton(const char* name, const char* label, bool on, unsigned color, const char* widest,
                          std::string_view note) {
     ImGui::PushID(name);
     const float line = ImGui::GetTextLineHeight(), radius = 0.28f * line;
@@ -170,7 +170,8 @@ bool Widgets::lampButton(const char* name, const char* label, bool on, unsigned 
     if (!on)
         ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
     const bool pressed =
-        ImGui::Button("##lamp", ImVec2(lampWidth(label), line + 2.0f * style.FramePadding.y));
+        ImGui::Button("##lamp", ImVec2(std::max(lampWidth(label), lampWidth(widest)),
+                                       line + 2.0f * style.FramePadding.y));
     if (!on)
         ImGui::PopStyleColor();
     mark(name, note);

@@ -58,8 +58,10 @@ class Widgets {
     bool check(const char* name, const char* label, bool& on);
     /// As wide as the window; marks `name`. True where the choice changed.
     bool combo(const char* name, int& chosen, std::span<const char* const> labels);
-    /// A button with a lamp, lit in `color` (ImU32) while `on`; marks `name`. True where it was pressed.
-    bool lampButton(const char* name, const char* label, bool on, unsigned color, std::string_view note = {});
+    /// A button with a lamp, lit in `color` (ImU32) while `on`; marks `name`. `widest`: a label for which it
+    /// has room, where its own changes and nothing beside it must move. True where it was pressed.
+    bool lampButton(const char* name, const char* label, bool on, unsigned color, const char* widest = "",
+                    std::string_view note = {});
     /// A bar filled up to the value, with `label` at its left and `shown`, the value as text, at its right:
     /// nothing lies over the number. As wide as the next item; Ctrl + click types a value. Marks `name`. True
     /// where the value changed.

@@ -45,6 +45,24 @@ std::optional<uint64_t> ticksAtTheEnd(RecordingReader& reader) {
     return end != nullptr && !item->damageBefore ? std::optional(end->ticks) : std::nullopt;
 }
 
+/// The last note: the fault for which it was kept is the last one noted.
+std::string noteIn(RecordingReader& reader) {
+    std::string text;
+    reader.goTo(kFileHeaderSize);
+    while (const std::optional<RecordingReader::Item> item = reader.next())
+        if (const auto* note = std::get_if<RecordedNote>(&item->item))
+            text = note->text;
+    return text;
+}
+
+/// FlightRecorder::recover keeps a session that did not end, which has no note of it.
+std::string reasonOf(const RecordingFacts& facts, RecordingReader& reader) {
+    if (!facts.madeBy.starts_with("flight recorder"))
+        return "";
+    const std::string note = noteIn(reader);
+    return note.empty() ? "the program ended without closing" : note;
+}
+
 void read(RecordingFacts& facts) {
     RecordingReader reader(facts.file);
     double period = 0.0;
@@ -72,6 +90,7 @@ void read(RecordingFacts& facts) {
     const std::optional<uint64_t> ticks = ticksAtTheEnd(reader);
     facts.wholeLength = ticks.has_value();
     facts.seconds = period * static_cast<double>(ticks.value_or(facts.bytes / kTickSize));
+    facts.reason = reasonOf(facts, reader);
 }
 
 } // namespace
@@ -123,6 +142,16 @@ std::vector<RecordingFacts> recordingsIn(const std::vector<std::filesystem::path
         all.push_back(same != known.end() ? *same : recordingFacts(file.path));
     }
     return all;
+}
+
+void RecordingList::moved(const std::filesystem::path& file, const std::filesystem::path& renamed) {
+    job_.abandon(); // what it reads is old
+    last_ = -kRenewal;
+    if (renamed.empty())
+        std::erase_if(recordings_, [&](const RecordingFacts& facts) { return facts.file == file; });
+    for (RecordingFacts& facts : recordings_)
+        if (facts.file == file)
+            facts.file = renamed;
 }
 
 void RecordingList::update(double now) {

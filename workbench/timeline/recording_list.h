@@ -15,6 +15,7 @@ struct RecordingFacts {
     std::string date;         ///< "2026-03-01 14:05", local time; the file's where the recording has none
     std::string model;        ///< "doughnut.glb"; empty: no model
     std::string madeBy;       ///< "window", "run", "touch", "flight recorder of window"
+    std::string reason;       ///< why the flight recorder kept it: "the force was not finite"; else empty
     double seconds = 0.0;     ///< its length, from its ticks; of a truncated file, from its size
     bool wholeLength = false; ///< not truncated
     std::string problem;      ///< why it cannot be opened; empty: no problem
@@ -22,7 +23,8 @@ struct RecordingFacts {
     uint64_t bytes = 0;
 };
 
-/// Reads the first chunks and the last one. Any thread; does not throw.
+/// Reads the first chunks and the last one; of what a flight recorder kept, all of them, for the reason. Any
+/// thread; does not throw.
 [[nodiscard]] RecordingFacts recordingFacts(const std::filesystem::path& file);
 
 /// Recordings in `folders`, newest first, at most `most`; unchanged entries of `known` are not read again. A
@@ -39,6 +41,8 @@ class RecordingList {
     void update(double now);
     [[nodiscard]] const std::vector<RecordingFacts>& recordings() const { return recordings_; }
     [[nodiscard]] bool read() const { return read_; } ///< the list has been read once
+    /// A file of the list has another name, or (empty) is deleted: shown at once, without reading.
+    void moved(const std::filesystem::path& file, const std::filesystem::path& renamed);
 
   private:
     static constexpr double kRenewal = 2.0; // s

@@ -1,6 +1,7 @@
 #include "workbench/timeline/timeline_controller.h"
 
 #include "haptics/world/world_state.h"
+#include "workbench/timeline/recording_files.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,29 @@ namespace touchstone {
 void TimelineController::open(const std::filesystem::path& file) {
     opening_.abandon();
     pending_ = openingFile_ = file;
+}
+
+void TimelineController::demandUnused(const std::filesystem::path& file) const {
+    const auto refuse = [&](const char* problem, const char* remedy) {
+        throw Error(file.filename().string(), "", problem, remedy);
+    };
+    if (looking() && timeline_->file() == file)
+        refuse("is open", "go back to the live hand first");
+    if (opening() && openingFile_ == file)
+        refuse("is being opened", "cancel that first");
+    if (file == recorded_)
+        refuse("is being recorded", "stop the recording first");
+}
+
+void TimelineController::rename(const std::filesystem::path& file, std::string_view name) {
+    demandUnused(file);
+    list_.moved(file, renameRecording(file, name));
+}
+
+void TimelineController::remove(const std::filesystem::path& file) {
+    demandUnused(file);
+    deleteRecording(file);
+    list_.moved(file, {});
 }
 
 void TimelineController::cancelOpening() {
@@ -99,6 +123,7 @@ std::optional<std::filesystem::path> TimelineController::modelFile() const {
 void TimelineController::update(const Surroundings& around) {
     std::erase_if(retired_,
                   [](const std::unique_ptr<ReplayCache>& replayCache) { return replayCache->finished(); });
+    recorded_ = around.recorded;
     if (around.listed)
         list_.update(around.now);
     takeOpened();
@@ -228,6 +253,7 @@ nlohmann::ordered_json TimelineController::json() const {
                           {"date", facts.date},
                           {"model", facts.model},
                           {"seconds", facts.seconds},
+                          {"reason", facts.reason},
                           {"problem", facts.problem}});
     json["list"] = std::move(listed);
     if (!looking())

@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace touchstone {
@@ -40,8 +41,9 @@ class TimelineController {
         const Model* model = nullptr;        ///< the open model; null: none
         const SceneIdentity* open = nullptr; ///< of the open model
         const ForceHistory* live = nullptr;
-        double servoTime = 0.0; ///< s, of the latest tick
-        bool listed = false;    ///< the list of recordings is shown
+        double servoTime = 0.0;              ///< s, of the latest tick
+        bool listed = false;                 ///< the list of recordings is shown
+        std::filesystem::path recorded = {}; ///< being recorded; empty: none
     };
     void update(const Surroundings& around);
 
@@ -91,6 +93,10 @@ class TimelineController {
     [[nodiscard]] const TouchAgain& again() const { return again_; }
 
     [[nodiscard]] const RecordingList& list() const { return list_; }
+    /// Of a file of the list, as renameRecording and deleteRecording. Throws Error, also where it is looked
+    /// at or being recorded.
+    void rename(const std::filesystem::path& file, std::string_view name);
+    void remove(const std::filesystem::path& file);
     /// For `--status-json`.
     [[nodiscard]] nlohmann::ordered_json json() const;
 
@@ -110,8 +116,10 @@ class TimelineController {
     void describe(const RecordedScene* scene);
     void showTick();
     void retire();
+    void demandUnused(const std::filesystem::path& file) const;
 
     RecordingList list_;
+    std::filesystem::path recorded_;
     BackgroundJob<Opened> opening_;
     std::filesystem::path openingFile_, pending_;
     std::shared_ptr<const Timeline> timeline_;

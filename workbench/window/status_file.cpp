@@ -99,6 +99,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"recording",
          {{"on", input.recording}, {"file", input.recordingFile}, {"seconds", input.recordedSeconds}}},
         {"timeline", input.timeline->json()},
+        {"list", {{"outcome", state.timeline.outcome}, {"failed", state.timeline.failed}}},
         {"notice", input.notice},
         {"materials",
          {{"edited", input.materialsEdited},

@@ -42,8 +42,11 @@ class TimelineWindow : public WindowTest {
     std::string record() {
         open(kDoughnut, {"--hand", "simulated"});
         until("the hand to touch", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
+        const Json before = later()["widgets"]["record"];
         display_.key("F9");
-        until("three seconds", [](const Json& s) { return s["recording"]["seconds"] > 3.0; });
+        const Json during =
+            until("three seconds", [](const Json& s) { return s["recording"]["seconds"] > 3.0; });
+        EXPECT_EQ(during["widgets"]["record"], before) << "its label changes, not its place";
         display_.key("F9");
         return until("the end",
                      [](const Json& s) { return s["recording"]["on"] == false; })["recording"]["file"];
@@ -133,7 +136,12 @@ TEST_F(TimelineWindow, WhatWasRecordedIsLookedAtTouchedAgainVerifiedAndLeft) {
     // The same hand without friction: less force, all of it along the normal.
     display_.click(middleOf("friction"));
     until("no friction", [](const Json& s) { return s["settings"]["friction"] == "off"; });
+    const auto list = [](const Json& s) { return s["widgets"].at("recordings"); };
+    const Json place = list(later());
     display_.click(middleOf("touchAgain"));
+    EXPECT_EQ(list(until("it to run", [](const Json& s) { return timeline(s)["again"]["running"] == true; })),
+              place)
+        << "Stop does not push List from under the pointer";
     const Json again = until("it to be touched again", [](const Json& s) {
         return timeline(s)["again"]["running"] == false && timeline(s)["again"]["ticks"] > 1000;
     });
@@ -145,6 +153,69 @@ TEST_F(TimelineWindow, WhatWasRecordedIsLookedAtTouchedAgainVerifiedAndLeft) {
     const Json live = until("the live hand", [&](const Json& s) { return !looking(s) && pushed(s); });
     EXPECT_FALSE(live["widgets"].contains("backToLive"));
     EXPECT_TRUE(live["widgets"].contains("charts"));
+    expectCleanEnd();
+}
+
+TEST_F(TimelineWindow, RecordingsAreRenamedAndDeletedAndWhatCannotBeIsTold) {
+    const std::filesystem::path folder = scratch_ / "state/touchstone/recordings";
+    std::filesystem::create_directories(folder);
+    for (const char* name : {"one.tsrec", "two.tsrec"})
+        touchOffline(TOUCHSTONE_ASSETS "/box.glb", folder / name);
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    display_.click(middleOf("recorded"));
+    const auto rows = [](const std::string& with, const std::string& without) {
+        return [=](const Json& s) {
+            return s["widgets"].contains("recording:" + with + ".tsrec") &&
+                   !s["widgets"].contains("recording:" + without + ".tsrec");
+        };
+    };
+    const auto shown = [](const char* name) {
+        return [=](const Json& s) { return s["widgets"].contains(name); };
+    };
+    const auto outcome = [this](const std::string& text, bool failed) {
+        return until(text, [&](const Json& s) {
+            return s["list"]["outcome"].get<std::string>().find(text) != std::string::npos &&
+                   s["list"]["failed"] == failed;
+        });
+    };
+    const auto rename = [&](const std::string& from, const std::string& to) {
+        display_.click(middleOf("rename:" + from + ".tsrec"));
+        until("the name's field", shown("recordingName"));
+        later();
+        display_.xdotool({"type", "--delay", "20", to});
+        display_.key("Return");
+    };
+    until("both", rows("one", "none"));
+    until("both", rows("two", "none"));
+    rename("one", "two");
+    outcome("there is another two.tsrec", true);
+    rename("one", "x/y");
+    outcome("no slash", true);
+    rename("one", "ribs");
+    outcome("renamed to ribs", false);
+    until("the new name", rows("ribs", "one"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "ribs.tsrec"));
+
+    display_.click(middleOf("delete:two.tsrec"));
+    until("the question", shown("deleteNo"));
+    display_.click(middleOf("deleteNo"));
+    until("no question", [&](const Json& s) { return !shown("deleteNo")(s); });
+    EXPECT_TRUE(std::filesystem::exists(folder / "two.tsrec"));
+    display_.click(middleOf("delete:two.tsrec"));
+    until("the question", shown("deleteYes"));
+    display_.click(middleOf("deleteYes"));
+    until("it to be gone", rows("ribs", "two"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "two.tsrec"));
+
+    display_.click(middleOf("recording:ribs.tsrec"));
+    until("it to be open", looking);
+    display_.click(middleOf("recordings"));
+    until("the list", shown("delete:ribs.tsrec"));
+    display_.click(middleOf("delete:ribs.tsrec"));
+    until("the question", shown("deleteYes"));
+    display_.click(middleOf("deleteYes"));
+    outcome("ribs.tsrec: is open", true);
+    EXPECT_TRUE(std::filesystem::exists(folder / "ribs.tsrec"));
     expectCleanEnd();
 }
 

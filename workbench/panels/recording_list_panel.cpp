@@ -1,0 +1,185 @@
+#include "workbench/panels/recording_list_panel.h"
+
+#include "workbench/panels/colors.h"
+#include "workbench/timeline/timeline_controller.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace touchstone {
+
+namespace {
+
+std::string lengthText(const RecordingFacts& facts) {
+    char text[32];
+    const int minutes = static_cast<int>(facts.seconds / 60.0);
+    if (minutes > 0)
+        std::snprintf(text, sizeof text, "%d min %.0f s", minutes, facts.seconds - 60.0 * minutes);
+    else
+        std::snprintf(text, sizeof text, "%.1f s", facts.seconds);
+    return facts.wholeLength ? text : "about " + std::string(text);
+}
+
+/// Does what the user asked for and keeps what became of it.
+void act(TimelinePanelState& state, const std::string& done, const std::function<void()>& action) {
+    state.renaming.reset();
+    state.deleting.reset();
+    try {
+        action();
+        state.outcome = done;
+        state.failed = false;
+    } catch (const std::exception& error) {
+        state.outcome = error.what();
+        state.failed = true;
+    }
+}
+
+/// A cell with what does not fit as its tooltip.
+void cell(const std::string& text, ImU32 color) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x;
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    if (ImGui::CalcTextSize(text.c_str()).x > room && ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", text.c_str());
+}
+
+/// The name while it is typed: Enter renames, Escape or a click elsewhere leaves it.
+void nameField(const RecordingFacts& facts, TimelineController& controller, TimelinePanelState& state,
+               Widgets& widgets) {
+    if (std::exchange(state.nameBegins, false))
+        ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-1.0f);
+    const bool done =
+        ImGui::InputText("##name", state.name.data(), state.name.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    widgets.mark("recordingName");
+    if (done)
+        act(state, std::string("renamed to ") + state.name.c_str(),
+            [&] { controller.rename(facts.file, state.name.c_str()); });
+    else if (ImGui::IsItemDeactivated())
+        state.renaming.reset();
+}
+
+void rowButtons(const RecordingFacts& facts, const std::string& name, TimelineController& controller,
+                TimelinePanelState& state, Widgets& widgets) {
+    if (state.deleting == facts.file) {
+        ImGui::TextColored(ImColor(kAmber), "delete it?");
+        ImGui::SameLine();
+        // Under the pointer that pressed Delete...: a second click there keeps it.
+        if (ImGui::SmallButton("Keep"))
+            state.deleting.reset();
+        widgets.mark("deleteNo");
+        ImGui::SameLine();
+        if (ImGui::SmallButton("Delete"))
+            act(state, "deleted " + name, [&] { controller.remove(facts.file); });
+        widgets.mark("deleteYes");
+        return;
+    }
+    if (ImGui::SmallButton("Rename")) {
+        state.renaming = facts.file;
+        state.deleting.reset();
+        state.nameBegins = true;
+        const std::string stem = facts.file.stem().string();
+        std::fill(state.name.begin(), state.name.end(), '\0');
+        std::copy_n(stem.begin(), std::min(stem.size(), state.name.size() - 1), state.name.begin());
+    }
+    widgets.mark(("rename:" + name).c_str());
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Delete..."))
+        state.deleting = facts.file;
+    widgets.mark(("delete:" + name).c_str());
+}
+
+void row(const RecordingFacts& facts, TimelineController& controller, TimelinePanelState& state,
+         Widgets& widgets) {
+    const std::string name = facts.file.filename().string();
+    const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text), grey = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    ImGui::TableNextColumn();
+    if (state.renaming == facts.file) {
+        nameField(facts, controller, state, widgets);
+    } else {
+        const bool open = controller.looking() && controller.timeline().file() == facts.file;
+        if (ImGui::Selectable(facts.file.stem().c_str(), open))
+            state.open = facts.file;
+        widgets.mark(("recording:" + name).c_str());
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", facts.file.c_str());
+    }
+    cell(facts.date, grey);
+    if (facts.problem.empty()) {
+        cell(lengthText(facts), text);
+        cell(facts.model.empty() ? "nothing touched" : facts.model, text);
+        cell(!facts.reason.empty()      ? facts.reason
+             : facts.madeBy == "window" ? ""
+                                        : facts.madeBy,
+             facts.reason.empty() ? grey : kAmber);
+    } else {
+        cell("", text);
+        cell("", text);
+        cell("cannot be opened: " + facts.problem, kRed);
+    }
+    ImGui::TableNextColumn();
+    rowButtons(facts, name, controller, state, widgets);
+}
+
+/// On the line of the buttons above, so that no row moves.
+void outcome(const TimelinePanelState& state, Widgets& widgets) {
+    if (state.outcome.empty())
+        return;
+    ImGui::SameLine();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight();
+    ImGui::PushClipRect(at, ImVec2(at.x + std::max(room, 0.0f), at.y + ImGui::GetFrameHeight()), true);
+    ImGui::AlignTextToFramePadding();
+    const std::string line = state.outcome.substr(0, state.outcome.find('\n'));
+    ImGui::TextColored(ImColor(state.failed ? kRed : kGreen), "%s", line.c_str());
+    ImGui::PopClipRect();
+    widgets.mark("listOutcome");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", state.outcome.c_str());
+}
+
+} // namespace
+
+void drawRecordingList(TimelineController& controller, TimelinePanelState& state, Widgets& widgets) {
+    outcome(state, widgets);
+    if (controller.list().recordings().empty()) {
+        ImGui::TextDisabled(controller.list().read()
+                                ? "Nothing is recorded yet: F9 begins and ends a recording."
+                                : "Looking for recordings");
+        return;
+    }
+    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                       ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings;
+    if (!ImGui::BeginTable("recordings", 6, kFlags))
+        return;
+    struct Heading {
+        const char* name;
+        float width;
+    };
+    for (const Heading& heading : {Heading{"name", 1.5f}, Heading{"date", 1.35f}, Heading{"length", 0.8f},
+                                   Heading{"model", 1.2f}, Heading{"kept because", 1.6f}})
+        ImGui::TableSetupColumn(heading.name, ImGuiTableColumnFlags_WidthStretch, heading.width);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
+                            ImGui::CalcTextSize("delete it? Delete Keep").x + widgets.units(62.0f));
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableHeadersRow();
+    const std::vector<RecordingFacts> recordings = controller.list().recordings(); // rows may change it
+    for (const RecordingFacts& facts : recordings) {
+        ImGui::TableNextRow();
+        ImGui::PushID(facts.file.c_str());
+        row(facts, controller, state, widgets);
+        ImGui::PopID();
+    }
+    ImGui::EndTable();
+}
+
+} // namespace touchstone
