@@ -22,7 +22,8 @@ void WorkbenchWindow::draw() {
     doWhatWasAsked(widgets);
     sendSettings();
     // While an edge is dragged nothing is written.
-    if ((memory_.folds != state_.folds || memory_.charts != state_.charts || memory_.uiScale != state_.uiScale) &&
+    if ((memory_.folds != state_.folds || memory_.charts != state_.charts ||
+         memory_.uiScale != state_.uiScale) &&
         !ImGui::IsAnyMouseDown())
         remember();
 

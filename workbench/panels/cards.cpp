@@ -105,11 +105,12 @@ void drawIntroduction(PanelState& state, const WidgetRect& strip, Widgets& widge
     const float buttons = Widgets::buttonWidth(kDone) + style.ItemSpacing.x + Widgets::buttonWidth(kModels),
                 right = strip.width - margin - buttons;
     const bool mouse = state.device.empty() && !state.simulatedHand;
-    const std::string text =
-        brokenLines(std::string(mouse ? "Left drag on the model: touch and stroke it."
-                                      : "Another hand touches: choose Mouse on the left.") +
-                        " Right drag: look around. Space: force off and on. F1: all keys.",
-                    right - 2.0f * margin);
+    const std::string text = brokenLines(
+        std::string(mouse ? "Left drag on the model: touch and stroke it."
+                          : "Another hand touches: choose Mouse on the left.") +
+            " Switch Shading, Texture and Friction in the bar and watch the charts. Right drag: look around. "
+            "Space: force off and on. F1: all keys.",
+        right - 2.0f * margin);
     ImGui::SetCursorPosY(0.5f * (strip.height - ImGui::CalcTextSize(text.c_str()).y));
     ImGui::TextUnformatted(text.c_str());
     ImGui::SetCursorPos(ImVec2(right, 0.5f * (strip.height - ImGui::GetFrameHeight())));

@@ -1,4 +1,3 @@
-#include "workbench/panels/beside.h"
 #include "workbench/panels/colors.h"
 #include "workbench/panels/panels.h"
 #include "workbench/panels/scale.h"
@@ -239,13 +238,9 @@ class Charts {
 
 /// Which quantities have a strip; the last one stays.
 void stripMenu(PanelState& state, Widgets& widgets) {
-    beside(buttonWidth("Strips"));
-    if (ImGui::Button("Strips"))
+    widgets.besideArrow(Widgets::buttonWidth("Strips"));
+    if (widgets.button("strips", "Strips"))
         ImGui::OpenPopup("strips");
-    widgets.mark("strips");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(
-            "Which quantities are charted. Drag the upper edge of the panel to make them taller.");
     if (!ImGui::BeginPopup("strips"))
         return;
     for (size_t i = 0; i < kChartQuantityCount; ++i) {
@@ -263,23 +258,18 @@ void stripMenu(PanelState& state, Widgets& widgets) {
 /// Buttons that save, and what became of the last file.
 void saveButtons(PanelState& state, Widgets& widgets) {
     struct Kind {
-        const char *label, *name, *tip;
+        const char *label, *name;
         ChartFile file;
     };
-    beside(ImGui::CalcTextSize("Save").x);
+    widgets.besideArrow(ImGui::CalcTextSize("Save").x);
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Save");
     for (const Kind& kind :
-         {Kind{"CSV", "saveCsv", "Every tick of the charts with all quantities, in SI units", ChartFile::Csv},
-          Kind{"PNG", "savePng", "The strips as they are on the screen", ChartFile::Picture},
-          Kind{"SVG", "saveSvg", "The shown quantities as a figure with axes and legend, by gnuplot",
-               ChartFile::Figure}}) {
-        beside(buttonWidth(kind.label));
-        if (ImGui::Button(kind.label))
+         {Kind{"CSV", "saveCsv", ChartFile::Csv}, Kind{"PNG", "savePng", ChartFile::Picture},
+          Kind{"SVG", "saveSvg", ChartFile::Figure}}) {
+        widgets.besideArrow(Widgets::buttonWidth(kind.label));
+        if (widgets.button(kind.name, kind.label))
             state.chartWanted = kind.file;
-        widgets.mark(kind.name);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", kind.tip);
     }
 }
 

@@ -68,11 +68,8 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
 
     PassivityMode& passivity = state.settings.passivity;
     bool controlled = passivity == PassivityMode::Control;
-    if (ImGui::Checkbox("Passivity control", &controlled))
+    if (widgets.check("passivity", "Passivity control", controlled))
         passivity = controlled ? PassivityMode::Control : PassivityMode::Observe;
-    widgets.mark("passivity");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Damps what the device gives the hand beyond what it took");
     ImGui::SameLine();
     if (passivity != PassivityMode::Off)
         ImGui::TextDisabled("%+.2f mJ", 1e3 * tick.energyBalance);

@@ -109,9 +109,7 @@ void row(const RecordingFacts& facts, TimelineController& controller, TimelinePa
         const bool open = controller.looking() && controller.timeline().file() == facts.file;
         if (ImGui::Selectable(facts.file.stem().c_str(), open))
             state.open = facts.file;
-        widgets.mark(("recording:" + name).c_str());
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", facts.file.c_str());
+        widgets.mark(("recording:" + name).c_str(), facts.file.string());
     }
     cell(facts.date, grey);
     if (facts.problem.empty()) {
@@ -142,9 +140,7 @@ void outcome(const TimelinePanelState& state, Widgets& widgets) {
     const std::string line = state.outcome.substr(0, state.outcome.find('\n'));
     ImGui::TextColored(ImColor(state.failed ? kRed : kGreen), "%s", line.c_str());
     ImGui::PopClipRect();
-    widgets.mark("listOutcome");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", state.outcome.c_str());
+    widgets.mark("listOutcome", state.outcome);
 }
 
 } // namespace

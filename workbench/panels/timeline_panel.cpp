@@ -1,6 +1,5 @@
 #include "workbench/panels/timeline_panel.h"
 
-#include "workbench/panels/beside.h"
 #include "workbench/panels/card.h"
 #include "workbench/panels/colors.h"
 #include "workbench/panels/recording_list_panel.h"
@@ -21,19 +20,12 @@ namespace {
 
 constexpr double kShiftStep = 0.1; // s
 
-/// On the same line where it fits. The arrow that folds the panel is the last item of the first line.
-void beside(float width, const Widgets& widgets) {
-    widgets.beside(width, ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight());
-}
-
 /// `widest`: a label for which it has room, where its own changes and nothing beside it must move.
 bool button(const char* label, const char* name, const char* tip, Widgets& widgets, const char* widest = "") {
     const float width = std::max(Widgets::buttonWidth(label), Widgets::buttonWidth(widest));
-    beside(width, widgets);
+    widgets.besideArrow(width);
     const bool pressed = ImGui::Button(label, ImVec2(width, 0.0f));
-    widgets.mark(name);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", tip);
+    widgets.mark(name, tip);
     return pressed;
 }
 
@@ -51,7 +43,7 @@ void transport(TimelineController& controller, Widgets& widgets) {
         at.step(1);
     if (button(">|", "toEnd", "End", widgets))
         at.toEnd();
-    beside(widgets.units(66.0f), widgets);
+    widgets.besideArrow(widgets.units(66.0f));
     ImGui::SetNextItemWidth(widgets.units(66.0f));
     char speed[16];
     std::snprintf(speed, sizeof speed, "%gx", at.speed());
@@ -89,17 +81,14 @@ void examination(TimelineController& controller, Widgets& widgets) {
     }
     const bool again = controller.again().running();
     const char* const text = again ? "Stop" : "Touch again";
-    beside(widgets.lampWidth("Touch again"), widgets);
-    if (widgets.lampButton("touchAgain", text, again, kBlue, "Touch again")) {
+    widgets.besideArrow(widgets.lampWidth("Touch again"));
+    const char* const note = controller.modelIsOpen() ? "" : "The model that was touched is not open";
+    if (widgets.lampButton("touchAgain", text, again, kBlue, "Touch again", note)) {
         if (again)
             controller.stopTouchingAgain();
         else if (controller.modelIsOpen())
             controller.touchAgain();
     }
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(controller.modelIsOpen()
-                              ? "the recorded hand, with the settings and materials of now"
-                              : "the model that was touched is not open");
 }
 
 /// Last on its line: it comes and goes.
@@ -178,7 +167,7 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
     if (!controller.looking())
         return drawRecordingList(controller, state, widgets);
     if (state.list) {
-        beside(widgets.lampWidth("List"), widgets);
+        widgets.besideArrow(widgets.lampWidth("List"));
         if (widgets.lampButton("recordings", "List", true, kBlue))
             state.list = false;
         return drawRecordingList(controller, state, widgets);
@@ -187,7 +176,7 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
                         ImVec2(widgets.units(4.0f), ImGui::GetStyle().ItemSpacing.y));
     transport(controller, widgets);
     examination(controller, widgets);
-    beside(widgets.lampWidth("List"), widgets);
+    widgets.besideArrow(widgets.lampWidth("List"));
     if (widgets.lampButton("recordings", "List", false, kBlue))
         state.list = true;
     openModel(controller, widgets);

@@ -154,7 +154,8 @@ void force(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const char* const note = !looking ? ""
                              : on     ? "Off while a recording is open; on again with the live hand"
                                       : "Stays off with the live hand";
-    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen, "Force: fault", note))
+    if (widgets.lampButton("forceEnabled", label, on && !looking, latched ? kRed : kGreen, "Force: fault",
+                           note))
         on = !on && !looking;
 }
 

@@ -50,13 +50,9 @@ void effects(const std::vector<ActiveEffect>& effects, Widgets& widgets) {
                                  : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
         ImGui::TextColored(color, "%s: %s", effect.state == State::On ? "on" : "off",
                            effectName(effect.effect));
-        widgets.mark((std::string("effect:") + effectName(effect.effect)).c_str());
-        if (effect.state == State::Absent) {
-            if (ImGui::IsItemHovered())
-                ImGui::SetTooltip("%s", effect.reason.c_str());
-            continue;
-        }
-        widgets.wrapped(effect.reason, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+        widgets.mark((std::string("effect:") + effectName(effect.effect)).c_str(), effect.reason);
+        if (effect.state != State::Absent)
+            widgets.wrapped(effect.reason, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     }
 }
 

@@ -131,6 +131,10 @@ void Widgets::wrapped(std::string_view text, unsigned color) const {
     ImGui::PopStyleColor();
 }
 
+void Widgets::besideArrow(float width) const {
+    beside(width, ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight());
+}
+
 float Widgets::buttonWidth(const char* label) {
     return ImGui::CalcTextSize(label, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
@@ -169,9 +173,8 @@ bool Widgets::lampButton(const char* name, const char* label, bool on, unsigned 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (!on)
         ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
-    const bool pressed =
-        ImGui::Button("##lamp", ImVec2(std::max(lampWidth(label), lampWidth(widest)),
-                                       line + 2.0f * style.FramePadding.y));
+    const bool pressed = ImGui::Button(
+        "##lamp", ImVec2(std::max(lampWidth(label), lampWidth(widest)), line + 2.0f * style.FramePadding.y));
     if (!on)
         ImGui::PopStyleColor();
     mark(name, note);

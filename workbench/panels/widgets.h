@@ -46,6 +46,8 @@ class Widgets {
     /// The next widget, `width` wide, goes on the same line where it fits. `end`: width kept free at the end
     /// of the line.
     void beside(float width, float end = 0.0f) const;
+    /// The same in the first line of a panel, whose end is the arrow that folds it.
+    void besideArrow(float width) const;
     /// Text in lines of the available width, broken between words only: ImGui also breaks behind points and
     /// commas, in the middle of a number. `color`: ImU32; 0: that of text.
     void wrapped(std::string_view text, unsigned color = 0) const;
