@@ -4,6 +4,7 @@
 #include "engine/import/file/gltf_validation.h"
 #include "engine/import/geometry/accessor_values.h"
 #include "engine/import/geometry/gltf_animations.h"
+#include "engine/import/geometry/gltf_cameras.h"
 #include "engine/import/geometry/scene_build.h"
 #include "engine/import/geometry/skin.h"
 #include "engine/import/materials/gltf_images.h"
@@ -42,6 +43,7 @@ ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stam
     scene->materials = materials.take();
     scene->textures = readTextures(context, document);
     scene->animations = readAnimations(context, document, forest, scene->nodes);
+    scene->cameras = readCameras(context, document, forest, scene->nodes);
     warnOfStillSkins(context, document, forest, *scene);
     context.enter(context.progress().part(0.8, 0.85));
     scene->bounds = sceneBounds(context, *scene);

@@ -75,6 +75,16 @@ glm::dmat4 parentFromNode(const Node& node) noexcept {
     return node.hasMatrix ? node.matrix : compose(node.translation, node.rotation, node.scale);
 }
 
+std::vector<glm::dmat4> sceneFromNodes(const std::vector<Node>& nodes) {
+    std::vector<glm::dmat4> sceneFromNode(nodes.size());
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const glm::dmat4 local = parentFromNode(nodes[n]);
+        sceneFromNode[n] =
+            nodes[n].parent >= 0 ? sceneFromNode[static_cast<size_t>(nodes[n].parent)] * local : local;
+    }
+    return sceneFromNode;
+}
+
 ScenePose::ScenePose(const Scene& scene)
     : local_(scene.nodes.size()), sceneFromNode_(scene.nodes.size()), sceneFromMesh_(scene.instances.size()) {
     evaluate(scene, nullptr, 0.0);

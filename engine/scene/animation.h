@@ -23,6 +23,9 @@ namespace touchstone {
 /// The static pose of a node relative to its parent.
 [[nodiscard]] glm::dmat4 parentFromNode(const Node& node) noexcept;
 
+/// The static pose of every node in the scene. Parents come before children.
+[[nodiscard]] std::vector<glm::dmat4> sceneFromNodes(const std::vector<Node>& nodes);
+
 /// sceneFromMesh of every instance of a scene at a time. The constructor allocates; `evaluate` allocates
 /// nothing, takes no lock and does not throw, so the servo may call it. Not shared between threads.
 class ScenePose {

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -80,6 +81,20 @@ struct Animation {
     std::vector<AnimationChannel> channels;
 };
 
+/// A camera of the file, where a node of the shown scene places it in the static pose. Scene frame, metres.
+struct SceneCamera {
+    std::string name, nodeName; ///< each may be empty
+    int index = 0;              ///< in the file's `cameras`
+    glm::dvec3 eye{0.0};
+    glm::dmat3 axes{1.0}; ///< columns right, up, backwards; a rotation
+    bool orthographic = false;
+    double fovY = 0.0;       ///< rad, full vertical angle, 0..pi; perspective
+    double halfHeight = 0.0; ///< m, > 0; orthographic
+    double aspect = 0.0;     ///< width / height of its frame; 0: that of the picture
+    double nearPlane = 0.0;  ///< m; > 0 for perspective, >= 0 for orthographic
+    double farPlane = std::numeric_limits<double>::infinity(); ///< m, > nearPlane
+};
+
 /// A message for the user about a scene that loads nevertheless.
 struct Warning {
     std::string place; ///< "materials[2].normalTexture"
@@ -102,6 +117,7 @@ struct Scene {
     std::vector<SceneTexture> textures;
     std::vector<Image> images;
     std::vector<Animation> animations;
+    std::vector<SceneCamera> cameras; ///< in the order of Scene::nodes
     std::vector<Warning> warnings;
     std::vector<std::string> extensionsUsed;
     Bounds bounds; ///< scene frame, static pose, over the instances' vertices

@@ -138,7 +138,7 @@ constexpr Rule kPrimitive[] = {{"attributes", Type::IndexMap, true, 0, kAny, "ac
 constexpr Rule kMesh[] = {kName, objects("primitives", kPrimitive), numbers("weights", 0)};
 constexpr Rule kNode[] = {kName,
                           {"children", Type::Indices, false, 0, kAny, "nodes"},
-                          other("camera"),
+                          mendable(index("camera", "cameras")),
                           index("mesh", "meshes"),
                           index("skin", "skins"),
                           numbers("weights", 0),
@@ -151,6 +151,10 @@ constexpr Rule kSkin[] = {kName,
                           other("skeleton"),
                           index("inverseBindMatrices", "accessors"),
                           {"joints", Type::Indices, true, 0, kAny, "nodes"}};
+constexpr Rule kPerspective[] = {number("aspectRatio"), number("yfov"), number("zfar"), number("znear")};
+constexpr Rule kOrthographic[] = {number("xmag"), number("ymag"), number("zfar"), number("znear")};
+constexpr Rule kCamera[] = {kName, text("type", true), object("perspective", kPerspective),
+                            object("orthographic", kOrthographic)};
 constexpr Rule kScene[] = {kName, {"nodes", Type::Indices, false, 0, kAny, "nodes"}};
 constexpr Rule kTarget[] = {index("node", "nodes"), text("path", true)};
 constexpr Rule kChannel[] = {count("sampler", true, 0, kMaxInt), object("target", kTarget, true)};
@@ -174,7 +178,7 @@ constexpr Rule kRoot[] = {object("asset", kAsset, true),
                           objects("skins", kSkin),
                           objects("scenes", kScene),
                           mendable(objects("animations", kAnimation)),
-                          other("cameras"),
+                          mendable(objects("cameras", kCamera)),
                           other("extensionsUsed"),
                           other("extensionsRequired"),
                           index("scene", "scenes")};
@@ -411,9 +415,6 @@ void checkSchema(ImportContext& context, json& gltf) {
                      "split the model into several files");
     checkGltfVersion(context, gltf);
     SchemaCheck(context, gltf, true).checkObject(gltf, kRoot, "");
-    const auto cameras = gltf.find("cameras");
-    if (cameras != gltf.end() && (!cameras->is_array() || cameras->empty()))
-        context.warn("cameras", "is not an array with entries; it is not used here");
 }
 
 void checkTextureInfo(ImportContext& context, const json& gltf, const json& info, const std::string& place) {

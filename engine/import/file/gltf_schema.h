@@ -10,9 +10,9 @@
 namespace touchstone {
 
 /// Throws Error for a wrong type, a missing required property, a value out of range or an index out of
-/// bounds, where geometry depends on it. Elsewhere (names, appearance, images, animations) it removes invalid
-/// data from `gltf` and warns; objects of arrays remain, without properties. Integers written "36.0" become
-/// integers.
+/// bounds, where geometry depends on it. Elsewhere (names, appearance, images, animations, cameras) it
+/// removes invalid data from `gltf` and warns; objects of arrays remain, without properties. Integers written
+/// "36.0" become integers.
 void checkSchema(ImportContext& context, nlohmann::json& gltf);
 
 /// True if `number` has no fraction and is exact in JSON, |number| < 2^53.

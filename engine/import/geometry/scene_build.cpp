@@ -30,16 +30,6 @@ bool isFlattened(const glm::dmat4& m) {
     return !(std::abs(glm::determinant(glm::dmat3(m))) > 1e-12 * size);
 }
 
-std::vector<glm::dmat4> sceneFromNodes(const std::vector<Node>& nodes) {
-    std::vector<glm::dmat4> sceneFromNode(nodes.size());
-    for (size_t n = 0; n < nodes.size(); ++n) {
-        const glm::dmat4 local = parentFromNode(nodes[n]);
-        sceneFromNode[n] =
-            nodes[n].parent >= 0 ? sceneFromNode[static_cast<size_t>(nodes[n].parent)] * local : local;
-    }
-    return sceneFromNode;
-}
-
 /// Places meshes on nodes: fills scene.instances, within the limits of an import.
 class Placement {
   public:

@@ -187,7 +187,7 @@ TEST(GltfValidation, UnknownRequiredExtensionsAreNamed) {
     EXPECT_REFUSED(maker, "extensionsRequired[0]", "string");
 }
 
-TEST(GltfValidation, CamerasAndLightsAreIgnored) {
+TEST(GltfValidation, BrokenCamerasAndLightsCostNoGeometry) {
     GltfMaker maker = GltfMaker::square();
     maker.json["cameras"] = {{{"type", "nonsense"}}};
     maker.json["nodes"][0]["camera"] = 5;
