@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A device for Touchstone in seventy lines: a finger on a spring that presses down and up again.
 
-Start Touchstone with `touchstone SCENE --device udp` (or `touchstone run SCENE --headless --device udp`), then this.
+Start Touchstone with `touchstone SCENE --device udp` (or `touchstone run SCENE --device udp`), then this.
 It sends where the finger is a thousand times a second and moves the finger by the force that comes back.
 docs/devices.md describes the packets.
 """

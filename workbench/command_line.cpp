@@ -39,11 +39,10 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     StudyCompareOptions compare;
     StudyMergeOptions merge;
     DevicesOptions devices;
-    bool headless = false;
     defineWindow(app, window);
     CLI::App* runApp =
         app.add_subcommand("run", "The same loops without a window: simulated hand, real time");
-    defineRun(*runApp, run, headless);
+    defineRun(*runApp, run);
     CLI::App* touchApp = app.add_subcommand("touch", "Touch along a path, offline and deterministic");
     defineTouch(*touchApp, touch);
     CLI::App* replayApp =

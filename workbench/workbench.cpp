@@ -1,3 +1,5 @@
+#include "devices/choice/device_choice.h"
+#include "engine/core/input_file.h"
 #include "workbench/screen/ui_scale.h"
 #include "workbench/workbench_window.h"
 
@@ -207,6 +209,11 @@ int windowCommand(const WindowOptions& options) {
     catchInterrupts();
     WorkbenchWindow workbench(options);
     workbench.open(options.scene.empty() ? defaultScene() : options.scene);
+    // What is wrong with the command line, before the display is asked for.
+    if (!options.scene.empty())
+        requireFile(options.scene, options.scene.string(), "name a .gltf or .glb model, or a recording");
+    if (!options.device.empty())
+        requireDevice(options.device, "mouse, hand (the simulated one)");
     while (!workbench.closed())
         workbench.frame();
     return 0;

@@ -8,7 +8,8 @@
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
-#include <optional>
+#include <utility>
+#include <variant>
 
 namespace touchstone {
 
@@ -57,7 +58,10 @@ bool isDoubtful(const HidNode& node) {
            !contains(node.productName, "polhem") && !contains(node.productName, "wooden");
 }
 
-std::unique_ptr<LinkedDevice> openExternal(const std::string& choice) {
+/// What a choice selects: nothing, another program at a port, a device.
+using Selected = std::variant<std::monostate, uint16_t, HidRecipe>;
+
+uint16_t portOf(const std::string& choice) {
     uint16_t port = kExternalPort;
     if (choice != "udp") {
         const std::string given = choice.substr(4);
@@ -67,46 +71,93 @@ std::unique_ptr<LinkedDevice> openExternal(const std::string& choice) {
                 "--device", choice, "'" + given + "' is no port",
                 "udp:PORT, 1..65535; it listens on this machine only, so there is no address to give");
     }
-    return std::make_unique<ExternalDevice>(port);
+    return port;
 }
 
-std::unique_ptr<LinkedDevice> openNode(const HidNode& node, std::span<const DeviceFile> files) {
+HidRecipe recipeAt(const HidNode& node, std::span<const DeviceFile> files) {
     if (isSpaceMouse(node)) {
         HidRecipe recipe = spaceMouseRecipe(node);
         if (hasAxes(node)) // else another node of the same device carries the axes
             recipe.identity = identityOf(node);
-        return std::make_unique<HidDevice>(std::move(recipe));
+        return recipe;
     }
     if (const DeviceFile* file = fileOf(node, files)) {
         HidRecipe recipe = recipeOf(*file, node.path);
         recipe.identity = identityOf(node);
-        return std::make_unique<HidDevice>(std::move(recipe));
+        return recipe;
     }
     throw Error("--device", node.path, node.name() + " is no device that is known here",
                 "describe it in a device file (docs/devices.md) and give that: --device FILE.json");
 }
 
-std::unique_ptr<LinkedDevice> openByName(const std::string& choice, std::span<const HidNode> nodes,
-                                         std::span<const DeviceFile> files) {
+/// "/dev/hidraw3 (SpaceMouse)", ...
+std::vector<std::string> pluggedIn(std::span<const DeviceOffer> offers) {
+    std::vector<std::string> names;
+    for (const DeviceOffer& offer : offers)
+        names.push_back(offer.choice + " (" + offer.name + ")");
+    return names;
+}
+
+std::string joined(std::span<const std::string> names) {
+    std::string all;
+    for (const std::string& name : names)
+        all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
+/// The remedy for a choice that is none.
+std::string allChoices(const std::string& builtIn, std::span<const HidNode> nodes,
+                       std::span<const DeviceFile> files) {
+    std::vector<std::string> names = pluggedIn(deviceOffers(nodes, files));
+    const bool none = names.empty();
+    if (!builtIn.empty())
+        names.insert(names.begin(), builtIn);
+    names.emplace_back("udp[:PORT] (another program)");
+    for (const DeviceFile& file : files)
+        names.push_back(file.name + " (described)");
+    return "choose one of: " + joined(names) + (none ? "; nothing known is plugged in" : "") +
+           "; `touchstone devices` tells more";
+}
+
+HidRecipe recipeNamed(const std::string& choice, const std::string& builtIn, std::span<const HidNode> nodes,
+                      std::span<const DeviceFile> files) {
     std::vector<DeviceOffer> found;
     for (DeviceOffer& offer : deviceOffers(nodes, files))
         if (contains(offer.name, choice))
             found.push_back(std::move(offer));
-    if (found.size() > 1) {
-        std::string all;
-        for (const DeviceOffer& offer : found)
-            all += (all.empty() ? "" : ", ") + offer.choice + " (" + offer.name + ")";
-        throw Error("--device", choice, "is the name of several", "choose one: " + all);
-    }
+    if (found.size() > 1)
+        throw Error("--device", choice, "is the name of several", "choose one: " + joined(pluggedIn(found)));
     if (found.size() == 1)
-        return openNode(*std::find_if(nodes.begin(), nodes.end(),
+        return recipeAt(*std::find_if(nodes.begin(), nodes.end(),
                                       [&](const HidNode& node) { return node.path == found[0].choice; }),
                         files);
     for (const DeviceFile& file : files)
         if (contains(file.name, choice))
-            return std::make_unique<HidDevice>(recipeOf(file));
+            return recipeOf(file);
     throw Error("--device", choice, "nothing of that name is plugged in or described",
-                "touchstone devices lists what is there");
+                allChoices(builtIn, nodes, files));
+}
+
+Selected selected(const std::string& choice, const std::string& builtIn) {
+    if (choice == "udp" || choice.starts_with("udp:"))
+        return portOf(choice);
+    if (choice.ends_with(".json"))
+        return recipeOf(readDeviceFile(choice));
+    const std::vector<HidNode> nodes = listHidNodes();
+    const std::vector<DeviceFile> files = deviceFiles();
+    if (choice.starts_with("/")) {
+        for (const HidNode& node : nodes)
+            if (node.path == choice)
+                return recipeAt(node, files);
+        throw Error("--device", choice, "there is no such HID node", allChoices(builtIn, nodes, files));
+    }
+    if (choice != "auto")
+        return recipeNamed(choice, builtIn, nodes, files);
+    for (const bool driven : {true, false})
+        for (const DeviceOffer& offer : deviceOffers(nodes, files))
+            if (offer.driven == driven && offer.remedy.empty() && !offer.doubtful)
+                return selected(offer.choice, builtIn);
+    return std::monostate();
 }
 
 } // namespace
@@ -131,27 +182,17 @@ std::vector<DeviceOffer> deviceOffers(std::span<const HidNode> nodes, std::span<
     return offers;
 }
 
-std::unique_ptr<LinkedDevice> openDevice(const std::string& choice) {
-    if (choice == "udp" || choice.starts_with("udp:"))
-        return openExternal(choice);
-    if (choice.ends_with(".json"))
-        return std::make_unique<HidDevice>(recipeOf(readDeviceFile(choice)));
-    const std::vector<HidNode> nodes = listHidNodes();
-    const std::vector<DeviceFile> files = deviceFiles();
-    if (choice.starts_with("/")) {
-        for (const HidNode& node : nodes)
-            if (node.path == choice)
-                return openNode(node, files);
-        throw Error("--device", choice, "there is no such HID node",
-                    "touchstone devices lists what is there");
-    }
-    if (choice != "auto")
-        return openByName(choice, nodes, files);
-    for (const bool driven : {true, false})
-        for (const DeviceOffer& offer : deviceOffers(nodes, files))
-            if (offer.driven == driven && offer.remedy.empty() && !offer.doubtful)
-                return openDevice(offer.choice);
+std::unique_ptr<LinkedDevice> openDevice(const std::string& choice, const std::string& builtIn) {
+    Selected device = selected(choice, builtIn);
+    if (const uint16_t* port = std::get_if<uint16_t>(&device))
+        return std::make_unique<ExternalDevice>(*port);
+    if (HidRecipe* recipe = std::get_if<HidRecipe>(&device))
+        return std::make_unique<HidDevice>(std::move(*recipe));
     return nullptr;
+}
+
+void requireDevice(const std::string& choice, const std::string& builtIn) {
+    (void)selected(choice, builtIn);
 }
 
 } // namespace touchstone

@@ -35,8 +35,12 @@ struct DeviceOffer {
 /// - "auto": the first device that is plugged in, accessible and not doubtful, with force output first; null
 ///   if there is none;
 /// - else a part of the name of a plugged-in device or of one that a device file describes.
-/// Throws Error if `choice` matches nothing or several devices, or names another machine. report() tells
-/// whether the device is present and accessible.
-[[nodiscard]] std::unique_ptr<LinkedDevice> openDevice(const std::string& choice);
+/// Throws Error if `choice` matches nothing or several devices, or names another machine; the remedy lists
+/// what may be chosen, with `builtIn` ("hand (the simulated one)"), which the caller knows, before the rest.
+/// report() tells whether the device is present and accessible.
+[[nodiscard]] std::unique_ptr<LinkedDevice> openDevice(const std::string& choice,
+                                                       const std::string& builtIn = {});
+/// Throws as openDevice does, without opening anything.
+void requireDevice(const std::string& choice, const std::string& builtIn);
 
 } // namespace touchstone

@@ -45,8 +45,7 @@ std::string remark(const HidNode& node, const std::vector<DeviceOffer>& offers) 
 void listDevices() {
     std::printf("built in\n");
     std::printf("  mouse            position from the window, no force\n");
-    std::printf(
-        "  simulated hand   strokes the model on a path of its own (run --headless, --hand simulated)\n");
+    std::printf("  simulated hand   strokes the model on a path of its own (run, --hand simulated)\n");
     std::printf("  udp              another program on this machine (--device udp), see docs/devices.md\n");
     const std::vector<HidNode> nodes = listHidNodes();
     const std::vector<DeviceFile> files = deviceFiles();

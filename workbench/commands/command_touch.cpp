@@ -9,6 +9,7 @@
 #include "haptics/query/ray_floor.h"
 #include "haptics/recording/recording_writer.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/servo/servo_loop.h"
 #include "haptics/tick/stepped_hand.h"
 #include "study/timing/clock_cost.h"
 #include "workbench/commands/stroke_outcome.h"
@@ -63,6 +64,57 @@ HipPath pathOf(const StrokePath& stroke, const TouchOptions& options) {
         path.positions.push_back(stroke.positionIn(path.times.back(), path.times.back()));
     }
     return path;
+}
+
+/// Rows a second of a path: of the median interval. 0 for a single row.
+double rateOf(const HipPath& path) {
+    std::vector<double> intervals;
+    for (size_t i = 1; i < path.times.size(); ++i)
+        intervals.push_back(path.times[i] - path.times[i - 1]);
+    if (intervals.empty())
+        return 0.0;
+    const auto middle = intervals.begin() + static_cast<ptrdiff_t>(intervals.size() / 2);
+    std::ranges::nth_element(intervals, middle);
+    return 1.0 / *middle;
+}
+
+/// Largest step from row to row, m, and largest change of velocity at a row, m/s.
+struct RowJumps {
+    double place = 0.0, velocity = 0.0;
+};
+RowJumps jumpsOf(const HipPath& path) {
+    RowJumps jumps;
+    glm::dvec3 before(0.0);
+    for (size_t i = 1; i < path.times.size(); ++i) {
+        const glm::dvec3 way = path.positions[i] - path.positions[i - 1];
+        const glm::dvec3 velocity = way / (path.times[i] - path.times[i - 1]);
+        jumps.place = std::max(jumps.place, glm::length(way));
+        jumps.velocity = std::max(jumps.velocity, glm::distance(velocity, before));
+        before = velocity;
+    }
+    return jumps;
+}
+
+/// A path with fewer rows a second than the slowest servo has ticks is no motion of a hand that a tick could
+/// follow.
+void warnOfSlowPath(const HipPath& path, const TouchOptions& options) {
+    const double rate = rateOf(path);
+    if (!(rate > 0.0) || rate >= kMinServoRate * (1.0 - 1e-9))
+        return;
+    const RowJumps jumps = jumpsOf(path);
+    std::fprintf(stderr, "touchstone: warning: %s: has %.3g rows a second: ", options.path.c_str(), rate);
+    if (options.rateHz > 0.0)
+        std::fprintf(
+            stderr,
+            "between two rows the hand goes straight at one speed, and at each row its velocity jumps, by up "
+            "to %.3g m/s\n",
+            jumps.velocity);
+    else
+        std::fprintf(stderr,
+                     "a tick lasts from row to row, %.3g ms, and the hand jumps, by up to %.3g mm at once\n",
+                     1e3 / rate, 1e3 * jumps.place);
+    std::fprintf(stderr, "  remedy: record the path at 1000 Hz, and at %.0f Hz at least%s\n", kMinServoRate,
+                 options.rateHz > 0.0 ? "" : "; --rate 1000 puts ticks on straight lines between its rows");
 }
 
 /// The ticks of the path: one per row, or at a fixed rate with linear interpolation.
@@ -242,6 +294,8 @@ int touchCommand(const TouchOptions& options) {
     std::optional<HipPath> path;
     if (!options.path.empty())
         path = readHipPath(options.path);
+    if (path)
+        warnOfSlowPath(*path, options);
     StageClock clock;
     const Model model = loadModelToTouch(options.scene, options.fit, &clock);
     printWarnings(model);
@@ -315,6 +369,7 @@ int touchCommand(const TouchOptions& options) {
             {"command", "touch"},
             {"scene", options.scene.string()},
             {"path", options.path.string()},
+            {"path_rate_hz", rateOf(*path)},
             {"stroke",
              options.path.empty() ? nlohmann::ordered_json(options.stroke.name) : nlohmann::ordered_json()},
             {"fit", options.fit == Fit::None ? "none" : "workspace"},

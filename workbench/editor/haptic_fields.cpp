@@ -189,8 +189,8 @@ std::string shown(float value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-std::string setNumberField(const NumberField& field, HapticStatement& statement, std::string_view text) {
-    float value = 0.0f;
+/// Reads a number in the field's range, or returns why it is none.
+std::string readNumber(const NumberField& field, std::string_view text, float& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
         return "'" + std::string(text) + "' is not a number";
@@ -199,10 +199,32 @@ std::string setNumberField(const NumberField& field, HapticStatement& statement,
                (field.most < kLargest ? shown(field.least) + " to " + shown(field.most)
                 : field.least > 0.0f  ? "above 0"
                                       : "at least " + shown(field.least));
+    return {};
+}
+
+std::string setNumberField(const NumberField& field, HapticStatement& statement, std::string_view text) {
+    float value = 0.0f;
+    if (std::string problem = readNumber(field, text, value); !problem.empty())
+        return problem;
     if (field.set(statement, value))
         return {};
     const std::string map(field.name.substr(0, field.name.find('.')));
     return "the material has no such map; give it one first: " + map + "=TEXTURE";
+}
+
+/// The index of a choice's word; the number of choices where it is none.
+size_t choiceOf(const ChoiceField& field, std::string_view word) {
+    return static_cast<size_t>(std::ranges::find(field.choices, word) - field.choices.begin());
+}
+std::string choiceProblem(const ChoiceField& field, std::string_view word) {
+    return choiceOf(field, word) < field.choices.size()
+               ? std::string()
+               : "'" + std::string(word) + "' is none of " + joined(field.choices);
+}
+
+/// A problem with the name of its field.
+std::string ofField(std::string_view name, const std::string& problem) {
+    return problem.empty() ? problem : std::string(name) + ": " + problem;
 }
 
 std::string setMapField(const MapField& field, HapticStatement& statement, const Scene& scene,
@@ -249,15 +271,13 @@ std::string setHapticField(HapticStatement& statement, const Scene& scene, std::
     } else if (const MapField* map = find(kMaps, name)) {
         problem = setMapField(*map, statement, scene, value);
     } else if (const ChoiceField* choice = find(kChoices, name)) {
-        const auto found = std::find(choice->choices.begin(), choice->choices.end(), value);
-        if (found == choice->choices.end())
-            problem = "'" + std::string(value) + "' is none of " + joined(choice->choices);
-        else
-            choice->set(statement, static_cast<size_t>(found - choice->choices.begin()));
+        problem = choiceProblem(*choice, value);
+        if (problem.empty())
+            choice->set(statement, choiceOf(*choice, value));
     } else {
         return hapticFieldProblem(name);
     }
-    return problem.empty() ? problem : std::string(name) + ": " + problem;
+    return ofField(name, problem);
 }
 
 bool resetHapticField(HapticStatement& statement, std::string_view name) {
@@ -279,6 +299,15 @@ std::string hapticFieldProblem(std::string_view name) {
     if (std::find(names.begin(), names.end(), name) != names.end())
         return {};
     return "'" + std::string(name) + "' is no field of a material; there are " + joined(names);
+}
+
+std::string hapticValueProblem(std::string_view name, std::string_view value) {
+    float ignored = 0.0f;
+    if (const NumberField* number = find(kNumbers, name))
+        return ofField(name, readNumber(*number, value, ignored));
+    if (const ChoiceField* choice = find(kChoices, name))
+        return ofField(name, choiceProblem(*choice, value));
+    return hapticFieldProblem(name);
 }
 
 std::vector<std::string_view> hapticFieldNames() {

@@ -56,6 +56,9 @@ bool resetHapticField(HapticStatement& statement, std::string_view name);
 
 /// The problem with a field name; empty: none.
 [[nodiscard]] std::string hapticFieldProblem(std::string_view name);
+/// The problem with a field's name, or with a value for it that no file could take: not a number, out of
+/// range, no such word. Which maps there are depends on the file. Empty: none.
+[[nodiscard]] std::string hapticValueProblem(std::string_view name, std::string_view value);
 /// Every name accepted by setHapticField.
 [[nodiscard]] std::vector<std::string_view> hapticFieldNames();
 /// One line per field, for --help.

@@ -49,7 +49,7 @@ std::string DeviceMenu::status() const {
 std::unique_ptr<LinkedDevice> openDeviceOrHand(const std::string& choice) {
     if (choice == "hand")
         return nullptr;
-    std::unique_ptr<LinkedDevice> device = openDevice(choice);
+    std::unique_ptr<LinkedDevice> device = openDevice(choice, "hand (the simulated one)");
     if (device == nullptr) {
         std::fprintf(stderr,
                      "touchstone: no device is plugged in that may be used: the simulated hand strokes\n");

@@ -120,9 +120,10 @@ void requireHands(const RunOptions& options) {
 
 } // namespace
 
-void defineRun(CLI::App& app, RunOptions& options, bool& headless) {
+void defineRun(CLI::App& app, RunOptions& options) {
     addScene(app, options.scene)->required();
-    app.add_flag("--headless", headless, "No window (this is what `run` is for)")->required();
+    app.add_flag_function(
+        "--headless", [](int64_t) {}, "Accepted for older scripts: `run` never opens a window");
     app.add_option("--seconds", options.seconds, "How long [10]")
         ->type_name("S")
         ->check(CLI::Range(0.1, 86400.0));
@@ -235,7 +236,7 @@ void defineEdit(CLI::App& app, EditOptions& options) {
     addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
                    [&options](std::string_view name, std::string_view value) {
                        options.fields.emplace_back(name, value);
-                       return hapticFieldProblem(name);
+                       return hapticValueProblem(name, value);
                    });
     app.add_option("--out", options.out, "Save here; without it into the model's own file")
         ->type_name("FILE");

@@ -10,7 +10,7 @@ namespace touchstone {
 
 void defineDevices(CLI::App& app, DevicesOptions& options);
 void defineWindow(CLI::App& app, WindowOptions& options);
-void defineRun(CLI::App& app, RunOptions& options, bool& headless);
+void defineRun(CLI::App& app, RunOptions& options);
 void defineTouch(CLI::App& app, TouchOptions& options);
 void defineReplay(CLI::App& app, ReplayOptions& options);
 void defineEdit(CLI::App& app, EditOptions& options);

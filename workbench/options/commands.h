@@ -45,7 +45,7 @@ struct WindowOptions {
 };
 int windowCommand(const WindowOptions& options);
 
-/// touchstone run SCENE --headless
+/// touchstone run SCENE
 struct RunOptions {
     std::filesystem::path scene;
     HapticSettings settings;

@@ -22,7 +22,7 @@ namespace {
         problem += std::string(": ") + reason;
     throw Error("window", "", problem,
                 "start it from a desktop session (DISPLAY is set there), or run without a window: "
-                "touchstone run SCENE --headless --seconds 10 --screenshot shot.png");
+                "touchstone run SCENE --seconds 10 --screenshot shot.png");
 }
 
 /// Width and height over all monitors, screen coordinates; the largest window where there is none.

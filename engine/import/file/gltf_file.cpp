@@ -1,5 +1,6 @@
 #include "engine/import/file/gltf_file.h"
 
+#include "engine/core/input_file.h"
 #include "engine/import/file/gltf_kind.h"
 #include "engine/import/file/gltf_uri.h"
 
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <system_error>
 
 namespace touchstone {
 namespace {
@@ -182,15 +184,9 @@ json parseJson(ImportContext& context, ByteSpan text, Comments comments) {
 std::vector<uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& shownAs,
                                    const Progress& progress) {
     constexpr uint64_t kBlock = 8 << 20;
-    namespace fs = std::filesystem;
+    requireFile(path, shownAs, "name a .gltf or .glb file");
     std::error_code problem;
-    const fs::file_status status = fs::status(path, problem);
-    if (!fs::exists(status))
-        throw Error(shownAs, "", "there is no such file", "check the name and the folder");
-    // Also excludes pipes and devices, where the reader would wait or read forever.
-    if (!fs::is_regular_file(status))
-        throw Error(shownAs, "", "is not a file", "name a .gltf or .glb file");
-    const uint64_t size = fs::file_size(path, problem);
+    const uint64_t size = std::filesystem::file_size(path, problem);
     if (problem)
         throw Error(shownAs, "", "cannot be read: " + problem.message(), "check its permissions");
     if (size > kMaxFileBytes)

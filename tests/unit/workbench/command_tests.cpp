@@ -66,7 +66,7 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
     const std::vector<std::vector<std::string>> wrong{
         {"--nonsense"},
         {"run"},
-        {"run", kPlane},
+        {"run", kPlane, "--seconds", "soon"},
         {"run", kPlane, "--headless", "--seconds", "soon"},
         {"run", kPlane, "--headless", "--seconds", "-1"},
         {"run", kPlane, "--headless", "--rate", "50"},
@@ -97,6 +97,11 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         {"render", kPlane, "--out", "a.png", "--size", "0x480"},
         {"render", kPlane, "--out", "a.png", "--size", "640x480x"},
         {"render", kPlane, "--out", "a.png", "--view", "smell"},
+        {"edit", kPlane, "--field", "stiffness=-3"},
+        {"edit", kPlane, "--field", "stiffness=hard"},
+        {"edit", kPlane, "--field", "stiffness=nan"},
+        {"edit", kPlane, "--field", "forceShading=sometimes"},
+        {"edit", kPlane, "--field", "smell=1"},
         {"inspect"},
         {kPlane, kPlane},
     };
@@ -104,6 +109,11 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         arguments.insert(arguments.begin(), kProgram);
         expectRefused(runProgram(arguments), 2, {"touchstone: ", "--help"});
     }
+}
+
+TEST(CommandLine, AFieldOutOfRangeIsWrongUsage) {
+    expectRefused(runProgram({kProgram, "edit", kPlane, "--field", "stiffness=-3"}), 2,
+                  {"stiffness", "-3", "range"});
 }
 
 TEST(CommandLine, AWrongSettingIsToldWithWhatIsAllowed) {
@@ -142,8 +152,33 @@ TEST(CommandLine, ATruncatedModelIsRefused) {
 
 TEST(Window, WithoutADisplayItNamesTheHeadlessCommand) {
     expectRefused(runProgram({kProgram, kPlane}, {"DISPLAY=", "WAYLAND_DISPLAY="}), 1,
-                  {"display", "run", "--headless"});
-    expectRefused(runProgram({kProgram, kPlane}, {"DISPLAY=:987", "WAYLAND_DISPLAY="}), 1, {"--headless"});
+                  {"display", "touchstone run SCENE"});
+    expectRefused(runProgram({kProgram, kPlane}, {"DISPLAY=:987", "WAYLAND_DISPLAY="}), 1,
+                  {"touchstone run"});
+}
+
+/// What is wrong with the command line is said first, whether there is a display or not.
+TEST(Window, AMissingFileOrDeviceIsToldWithoutADisplayToo) {
+    const ScratchFolder scratch;
+    const std::string missing = (scratch / "missing.glb").string();
+    for (const char* display : {"DISPLAY=", "DISPLAY=:987"}) {
+        const ProgramResult result = runProgram({kProgram, missing}, {display, "WAYLAND_DISPLAY="});
+        expectRefused(result, 1, {missing, "no such file"});
+        EXPECT_FALSE(contains(result.err, "display")) << result.err;
+        expectRefused(runProgram({kProgram, scratch.path().string()}, {display, "WAYLAND_DISPLAY="}), 1,
+                      {"is not a file"});
+        expectRefused(runProgram({kProgram, kPlane, "--device", "nosuch"}, {display, "WAYLAND_DISPLAY="}), 1,
+                      {"nosuch", "mouse", "hand", "udp", "WoodenHaptics", "touchstone devices"});
+    }
+}
+
+TEST(CommandLine, AnUnknownDeviceIsToldWithWhatThereIs) {
+    expectRefused(runProgram({kProgram, "run", kPlane, "--seconds", "1", "--device", "nosuch"}), 1,
+                  {"nosuch", "hand (the simulated one)", "udp", "WoodenHaptics", "touchstone devices"});
+    expectRefused(runProgram({kProgram, "run", kPlane, "--seconds", "1", "--device", "/dev/hidraw987"}), 1,
+                  {"/dev/hidraw987", "no such HID node", "udp"});
+    expectRefused(runProgram({kProgram, "devices", "--test", "nosuch"}), 1,
+                  {"nosuch", "udp", "WoodenHaptics"});
 }
 
 TEST(Gpu, WithoutAVulkanDeviceItNamesThePackage) {
@@ -208,6 +243,37 @@ class Touch : public testing::Test {
 
     ScratchFolder scratch;
 };
+
+/// `rows` of a way along x, `interval` s apart, 5 mm from row to row and back again.
+std::string sparsePath(int rows, double interval) {
+    std::string csv = "t,x,y,z\n";
+    for (int row = 0; row < rows; ++row)
+        csv +=
+            std::to_string(interval * row) + "," + std::to_string(0.01 + 0.005 * (row % 2)) + ",0.01,0.02\n";
+    return csv;
+}
+
+TEST_F(Touch, APathOfTenRowsASecondIsDoneWithAWarning) {
+    const ProgramResult sparse =
+        touch(kPlane, sparsePath(11, 0.1), {"--json", (scratch / "f.json").string()});
+    EXPECT_EQ(sparse.status, 0);
+    for (const char* words : {"10 rows a second", "100 ms", "5 mm", "--rate 1000", "1000 Hz"})
+        EXPECT_TRUE(contains(sparse.err, words)) << words << " is not in: " << sparse.err;
+    EXPECT_NEAR(nlohmann::json::parse(readFile(scratch / "f.json"))["path_rate_hz"].get<double>(), 10.0,
+                1e-9);
+    EXPECT_EQ(readTable(out()).rows, 11u);
+
+    const ProgramResult resampled = touch(kPlane, sparsePath(11, 0.1), {"--rate", "1000"});
+    EXPECT_EQ(resampled.status, 0);
+    for (const char* words : {"10 rows a second", "straight", "0.1 m/s"}) // from 0.05 to -0.05 m/s
+        EXPECT_TRUE(contains(resampled.err, words)) << words << " is not in: " << resampled.err;
+    EXPECT_EQ(readTable(out()).rows, 1001u);
+    // Halfway between two rows the hand is halfway.
+    EXPECT_NEAR(readTable(out())["hip_x"][50], 0.0125, 1e-12);
+
+    EXPECT_EQ(touch(kPlane, sparsePath(11, 0.01)).err, "") << "100 rows a second are enough";
+    EXPECT_EQ(touch(kPlane, sparsePath(1, 0.1)).err, "") << "a single row has no rate";
+}
 
 /// Straight down onto the plane y = 0 and 2 mm into it.
 const std::string kDown = straightPath({0.01, 0.01, 0.02}, {0.01, -0.002, 0.02}, 400);
