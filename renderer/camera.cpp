@@ -64,6 +64,18 @@ glm::dmat4 OrbitCamera::clipFromView(double aspect) const {
     return glm::perspectiveRH_ZO(fovY, aspect, nearPlane(), farPlane());
 }
 
+void OrbitCamera::lookFrom(Side side) {
+    constexpr double kQuarter = glm::half_pi<double>();
+    constexpr std::array<glm::dvec2, kSideNames.size()> kYawPitch{{{0.0, 0.0},
+                                                                   {2.0 * kQuarter, 0.0},
+                                                                   {kQuarter, 0.0},
+                                                                   {-kQuarter, 0.0},
+                                                                   {0.0, kQuarter},
+                                                                   {0.0, -kQuarter}}};
+    yaw = kYawPitch[static_cast<size_t>(side)].x;
+    pitch = kYawPitch[static_cast<size_t>(side)].y;
+}
+
 void OrbitCamera::orbit(double deltaYaw, double deltaPitch) {
     yaw = std::remainder(yaw + deltaYaw, glm::two_pi<double>());
     pitch = std::clamp(pitch + deltaPitch, -kMaxPitch, kMaxPitch);

@@ -5,6 +5,10 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 namespace touchstone {
 
 /// A ray in the workspace; `direction` is unit.
@@ -12,6 +16,11 @@ struct Ray {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0, 0.0, -1.0};
 };
+
+/// The sides of the workspace; front is +z, where the user sits.
+enum class Side : uint8_t { Front, Back, Right, Left, Top, Bottom };
+inline constexpr std::array<std::string_view, 6> kSideNames{"front", "back", "right",
+                                                            "left",  "top",  "bottom"};
 
 /// Looks at `target` from `distance` away. yaw turns about the workspace's y axis, pitch lifts the eye; at
 /// yaw = pitch = 0 the eye is on the +z side, where the user of a desktop device sits, and x points right.
@@ -42,6 +51,8 @@ struct OrbitCamera {
     /// Depth 0 at the near plane and 1 at the far plane, y up (the renderer flips for Vulkan).
     [[nodiscard]] glm::dmat4 clipFromView(double aspect) const;
 
+    /// Straight from one side; target and distance stay.
+    void lookFrom(Side side);
     /// Turns by angles in rad.
     void orbit(double deltaYaw, double deltaPitch);
     /// Translates target and eye by a displacement in pixels (x right, y down) of an image `heightPixels`

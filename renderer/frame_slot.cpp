@@ -4,6 +4,7 @@
 #include "shaders/shared/scene_types.h"
 
 #include <chrono>
+#include <utility>
 
 namespace touchstone {
 
@@ -61,18 +62,20 @@ void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot) {
     // A submission of the window may still read the old image.
     gpu.device.waitIdle();
     using Usage = vk::ImageUsageFlagBits;
-    slot.colorBytes = nullptr;
+    slot.colorBytes = nullptr; // first: both sizes at once may not fit
     slot.color = GpuImage{};
     slot.depth = GpuImage{};
-    slot.color = createImage(gpu, {.format = kSceneFormat,
-                                   .extent = extent,
-                                   .levels = 1,
-                                   .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc,
-                                   .otherFormat = kSceneByteFormat});
-    slot.colorBytes = createView(gpu, slot.color, kSceneByteFormat);
+    GpuImage color =
+        createImage(gpu, {.format = kSceneFormat,
+                          .extent = extent,
+                          .levels = 1,
+                          .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc,
+                          .otherFormat = kSceneByteFormat});
     slot.depth = createImage(
         gpu,
         {.format = kDepthFormat, .extent = extent, .levels = 1, .usage = Usage::eDepthStencilAttachment});
+    slot.colorBytes = createView(gpu, color, kSceneByteFormat);
+    slot.color = std::move(color); // last: its extent says that the slot has this size
 }
 
 void waitFor(const Gpu::Impl& gpu, FrameSlot& slot, SceneRenderer::Statistics& statistics) {

@@ -70,8 +70,10 @@ void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const
     uniforms.backgroundBottom = glm::vec4(view.background.bottom, 1.0f);
     uniforms.image = {static_cast<float>(extent.width), static_cast<float>(extent.height),
                       overlay.hiddenAlpha, static_cast<float>(view.workspaceFromScene.scale)};
-    uniforms.toViewer = unitOrZero(
+    const auto towardsViewer = unitOrZero(
         glm::dvec3(view.viewFromWorkspace[0].z, view.viewFromWorkspace[1].z, view.viewFromWorkspace[2].z));
+    uniforms.toEye = view.orthographic() ? towardsViewer : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    uniforms.toViewer = towardsViewer;
     uniforms.toViewer.w = view.pixelScale;
     std::memcpy(slot.uniforms.mapped, &uniforms, sizeof uniforms);
 }

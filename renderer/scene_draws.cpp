@@ -47,14 +47,14 @@ double largestStretch(const glm::dmat3& linear) {
     return std::sqrt(largest);
 }
 
-/// Of the mesh's box, along the line from the eye to its centre.
-double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm::dvec3& origin) {
-    const double distance = glm::length(origin);
+/// Of the mesh's box, along the line of sight to its centre.
+double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm::dvec3& sight) {
+    const double distance = glm::length(sight);
     if (!(distance > 0.0))
         return 0.0;
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis)
-        sum += std::abs(glm::dot(origin, linear[axis])) / distance * halfSize[axis];
+        sum += std::abs(glm::dot(sight, linear[axis])) / distance * halfSize[axis];
     return sum;
 }
 
@@ -62,11 +62,10 @@ double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm
 
 /// Each side is sorted by its own depth, so that the contents of a glass are drawn between its far and its
 /// near side.
-void SceneRenderer::Impl::addBlended(DrawItem item, const glm::dvec3& origin, double halfDepth) {
+void SceneRenderer::Impl::addBlended(DrawItem item, double distance, double halfDepth) {
     const Scene& scene = scene_->scene();
     const Mesh& mesh =
         scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(item.instance)].mesh)];
-    const double distance = glm::length(origin);
     if (scene.materials[static_cast<size_t>(mesh.material)].doubleSided && !mesh.indices.empty()) {
         item.sides = DrawItem::Sides::Far;
         item.distance = distance + halfDepth;
@@ -85,6 +84,7 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
     const uint32_t light = (view.lights[1].irradiance != glm::vec3(0.0f) ? shared::kHasSecondLight : 0u) |
                            (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u) |
                            (environment_.source ? shared::kHasEnvironment : 0u);
+    const glm::dvec3 back = glm::transpose(glm::dmat3(view.viewFromWorkspace))[2];
     const double pixelsAtUnitDepth = 0.5 * extent.height * std::abs(view.clipFromView[1][1]);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const GpuScene::DrawnMesh& drawn = scene_->mesh(scene.instances[i].mesh);
@@ -99,14 +99,15 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         DrawItem item;
         item.instance = static_cast<int>(i);
         item.features = drawn.features | light;
-        const double distance = glm::length(origin);
         if (!setConstants(linear, origin, item))
             continue;
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));
         const double stretch = largestStretch(linear);
+        // All lines of sight of an orthographic view are parallel.
+        const glm::dvec3 sight = view.orthographic() ? glm::dot(origin, back) * back : origin;
         // The mesh's minimum distance from the eye: there an error of one metre is this many pixels.
-        const double nearest = distance - stretch * mesh.radius;
+        const double nearest = view.orthographic() ? 1.0 : glm::length(origin) - stretch * mesh.radius;
         const double allowed = view.allowedError > 0.0 && nearest > 0.0 && stretch > 0.0
                                    ? view.allowedError * nearest / (pixelsAtUnitDepth * stretch)
                                    : 0.0;
@@ -114,7 +115,7 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         item.firstIndex = level.firstIndex;
         item.indexCount = level.indexCount;
         if (view.mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0)
-            addBlended(item, origin, halfDepth(linear, mesh.halfSize, origin));
+            addBlended(item, glm::length(sight), halfDepth(linear, mesh.halfSize, sight));
         else
             draws_.push_back(item);
     }

@@ -86,7 +86,9 @@ class SceneRenderer {
 };
 
 /// One finished picture, anti-aliased by rendering at `supersampling` times the size (1..4, less where the
-/// device's maximum image size requires it) and averaging in linear light.
+/// device's maximum image size or 67 million drawn pixels require it) and averaging in linear light. Waits
+/// for it. Its time does not count in the statistics. Throws Error where the device draws no picture of that
+/// size, or its memory holds none.
 [[nodiscard]] PixelData renderStill(SceneRenderer& renderer, const View& view, const Overlay& overlay,
                                     int width, int height, int supersampling = 2);
 

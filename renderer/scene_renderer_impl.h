@@ -42,6 +42,11 @@ struct SceneRenderer::Impl {
     void setMaterialColors(std::vector<glm::vec3> colors);
     void setEnvironment(std::shared_ptr<const Environment> environment);
     [[nodiscard]] PixelData readPixels();
+    /// The last frame of the main eye was no frame of a window: its time does not count.
+    void forgetTime() {
+        for (FrameSlot& slot : rings_[static_cast<size_t>(Eye::Main)].slots)
+            slot.timed = slot.timed && &slot != lastFrame(Eye::Main);
+    }
     [[nodiscard]] FalseColorScale falseColorScale() const {
         return scene_ && scene_->scale() != nullptr ? *scene_->scale() : FalseColorScale{};
     }
@@ -55,7 +60,7 @@ struct SceneRenderer::Impl {
   private:
     void warmUp(int instance);
     void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent);
-    void addBlended(DrawItem item, const glm::dvec3& origin, double halfDepth);
+    void addBlended(DrawItem item, double distance, double halfDepth);
     void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
                        vk::Extent2D extent);
     void writeOverlay(FrameSlot& slot, const OverlayDraw& draw);

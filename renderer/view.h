@@ -67,10 +67,16 @@ struct View {
     /// Error of simplified meshes, pixels; 0: the full mesh is drawn. Only for scenes prepared with
     /// simplified meshes.
     double allowedError = 0.0;
+
+    /// The projection keeps depth out of x and y.
+    [[nodiscard]] bool orthographic() const { return clipFromView[2][3] == 0.0; }
 };
 
 /// The view of a camera with a key light over its left shoulder and soft lamps on both sides, which all move
 /// with the camera, so that the visible side is always lit and metal has something to reflect.
 [[nodiscard]] View viewOf(const OrbitCamera& camera, const Similarity& workspaceFromScene, double aspect);
+
+/// Places that light for a camera with these axes (unit, workspace).
+void placeLights(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& back, View& view);
 
 } // namespace touchstone

@@ -72,6 +72,6 @@ void main() {
         color = vec3(fract(uvs.xy), 0.25) * (odd > 0.5 ? 1.0 : 0.72);
     }
     // A little shading keeps the shape readable and the colours comparable.
-    const float facing = abs(dot(n, normalize(eyePosition)));
+    const float facing = abs(dot(n, normalize(frame.toEye.xyz - frame.toEye.w * eyePosition)));
     outColor = vec4(linearFromSrgb(color) * (0.45 + 0.55 * facing), 1.0);
 }

@@ -137,7 +137,7 @@ void main() {
     if (has(kHasOcclusionTexture) && !has(kSharesOcclusion))
         occlusion = 1.0 + material.factors.w * (texture(occlusionMap, uvOf(kOcclusionSlot)).r - 1.0);
 
-    const vec3 v = -normalize(eyePosition);
+    const vec3 v = normalize(frame.toEye.xyz - frame.toEye.w * eyePosition);
     vec3 n = normalize(eyeNormal);
     vec3 smoothNormal = n;
     if (has(kHasNormalTexture)) {

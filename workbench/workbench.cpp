@@ -61,6 +61,7 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     state_.stroke = options.stroke;
     state_.workspace.zoom = options.zoom;
     state_.device = options.device;
+    state_.view.pictureSize = options.pictureSize;
     holdDevice();
     sendSettings();
     touch_.start();
@@ -198,7 +199,8 @@ double WorkbenchWindow::aspect() const {
 
 void WorkbenchWindow::pace(double start) {
     const double busy = secondsNow() - start;
-    quality_.frameDone(std::max(busy, screen_.busy()));
+    // The picture that was saved in this frame says nothing about how long the others take.
+    quality_.frameDone(std::max(busy - std::exchange(savedSeconds_, 0.0), screen_.busy()));
     longestFrame_ = std::max(longestFrame_, busy);
     window_.waitEvents(0.0);
     for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
@@ -207,13 +209,13 @@ void WorkbenchWindow::pace(double start) {
 
 int windowCommand(const WindowOptions& options) {
     catchInterrupts();
-    WorkbenchWindow workbench(options);
-    workbench.open(options.scene.empty() ? defaultScene() : options.scene);
     // What is wrong with the command line, before the display is asked for.
     if (!options.scene.empty())
         requireFile(options.scene, options.scene.string(), "name a .gltf or .glb model, or a recording");
     if (!options.device.empty())
         requireDevice(options.device, "mouse, hand (the simulated one)");
+    WorkbenchWindow workbench(options);
+    workbench.open(options.scene.empty() ? defaultScene() : options.scene);
     while (!workbench.closed())
         workbench.frame();
     return 0;

@@ -45,7 +45,9 @@ void WorkbenchWindow::draw() {
                                     .scale = scale_,
                                     .software = screen_.gpu().isSoftware()};
     screen_.target().endFrame(&screen_.renderer(), picture_.draw(frame, screen_.renderer()));
-    (void)picture_.save(screen_.target(), frame);
+    const double before = secondsNow();
+    (void)picture_.save(frame, screen_.renderer());
+    savedSeconds_ = secondsNow() - before;
     (void)chartPictures_.update(screen_.target());
     chartSaver_.update();
     status_.update(secondsNow(), input, state_, widgets, screen_.validationMessages());

@@ -150,6 +150,7 @@ class WorkbenchWindow {
     UnsavedChangesPrompt unsavedChanges_;
     bool left_ = false;          // the user has answered the prompt for unsaved materials
     FramePace pace_{1.0 / 30.0}; // s, between frames
+    double savedSeconds_ = 0.0;  // s of this frame that a picture to save took
     double longestFrame_ = 0.0;  // s, since a model was last opened
     float scale_ = 1.0f;         // window coordinates per layout unit
 };

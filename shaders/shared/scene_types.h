@@ -40,6 +40,7 @@ struct FrameUniforms {
     vec4 backgroundTop;    ///< rgb
     vec4 backgroundBottom;
     vec4 image;            ///< width, height in pixels; alpha factor of hidden overlays; workspace metres in a model metre
+    vec4 toEye;            ///< the eye lies from p (eye frame) towards xyz - w p: 0, 1 in a perspective, else toViewer, 0
     vec4 toViewer;         ///< xyz unit, workspace axes: opposite of the viewing direction; w: pixels of one nominal
                            ///< pixel, in which lines and points are measured
 };

@@ -2,7 +2,7 @@
 // Pictures against the ones that we looked at and kept: tests/screenshot/golden/NAME.png.
 
 #include "engine/scene/image.h"
-#include "renderer/png.h"
+#include "renderer/picture_file.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -56,13 +56,13 @@ inline double differenceFromGolden(const std::string& name, const PixelData& pix
 inline void expectMatchesGolden(const std::string& name, const PixelData& pixels,
                                 double most = kFailingShare) {
     if (std::getenv("UPDATE_GOLDEN") != nullptr)
-        writePng(goldenFile(name), pixels);
+        writePicture(goldenFile(name), pixels);
     const double share = differenceFromGolden(name, pixels);
     EXPECT_LE(share, most) << name << " differs from its golden picture";
     if (share > most) {
         const std::filesystem::path actual =
             std::filesystem::temp_directory_path() / ("actual_" + name + ".png");
-        writePng(actual, pixels);
+        writePicture(actual, pixels);
         ADD_FAILURE() << "see " << actual << " and " << goldenFile(name);
     }
 }

@@ -7,7 +7,7 @@
 //   shadow, by
 //       simplified meshes that differ by so many PIXELS
 #include "engine/load/scene_loader.h"
-#include "renderer/png.h"
+#include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
 #include "tests/screenshot/scenes.h"
 #include "tests/support/lavapipe.h"
@@ -134,7 +134,7 @@ int run(const std::vector<std::string>& arguments) {
     } else if (arguments.size() >= 4 && arguments.size() <= 6 && arguments[0] == "png") {
         Probe probe(sceneOf(4), errorOf(5));
         probe.draw(number(2), number(3), 0.0);
-        writePng(arguments[1], probe.renderer.readPixels());
+        writePicture(arguments[1], probe.renderer.readPixels());
     } else if (arguments.size() >= 4 && arguments.size() <= 6 && arguments[0] == "bench") {
         bench(number(1), number(2), number(3), sceneOf(4), errorOf(5));
     } else if (arguments.size() == 2 && arguments[0] == "open") {

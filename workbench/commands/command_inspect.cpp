@@ -53,6 +53,9 @@ void printInspection(const Json& json) {
         print("  extensions %s\n", json["extensions_used"].dump());
     for (const Json& animation : json["animations"])
         print("  animation '%s', %s s\n", text(animation["name"]), text(animation["duration_s"]));
+    for (const Json& camera : json["cameras"])
+        std::printf("  camera %s '%s' at the node '%s', %s\n", text(camera["index"]).c_str(),
+                    text(camera["name"]).c_str(), text(camera["node"]).c_str(), text(camera["type"]).c_str());
     const auto decoded = std::count_if(json["images"].begin(), json["images"].end(),
                                        [](const Json& image) { return image["decoded"].get<bool>(); });
     if (!json["images"].empty())

@@ -1,6 +1,7 @@
 #include "engine/core/error.h"
-#include "renderer/png.h"
+#include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
+#include "workbench/commands/render_camera.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
@@ -43,11 +44,9 @@ int renderCommand(const RenderOptions& options) {
     if (mode == ViewMode::Effects)
         renderer.setMaterialColors(effectColors(model.haptic->plan, model.scene->materials.size()).materials);
 
-    const double aspect = static_cast<double>(options.size.x) / options.size.y;
-    const OrbitCamera camera = OrbitCamera::threeQuarter(workspaceBounds(model), aspect);
-    View view = viewOf(camera, model.workspaceFromScene, aspect);
+    View view = chosenView(options.camera, model, options.size);
     view.mode = mode;
-    writePng(options.out, renderStill(renderer, view, Overlay{}, options.size.x, options.size.y));
+    writePicture(options.out, renderStill(renderer, view, Overlay{}, options.size.x, options.size.y));
     std::printf("%d x %d pixels, written to %s\n", options.size.x, options.size.y, options.out.c_str());
     return 0;
 }

@@ -5,7 +5,7 @@
 #include "engine/core/realtime_guard.h"
 #include "engine/time/seconds_now.h"
 #include "renderer/draw_quality.h"
-#include "renderer/png.h"
+#include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
 #include "session/session.h"
 #include "workbench/commands/run_hands.h"
@@ -40,14 +40,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFrameRate = 30.0;
 
-/// A view from slightly above and to the right, to show depth.
-View frontView(const Model& model, const glm::ivec2& size) {
+View firstView(const Model& model, const glm::ivec2& size) {
     const double aspect = static_cast<double>(size.x) / size.y;
-    OrbitCamera camera;
-    camera.yaw = 0.45;
-    camera.pitch = 0.35;
-    camera.frame(workspaceBounds(model), aspect);
-    return viewOf(camera, model.workspaceFromScene, aspect);
+    return viewOf(OrbitCamera::threeQuarter(workspaceBounds(model), aspect), model.workspaceFromScene,
+                  aspect);
 }
 
 /// Statistics and files of the ticks.
@@ -117,7 +113,7 @@ TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Mo
 
 /// Draws at the frame rate until the time is over, beside the servo.
 Frames drawFrames(const RunOptions& options, const Model& model, Session& session, SceneRenderer& renderer) {
-    View view = frontView(model, options.size);
+    View view = firstView(model, options.size);
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
     const auto length =
@@ -244,10 +240,10 @@ void writeScreenshot(const RunOptions& options, const Model& model, const TickRe
     Overlay overlay;
     const TickRecord& shown = reader.lastContact.value_or(reader.last);
     drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
-    View view = frontView(model, options.size);
+    View view = firstView(model, options.size);
     view.probe = probeShadow(shown, options.settings);
     poseAt(shown.time, *model.scene, renderer);
-    writePng(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
+    writePicture(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
 }
 
 void printResult(const RunResult& run) {
@@ -281,7 +277,7 @@ int runCommand(const RunOptions& options) {
     SceneRenderer renderer(*gpu);
     lightWith(options.environment, renderer);
     renderer.setScene(model.scene);
-    renderer.render(frontView(model, options.size), Overlay{}, options.size.x, options.size.y);
+    renderer.render(firstView(model, options.size), Overlay{}, options.size.x, options.size.y);
     gpu->waitIdle();
 
     Session session(std::move(ports), {.rateHz = options.rateHz, .stageTimes = true});

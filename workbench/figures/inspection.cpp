@@ -152,6 +152,26 @@ Json vectorJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+/// The cameras that `render --camera` takes; lengths in m.
+Json camerasJson(const Scene& scene) {
+    Json cameras = Json::array();
+    for (const SceneCamera& camera : scene.cameras) {
+        Json json{{"index", camera.index},
+                  {"name", camera.name},
+                  {"node", camera.nodeName},
+                  {"type", camera.orthographic ? "orthographic" : "perspective"},
+                  {"position_m", vectorJson(camera.eye)},
+                  {"direction", vectorJson(-camera.axes[2])},
+                  {"up", vectorJson(camera.axes[1])}};
+        if (camera.orthographic)
+            json["height_m"] = 2.0 * camera.halfHeight;
+        else
+            json["fov_deg"] = glm::degrees(camera.fovY);
+        cameras.push_back(std::move(json));
+    }
+    return cameras;
+}
+
 /// Strokes the model for two seconds of simulated time and returns the median cost of each stage over the
 /// contact ticks. Null where no stroke can be laid (for example, all triangles have zero area) or it met
 /// nothing.
@@ -242,6 +262,7 @@ Json inspectionOf(const Model& model) {
             {"workspace_from_scene_scale", model.workspaceFromScene.scale},
             {"extensions_used", scene.extensionsUsed},
             {"animations", animations},
+            {"cameras", camerasJson(scene)},
             {"images", imagesJson(scene)},
             {"materials", materialsJson(model)},
             {"objects", objectsJson(model)},

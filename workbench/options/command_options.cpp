@@ -76,7 +76,9 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     app.add_flag("--sound", options.sound, "Let the force be heard from the start");
     addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
     addZoom(app, options.zoom);
-    addSize(app, options.size, "Size of the window [1280x800]");
+    addSize(app, "--size", options.size, "Size of the window [1280x800]");
+    addSize(app, "--picture-size", options.pictureSize,
+            "Size of the pictures that F12 saves [as the window shows it]");
     app.add_option_function<std::string>(
            "--ui-scale",
            [&options](const std::string& text) {
@@ -128,8 +130,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
         ->type_name("S")
         ->check(CLI::Range(0.1, 86400.0));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
-    app.add_option("--screenshot", options.screenshot, "Write the last picture here, as PNG")
-        ->type_name("FILE");
+    addPicture(app, "--screenshot", options.screenshot, "Write the last picture here: PNG or JPEG");
     app.add_option("--record-ticks", options.recordTicks,
                    "Write every tick here, as CSV; repeat the option for each further hand")
         ->type_name("FILE")
@@ -151,7 +152,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
                 throw CLI::ValidationError(simulated->get_name(),
                                            "is of the simulated hand, and --device names another");
     });
-    addSize(app, options.size, "Size of the picture [800x450]");
+    addSize(app, "--size", options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Servo rate [1000]");
     addEnvironment(app, options.environment);
@@ -244,14 +245,15 @@ void defineEdit(CLI::App& app, EditOptions& options) {
 
 void defineRender(CLI::App& app, RenderOptions& options) {
     addScene(app, options.scene)->required();
-    app.add_option("--out", options.out, "The picture, as PNG")->type_name("FILE")->required();
-    addSize(app, options.size, "Size of the picture [1280x720]");
+    addPicture(app, "--out", options.out, "The picture: PNG or JPEG")->required();
+    addSize(app, "--size", options.size, "Size of the picture [1280x720]");
     std::vector<std::string> views;
     for (const std::string_view name : kViewModeNames)
         views.emplace_back(name);
     app.add_option("--view", options.view, "What is shown: the look, or a map of what is felt [shaded]")
         ->type_name("NAME")
         ->check(CLI::IsMember(views));
+    addCamera(app, options.camera);
     addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
 }

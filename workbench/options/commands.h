@@ -6,10 +6,12 @@
 #include "devices/stroke/stroke_library.h"
 #include "engine/scene/scene.h"
 #include "haptics/settings/haptic_settings.h"
+#include "renderer/camera.h"
 
 #include <glm/glm.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +39,7 @@ struct WindowOptions {
     std::string device;         ///< start with this device (devices/choice/device_choice.h); empty: none
     glm::ivec2 size{1280, 800}; ///< screen coordinates
     float uiScale = 0.0f;       ///< beside the monitor's (screen/ui_scale.h); 0: that of the last run
+    glm::ivec2 pictureSize{0};  ///< pixels of saved pictures; 0: as large as the window shows the model
     std::filesystem::path statusJson; ///< written twice a second if given
     RecordingOptions recording;
     std::filesystem::path
@@ -105,11 +108,21 @@ struct EditOptions {
 };
 int editCommand(const EditOptions& options);
 
+/// Where `render` looks from: a camera of the file, one that is placed, or all of the model from a side.
+struct CameraOptions {
+    std::optional<std::string> name; ///< of the file's
+    std::optional<Side> side;        ///< without one the window's first view
+    /// Scene frame, m. A placed camera has a position; the target is the model's centre without one.
+    std::optional<glm::dvec3> position, target, up;
+    std::optional<double> fov; ///< degrees, vertical; of placed cameras and of sides
+};
+
 /// touchstone render SCENE --out F.png --size WxH
 struct RenderOptions {
     std::filesystem::path scene, out;
     glm::ivec2 size{1280, 720};
     std::string view = "shaded";
+    CameraOptions camera;
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
 };

@@ -2,10 +2,14 @@
 
 #include "devices/device/workspace_map.h"
 #include "haptics/servo/servo_loop.h"
+#include "renderer/picture_file.h"
+#include "renderer/scene_camera.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -13,7 +17,8 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kMaxPixels = 16384;
+constexpr int kMaxSide = 16384, kMaxPixels = 1 << 26;
+constexpr double kLeastFov = 1.0, kMostFov = 150.0; // degrees
 
 constexpr const char* kDeviceHelp =
     "What is held: %, auto (what is plugged in), udp[:PORT] (another program), /dev/hidrawN, a device "
@@ -29,10 +34,55 @@ bool parseSize(const std::string& text, glm::ivec2& size) {
         return false;
     const auto height = std::from_chars(width.ptr + 1, end, parsed.y);
     if (height.ec != std::errc{} || height.ptr != end || std::min(parsed.x, parsed.y) < 1 ||
-        std::max(parsed.x, parsed.y) > kMaxPixels)
+        std::max(parsed.x, parsed.y) > kMaxSide || parsed.x > kMaxPixels / parsed.y)
         return false;
     size = parsed;
     return true;
+}
+
+/// A finite number; empty: the text is none.
+std::optional<double> numberOf(std::string_view text) {
+    double number = 0.0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(number))
+        return std::nullopt;
+    return number;
+}
+
+/// "0.1,-2,3"
+std::optional<glm::dvec3> vectorOf(std::string_view text) {
+    glm::dvec3 vector(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const size_t comma = text.find(',');
+        const std::optional<double> number = numberOf(text.substr(0, comma));
+        if (!number || (comma == std::string_view::npos) != (axis == 2))
+            return std::nullopt;
+        vector[axis] = *number;
+        text.remove_prefix(axis < 2 ? comma + 1 : 0);
+    }
+    return vector;
+}
+
+/// X,Y,Z
+CLI::Option* addVector(CLI::App& app, const std::string& option, std::optional<glm::dvec3>& vector,
+                       const std::string& meaning) {
+    return app
+        .add_option_function<std::string>(
+            option,
+            [option, &vector](const std::string& text) {
+                vector = vectorOf(text);
+                if (!vector)
+                    throw CLI::ValidationError(option,
+                                               "'" + text + "' is no place or direction; write X,Y,Z");
+            },
+            meaning)
+        ->type_name("X,Y,Z");
+}
+
+std::vector<std::string> sideNames() {
+    std::vector<std::string> names{"default"};
+    names.insert(names.end(), kSideNames.begin(), kSideNames.end());
+    return names;
 }
 
 /// A line a field: NAME=DEFAULT UNIT, meaning, allowed values.
@@ -72,17 +122,69 @@ std::string strokesHelp() {
     return text.str();
 }
 
-void addSize(CLI::App& app, glm::ivec2& size, const std::string& meaning) {
+void addSize(CLI::App& app, const std::string& option, glm::ivec2& size, const std::string& meaning) {
     app.add_option_function<std::string>(
-           "--size",
-           [&size](const std::string& text) {
+           option,
+           [option, &size](const std::string& text) {
                if (!parseSize(text, size))
-                   throw CLI::ValidationError("--size", "'" + text +
-                                                            "' is not a size; write WIDTHxHEIGHT, 1.." +
-                                                            std::to_string(kMaxPixels) + " pixels each");
+                   throw CLI::ValidationError(option, "'" + text +
+                                                          "' is not a size; write WIDTHxHEIGHT, 1.." +
+                                                          std::to_string(kMaxSide) + " pixels each and " +
+                                                          std::to_string(kMaxPixels) + " in all at most");
            },
            meaning)
         ->type_name("WxH");
+}
+
+CLI::Option* addPicture(CLI::App& app, const std::string& option, std::filesystem::path& file,
+                        const std::string& meaning) {
+    return app.add_option(option, file, meaning)->type_name("F.png|jpg")->check([](const std::string& name) {
+        return pictureNameProblem(name);
+    });
+}
+
+void addCamera(CLI::App& app, CameraOptions& camera) {
+    CLI::Option* name =
+        app.add_option("--camera", camera.name, "A camera of the file: its name, its node's, or its index")
+            ->type_name("NAME");
+    CLI::Option* from =
+        app.add_option_function<std::string>(
+               "--from",
+               [&camera](const std::string& side) {
+                   const auto* found = std::ranges::find(kSideNames, side);
+                   camera.side = found != kSideNames.end()
+                                     ? std::optional(static_cast<Side>(found - kSideNames.begin()))
+                                     : std::nullopt;
+               },
+               "See all of the model from this side; default is the window's first view [default]")
+            ->type_name("SIDE")
+            ->check(CLI::IsMember(sideNames()));
+    CLI::Option* position = addVector(app, "--camera-position", camera.position,
+                                      "Where the camera stands, in the model's own metres and axes");
+    addVector(app, "--look-at", camera.target, "What is in the middle of the picture [the model's centre]")
+        ->needs(position);
+    addVector(app, "--up", camera.up, "What is upwards in the picture [0,1,0]")->needs(position);
+    CLI::Option* fov = app.add_option_function<std::string>(
+                              "--fov",
+                              [&camera](const std::string& text) {
+                                  const std::optional<double> angle = numberOf(text);
+                                  if (!angle || !(*angle >= kLeastFov && *angle <= kMostFov))
+                                      throw CLI::ValidationError(
+                                          "--fov", "'" + text + "' is no angle of view; give 1 to 150");
+                                  camera.fov = angle;
+                              },
+                              "Vertical angle of view [35]")
+                           ->type_name("DEG");
+    name->excludes(from)->excludes(position)->excludes(fov);
+    from->excludes(position);
+    app.parse_complete_callback([&camera] {
+        if (!camera.target)
+            return; // the model's centre, known later
+        const std::string problem = sightProblem(
+            *camera.position, *camera.target, camera.up.value_or(usualUp(*camera.position, *camera.target)));
+        if (!problem.empty())
+            throw CLI::ValidationError("--camera-position", problem);
+    });
 }
 
 CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std::string& meaning,

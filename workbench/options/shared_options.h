@@ -19,8 +19,13 @@ namespace touchstone {
 inline constexpr const char* kExitHelp =
     "Exit status: 0 done, 1 bad input or a missing facility, 2 wrong usage.\n";
 
-/// --size WxH, pixels.
-void addSize(CLI::App& app, glm::ivec2& size, const std::string& meaning);
+/// A size, WxH pixels.
+void addSize(CLI::App& app, const std::string& option, glm::ivec2& size, const std::string& meaning);
+/// A picture to write, with an ending that names its format.
+CLI::Option* addPicture(CLI::App& app, const std::string& option, std::filesystem::path& file,
+                        const std::string& meaning);
+/// --camera, --from, --camera-position, --look-at, --up and --fov. Sets the app's parse_complete_callback.
+void addCamera(CLI::App& app, CameraOptions& camera);
 /// A repeatable option NAME=VALUE; `assign` returns the problem.
 CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std::string& meaning,
                             std::function<std::string(std::string_view, std::string_view)> assign);

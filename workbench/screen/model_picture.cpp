@@ -1,7 +1,9 @@
 #include "workbench/screen/model_picture.h"
 
+#include "workbench/screen/gui_pixels.h"
 #include "workbench/screen/magnifier.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace touchstone {
@@ -11,45 +13,79 @@ namespace {
 constexpr double kMagnifierOverlayScale = 0.22; ///< scale of the overlays in it
 constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames between updates: the CPU transforms every vertex
                                                 ///< for it again
+constexpr float kLegendMargin = 14.0f;          ///< layout units
+
+void scaleLines(Overlay& overlay, double factor) {
+    for (Overlay::Line& line : overlay.lines)
+        line.width *= static_cast<float>(factor);
+}
+
+/// Copies `inset` over `picture`.
+void paste(const PixelData& inset, const PixelRect& place, PixelData& picture) {
+    const auto row = static_cast<size_t>(4 * place.width);
+    for (int y = 0; y < place.height; ++y)
+        std::copy_n(inset.bytes.begin() + static_cast<ptrdiff_t>(row * static_cast<size_t>(y)), row,
+                    picture.bytes.begin() +
+                        4 * (static_cast<ptrdiff_t>(place.y + y) * picture.width + place.x));
+}
 
 } // namespace
 
-EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
+ModelPicture::Setup ModelPicture::setUp(const Frame& frame, double aspect, SceneRenderer& renderer) {
     const ViewOptions& options = frame.options;
-    const double aspect = static_cast<double>(frame.place.width) / std::max(frame.place.height, 1);
-    View view = viewOf(frame.camera, frame.model.workspaceFromScene, aspect);
-    view.mode = options.mode;
-    view.allowedError = frame.allowedError;
+    Setup setup{.view = viewOf(frame.camera, frame.model.workspaceFromScene, aspect),
+                .look = {.shown = frame.tickBelongs
+                                      ? options.overlays
+                                      : ShownOverlays{false, false, false, false, false, false}},
+                .hasModel = frame.model.scene != nullptr && frame.model.haptic != nullptr};
+    setup.view.mode = options.mode;
     overlay_.clear();
+    if (!setup.hasModel)
+        return setup;
+    setup.look.frictionCoefficient =
+        frictionCoefficientAt(frame.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
+    drawTick(frame.tick, frame.settings, setup.look, overlay_);
+    if (setup.look.shown.shadow)
+        setup.view.probe = probeShadow(frame.tick, frame.settings);
+    colorMaterials(frame, renderer);
+    return setup;
+}
+
+View ModelPicture::magnified(const Frame& frame, Setup setup) {
+    overlay_.clear();
+    setup.look.scale = kMagnifierOverlayScale;
+    drawTick(frame.tick, frame.settings, setup.look, overlay_);
+    View near =
+        viewOf(Magnifier::camera(frame.camera, frame.tick.output.proxy), frame.model.workspaceFromScene, 1.0);
+    near.mode = setup.view.mode;
+    near.allowedError = setup.view.allowedError;
+    near.probe = setup.view.probe;
+    near.probe.radius *= kMagnifierOverlayScale;
+    return near;
+}
+
+EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
+    Setup setup =
+        setUp(frame, static_cast<double>(frame.place.width) / std::max(frame.place.height, 1), renderer);
+    setup.view.allowedError = frame.allowedError;
     EyePlaces places{.main = frame.place, .magnifier = {}};
-    TickLook look{.shown = frame.tickBelongs ? options.overlays
-                                             : ShownOverlays{false, false, false, false, false, false}};
-    const bool hasModel = frame.model.scene != nullptr && frame.model.haptic != nullptr;
-    if (hasModel) {
-        look.frictionCoefficient =
-            frictionCoefficientAt(frame.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
-        drawTick(frame.tick, frame.settings, look, overlay_);
-        if (look.shown.shadow)
-            view.probe = probeShadow(frame.tick, frame.settings);
-        colorMaterials(frame, renderer);
-    }
-    renderer.render(view, overlay_, frame.sceneSize.x, frame.sceneSize.y);
-    if (hasModel && options.magnifier) {
-        overlay_.clear();
-        look.scale = kMagnifierOverlayScale;
-        drawTick(frame.tick, frame.settings, look, overlay_);
-        view.probe.radius *= kMagnifierOverlayScale;
-        drawMagnifier(frame, view, renderer, places);
-    }
-    legend_.mode = options.mode;
-    legend_.scale = renderer.falseColorScale();
-    legend_.kinds = options.mode == ViewMode::Effects ? colors_.kinds : std::vector<EffectColors::Kind>{};
-    const float margin = 14.0f * frame.scale;
+    renderer.render(setup.view, overlay_, frame.sceneSize.x, frame.sceneSize.y);
+    if (setup.hasModel && frame.options.magnifier)
+        drawMagnifier(frame, setup, renderer, places);
+    const float margin = kLegendMargin * frame.scale;
     const glm::vec2 low(static_cast<float>(frame.place.x),
                         static_cast<float>(frame.place.y + frame.place.height));
-    if (hasModel)
-        drawViewLegend(legend_, low / frame.pixelsPerPoint + glm::vec2(margin, -margin), frame.scale);
+    if (setup.hasModel)
+        drawViewLegend(legendOf(frame, renderer), low / frame.pixelsPerPoint + glm::vec2(margin, -margin),
+                       frame.scale);
     return places;
+}
+
+ViewLegend ModelPicture::legendOf(const Frame& frame, const SceneRenderer& renderer) const {
+    return {.mode = frame.options.mode,
+            .scale = renderer.falseColorScale(),
+            .kinds =
+                frame.options.mode == ViewMode::Effects ? colors_.kinds : std::vector<EffectColors::Kind>{}};
 }
 
 void ModelPicture::colorMaterials(const Frame& frame, SceneRenderer& renderer) {
@@ -60,7 +96,7 @@ void ModelPicture::colorMaterials(const Frame& frame, SceneRenderer& renderer) {
     renderer.setMaterialColors(colors_.materials);
 }
 
-void ModelPicture::drawMagnifier(const Frame& frame, const View& main, SceneRenderer& renderer,
+void ModelPicture::drawMagnifier(const Frame& frame, const Setup& setup, SceneRenderer& renderer,
                                  EyePlaces& places) {
     places.magnifier = Magnifier::place(frame.place);
     const float size = static_cast<float>(places.magnifier.width) / frame.pixelsPerPoint;
@@ -69,24 +105,52 @@ void ModelPicture::drawMagnifier(const Frame& frame, const View& main, SceneRend
     if (++magnifierAge_ < (frame.software ? kSoftwareMagnifierPeriod : 1))
         return;
     magnifierAge_ = 0;
-    View near =
-        viewOf(Magnifier::camera(frame.camera, frame.tick.output.proxy), frame.model.workspaceFromScene, 1.0);
-    near.mode = main.mode;
-    near.allowedError = main.allowedError;
-    near.probe = main.probe;
+    const View near = magnified(frame, setup);
     renderer.render(near, overlay_, places.magnifier.width, places.magnifier.height, Eye::Magnifier);
 }
 
-bool ModelPicture::save(WindowTarget& target, const Frame& frame) {
+PixelData ModelPicture::drawAnew(const Frame& frame, const glm::ivec2& size, SceneRenderer& renderer) {
+    // Pixels of the picture for one of the window's.
+    const double enlarged = std::min(static_cast<double>(size.x) / frame.place.width,
+                                     static_cast<double>(size.y) / frame.place.height);
+    Setup setup = setUp(frame, static_cast<double>(size.x) / size.y, renderer);
+    setup.view.pixelScale = static_cast<float>(enlarged);
+    scaleLines(overlay_, enlarged);
+    PixelData picture = renderStill(renderer, setup.view, overlay_, size.x, size.y);
+    if (!setup.hasModel)
+        return picture;
+    const PixelRect inset = Magnifier::place({0, 0, size.x, size.y});
+    // In a picture of a few pixels there is no room for the smallest magnifier.
+    const bool magnifier = frame.options.magnifier && inset.x >= 0 && inset.y + inset.height <= size.y;
+    if (magnifier) {
+        View near = magnified(frame, setup);
+        near.pixelScale = setup.view.pixelScale;
+        scaleLines(overlay_, enlarged);
+        paste(renderStill(renderer, near, overlay_, inset.width, inset.height), inset, picture);
+    }
+    const auto scale = static_cast<float>(enlarged) * frame.scale * frame.pixelsPerPoint;
+    const float margin = kLegendMargin * scale;
+    drawGui(picture, scale, [&] {
+        if (magnifier)
+            Magnifier::drawFrame(glm::vec2(inset.x, inset.y), static_cast<float>(inset.width), scale);
+        drawViewLegend(legendOf(frame, renderer), {margin, static_cast<float>(size.y) - margin}, scale);
+    });
+    return picture;
+}
+
+bool ModelPicture::save(const Frame& frame, SceneRenderer& renderer) {
     if (std::exchange(frame.options.savePicture, false)) {
         const std::string name = frame.model.scene != nullptr
                                      ? std::filesystem::path(frame.model.scene->path).stem().string()
                                      : "";
         const std::string view(frame.options.mode == ViewMode::Shaded ? ""
                                                                       : viewModeName(frame.options.mode));
-        controller_.request(target, frame.place, view.empty() ? name : name + "-" + view);
+        const glm::ivec2 chosen = frame.options.pictureSize,
+                         size = chosen.x > 0 ? chosen : glm::ivec2(frame.place.width, frame.place.height);
+        controller_.save(view.empty() ? name : name + "-" + view,
+                         [&] { return drawAnew(frame, size, renderer); });
     }
-    return controller_.update(target);
+    return controller_.update();
 }
 
 } // namespace touchstone

@@ -34,17 +34,31 @@ class ModelPicture {
     /// A new renderer.
     void takeDevice() { colored_.reset(); }
 
-    /// After endFrame: saves the picture requested in `options`. True when `note` has changed.
-    bool save(WindowTarget& target, const Frame& frame);
+    /// After endFrame: draws the picture requested in `options` anew, in its own size, with overlays,
+    /// magnifier and legend in proportion, and saves it. The caller waits for the drawing: 0.1 s for a small
+    /// picture, seconds for a large one where the CPU draws. True when `note` has changed.
+    bool save(const Frame& frame, SceneRenderer& renderer);
     [[nodiscard]] const SavedNote& note() const { return controller_.note(); }
 
   private:
+    /// What is drawn of a frame besides its size.
+    struct Setup {
+        View view;
+        TickLook look;
+        bool hasModel = false;
+    };
+    /// Fills overlay_, too.
+    [[nodiscard]] Setup setUp(const Frame& frame, double aspect, SceneRenderer& renderer);
+    /// The magnifier's, of the main one's; fills overlay_, too.
+    [[nodiscard]] View magnified(const Frame& frame, Setup setup);
     void colorMaterials(const Frame& frame, SceneRenderer& renderer);
-    void drawMagnifier(const Frame& frame, const View& main, SceneRenderer& renderer, EyePlaces& places);
+    void drawMagnifier(const Frame& frame, const Setup& setup, SceneRenderer& renderer, EyePlaces& places);
+    /// The legend of what `renderer` drew last.
+    [[nodiscard]] ViewLegend legendOf(const Frame& frame, const SceneRenderer& renderer) const;
+    [[nodiscard]] PixelData drawAnew(const Frame& frame, const glm::ivec2& size, SceneRenderer& renderer);
 
     PictureController controller_;
     Overlay overlay_;
-    ViewLegend legend_;
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan gave the colours
     EffectColors colors_;
     int magnifierAge_ = 0; ///< frames since it was drawn

@@ -1,37 +1,67 @@
 #include "workbench/screen/picture_controller.h"
 
 #include "engine/time/seconds_now.h"
-#include "renderer/png.h"
+#include "renderer/picture_file.h"
 
 #include <algorithm>
 #include <chrono>
+#include <new>
+#include <utility>
 
 namespace touchstone {
 
 namespace {
 
+constexpr const char* kNotSaved = "the picture is not saved: ";
+
+SavedNote notSaved(const std::string& why) {
+    return {.file = {}, .problem = kNotSaved + why, .at = secondsNow()};
+}
+
 SavedNote saved(const std::filesystem::path& folder, const std::string& stem, const PixelData& pixels) {
-    SavedNote note;
     try {
         std::filesystem::create_directories(folder);
-        const std::filesystem::path file = freePictureName(folder, stem);
-        writePng(file, pixels);
-        note.file = file;
+        const std::filesystem::path file = freePictureName(folder, stem.empty() ? "picture" : stem);
+        writePicture(file, pixels);
+        return {.file = file, .problem = {}, .at = secondsNow()};
     } catch (const std::exception& error) {
-        note.problem = std::string("the picture is not saved: ") + error.what();
+        return notSaved(error.what());
     }
-    note.at = secondsNow();
-    return note;
 }
 
 } // namespace
 
-void PictureController::request(WindowTarget& target, const PixelRect& part, const std::string& stem) {
+void PictureController::save(const std::string& stem, const std::function<PixelData()>& draw) {
     if (part_ || saving_.valid())
         return; // one at a time
+    try {
+        saving_ = std::async(std::launch::async, saved, folder_, stem, draw());
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        note_ = notSaved("there is not enough memory for one of that size");
+        failed_ = true;
+    } catch (const std::exception& error) {
+        note_ = notSaved(error.what());
+        failed_ = true;
+    }
+}
+
+void PictureController::request(WindowTarget& target, const PixelRect& part, const std::string& stem) {
+    if (part_ || saving_.valid())
+        return;
     part_ = part;
-    stem_ = stem.empty() ? "picture" : stem;
+    stem_ = stem;
     target.requestCapture();
+}
+
+bool PictureController::update() {
+    if (std::exchange(failed_, false))
+        return true;
+    if (!saving_.valid() || saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return false;
+    note_ = saving_.get();
+    return true;
 }
 
 bool PictureController::update(WindowTarget& target) {
@@ -43,10 +73,7 @@ bool PictureController::update(WindowTarget& target) {
             target.requestCapture(); // no frame yet, captured by another caller, or lost with its device
         }
     }
-    if (!saving_.valid() || saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return false;
-    note_ = saving_.get();
-    return true;
+    return update();
 }
 
 PixelData cropped(const PixelData& pixels, const PixelRect& part) {

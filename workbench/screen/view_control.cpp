@@ -2,7 +2,6 @@
 
 #include "workbench/screen/keys.h"
 
-#include <glm/gtc/constants.hpp>
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -19,13 +18,12 @@ namespace {
 constexpr double kOrbitPerPixel = 0.008; // rad
 constexpr double kZoomPerNotch = 0.9;
 constexpr double kZoomPerPixel = 0.99;
-constexpr double kKeyOrbit = 1.2;                      // rad/s
-constexpr double kKeyPan = 400.0;                      // pixels/s
-constexpr double kKeyZoom = 0.4;                       // fraction of the distance left after one second
-constexpr double kTurntable = 0.5;                     // rad/s: one turn in 12.6 s
-constexpr double kProbeDistance = 0.6;                 // scene radii, for the view of the probe
-constexpr double kClearance = 0.012;                   // m between model and hand at rest
-constexpr double kFirstYaw = 0.45, kFirstPitch = 0.35; // rad: from the right and above, to show depth
+constexpr double kKeyOrbit = 1.2;      // rad/s
+constexpr double kKeyPan = 400.0;      // pixels/s
+constexpr double kKeyZoom = 0.4;       // fraction of the distance left after one second
+constexpr double kTurntable = 0.5;     // rad/s: one turn in 12.6 s
+constexpr double kProbeDistance = 0.6; // scene radii, for the view of the probe
+constexpr double kClearance = 0.012;   // m between model and hand at rest
 
 /// The camera move of a key, as in Blender: 1, 3, 7, and with Ctrl the opposite side.
 std::optional<CameraMove> keyMove(bool homeIsTaken) {
@@ -69,10 +67,7 @@ void optionKeys(ViewOptions& options) {
 
 void ViewControl::lookAt(const Bounds& bounds, double aspect) {
     bounds_ = bounds;
-    camera_ = OrbitCamera{};
-    camera_.yaw = kFirstYaw;
-    camera_.pitch = kFirstPitch;
-    camera_.frame(bounds, aspect);
+    camera_ = OrbitCamera::threeQuarter(bounds, aspect);
     const glm::dvec3 centre = bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
     hand_ = MouseHand(centre + glm::dvec3(0.0, 0.0, 0.5 * bounds.extent().z + kClearance));
     over_ = hand_.goal();
@@ -90,27 +85,25 @@ std::optional<MouseGoal> ViewControl::handGoal() const {
 }
 
 void ViewControl::go(CameraMove move, const Situation& now) {
-    constexpr double kQuarter = glm::half_pi<double>();
-    const auto look = [&](double yaw, double pitch) {
-        camera_.yaw = yaw;
-        camera_.pitch = pitch;
+    const auto look = [&](Side side) {
+        camera_.lookFrom(side);
         camera_.frame(bounds_, now.area.x / now.area.y);
     };
     switch (move) {
     case CameraMove::Fit:
         return camera_.frame(bounds_, now.area.x / now.area.y);
     case CameraMove::Front:
-        return look(0.0, 0.0);
+        return look(Side::Front);
     case CameraMove::Back:
-        return look(2.0 * kQuarter, 0.0);
+        return look(Side::Back);
     case CameraMove::Right:
-        return look(kQuarter, 0.0);
+        return look(Side::Right);
     case CameraMove::Left:
-        return look(-kQuarter, 0.0);
+        return look(Side::Left);
     case CameraMove::Top:
-        return look(0.0, kQuarter);
+        return look(Side::Top);
     case CameraMove::Bottom:
-        return look(0.0, -kQuarter);
+        return look(Side::Bottom);
     case CameraMove::Probe:
         camera_.target = now.probe;
         camera_.distance = kProbeDistance * camera_.sceneRadius;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <string>
 
 namespace touchstone {
 
@@ -21,6 +22,22 @@ void modeList(ViewOptions& options) {
                      static_cast<int>(kLabels.size())))
         options.mode = static_cast<ViewMode>(mode);
     ImGui::PopItemWidth();
+}
+
+/// The size of saved pictures.
+void pictureSizes(ViewOptions& options) {
+    constexpr std::array<glm::ivec2, 5> kSizes{
+        {{0, 0}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}}};
+    const auto label = [](const glm::ivec2& size) {
+        return size.x == 0 ? std::string("as in the window")
+                           : std::to_string(size.x) + " x " + std::to_string(size.y);
+    };
+    if (!ImGui::BeginCombo("Picture size", label(options.pictureSize).c_str()))
+        return;
+    for (const glm::ivec2& size : kSizes)
+        if (ImGui::Selectable(label(size).c_str(), size == options.pictureSize))
+            options.pictureSize = size;
+    ImGui::EndCombo();
 }
 
 } // namespace
@@ -65,6 +82,9 @@ void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& 
     if (ImGui::SmallButton("Save picture"))
         options.savePicture = true;
     mark("savePicture");
+    ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
+    pictureSizes(options);
+    mark("pictureSize");
 }
 
 } // namespace touchstone

@@ -2,6 +2,8 @@
 
 #include "renderer/view.h"
 
+#include <glm/glm.hpp>
+
 #include <optional>
 
 namespace touchstone {
@@ -27,7 +29,8 @@ struct ViewOptions {
     bool magnifier = false;         ///< magnified inset that follows the probe
     bool freeHand = false;          ///< the mouse moves its hand in space, not over the pointed surface
     double press = 0.6;             ///< N, press force of the mouse
-    bool savePicture = false;       ///< requested in this frame: the window's picture as PNG
+    bool savePicture = false;       ///< requested in this frame: what the window shows of the model, as PNG
+    glm::ivec2 pictureSize{0};      ///< pixels of it; 0: as large as the window shows it
     std::optional<CameraMove> move; ///< requested in this frame
 };
 

@@ -46,7 +46,7 @@ Layouts layoutsOf(std::span<const uint32_t> code) {
 TEST(ShaderLayout, FrameUniforms) {
     const Layouts layouts = layoutsOf(shaders::scene_frag);
     ASSERT_TRUE(layouts.count("FrameUniforms"));
-    EXPECT_EQ(layouts.at("FrameUniforms").size(), 20u) << "a member that this test does not know";
+    EXPECT_EQ(layouts.at("FrameUniforms").size(), 21u) << "a member that this test does not know";
     EXPECT_SAME_PLACE(layouts, FrameUniforms, clipFromEye);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight0);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight1);
@@ -66,6 +66,7 @@ TEST(ShaderLayout, FrameUniforms) {
     EXPECT_SAME_PLACE(layouts, FrameUniforms, backgroundTop);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, backgroundBottom);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, image);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, toEye);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toViewer);
 }
 

@@ -37,14 +37,15 @@ TEST(CommandLine, HelpNamesEveryCommandOptionAndSetting) {
     EXPECT_EQ(result.status, 0);
     EXPECT_TRUE(result.err.empty());
     for (const char* word :
-         {"run",           "touch",        "render",         "inspect",         "devices",
-          "--headless",    "bench",        "--largest",      "--check",         "--seconds",
-          "--json",        "--screenshot", "--record-ticks", "--path",          "--out",
-          "--fit",         "--set",        "--size",         "--view",          "--hand",
-          "--rate",        "--version",    "forceShading",   "friction",        "texture",
-          "proxyRadius",   "stiffness",    "damping",        "iterationBudget", "forceEnabled",
-          "--closed-loop", "--open-loop",  "--plant",        "study",           "--shard",
-          "--ladder",      "compare",      "merge"})
+         {"run",           "touch",         "render",         "inspect",         "devices",
+          "--headless",    "bench",         "--largest",      "--check",         "--seconds",
+          "--json",        "--screenshot",  "--record-ticks", "--path",          "--out",
+          "--fit",         "--set",         "--size",         "--view",          "--hand",
+          "--rate",        "--version",     "forceShading",   "friction",        "texture",
+          "proxyRadius",   "stiffness",     "damping",        "iterationBudget", "forceEnabled",
+          "--closed-loop", "--open-loop",   "--plant",        "study",           "--shard",
+          "--ladder",      "compare",       "merge",          "--camera",        "--from",
+          "--look-at",     "--picture-size"})
         EXPECT_TRUE(contains(result.out, word)) << word;
 }
 
@@ -67,6 +68,7 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         {"--nonsense"},
         {"run"},
         {"run", kPlane, "--seconds", "soon"},
+        {"run", kPlane, "--screenshot", "a.bmp"},
         {"run", kPlane, "--headless", "--seconds", "soon"},
         {"run", kPlane, "--headless", "--seconds", "-1"},
         {"run", kPlane, "--headless", "--rate", "50"},
@@ -96,12 +98,35 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
         {"render", kPlane, "--out", "a.png", "--size", "640"},
         {"render", kPlane, "--out", "a.png", "--size", "0x480"},
         {"render", kPlane, "--out", "a.png", "--size", "640x480x"},
+        {"render", kPlane, "--out", "a.png", "--size", "-640x480"},
+        {"render", kPlane, "--out", "a.png", "--size", "100000x100000"},
+        {"render", kPlane, "--out", "a.png", "--size", "16384x16384"},
         {"render", kPlane, "--out", "a.png", "--view", "smell"},
+        {"render", kPlane, "--out", "a.gif"},
+        {"render", kPlane, "--out", "a"},
+        {"render", kPlane, "--out", "a.png", "--from", "within"},
+        {"render", kPlane, "--out", "a.png", "--from", "top", "--camera", "0"},
+        {"render", kPlane, "--out", "a.png", "--from", "top", "--camera-position", "1,1,1"},
+        {"render", kPlane, "--out", "a.png", "--camera", "0", "--fov", "40"},
+        {"render", kPlane, "--out", "a.png", "--fov", "0"},
+        {"render", kPlane, "--out", "a.png", "--fov", "180"},
+        {"render", kPlane, "--out", "a.png", "--fov", "nan"},
+        {"render", kPlane, "--out", "a.png", "--look-at", "0,0,0"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2,3,4"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2,inf"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2,three"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2,3", "--look-at", "1,2,3"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2,3", "--look-at", "0,0,0", "--up",
+         "2,4,6"},
+        {"render", kPlane, "--out", "a.png", "--camera-position", "1,2,3", "--look-at", "0,0,0", "--up",
+         "0,0,0"},
         {"edit", kPlane, "--field", "stiffness=-3"},
         {"edit", kPlane, "--field", "stiffness=hard"},
         {"edit", kPlane, "--field", "stiffness=nan"},
         {"edit", kPlane, "--field", "forceShading=sometimes"},
         {"edit", kPlane, "--field", "smell=1"},
+        {kPlane, "--picture-size", "0x0"},
         {"inspect"},
         {kPlane, kPlane},
     };
@@ -111,7 +136,9 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
     }
 }
 
-TEST(CommandLine, AFieldOutOfRangeIsWrongUsage) {
+TEST(CommandLine, AWrongEndingIsToldWithThoseThatAreWritten) {
+    expectRefused(runProgram({kProgram, "render", kPlane, "--out", "a.gif"}), 2,
+                  {"a.gif", ".png", ".jpg", ".jpeg"});
     expectRefused(runProgram({kProgram, "edit", kPlane, "--field", "stiffness=-3"}), 2,
                   {"stiffness", "-3", "range"});
 }

@@ -1,6 +1,7 @@
-// The loops without a window, and pictures.
+// The loops without a window.
 
 #include "tests/support/program.h"
+#include "tests/unit/workbench/picture_size.h"
 #include "tests/unit/workbench/touch_files.h"
 
 #include <gtest/gtest.h>
@@ -17,19 +18,6 @@ const std::string kProgram = TOUCHSTONE_BINARY;
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
 const Environment kValidated{"TOUCHSTONE_VALIDATION=1", "DISPLAY=", "WAYLAND_DISPLAY="};
 
-/// Width and height in a PNG's header.
-std::pair<uint32_t, uint32_t> pngSize(const std::string& bytes) {
-    if (bytes.size() < 24 || bytes.substr(1, 3) != "PNG")
-        return {0, 0};
-    const auto number = [&](size_t at) {
-        uint32_t value = 0;
-        for (size_t i = 0; i < 4; ++i)
-            value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-        return value;
-    };
-    return {number(16), number(20)};
-}
-
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 const nlohmann::json kNoLock; // null: the sanitizer stands in the counter's place
 #else
@@ -40,8 +28,8 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     const ScratchFolder scratch;
     const std::string json = (scratch / "r.json").string(), shot = (scratch / "s.png").string(),
                       csv = (scratch / "t.csv").string();
-    const ProgramResult result = runProgram({kProgram, "run", kDoughnut, "--headless", "--seconds", "3",
-                                             "--json", json, "--screenshot", shot, "--record-ticks", csv},
+    const ProgramResult result = runProgram({kProgram, "run", kDoughnut, "--seconds", "3", "--json", json,
+                                             "--screenshot", shot, "--record-ticks", csv},
                                             kValidated);
     ASSERT_EQ(result.status, 0) << result.err;
     const auto figures = nlohmann::json::parse(readFile(json));
@@ -157,21 +145,6 @@ TEST(Run, AnInterruptStillWritesWhatWasAskedFor) {
     ASSERT_TRUE(program.running()) << readFile(scratch / "log");
     EXPECT_EQ(program.stop(), 0) << readFile(scratch / "log");
     EXPECT_GT(nlohmann::json::parse(readFile(json))["servo"]["ticks"], 0);
-}
-
-TEST(Render, WritesThePictureInTheSizeAskedFor) {
-    const ScratchFolder scratch;
-    const std::string shaded = (scratch / "a.png").string(), height = (scratch / "b.png").string();
-    ASSERT_EQ(
-        runProgram({kProgram, "render", kDoughnut, "--out", shaded, "--size", "320x200"}, kValidated).status,
-        0);
-    ASSERT_EQ(
-        runProgram({kProgram, "render", kDoughnut, "--out", height, "--size", "320x200", "--view", "height"},
-                   kValidated)
-            .status,
-        0);
-    EXPECT_EQ(pngSize(readFile(shaded)), (std::pair<uint32_t, uint32_t>(320, 200)));
-    EXPECT_NE(readFile(shaded), readFile(height));
 }
 
 } // namespace

@@ -1,12 +1,15 @@
 // The real window, driven as a person would: pointer and keys on a screen of its own.
 
+#include "tests/unit/workbench/picture_size.h"
 #include "tests/unit/workbench/window_test.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <set>
+#include <utility>
 
 namespace touchstone::test {
 namespace {
@@ -214,6 +217,37 @@ TEST_F(WindowTest, EveryViewCanBeSavedWithMagnifierAndLegend) {
     until("no overlays", [](const Json& s) { return s["view"]["overlays"] == false; });
     display_.key("v");
     until("the look", [](const Json& s) { return s["view"]["mode"] == "shaded"; });
+    expectCleanEnd();
+}
+
+/// Drawn anew, not taken from the screen: in the size of the window's picture, or in the one that was chosen.
+TEST_F(WindowTest, SavesPicturesInTheirOwnSizeWhileTheServoGoesOn) {
+    const std::filesystem::path folder = scratch_ / "state/touchstone/pictures";
+    const auto saved = [&](const std::string& name) {
+        display_.key("F12");
+        until("the picture",
+              [&](const Json& s) { return s["view"]["picture"] == "saved " + (folder / name).string(); });
+        return pngSize(readFile(folder / name));
+    };
+    open(kDoughnut, {"--hand", "simulated", "--picture-size", "3840x2160"});
+    const int ticks = later()["servo"]["ticks"];
+    EXPECT_EQ(saved("doughnut-1.png"), (std::pair<uint32_t, uint32_t>(3840, 2160)));
+    EXPECT_GT(later()["servo"]["ticks"], ticks);
+    expectCleanEnd();
+
+    std::filesystem::remove(status_);
+    open(kDoughnut);
+    const Json shown = later()["widgets"].at("picture");
+    const auto size = saved("doughnut-2.png");
+    EXPECT_NEAR(size.first, shown["width"].get<double>(), 1.0);
+    EXPECT_NEAR(size.second, shown["height"].get<double>(), 1.0);
+    // A folder that takes no file costs the picture, not the window.
+    std::filesystem::remove_all(folder);
+    writeTextFile(folder, "in the way");
+    display_.key("F12");
+    until("the problem", [](const Json& s) {
+        return s["view"]["picture"].get<std::string>().starts_with("the picture is not saved: ");
+    });
     expectCleanEnd();
 }
 

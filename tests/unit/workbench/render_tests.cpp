@@ -1,0 +1,239 @@
+// Pictures by the command line: sizes, formats and cameras.
+
+#include "tests/support/gltf_maker.h"
+#include "tests/support/program.h"
+#include "tests/unit/workbench/picture_size.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+namespace touchstone::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kProgram = TOUCHSTONE_BINARY;
+const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
+const Environment kValidated{"TOUCHSTONE_VALIDATION=1", "DISPLAY=", "WAYLAND_DISPLAY="};
+
+/// A wedge-like corner of three coloured squares: no two sides of it look alike.
+GltfMaker corner() {
+    GltfMaker maker = GltfMaker::square();
+    const std::vector<std::vector<double>> colors{{0.8, 0.1, 0.1, 1}, {0.1, 0.6, 0.1, 1}, {0.1, 0.2, 0.8, 1}};
+    const json primitive = maker.primitive();
+    for (size_t i = 0; i < colors.size(); ++i) {
+        const size_t material = maker.append(
+            "materials", {{"pbrMetallicRoughness", {{"baseColorFactor", colors[i]}, {"metallicFactor", 0}}},
+                          {"doubleSided", true}});
+        json own = primitive;
+        own["material"] = material;
+        if (i == 0)
+            maker.primitive() = own;
+        else
+            maker.append("meshes", {{"primitives", {own}}});
+    }
+    const double half = std::sqrt(0.5);
+    for (const json& node : {json{{"mesh", 1}, {"rotation", {0, -half, 0, half}}, {"scale", {0.7, 1, 1}}},
+                             json{{"mesh", 2}, {"rotation", {half, 0, 0, half}}, {"scale", {1, 0.4, 1}}}})
+        maker.json["scenes"][0]["nodes"].push_back(maker.append("nodes", node));
+    return maker;
+}
+
+/// Cameras that stand at (2, 1.5, 3) and look at (0.5, 0.5, 0), upright: as a lens, and as parallel lines of
+/// sight.
+GltfMaker withCameras() {
+    GltfMaker maker = corner();
+    maker.append(
+        "cameras",
+        {{"name", "lens"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 0.1}}}});
+    maker.append("cameras",
+                 {{"type", "orthographic"},
+                  {"orthographic", {{"xmag", 0.9}, {"ymag", 0.9}, {"znear", 0.0}, {"zfar", 10.0}}}});
+    // back = (1.5, 1, 3) / 3.5, right = y x back, up = back x right.
+    const double side = std::sqrt(11.25);
+    const std::vector<double> right{3 / side, 0, -1.5 / side}, back{1.5 / 3.5, 1 / 3.5, 3 / 3.5};
+    const std::vector<double> up{back[1] * right[2], back[2] * right[0] - back[0] * right[2],
+                                 -back[1] * right[0]};
+    const json matrix{right[0], right[1], right[2], 0, up[0], up[1], up[2], 0,
+                      back[0],  back[1],  back[2],  0, 2,     1.5,   3,     1};
+    for (const size_t camera : {0, 1})
+        maker.json["scenes"][0]["nodes"].push_back(maker.append(
+            "nodes", {{"camera", camera}, {"name", "stand" + std::to_string(camera)}, {"matrix", matrix}}));
+    return maker;
+}
+
+class Render : public testing::Test {
+  protected:
+    Render() { writeFile(model_, withCameras().glb()); }
+
+    ProgramResult render(const std::vector<std::string>& more, const std::string& name = "picture.png") {
+        std::vector<std::string> words{
+            kProgram, "render", model_.string(), "--out", (scratch_ / name).string(), "--size", "160x120"};
+        words.insert(words.end(), more.begin(), more.end());
+        return runProgram(words, kValidated);
+    }
+    /// The bytes of a picture that must come out, without a word on stderr.
+    std::string picture(const std::vector<std::string>& more) {
+        const ProgramResult result = render(more);
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+        return readFile(scratch_ / "picture.png");
+    }
+    /// Share of pixels that differ visibly.
+    double difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+        EXPECT_EQ(render(a, "a.png").status, 0);
+        EXPECT_EQ(render(b, "b.png").status, 0);
+        const OIIO::ImageBuf first((scratch_ / "a.png").string()), second((scratch_ / "b.png").string());
+        const auto result = OIIO::ImageBufAlgo::compare(first, second, 6.0f / 255.0f, 6.0f / 255.0f);
+        return static_cast<double>(result.nfail) / (160.0 * 120.0);
+    }
+    void expectRefused(const std::vector<std::string>& more, const std::vector<std::string>& words) {
+        const ProgramResult result = render(more, "refused.png");
+        EXPECT_EQ(result.status, 1) << result.err;
+        for (const std::string& word : words)
+            EXPECT_NE(result.err.find(word), std::string::npos) << word << " is not in: " << result.err;
+        EXPECT_FALSE(fs::exists(scratch_ / "refused.png"));
+    }
+
+    ScratchFolder scratch_;
+    fs::path model_ = scratch_ / "corner.glb";
+};
+
+const std::vector<std::string> kPlaced{"--camera-position", "2,1.5,3", "--look-at", "0.5,0.5,0"};
+
+TEST_F(Render, WritesThePictureInTheSizeAskedFor) {
+    const std::string shaded = (scratch_ / "a.png").string(), height = (scratch_ / "b.png").string();
+    ASSERT_EQ(
+        runProgram({kProgram, "render", kDoughnut, "--out", shaded, "--size", "320x200"}, kValidated).status,
+        0);
+    ASSERT_EQ(
+        runProgram({kProgram, "render", kDoughnut, "--out", height, "--size", "320x200", "--view", "height"},
+                   kValidated)
+            .status,
+        0);
+    EXPECT_EQ(pngSize(readFile(shaded)), (std::pair<uint32_t, uint32_t>(320, 200)));
+    EXPECT_NE(readFile(shaded), readFile(height));
+}
+
+TEST_F(Render, WritesJpegToo) {
+    ASSERT_EQ(render({}, "picture.jpg").status, 0);
+    EXPECT_EQ(readFile(scratch_ / "picture.jpg").substr(0, 3), "\xff\xd8\xff");
+    ASSERT_EQ(render({}, "picture.png").status, 0);
+    const OIIO::ImageBuf jpeg((scratch_ / "picture.jpg").string()), png((scratch_ / "picture.png").string());
+    EXPECT_LT(
+        OIIO::ImageBufAlgo::compare(jpeg, OIIO::ImageBufAlgo::channels(png, 3, {}), 0.1f, 0.1f).meanerror,
+        0.02);
+}
+
+/// The same lens by the file and by hand is the same picture to the last byte, whichever way it is named.
+TEST_F(Render, TheFilesCameraIsTheOneThatIsPlacedThere) {
+    std::vector<std::string> byHand = kPlaced;
+    byHand.insert(byHand.end(), {"--fov", "34.37746770784939"}); // 0.6 rad
+    EXPECT_LT(difference({"--camera", "0"}, byHand), 1e-3);
+    const std::string byIndex = picture({"--camera", "0"});
+    EXPECT_EQ(picture({"--camera", "lens"}), byIndex);
+    EXPECT_EQ(picture({"--camera", "stand0"}), byIndex);
+    EXPECT_EQ(picture({"--camera", "0", "--view", "normals"}),
+              picture({"--camera", "lens", "--view", "normals"}));
+    EXPECT_GT(difference({"--camera", "0"}, {"--camera", "1"}), 0.01);
+    EXPECT_EQ(picture({"--camera", "1"}), picture({"--camera", "stand1"}));
+}
+
+/// Far away and narrow, a perspective comes to the same picture as the parallel lines of sight.
+TEST_F(Render, TheOrthographicCameraIsTheLimitOfALongLens) {
+    // 10 times as far: off by the model's depth over the distance.
+    const double nearer = 2.0 * std::atan(0.9 / 35.0) * 180.0 / 3.14159265358979324;
+    EXPECT_LT(difference({"--camera", "1"}, {"--camera-position", "15.5,10.5,30", "--look-at", "0.5,0.5,0",
+                                             "--fov", std::to_string(nearer)}),
+              0.1);
+}
+
+TEST_F(Render, EveryOptionOfACameraChangesThePicture) {
+    const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    EXPECT_GT(difference(kPlaced, with(kPlaced, {"--fov", "60"})), 0.05);
+    EXPECT_GT(difference(kPlaced, with(kPlaced, {"--up", "1,0,0"})), 0.05);
+    EXPECT_GT(difference(kPlaced, {"--camera-position", "2,1.5,3", "--look-at", "0.1,0.5,0"}), 0.05);
+    EXPECT_GT(difference(kPlaced, {"--camera-position", "-2,1.5,3", "--look-at", "0.5,0.5,0"}), 0.05);
+    EXPECT_EQ(picture(with(kPlaced, {"--up", "0,7,0"})), picture(kPlaced)) << "its length does not matter";
+    // Without a target the model's centre: from (0, 0, 0) to (1, 1, 0.7) here.
+    EXPECT_EQ(picture({"--camera-position", "3,4,5"}),
+              picture({"--camera-position", "3,4,5", "--look-at", "0.5,0.5,0.35"}));
+}
+
+TEST_F(Render, SeesTheModelFromEverySide) {
+    std::set<std::string> seen;
+    for (const char* side : {"default", "front", "back", "left", "right", "top", "bottom"})
+        EXPECT_TRUE(seen.insert(picture({"--from", side})).second) << side;
+    EXPECT_EQ(picture({"--from", "default"}), picture({}));
+    EXPECT_NE(picture({"--from", "top", "--fov", "90"}), picture({"--from", "top"}));
+    // From above the picture's top is the model's back.
+    EXPECT_LT(difference({"--camera-position", "0.5,9,0.35", "--look-at", "0.5,0,0.35"},
+                         {"--camera-position", "0.5,9,0.35", "--look-at", "0.5,0,0.35", "--up", "0,0,-1"}),
+              1e-9);
+}
+
+TEST_F(Render, AnImpossibleCameraIsRefused) {
+    expectRefused({"--camera", "7"},
+                  {"no camera '7'", "0 lens at the node stand0 (perspective)", "1 at the node stand1"});
+    expectRefused({"--camera", "side"}, {"no camera 'side'", "orthographic"});
+    expectRefused({"--camera", ""}, {"no camera ''"});
+    // The target is the model's centre: only then is it known that nothing can be seen from there.
+    expectRefused({"--camera-position", "0.5,0.5,0.35"}, {"at the point that it looks at"});
+    expectRefused({"--camera-position", "0.5,0.5,2", "--up", "0,0,1"}, {"parallel"});
+    expectRefused({"--camera-position", "0.5,0.5,2", "--up", "0,0,0"}, {"no length"});
+    expectRefused({"--camera-position", "1e200,0,0"}, {"beyond what numbers can hold"});
+    expectRefused({"--camera-position", "1e6,0,0"}, {"10,000 times", "inspect"});
+    const std::string none = (scratch_ / "none.png").string();
+    const ProgramResult result = runProgram({kProgram, "render", kDoughnut, "--out", none, "--camera", "0"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("the scene has none"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(none));
+}
+
+/// A picture of nothing is drawn, and says so.
+TEST_F(Render, WarnsOfAPictureWithoutTheModel) {
+    for (const auto& [more, why] :
+         {std::pair<std::vector<std::string>, const char*>{
+              {"--camera-position", "0,0,3", "--look-at", "0,0,9"}, "behind the camera"},
+          {{"--camera-position", "0,0,3", "--look-at", "9,0,3"}, "beside"},
+          {{"--camera-position", "0,0,9000", "--fov", "90"}, "smaller than a pixel"}}) {
+        const ProgramResult result = render(more);
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    }
+    EXPECT_NE(picture({"--camera-position", "0.3,0.3,0.2", "--look-at", "0,0,0"}), "")
+        << "inside the model's box";
+}
+
+/// Neither a full disk nor a folder that takes no file leaves a part of a picture.
+TEST_F(Render, AFailedPictureLeavesNothing) {
+    fs::create_directory(scratch_ / "full");
+    fs::create_symlink("/dev/full", scratch_ / "full/picture.png");
+    const auto refused = [&](const std::string& file) {
+        const ProgramResult result =
+            runProgram({kProgram, "render", model_.string(), "--out", file}, kValidated);
+        EXPECT_EQ(result.status, 1) << result.err;
+        EXPECT_TRUE(result.out.empty()) << result.out;
+        EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+    };
+    refused((scratch_ / "full/picture.png").string());
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch_ / "full"), fs::directory_iterator()), 1);
+    refused("/proc/picture.png");
+    refused((scratch_ / "nowhere/picture.png").string());
+    fs::create_directory(scratch_ / "folder.png");
+    refused((scratch_ / "folder.png").string());
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+} // namespace
+} // namespace touchstone::test
