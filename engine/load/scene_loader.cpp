@@ -8,6 +8,7 @@
 #include "engine/import/geometry/scene_build.h"
 #include "engine/import/geometry/skin.h"
 #include "engine/import/materials/gltf_images.h"
+#include "engine/import/mesh_file/mesh_import.h"
 #include "engine/save/material_patch.h"
 #include "engine/scene/haptic_layers.h"
 
@@ -67,6 +68,7 @@ ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
                      const std::filesystem::path& folder) {
     context.step(0.15, "knowing the file again");
     const FileStamp stamp = stampOf(bytes);
+    bytes = asGltf(context, std::move(bytes));
     if (const std::string& edits = context.options().edits; !edits.empty())
         bytes = withMaterials(bytes, patchesFrom(edits), context.file());
     return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp);
@@ -78,6 +80,7 @@ ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options
     ImportContext context(path.string(), options);
     try {
         context.step(0.0, "reading the file");
+        checkMeshSize(path);
         return importBytes(context, readWholeFile(path, context.file(), context.progress().part(0.0, 0.15)),
                            path.parent_path());
     } catch (const std::bad_alloc&) {

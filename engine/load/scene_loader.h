@@ -1,5 +1,6 @@
 #pragma once
-// Loads glTF and GLB: read, validate, build. Any thread; throws touchstone::Error.
+// Loads glTF and GLB: read, validate, build; and OBJ, STL and PLY, which become a GLB first. Any thread;
+// throws touchstone::Error.
 
 #include "engine/import/file/load_options.h"
 #include "engine/scene/scene.h"
@@ -14,7 +15,7 @@ namespace touchstone {
 /// immutable scene. Broken images become warnings and grey; broken geometry, structure or references throw.
 [[nodiscard]] ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// The same for a .gltf or .glb that is already in memory; its URIs are relative to `folder`.
+/// The same for a file that is already in memory; its URIs are relative to `folder`.
 [[nodiscard]] ScenePtr loadSceneFromMemory(std::vector<uint8_t> bytes, const std::filesystem::path& folder,
                                            const LoadOptions& options = {});
 

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/import/file/gltf_file.h"
 #include "engine/import/file/gltf_uri.h"
+#include "engine/import/mesh_file/mesh_import.h"
 #include "engine/save/json_parts.h"
 #include "engine/save/replace_file.h"
 
@@ -10,6 +11,7 @@
 #include <charconv>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 namespace touchstone {
 
@@ -183,7 +185,7 @@ void checkTarget(const GltfFile& file, const std::filesystem::path& source,
     const std::string_view right = file.isGlb ? ".glb" : ".gltf";
     if (ending != right && !(ending == ".vrm" && file.isGlb))
         throw Error(target.string(), "", "would be a " + std::string(right) + " of another name",
-                    "end the name in " + std::string(right) + ", as what was opened is");
+                    "end the name in " + std::string(right) + (file.isGlb ? "" : ", as what was opened is"));
     std::error_code ignored;
     const fs::path from = fs::weakly_canonical(fs::absolute(source), ignored).parent_path();
     const fs::path to = fs::weakly_canonical(fs::absolute(target), ignored).parent_path();
@@ -237,10 +239,20 @@ std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes, const Materia
 FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
                         const MaterialPatches& patches, const std::filesystem::path& target) {
     const std::string shownAs = source.string();
-    const std::vector<uint8_t> bytes = readWholeFile(source, shownAs);
+    std::vector<uint8_t> bytes = readWholeFile(source, shownAs);
     if (stampOf(bytes) != loaded)
         throw Error(shownAs, "", "has changed since it was opened; nothing was written",
                     "open it again and make the changes anew, or copy this version elsewhere");
+    const LoadOptions options;
+    ImportContext context(shownAs, options);
+    std::error_code none; // of a target that does not exist
+    if (const auto format = meshFormatOf(context, bytes)) {
+        if (std::filesystem::equivalent(source, target, none))
+            throw Error(shownAs, "",
+                        std::string(nameOf(*format)) + " has no place for what is felt; nothing was written",
+                        "save it as a new .glb");
+        bytes = asGltf(context, std::move(bytes));
+    }
     const GltfFile file = takenApart(bytes, shownAs);
     checkTarget(file, source, target);
     const std::vector<uint8_t> result = withMaterials(bytes, patches, shownAs);

@@ -31,10 +31,11 @@ using MaterialPatches = std::map<size_t, nlohmann::ordered_json>;
 [[nodiscard]] std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes,
                                                  const MaterialPatches& patches, const std::string& shownAs);
 
-/// Writes `source` with the patches to `target` (which may be the same file), as a whole or not at all.
-/// Throws Error where the source no longer has the bytes `loaded`, so that no other program's changes are
-/// overwritten; where the target would be of another kind (.glb, .gltf); and where the source refers to files
-/// beside it and the target is in another folder. Returns the target's new stamp.
+/// Writes `source` with the patches to `target` (which may be the same file), as a whole or not at all. An
+/// OBJ, STL or PLY is written as a new GLB. Throws Error where the source no longer has the bytes `loaded`,
+/// so that no other program's changes are overwritten; where the target would be of another kind (.glb,
+/// .gltf); and where the source refers to files beside it and the target is in another folder. Returns the
+/// target's new stamp.
 [[nodiscard]] FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
                                       const MaterialPatches& patches, const std::filesystem::path& target);
 

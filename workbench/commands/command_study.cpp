@@ -1,6 +1,7 @@
 // The cost of accuracy, on our shapes and on the user's models: the command around study/.
 
 #include "engine/core/error.h"
+#include "engine/load/model_endings.h"
 #include "study/ablation/ablation.h"
 #include "study/compare_studies.h"
 #include "study/errors/noticeable.h"
@@ -13,7 +14,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -90,14 +90,11 @@ std::vector<std::string> modelsIn(const std::filesystem::path& folder) {
     std::vector<std::string> models;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(
              folder, std::filesystem::directory_options::skip_permission_denied)) {
-        std::string ending = entry.path().extension().string();
-        std::transform(ending.begin(), ending.end(), ending.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        if ((ending == ".glb" || ending == ".gltf") && entry.is_regular_file())
+        if (endsIn(entry.path(), kModelEndings) && entry.is_regular_file())
             models.push_back(entry.path().string());
     }
     if (models.empty())
-        throw Error(folder.string(), "", "has no .glb or .gltf file in it", "name a folder that has some");
+        throw Error(folder.string(), "", "has no model in it", "name a folder that has some");
     return models;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "engine/process/limited_process.h"
 #include "engine/scene/image.h"
-#include "workbench/gallery/limited_process.h"
 #include "workbench/gallery/thumbnail_cache.h"
 
 #include <atomic>

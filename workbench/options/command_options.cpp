@@ -58,7 +58,7 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
 void defineWindow(CLI::App& app, WindowOptions& options) {
     addScene(app, options.scene)
         ->description(
-            "glTF model or recording (.tsrec) to open in a window; without it the board of effects");
+            "Model (glTF, OBJ, STL, PLY) or recording (.tsrec) to open in a window; without it the board of effects");
     addSettings(app, [&options](std::string_view name, std::string_view value) {
         HapticSettings tried; // tests validity; applied over the settings of the last run
         options.settings.emplace_back(name, value);
@@ -288,10 +288,9 @@ void defineBench(CLI::App& app, BenchOptions& options) {
 }
 
 void defineStudy(CLI::App& app, StudyCommandOptions& options) {
-    app.add_option(
-           "WHAT", options.what,
-           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), glTF files, folders of them "
-           "and `rate`, the servo's; without any, every shape and the rate")
+    app.add_option("WHAT", options.what,
+                   "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), models, folders of them "
+                   "and `rate`, the servo's; without any, every shape and the rate")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
     app.add_option("--ladder", options.ablations, "Climb this ladder alone (see --list); may be given again")

@@ -278,7 +278,7 @@ void addRecording(CLI::App& app, RecordingOptions& options) {
 }
 
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
-    return app.add_option("SCENE", scene, "glTF model: a .gltf or .glb file")->type_name("");
+    return app.add_option("SCENE", scene, "Model: a .gltf, .glb, .obj, .stl or .ply file")->type_name("");
 }
 
 void addDevice(CLI::App& app, const std::string& builtIn,

@@ -1,7 +1,6 @@
 #include "engine/import/file/gltf_kind.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <initializer_list>
 #include <string_view>
@@ -37,8 +36,6 @@ constexpr Magic kMagics[] = {
     {"\x28\xb5\x2f\xfd"sv, "a zstd archive", kUnpack},
     {"Kaydara FBX Binary"sv, "an FBX file", kConvert},
     {"; FBX"sv, "an FBX file", kConvert},
-    {"ply\n"sv, "a PLY file", kConvert},
-    {"ply\r"sv, "a PLY file", kConvert},
     {"OFF\n"sv, "an OFF file", kConvert},
     {"PXR-USDC"sv, "a USD file", kConvert},
     {"#usda"sv, "a USD file", kConvert},
@@ -64,43 +61,6 @@ std::string_view withoutLeadingSpace(std::string_view text) {
     return start == std::string_view::npos ? std::string_view() : text.substr(start);
 }
 
-/// Text: lines from "solid" to "endsolid". Binary: 80 bytes, the number of triangles, 50 bytes each.
-bool isStl(std::string_view all) {
-    constexpr size_t kHead = 80, kTriangle = 50;
-    if (all.starts_with("solid") && all.substr(0, 1024).find("facet") != std::string_view::npos)
-        return true;
-    if (all.size() < kHead + 4 + kTriangle)
-        return false;
-    uint64_t count = 0;
-    for (size_t i = 4; i-- > 0;)
-        count = count << 8 | static_cast<uint8_t>(all[kHead + i]);
-    return count * kTriangle + kHead + 4 == all.size();
-}
-
-/// Some of the first lines begin with the keywords of OBJ, and none with anything else.
-bool isObj(std::string_view all) {
-    constexpr size_t kLooked = 4096;
-    constexpr int kEnough = 3;
-    static constexpr std::array<std::string_view, 10> kKeywords = {"v", "vn", "vt",     "f",      "o",
-                                                                   "g", "s",  "usemtl", "mtllib", "l"};
-    std::string_view rest = all.substr(0, kLooked);
-    int known = 0;
-    while (!rest.empty()) {
-        const size_t end = rest.find('\n');
-        if (end == std::string_view::npos && all.size() > kLooked)
-            break; // cut off in the middle
-        std::string_view line = rest.substr(0, end);
-        rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-        line = line.substr(0, line.find_first_of(" \t\r"));
-        if (line.empty() || line.front() == '#')
-            continue;
-        if (std::find(kKeywords.begin(), kKeywords.end(), line) == kKeywords.end())
-            return false;
-        ++known;
-    }
-    return known >= kEnough;
-}
-
 } // namespace
 
 void refuseOtherFormats(const ImportContext& context, std::span<const uint8_t> bytes) {
@@ -117,10 +77,6 @@ void refuseOtherFormats(const ImportContext& context, std::span<const uint8_t> b
     if (text.starts_with("<?xml") || text.starts_with("<COLLADA"))
         text.substr(0, 1024).find("<COLLADA") != std::string_view::npos ? refuse("a COLLADA file", kConvert)
                                                                         : refuse("an XML file", kOpenModel);
-    if (isStl(all))
-        refuse("an STL file", kConvert);
-    if (isObj(all))
-        refuse("an OBJ file", kConvert);
 }
 
 void checkGltfVersion(const ImportContext& context, const json& gltf) {

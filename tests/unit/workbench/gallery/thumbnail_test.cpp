@@ -1,8 +1,8 @@
 // What is kept of pictures, what a file says about itself, and what becomes of a program that draws badly.
 
+#include "engine/process/limited_process.h"
 #include "tests/support/program.h"
 #include "workbench/gallery/file_note.h"
-#include "workbench/gallery/limited_process.h"
 #include "workbench/gallery/thumbnail_cache.h"
 #include "workbench/gallery/thumbnail_maker.h"
 

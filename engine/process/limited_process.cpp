@@ -1,4 +1,4 @@
-#include "workbench/gallery/limited_process.h"
+#include "engine/process/limited_process.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace touchstone {
@@ -16,22 +17,31 @@ struct Start {
     const char* program;
     char* const* arguments;
     ProcessLimits limits;
+    ProcessStreams streams;
     pid_t parent;
     sigset_t signals; ///< the caller's
 };
 
-void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
-    const rlimit both{most, most};
-    setrlimit(what, &both); // a lower existing limit is kept
+/// A lower existing limit is kept. `beyond`: from the limit to where the system kills without a signal that
+/// says why.
+void limit(decltype(RLIMIT_CORE) what, rlim_t most, rlim_t beyond = 0) {
+    rlimit before{RLIM_INFINITY, RLIM_INFINITY};
+    getrlimit(what, &before);
+    const rlim_t lowest = std::min({most, before.rlim_cur, before.rlim_max});
+    const rlim_t room = before.rlim_max - lowest;
+    const rlimit both{lowest, lowest + std::min(beyond, room)};
+    setrlimit(what, &both);
 }
 
 /// In the child, which shares our memory until exec: system calls only.
 [[noreturn]] void become(const Start& start) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != start.parent)
-        _exit(kCannotStart); // the parent ended before this call
-    limit(RLIMIT_CPU, start.limits.processorSeconds);
+        _exit(kCannotStart);                             // the parent ended before this call
+    limit(RLIMIT_CPU, start.limits.processorSeconds, 1); // SIGXCPU, then SIGKILL
     limit(RLIMIT_DATA, start.limits.memory);
+    limit(RLIMIT_FSIZE, start.limits.fileSize);
+    limit(RLIMIT_NOFILE, start.limits.openFiles);
     limit(RLIMIT_CORE, 0);
     constexpr std::string_view kFirst = "1000";
     if (const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC); score >= 0) {
@@ -39,8 +49,9 @@ void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
         close(score);
     }
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        dup2(nothing, stream);
+    dup2(start.streams.input < 0 ? nothing : start.streams.input, STDIN_FILENO);
+    dup2(start.streams.output < 0 ? nothing : start.streams.output, STDOUT_FILENO);
+    dup2(nothing, STDERR_FILENO);
     sigprocmask(SIG_SETMASK, &start.signals, nullptr);
     execv(start.program, start.arguments);
     _exit(kCannotStart);
@@ -57,12 +68,12 @@ void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
 } // namespace
 
 pid_t startLimited(const std::string& program, const std::vector<std::string>& arguments,
-                   const ProcessLimits& limits) {
+                   const ProcessLimits& limits, const ProcessStreams& streams) {
     std::vector<char*> raw;
     for (const std::string& argument : arguments)
         raw.push_back(const_cast<char*>(argument.c_str())); // exec does not write to them
     raw.push_back(nullptr);
-    Start start{program.c_str(), raw.data(), limits, getpid(), {}};
+    Start start{program.c_str(), raw.data(), limits, streams, getpid(), {}};
     // No handler of ours may run in the child.
     sigset_t all;
     sigfillset(&all);

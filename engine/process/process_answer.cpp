@@ -1,0 +1,154 @@
+#include "engine/process/process_answer.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+constexpr int kInterval = 20;              // ms
+constexpr size_t kBlock = size_t{1} << 18; // bytes read at once
+
+/// A child that is killed and awaited at the end of its life, unless it was awaited before.
+class Child {
+  public:
+    explicit Child(pid_t pid) : pid_(pid) {}
+    ~Child() {
+        if (running_) {
+            kill(pid_, SIGKILL);
+            wait(0);
+        }
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    /// Whether it has ended; waits without WNOHANG.
+    bool wait(int options) {
+        if (!running_)
+            return true;
+        pid_t ended = 0;
+        do
+            ended = waitpid(pid_, &status_, options);
+        while (ended < 0 && errno == EINTR);
+        running_ = ended == 0;
+        return !running_;
+    }
+    [[nodiscard]] int status() const { return status_; }
+
+  private:
+    pid_t pid_;
+    bool running_ = true;
+    int status_ = 0;
+};
+
+enum class Reading : uint8_t { Waiting, Ended, TooLong };
+
+/// Appends what is in the pipe now.
+Reading readAll(int pipe, uint64_t most, std::vector<uint8_t>& block, std::vector<uint8_t>& output) {
+    for (;;) {
+        const ssize_t got = read(pipe, block.data(), block.size());
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return errno == EAGAIN ? Reading::Waiting : Reading::Ended;
+        if (got == 0)
+            return Reading::Ended;
+        if (static_cast<uint64_t>(got) > most - output.size())
+            return Reading::TooLong;
+        output.insert(output.end(), block.begin(), block.begin() + got);
+    }
+}
+
+} // namespace
+
+FileDescriptor::~FileDescriptor() {
+    close();
+}
+
+FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
+    close();
+    descriptor_ = other.release();
+    return *this;
+}
+
+void FileDescriptor::close() {
+    if (descriptor_ >= 0)
+        ::close(release());
+}
+
+int FileDescriptor::release() {
+    return std::exchange(descriptor_, -1);
+}
+
+FileDescriptor memoryFile(std::span<const uint8_t> bytes) {
+    FileDescriptor file(memfd_create("touchstone", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    while (file.get() >= 0 && !bytes.empty()) {
+        const ssize_t written = write(file.get(), bytes.data(), std::min(bytes.size(), size_t{1} << 30));
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return FileDescriptor();
+        bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+    if (file.get() >= 0) {
+        lseek(file.get(), 0, SEEK_SET);
+        fcntl(file.get(), F_ADD_SEALS, F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE);
+    }
+    return file;
+}
+
+ProcessAnswer askProcess(const std::string& program, const std::vector<std::string>& arguments,
+                         const ProcessLimits& limits, const FileDescriptor& input, uint64_t maxOutput,
+                         const std::function<bool()>& stop) {
+    using enum ProcessAnswer::End;
+    ProcessAnswer answer;
+    int ends[2] = {-1, -1};
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return answer;
+    const FileDescriptor reading(ends[0]);
+    FileDescriptor writing(ends[1]);
+    fcntl(reading.get(), F_SETFL, O_NONBLOCK);
+    fcntl(reading.get(), F_SETPIPE_SZ, kBlock);
+    std::vector<uint8_t> block(kBlock);
+    const pid_t pid =
+        startLimited(program, arguments, limits, {.input = input.get(), .output = writing.get()});
+    if (pid < 0)
+        return answer;
+    Child child(pid);
+    writing.close(); // so that the pipe ends with the child
+    const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits.seconds);
+    for (bool open = true;;) {
+        const bool ended = child.wait(WNOHANG); // before the last reading: what it wrote is in the pipe
+        const Reading state = open ? readAll(reading.get(), maxOutput, block, answer.output) : Reading::Ended;
+        open = state == Reading::Waiting;
+        answer.end = state == Reading::TooLong                 ? TooLong
+                     : stop()                                  ? Stopped
+                     : std::chrono::steady_clock::now() >= due ? TooSlow
+                                                               : NotStarted;
+        if (answer.end != NotStarted && !ended)
+            return answer; // and kills it
+        if (ended)
+            break;
+        pollfd ready{.fd = open ? reading.get() : -1, .events = POLLIN, .revents = 0};
+        poll(&ready, 1, kInterval);
+    }
+    if (answer.end == TooLong)
+        return answer;
+    const int status = child.status();
+    const bool missing = WIFEXITED(status) && WEXITSTATUS(status) == kCannotStart;
+    answer.end = missing ? NotStarted : WIFEXITED(status) ? Exited : Killed;
+    answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
+    return answer;
+}
+
+} // namespace touchstone
