@@ -56,7 +56,8 @@ figures_of_the_window() {
     done
     build release touchstone
     work=$(mktemp -d)
-    mkdir -p "$work/touchstone"
+    mkdir -p "$work/touchstone" "$work/home/"{Documents,Downloads,Models,Scans}
+    cp assets/scenes/{box,doughnut,prism_smooth}.glb "$work/home"
     {
         echo 'import sys, time'
         echo 'sys.path.insert(0, "tools")'
@@ -64,7 +65,7 @@ figures_of_the_window() {
         echo 'where = sys.argv[1:4]'
         cat
     } >"$work/script.py"
-    XDG_STATE_HOME=$work XDG_CACHE_HOME=$work xvfb-run -a -s '-screen 0 1280x800x24' \
+    HOME=$work/home TOUCHSTONE_FILE_DIALOG=window XDG_STATE_HOME=$work XDG_CACHE_HOME=$work xvfb-run -a -s '-screen 0 1280x800x24' \
         env PYTHONDONTWRITEBYTECODE=1 python3 "$work/script.py" "$PWD/build/release/bin/touchstone" "$work" docs/figures || status=$?
     rm -rf "$work"
     return "$status"

@@ -89,6 +89,7 @@ void WorkbenchWindow::frame() {
     prepareSettings();
     if (const auto dropped = window_.takeDropped())
         leaveFor(*dropped);
+    takeFile(start);
     leave();
     touch_.update(start);
     // While a recording is open the force is off: then the key only switches it off for afterwards.

@@ -1,3 +1,4 @@
+#include "engine/import/mesh_file/mesh_format.h"
 #include "workbench/workbench_window.h"
 
 namespace touchstone {
@@ -54,18 +55,24 @@ void WorkbenchWindow::show(LoadedModel loaded) {
     touch_.show(std::move(loaded), scene->path == defaultScene().string());
     drawn_.shown(scene);
     unsavedChanges_.begin();
-    materials_.open(touch_.shown().model, isSample(scene->path));
+    materials_.open(touch_.shown().model, !isSample(scene->path) && !meshFormatNamed(scene->path));
     view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
-    memory_.opened(std::filesystem::absolute(scene->path));
+    nameAfter(scene->path);
+}
+
+void WorkbenchWindow::nameAfter(const std::filesystem::path& file) {
+    memory_.opened(std::filesystem::absolute(file));
     remember();
-    window_.setTitle(scene->path + " – Touchstone");
+    window_.setTitle(file.string() + " – Touchstone");
 }
 
 void WorkbenchWindow::takeMaterials() {
     if (!hasModel())
         return;
-    if (const std::optional<FileStamp> saved = materials_.takeSaved())
+    if (const std::optional<FileStamp> saved = materials_.takeSaved()) {
         touch_.saved(materials_.path(), *saved, textOf(materials_.edits().patches()));
+        nameAfter(materials_.path());
+    }
     const std::optional<MadeMaterials> made = materials_.update(touch_.shown().model);
     if (!made)
         return;
@@ -93,6 +100,45 @@ void WorkbenchWindow::leave() {
         return open(answer->target);
     left_ = true;
     window_.close();
+}
+
+void WorkbenchWindow::askForFile(FilePurpose purpose) {
+    const auto isOwn = [this](const std::filesystem::path& file) {
+        return std::ranges::find(samples_, file) != samples_.end();
+    };
+    const auto last = std::ranges::find_if_not(memory_.recent, isOwn);
+    FileRequest request{.purpose = purpose,
+                        .folder = last == memory_.recent.end() ? typedPath("~", {}) : last->parent_path(),
+                        .name = {},
+                        .ending = ".glb",
+                        .places = usualPlaces(samples_, memory_.recent)};
+    if (purpose == FilePurpose::SaveMaterials) {
+        const std::filesystem::path file = std::filesystem::absolute(materials_.path());
+        if (!isOwn(file))
+            request.folder = file.parent_path();
+        // A file with a suggested name of its own, so that Enter alone replaces nothing.
+        const bool mesh = meshFormatNamed(file).has_value();
+        request.ending = mesh ? ".glb" : file.extension().string();
+        request.name = file.stem().string() + (mesh ? "" : "-felt") + request.ending;
+    }
+    state_.gallery = state_.help = false; // nothing covers it
+    dialog_.ask(std::move(request));
+}
+
+void WorkbenchWindow::takeFile(double now) {
+    if (std::exchange(state_.openPressed, false))
+        askForFile(FilePurpose::Open);
+    if (std::exchange(materialState_.saveAsPressed, false) && hasModel())
+        askForFile(FilePurpose::SaveMaterials);
+    if ((state_.gallery || state_.leaving) && dialog_.covers())
+        dialog_.close(); // one thing at a time has the keyboard
+    const std::optional<FileChoice> choice = dialog_.update(now);
+    if (!choice)
+        return;
+    if (choice->purpose == FilePurpose::Open)
+        leaveFor(choice->path);
+    else
+        materials_.saveAs(choice->path);
 }
 
 void WorkbenchWindow::lookBack(double now) {

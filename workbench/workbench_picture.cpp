@@ -16,7 +16,7 @@ void WorkbenchWindow::draw() {
                   .seconds = static_cast<double>(ImGui::GetIO().DeltaTime),
                   .mouseIsHand = state_.device.empty() && !state_.simulatedHand && !timeline_.looking(),
                   .looksBack = timeline_.looking(),
-                  .covered = state_.gallery || state_.leaving.has_value(),
+                  .covered = state_.gallery || state_.leaving.has_value() || dialog_.covers(),
                   .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
                  state_.view);
     doWhatWasAsked(widgets);
@@ -78,7 +78,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
         const Scene& scene = *touch_.shown().model.scene;
         input.scene = &scene;
         input.haptic = touch_.shown().model.haptic.get();
-        input.modelName = std::filesystem::path(scene.path).filename().string();
+        input.modelName = materials_.path().filename().string();
         input.modelFacts = figure(static_cast<double>(scene.triangleCount()), 1) + " triangles" +
                            (scene.touchable() ? "" : ": nothing to touch");
         for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
@@ -124,6 +124,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.forcePresses = touch_.forceSwitch().state().presses();
     input.typing = ImGui::GetIO().WantTextInput;
     input.timeline = &timeline_;
+    input.dialog = &dialog_;
     input.tick = timeline_.looking() ? &shownTick() : &touch_.figures().last;
     input.forces = &touch_.forces();
     input.frames = screen_.target().statistics().framesPresented;

@@ -7,6 +7,7 @@
 #include "engine/time/seconds_now.h"
 #include "renderer/draw_quality.h"
 #include "renderer/frame_pace.h"
+#include "workbench/dialog/file_dialog.h"
 #include "workbench/editor/drawn_materials.h"
 #include "workbench/files/chart_file.h"
 #include "workbench/files/state_folder.h"
@@ -84,6 +85,12 @@ class WorkbenchWindow {
     /// Touches the material editor's result; contact is kept where possible.
     void takeMaterials();
     void leaveFor(const std::filesystem::path& path);
+    /// Names the window after the model's file and puts it first among the recent ones.
+    void nameAfter(const std::filesystem::path& file);
+    /// Asks for a file to open, or to save the materials to.
+    void askForFile(FilePurpose purpose);
+    /// Opens or saves to what the file dialog has chosen.
+    void takeFile(double now);
     /// Continues to the user's target once unsaved materials are handled.
     void leave();
     /// Settings of the displayed tick.
@@ -139,6 +146,7 @@ class WorkbenchWindow {
     DrawnMaterials drawn_;
     MaterialController materials_;
     MaterialPanelState materialState_;
+    FileDialog dialog_;
     Gallery gallery_;
     ViewControl view_;
     PanelState state_;

@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-void MaterialController::open(const Model& model, bool generated) {
+void MaterialController::open(const Model& model, bool replaceable) {
     live_.discard();
     tell("", false);
     if (saving_.valid())
@@ -17,7 +17,7 @@ void MaterialController::open(const Model& model, bool generated) {
     touched_ = seen_ = edits_.revision();
     path_ = model.scene->path;
     stamp_ = model.scene->file;
-    generated_ = generated;
+    replaceable_ = replaceable;
     saved_.reset();
 }
 
@@ -88,7 +88,7 @@ void MaterialController::finishSaving() {
     try {
         stamp_ = saving_.get();
         path_ = target_;
-        generated_ = false;
+        replaceable_ = true;
         edits_.saved(std::move(savingStatements_));
         saved_ = stamp_;
         tell("saved to " + path_.string(), false);

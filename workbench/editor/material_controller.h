@@ -14,9 +14,9 @@ namespace touchstone {
 /// Main thread. Owns its workers; no call waits for one, except `open` and the destructor.
 class MaterialController {
   public:
-    /// Another model; discards all edits. `generated`: a procedural scene of ours, which must not be
-    /// overwritten.
-    void open(const Model& model, bool generated);
+    /// Another model; discards all edits. `replaceable`: its file may be overwritten (not one of our own
+    /// scenes, nor a format that cannot hold what is felt).
+    void open(const Model& model, bool replaceable);
 
     /// Every frame: the compiled materials that replace those of `model`, if ready.
     [[nodiscard]] std::optional<MadeMaterials> update(const Model& model);
@@ -33,7 +33,7 @@ class MaterialController {
     void save() { saveAs(path_); }
     void saveAs(const std::filesystem::path& target);
     [[nodiscard]] bool saving() const { return saving_.valid() || !wanted_.empty(); }
-    [[nodiscard]] bool canSaveInPlace() const { return !generated_; }
+    [[nodiscard]] bool canSaveInPlace() const { return replaceable_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     /// The file as saved; once after each save.
     [[nodiscard]] std::optional<FileStamp> takeSaved() { return std::exchange(saved_, std::nullopt); }
@@ -56,7 +56,7 @@ class MaterialController {
 
     std::filesystem::path path_, target_, wanted_; ///< wanted_: to be saved to as soon as possible
     FileStamp stamp_;
-    bool generated_ = false;
+    bool replaceable_ = true;
     std::future<FileStamp> saving_;
     std::vector<HapticStatement> savingStatements_;
     std::optional<FileStamp> saved_;

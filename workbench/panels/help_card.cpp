@@ -55,7 +55,7 @@ constexpr Line kLook[]{
 constexpr Line kWindow[]{
     {"F2, F3, F4; Tab", "fold the scene, what is felt, the charts; all"},
     {"F10, Escape", "arrows and Enter work the panels; leaves them"},
-    {"Ctrl+O", "opens a model or a recording; drop it here, too"},
+    {"Ctrl+O", "opens a model or a recording; or drop it here"},
     {"Ctrl+G", "our scenes and what was opened before"},
     {"Ctrl+Shift, + and -", "larger and smaller type"},
     {"Ctrl+Q", "quits"},

@@ -311,45 +311,18 @@ class MaterialPanel {
         const bool inPlace = controller_.canSaveInPlace();
         if (button("Save", "save", edits_.edited() && !controller_.saving() && inPlace,
                    inPlace ? "Ctrl+S: into " + controller_.path().string()
-                           : "this is the program's own scene: save it under another name"))
+                           : controller_.path().string() + " cannot be replaced: save to a new file"))
             controller_.save();
         ImGui::SameLine();
-        if (button("Save as ...", "saveAs", !controller_.saving(), "under another name")) {
-            state_.askTarget = !state_.askTarget;
-            state_.target = controller_.path().string();
-        }
+        if (button("Save as...", "saveAs", !controller_.saving(), "to a new file"))
+            state_.saveAsPressed = true;
         if (edits_.edited()) {
             ImGui::SameLine();
             ImGui::TextDisabled("not saved");
         }
-        if (state_.askTarget)
-            askTarget();
         if (!controller_.notice().empty()) {
             widgets_.wrapped(controller_.notice(), controller_.failed() ? IM_COL32(242, 128, 107, 255)
                                                                         : IM_COL32(153, 204, 166, 255));
-        }
-    }
-
-    void askTarget() {
-        std::array<char, 1024> text{};
-        std::snprintf(text.data(), text.size(), "%s", state_.target.c_str());
-        ImGui::PushItemWidth(-widgets_.units(76.0f));
-        const bool entered =
-            ImGui::InputText("##target", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-        widgets_.mark("target");
-        ImGui::PopItemWidth();
-        state_.target = text.data();
-        ImGui::SameLine();
-        std::error_code ignored;
-        const bool replaces = std::filesystem::exists(state_.target, ignored) &&
-                              !std::filesystem::equivalent(state_.target, controller_.path(), ignored);
-        const bool pressed = ImGui::Button(replaces ? "Replace##as" : "Save##as");
-        widgets_.mark("saveTarget");
-        if (replaces)
-            ImGui::TextDisabled("this file is there already");
-        if ((pressed || (entered && !replaces)) && !state_.target.empty()) {
-            controller_.saveAs(state_.target);
-            state_.askTarget = false;
         }
     }
 

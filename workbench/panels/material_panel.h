@@ -5,8 +5,6 @@
 #include "workbench/editor/material_controller.h"
 #include "workbench/panels/widgets.h"
 
-#include <string>
-
 namespace touchstone {
 
 /// Input of the editor besides the controller. Pointers are valid during the call.
@@ -18,11 +16,10 @@ struct MaterialPanelInput {
 
 /// State of the editor between frames.
 struct MaterialPanelState {
-    size_t material = 0;     ///< of the file
-    bool followProbe = true; ///< show the touched material
-    std::string target;      ///< of "Save as"
-    bool askTarget = false;
-    float footer = 0.0f; ///< window coordinates, height of the last frame's buttons
+    size_t material = 0;        ///< of the file
+    bool followProbe = true;    ///< show the touched material
+    bool saveAsPressed = false; ///< ask for a file; cleared by the code that does
+    float footer = 0.0f;        ///< window coordinates, height of the last frame's buttons
 };
 
 /// Draws the editor into the current ImGui window and applies edits to the controller. Widget names:

@@ -21,12 +21,10 @@ void materialKeys(MaterialController& controller, MaterialPanelState& state) {
     if (ctrlPressed(keyOf('y'), true))
         controller.edits().redo();
     if (ctrlPressed(keyOf('s')) && controller.edits().edited()) {
-        if (controller.canSaveInPlace()) {
+        if (controller.canSaveInPlace())
             controller.save();
-        } else {
-            state.askTarget = true;
-            state.target = controller.path().string();
-        }
+        else
+            state.saveAsPressed = true;
     }
 }
 

@@ -26,6 +26,7 @@
 
 namespace touchstone {
 
+class FileDialog;
 class HapticScene;
 
 /// Input of the panels.
@@ -63,6 +64,7 @@ struct PanelInput {
     SoundStatus sound;
     const ServoView* servo = nullptr;
     TimelineController* timeline = nullptr;
+    FileDialog* dialog = nullptr;
     const TickRecord* tick = nullptr; ///< on display: the servo's latest, or the recording's at the cursor
     const ForceHistory* forces = nullptr;
     bool forceSent = true;     ///< the force of `tick` is sent to the device (readings/force_parts.h)
@@ -112,14 +114,14 @@ struct PanelState {
     bool editMaterials = false; ///< the material editor is open
     bool introduced = false;    ///< the first-run card was dismissed
     TimelinePanelState timeline;
-    std::optional<ForceHistory> stopped;            ///< contents of the charts while they are paused
-    std::string openPath = std::string(1024, '\0'); ///< the text being typed
+    std::optional<ForceHistory> stopped; ///< contents of the charts while they are paused
 
     // Requests of this frame; cleared by the code that handles them:
     /// Target of leaving in spite of unsaved materials: another model, or an empty path to exit.
     std::optional<std::filesystem::path> leaving;
     enum class Leave : uint8_t { Undecided, Save, Discard, Stay } leave = Leave::Undecided; ///< in this frame
     bool recordPressed = false, cancelPressed = false, dismissPressed = false, quitPressed = false;
+    bool openPressed = false; ///< ask for a file to open
     bool noticeDismissed = false;
     std::optional<ChartFile> chartWanted;
     std::optional<std::filesystem::path> open, forget; ///< forget: remove it from the recent files

@@ -28,25 +28,6 @@ void fileItem(const std::filesystem::path& file, const std::string& beside, Pane
     ImGui::PopID();
 }
 
-void openByPath(PanelState& state, Widgets& widgets) {
-    ImGui::TextDisabled("a .glb, a .gltf or a recording; it may be dropped on the window, too");
-    ImGui::SetNextItemWidth(widgets.units(360.0f));
-    if (ImGui::IsWindowAppearing())
-        ImGui::SetKeyboardFocusHere();
-    const bool typed = ImGui::InputText("##path", state.openPath.data(), state.openPath.size(),
-                                        ImGuiInputTextFlags_EnterReturnsTrue);
-    widgets.mark("openPath");
-    ImGui::SameLine();
-    const bool pressed = ImGui::Button("Open");
-    widgets.mark("open");
-    const std::string path(state.openPath.c_str());
-    if ((typed || pressed) && !path.empty()) {
-        state.open = path;
-        state.openPath.front() = '\0';
-        ImGui::CloseCurrentPopup();
-    }
-}
-
 void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (ImGui::Button("File"))
         ImGui::OpenPopup("file");
@@ -54,7 +35,9 @@ void fileMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
     beneath();
     if (!ImGui::BeginPopup("file"))
         return;
-    openByPath(state, widgets);
+    if (ImGui::MenuItem("Open...", "Ctrl+O"))
+        state.openPressed = true;
+    widgets.mark("menu:open");
     if (ImGui::MenuItem("Recordings")) {
         state.timeline.shown = state.timeline.list = true;
         state.folds.bottom = false;

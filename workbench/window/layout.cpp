@@ -4,6 +4,7 @@
 #include "workbench/panels/colors.h"
 #include "workbench/panels/effect_switch.h"
 #include "workbench/panels/error_panel.h"
+#include "workbench/panels/file_panel.h"
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
 #include "workbench/screen/ui_scale.h"
@@ -97,13 +98,13 @@ constexpr auto kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopup
 
 /// F10 gives the keyboard to the panels until Escape, F10 or a click on the picture: arrows move between
 /// widgets, Enter presses, Ctrl+Tab goes to the next panel. Space still switches the force off.
-void walk(PanelState& state) {
+void walk(bool covered, PanelState& state) {
     ImGuiIO& io = ImGui::GetIO();
     if (keyPressed(GLFW_KEY_F10)) {
         state.walking = !state.walking;
         ImGui::SetWindowFocus(state.walking ? "scene" : nullptr);
     }
-    if (state.gallery || (ImGui::IsMouseClicked(0) && !io.WantCaptureMouse))
+    if (covered || (ImGui::IsMouseClicked(0) && !io.WantCaptureMouse))
         state.walking = false;
     if (state.walking)
         io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
@@ -120,7 +121,7 @@ void closeTopPopup(const PanelState& state) {
 
 /// Escape closes the topmost item.
 void escape(const PanelInput& input, PanelState& state) {
-    if (!keyPressed(GLFW_KEY_ESCAPE))
+    if (!keyPressed(GLFW_KEY_ESCAPE) || input.dialog->covers())
         return;
     if (ImGui::IsPopupOpen("", kAnyPopup))
         closeTopPopup(state);
@@ -128,6 +129,8 @@ void escape(const PanelInput& input, PanelState& state) {
         state.help = false;
     else if (state.leaving)
         state.leave = PanelState::Leave::Stay;
+    else if (input.dialog->stage() == FileDialog::Stage::Desktop)
+        input.dialog->close(); // the window's own reads its keys itself
     else if (state.gallery)
         state.gallery = false;
     else if (state.walking)
@@ -211,19 +214,18 @@ void windowKeys(const PanelInput& input, PanelState& state) {
     scaleKeys(state);
     if (ctrlPressed(keyOf('g')))
         state.gallery = !state.gallery;
+    if (ctrlPressed(keyOf('o')))
+        state.openPressed = true;
     if (ctrlPressed(keyOf('q')))
         state.quitPressed = true;
 }
 
-/// The bar, with the popup of Ctrl+O.
 void topBar(const PanelInput& input, PanelState& state, const Rect& rect, Widgets& widgets) {
     ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
     ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(widgets.units(12.0f), widgets.units(7.0f)));
     ImGui::Begin("bar", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
     ImGui::PopStyleVar();
-    if (ctrlPressed(keyOf('o')))
-        ImGui::OpenPopup("file");
     drawTopBar(input, state, widgets);
     ImGui::End();
 }
@@ -324,14 +326,14 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     escape(input, state);
     answerKeys(input, state);
     windowKeys(input, state);
-    if (!state.gallery && !state.leaving) {
+    if (!state.gallery && !state.leaving && !input.dialog->covers()) {
         coveredKeys(input, state);
         if (!state.walking)
             timelineKeys(*input.timeline);
     } else {
         state.workspace.clutch = false; // its key is not read
     }
-    walk(state);
+    walk(state.gallery || input.dialog->covers(), state);
     if (followController(*input.timeline, state.timeline))
         state.folds.bottom = false;
     const PictureRect picture = pictureRect(state, {display.x, display.y}, input.scale);
@@ -358,6 +360,8 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     drawSavedPicture(input, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawGallery(input, state, {0.0f, picture.y, display.x, display.y - picture.y}, widgets);
+    drawFileDialog(*input.dialog, {0.0f, picture.y, display.x, display.y - picture.y},
+                   {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawHelp(input, state, widgets);
     return widgets.take();
 }

@@ -48,20 +48,36 @@ TEST_F(EditorWindow, SavingUnderAnothersNameAsksFirst) {
     const std::filesystem::path other = scratch_ / "other.glb";
     std::filesystem::copy_file(TOUCHSTONE_ASSETS "/box.glb", other);
     const std::string before = readFile(other);
-    display_.click(middleOf("saveAs"));
-    until("the name to be asked for", [](const Json& s) { return s["widgets"].contains("target"); });
-    later(); // the buttons have made room for it
-    display_.click(middleOf("target"));
-    display_.key("ctrl+a");
-    display_.xdotool({"type", "--delay", "20", other.string()});
-    later();
-    display_.key("Return");
+    const auto saveAs = [&](const std::string& name) {
+        display_.click(middleOf("saveAs"));
+        until("the name to be asked for", [](const Json& s) { return s["widgets"].contains("openPath"); });
+        later();
+        display_.key("ctrl+a");
+        display_.xdotool({"type", "--delay", "20", name});
+        later();
+        display_.key("Return");
+    };
+    saveAs(other.string());
+    until("the question", [](const Json& s) { return s["widgets"].contains("fileReplace"); });
     later();
     EXPECT_TRUE(readFile(other) == before) << "it is there already";
-    display_.click(middleOf("saveTarget"));
+    display_.key("Escape");
+    until("the browser again", [](const Json& s) { return s["widgets"].contains("openPath"); });
+    EXPECT_TRUE(readFile(other) == before);
+    display_.key("Return");
+    until("the question", [](const Json& s) { return s["widgets"].contains("fileReplace"); });
+    later();
+    display_.click(middleOf("fileReplace"));
     until("it to be saved",
           [&](const Json& s) { return s["materials"]["notice"] == "saved to " + other.string(); });
     EXPECT_TRUE(readFile(other) != before);
+    until("the model's name", [](const Json& s) { return s["model"] == "other.glb"; });
+    EXPECT_EQ(display_.waitForWindow("other.glb").x, corner_.x) << "the title names the new file";
+
+    later();
+    saveAs("third"); // in the same folder, with the ending of what was opened
+    until("it to be saved", [&](const Json& s) { return s["model"] == "third.glb"; });
+    EXPECT_TRUE(std::filesystem::exists(scratch_ / "third.glb"));
     expectCleanEnd();
 }
 

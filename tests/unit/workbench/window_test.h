@@ -33,6 +33,7 @@ class WindowTest : public testing::Test {
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
         environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
+        environment.emplace_back("TOUCHSTONE_FILE_DIALOG=window"); // whatever the desktop has
         environment.insert(environment.end(), environment_.begin(), environment_.end());
         program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
         try {
@@ -89,10 +90,10 @@ class WindowTest : public testing::Test {
             {corner_.x + static_cast<int>(rect["x"].get<double>() + share * rect["width"].get<double>()),
              corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});
     }
-    /// A file's path typed into the menu that Ctrl+O opens.
+    /// A file's path typed into the browser that Ctrl+O opens.
     void openByPath(const std::string& path) {
         display_.key("ctrl+o");
-        until("the menu", [](const Json& s) { return s["widgets"].contains("openPath"); });
+        until("the browser", [](const Json& s) { return s["widgets"].contains("openPath"); });
         display_.xdotool({"type", "--delay", "20", path});
         later();
         display_.key("Return");

@@ -182,7 +182,7 @@ class Controller : public testing::Test {
     Controller() {
         std::filesystem::copy_file(TOUCHSTONE_ASSETS "/doughnut.glb", path_);
         model_ = modelOf(path_);
-        controller_.open(model_, false);
+        controller_.open(model_, true);
     }
     /// Until nothing is left to do.
     void settle() {

@@ -1,0 +1,99 @@
+// Files chosen and meshes opened in the real window.
+
+#include "tests/support/mesh_files.h"
+#include "tests/unit/workbench/window_test.h"
+
+#include <filesystem>
+#include <fstream>
+
+namespace touchstone::test {
+namespace {
+
+class DialogWindow : public WindowTest {
+  protected:
+    DialogWindow() {
+        environment_.emplace_back("HOME=" + scratch_.path().string());
+        write("Ring.STL", tetrahedronBinaryStl());
+        write("notes.txt", bytesOf("no model"));
+        write("broken.ply", tetrahedronBinaryPly("1000000000"));
+    }
+    void write(const std::string& name, const Bytes& bytes) {
+        std::ofstream(scratch_ / name, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+    /// A zenity of the test's own, first in PATH.
+    void useZenity(const std::string& script) {
+        std::filesystem::create_directory(scratch_ / "bin");
+        writeTextFile(scratch_ / "bin/zenity", "#!/bin/sh\n" + script + "\n");
+        std::filesystem::permissions(scratch_ / "bin/zenity", std::filesystem::perms::owner_all);
+        environment_.emplace_back("PATH=" + (scratch_ / "bin").string() + ":/usr/bin:/bin");
+        environment_.emplace_back("TOUCHSTONE_FILE_DIALOG=zenity");
+    }
+    void browse() {
+        display_.key("ctrl+o");
+        until("the browser", [](const Json& s) { return s["widgets"].contains("openPath"); });
+    }
+};
+
+TEST_F(DialogWindow, AMeshIsChosenInTheBrowserAndAProblemLeavesItThere) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    browse();
+    display_.xdotool({"type", "--delay", "20", "~"});
+    later();
+    display_.key("Return"); // home
+    const Json home =
+        until("the home folder", [](const Json& s) { return s["widgets"].contains("file:Ring.STL"); });
+    EXPECT_FALSE(home["widgets"].contains("file:notes.txt")) << "no model";
+    display_.xdotool({"type", "--delay", "20", "ring"});
+    until("the filter", [](const Json& s) { return !s["widgets"].contains("file:broken.ply"); });
+    display_.key("Return");
+    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    (void)display_.waitForWindow("Ring.STL");
+
+    openByPath("~/broken.ply");
+    const Json failed = until("the problem", [](const Json& s) { return s["problem"] != ""; });
+    EXPECT_NE(failed["problem"].get<std::string>().find("broken.ply"), std::string::npos)
+        << failed["problem"];
+    EXPECT_EQ(failed["model"], "Ring.STL");
+    expectCleanEnd();
+}
+
+TEST_F(DialogWindow, AMeshIsDroppedAndSavedAsAGlb) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    display_.drop("Touchstone", scratch_ / "Ring.STL");
+    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    display_.key("e");
+    until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
+    slide("edit.staticFriction", 0.8);
+    until("an edit", [](const Json& s) { return s["materials"]["edited"].get<bool>(); });
+    display_.key("ctrl+s"); // an STL has no place for it
+    until("the name to be asked for", [](const Json& s) { return s["widgets"].contains("openPath"); });
+    later();
+    display_.key("Return");
+    until("the new name", [](const Json& s) { return s["model"] == "Ring.glb"; });
+    EXPECT_TRUE(readFile(scratch_ / "Ring.glb").starts_with("glTF"));
+    EXPECT_TRUE(readFile(scratch_ / "Ring.glb").find("TOUCHSTONE_materials_haptic") != std::string::npos);
+    expectCleanEnd();
+}
+
+TEST_F(DialogWindow, TheDesktopsDialogIsAskedAndMayHang) {
+    // The first hangs, the second answers.
+    useZenity("if [ -e '" + (scratch_ / "asked").string() + "' ]; then echo '" +
+              (scratch_ / "Ring.STL").string() + "'; else touch '" + (scratch_ / "asked").string() +
+              "'; exec sleep 1000; fi");
+    open(TOUCHSTONE_ASSETS "/box.glb", {"--hand", "simulated"});
+    display_.key("ctrl+o");
+    until("the card", [](const Json& s) { return s["widgets"].contains("browseHere"); });
+    const Json touching = until("touch to go on", [](const Json& s) { return s["tick"]["contacts"] > 0; });
+    EXPECT_TRUE(touching["widgets"].contains("browseHere"));
+    display_.click(middleOf("browseHere"));
+    until("the browser", [](const Json& s) { return s["widgets"].contains("openPath"); });
+    display_.key("Escape");
+    until("nothing", [](const Json& s) { return !s["widgets"].contains("openPath"); });
+    display_.key("ctrl+o");
+    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace touchstone::test
