@@ -16,6 +16,7 @@ namespace touchstone {
 namespace {
 
 constexpr const char* kOther = "re-export the model, or convert it to .glb";
+constexpr const char* kSlow = "it may be damaged: re-export the model, or convert it to .glb";
 
 /// A line of text from the reader, which may hold anything.
 std::string printable(std::span<const uint8_t> bytes) {
@@ -44,7 +45,7 @@ std::string printable(std::span<const uint8_t> bytes) {
             context.fail("",
                          "reading it took more than " + std::to_string(reader.limits.processorSeconds) +
                              " s of processor time",
-                         "simplify the model, or convert it to .glb");
+                         kSlow);
         if (answer.status == SIGKILL)
             context.fail("", "the system ended the reader of " + name + " files, probably for want of memory",
                          "close other programs, or simplify the model");
@@ -54,7 +55,7 @@ std::string printable(std::span<const uint8_t> bytes) {
                      kOther);
     case TooSlow:
         context.fail("", "reading it took longer than " + std::to_string(reader.limits.seconds) + " s",
-                     "simplify the model, or convert it to .glb");
+                     kSlow);
     case TooLong:
         context.fail("", "its geometry would expand far beyond the file's own data", kOther);
     case Stopped:

@@ -153,6 +153,9 @@ TEST_F(MeshFiles, BadOnesAreRefusedWithAReason) {
                          test::bytesOf(test::plyHeader("binary_little_endian") + "0 0 0 0 0 0\n3 0 1 2\n"))
                      .problem()
                      .empty());
+    EXPECT_TRUE(contains(refused("points.obj", test::bytesOf("v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2\n")).problem(),
+                         "it holds no triangles"));
+    EXPECT_TRUE(contains(refused("none.ply", test::bytesOf("ply\n")).problem(), "its header has no end"));
     EXPECT_TRUE(contains(refused("nan.stl", nan).problem(), "not a finite number"));
     EXPECT_TRUE(contains(refused("picture.stl", test::bytesOf("\x89PNG\r\n")).problem(), "a PNG picture"));
 }
