@@ -57,8 +57,8 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
 
 void defineWindow(CLI::App& app, WindowOptions& options) {
     addScene(app, options.scene)
-        ->description(
-            "Model (glTF, OBJ, STL, PLY) or recording (.tsrec) to open in a window; without it the board of effects");
+        ->description("Model (glTF, OBJ, STL, PLY) or recording (.tsrec) to open in a window; without it the "
+                      "board of effects");
     addSettings(app, [&options](std::string_view name, std::string_view value) {
         HapticSettings tried; // tests validity; applied over the settings of the last run
         options.settings.emplace_back(name, value);
