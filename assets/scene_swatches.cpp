@@ -182,10 +182,11 @@ std::vector<std::pair<Shape, int>> board(GlbWriter& glb, size_t columns, std::sp
 
 /// The tile that shading is felt on lies beneath a ridge of four flat facets, 21.8 degrees from one to the
 /// next, whose vertex normals are those of the cylinder through its corners.
-constexpr double kRidgeHeight = 0.008, kRidgeFoot = 0.003; // m; the foot is in the board
+constexpr double kRidgeHeight = 0.008, kRidgeFoot = 0.003;         // m; the foot is in the board
+constexpr double kRidgeMiddle = 0.5 * (kRidgeHeight - kRidgeFoot); // above its rim
 constexpr uint32_t kRidgeFacets = 4;
 
-/// Runs along y, as wide as a tile, its rim at z = 0. A closed prism: the label's UVs on the facets.
+/// Runs along y, as wide as a tile. A closed prism about the origin: the label's UVs on the facets.
 Shape ridge() {
     constexpr double kHalf = 0.5 * kTile;
     constexpr double kRadius = (kHalf * kHalf + kRidgeHeight * kRidgeHeight) / (2.0 * kRidgeHeight);
@@ -195,10 +196,11 @@ Shape ridge() {
     for (uint32_t i = 0; i <= kRidgeFacets; ++i) {
         const double angle = halfAngle * (2.0 * i / kRidgeFacets - 1.0);
         radial.emplace_back(std::sin(angle), std::cos(angle));
-        outline.emplace_back(kRadius * radial[i].x, kRadius * radial[i].y - kRadius + kRidgeHeight);
+        outline.emplace_back(kRadius * radial[i].x,
+                             kRadius * radial[i].y - kRadius + kRidgeHeight - kRidgeMiddle);
     }
-    outline.emplace_back(kHalf, -kRidgeFoot);
-    outline.emplace_back(-kHalf, -kRidgeFoot);
+    outline.emplace_back(kHalf, -kRidgeFoot - kRidgeMiddle);
+    outline.emplace_back(-kHalf, -kRidgeFoot - kRidgeMiddle);
 
     Shape shape;
     const auto vertex = [&](const glm::dvec2& at, double y, const glm::dvec3& normal) {
@@ -261,7 +263,7 @@ SceneFile effects() {
     const auto parts = board(glb, tiles.size(), tiles);
     glb.addNode("board", glb.addMesh("board", parts));
     glb.addNode("ridge", glb.addMesh("ridge", ridge(), parts[1].second),
-                {-(kTile + kGap), 0.0, 0.5 * kThickness});
+                {-(kTile + kGap), 0.0, 0.5 * kThickness + kRidgeMiddle});
     return {"effects.glb", glb.finish()};
 }
 

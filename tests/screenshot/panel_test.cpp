@@ -118,8 +118,8 @@ TEST_F(PanelGolden, APictureComesThoughItsFrameIsLostOrAnotherControllerTakesIt)
         chartsCame |= charts.update(*target_);
         frame({});
     }
-    EXPECT_EQ(model.message(), "saved " + (scratch / "model/a-1.png").string());
-    EXPECT_EQ(charts.message(), "saved " + (scratch / "charts/b-1.png").string());
+    EXPECT_EQ(model.note().text(), "saved " + (scratch / "model/a-1.png").string());
+    EXPECT_EQ(charts.note().text(), "saved " + (scratch / "charts/b-1.png").string());
 }
 
 TEST_F(PanelGolden, FirstRun) {

@@ -139,7 +139,7 @@ study::Figure chartFigure(const std::string& name, const ForceHistory& history, 
         const double length = history.at(history.size() - 1).time - history.at(0).time;
         std::snprintf(line.data(), line.size(),
                       "set tmargin at screen %.6f\nset bmargin at screen %.6f\nset xrange [%.4f:0]\n"
-                      "set key at graph 1,1.03 right bottom horizontal samplen 2 spacing 1.2\n",
+                      "set key at graph 1,1.03 right bottom horizontal maxrows 1 samplen 2 spacing 1.2\n",
                       paper.area.top / paper.height, paper.area.bottom / paper.height, -length);
         const ChartQuantity& first = chartQuantities()[panels[p].front()];
         const std::string axis = panels[p].size() > 1 ? "force" : first.words;
@@ -153,7 +153,9 @@ study::Figure chartFigure(const std::string& name, const ForceHistory& history, 
                           "%s'%s.dat' using 1:%zu with lines lw 1.2 lc rgb '%s' title ", i > 0 ? ", " : "",
                           name.c_str(), columnOf(panels[p][i], shown),
                           std::string(study::markOf(panels[p][i]).colour).c_str());
-            figure.script += line.data() + study::inQuotes(chartQuantities()[panels[p][i]].words);
+            figure.script +=
+                line.data() + study::inQuotes(panels[p].size() > 1 ? chartQuantities()[panels[p][i]].name
+                                                                   : chartQuantities()[panels[p][i]].words);
         }
         figure.script += "\n";
     }

@@ -252,7 +252,7 @@ TEST_F(LayoutTest, ChartsPauseAndAreSaved) {
     EXPECT_TRUE(later()["widgets"].contains("chartOutcome")) << "it stands beside the buttons";
     EXPECT_GT(std::filesystem::file_size(saved("savePng", ".png")), 2000u);
     const std::string svg = readFile(saved("saveSvg", ".svg"));
-    for (const char* words : {"tangential force", "force, N", "time before the last tick, s"})
+    for (const char* words : {"tangential", "force, N", "time before the last tick, s"})
         EXPECT_NE(svg.find(words), std::string::npos) << words;
     expectCleanEnd();
 }

@@ -63,7 +63,7 @@ TEST(ChartFile, FigureHasAPanelForTheForcesAndOneForEachOtherQuantity) {
     EXPECT_EQ(count("'force, N'"), 1u);
     EXPECT_EQ(count("'penetration depth, mm'"), 1u);
     EXPECT_EQ(count("time before the last tick, s"), 1u);
-    EXPECT_EQ(count("title 'force along x'"), 1u);
+    EXPECT_EQ(count("title 'x'"), 1u);
     EXPECT_EQ(count("energy"), 0u);
     EXPECT_NE(figure.script.find("it''s.glb, mouse; when saved: shading material"), std::string::npos)
         << "a quote in a name does not end the string";
