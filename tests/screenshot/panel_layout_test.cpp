@@ -113,6 +113,7 @@ class PanelLayout : public ::testing::Test, protected PanelFigures {
 constexpr Size kSizes[]{{640, 400, 1.0f},  {900, 600, 1.0f},   {1280, 800, 1.0f},
                         {1280, 800, 2.0f}, {2560, 1440, 1.0f}, {2560, 1440, 2.0f}};
 
+/// Long since it is a list: a state a paragraph.
 void PanelLayout::inEveryState(const Size& size, const std::function<void(const std::string&)>& check) {
     const PanelState before = state_;
     const PanelInput input = input_;
