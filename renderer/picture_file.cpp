@@ -83,8 +83,9 @@ void writePicture(const std::filesystem::path& file, const PixelData& pixels) {
     if (pixels.width <= 0 || pixels.height <= 0 || pixels.type == ComponentType::F32 ||
         (format->opaque && pixels.type != ComponentType::U8))
         throw Error(file.string(), "", "there is no picture to write that its format holds", "");
-    OutputFile output(file); // first: encoding takes seconds
+    // Encoded first: a process that is ended meanwhile leaves nothing.
     const std::vector<unsigned char> bytes = encoded(file, *format, pixels);
+    OutputFile output(file);
     output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     output.commit();
 }
