@@ -71,6 +71,8 @@ constexpr std::array kFields{
     wordField<&S::passivity>(
         "passivity", kPassivity,
         "energy given to the hand: counted, or also damped away where it is more than was taken"),
+    numberField<&S::forceScale>("forceScale", "", 0.0, 1.0,
+                                "fraction of the contact's force that the device gets"),
     switchField<&S::forceEnabled>("forceEnabled", "off: contact goes on, the device gets no force"),
 };
 static_assert(kFields.size() == memberCount<S>(), "a setting is missing from the table");

@@ -63,6 +63,8 @@ struct HapticSettings {
     /// Proxy moves a tick; fewer is safe, but touch feels sticky [000 §7].
     int iterationBudget = 64;
     PassivityMode passivity = PassivityMode::Observe;
+    /// 0..1, the fraction of the contact's force that the safety stage passes on to the device.
+    double forceScale = 1.0;
     /// false: the force-off key; contact continues, commands are zero.
     bool forceEnabled = true;
 

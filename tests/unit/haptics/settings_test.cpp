@@ -1,4 +1,5 @@
 #include "haptics/settings/haptic_settings.h"
+#include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
 
@@ -107,6 +108,21 @@ TEST(Settings, WhatDoesNotGoTogetherIsToldOf) {
     EXPECT_EQ(warnings(settings), 1u); // no dynamic coefficient above the static one, be it nothing
     settings.staticFriction = -1.0;
     EXPECT_EQ(warnings(settings), 0u); // the material's
+}
+
+/// forceScale acts on the command alone: contact and its force stay as they are.
+TEST(Settings, TheForceScaleScalesTheCommand) {
+    for (const double scale : {0.0, 0.25, 1.0}) {
+        test::TouchBench bench(test::sceneOf(assets::plane(0.1, 0.1, 3, 3)));
+        bench.settings.stiffness = 1000.0;
+        bench.settings.forceScale = scale;
+        bench.moveTo({0.011, 0.002, 0.007}, 0.1);
+        bench.moveTo({0.011, -0.001, 0.007}, 0.1);
+        for (int i = 0; i < 200; ++i) // until the force has faded in
+            bench.step({0.011, -0.001, 0.007});
+        EXPECT_NEAR(bench.output.force.y, 1.0, 1e-6);
+        EXPECT_NEAR(bench.output.command.force().y, scale * bench.output.force.y, 1e-12);
+    }
 }
 
 } // namespace
