@@ -1,0 +1,228 @@
+#include "haptics/shape/field/field_grid.h"
+
+#include "engine/core/checksum.h"
+#include "engine/core/error.h"
+
+#include <limits>
+#include <string>
+
+namespace touchstone {
+
+namespace {
+
+constexpr float kVaries = std::numeric_limits<float>::quiet_NaN();
+
+[[noreturn]] void refuse(const std::string& problem, const char* remedy) {
+    throw Error("distance field", "", problem, remedy);
+}
+
+void checkLayout(const FieldLayout& layout) {
+    const glm::ivec3& n = layout.cells;
+    if (n.x <= 0 || n.y <= 0 || n.z <= 0)
+        refuse("has no cell", "give it at least one cell on each axis");
+    const uint64_t cells =
+        static_cast<uint64_t>(n.x) * static_cast<uint64_t>(n.y) * static_cast<uint64_t>(n.z);
+    constexpr int kMostOnAxis = 1 << 16;
+    if (std::max({n.x, n.y, n.z}) > kMostOnAxis || cells >= FieldGrid::kMostCells)
+        refuse("has " + std::to_string(cells) + " cells, of which 4294967295 fit", "use larger voxels");
+    if (!(layout.voxel > 0.0) || !std::isfinite(layout.voxel) ||
+        !std::isfinite(layout.origin.x + layout.origin.y + layout.origin.z))
+        refuse("has a voxel size or a place that is not a finite positive number", "check its file");
+}
+
+size_t nodeIndex(const glm::ivec3& inBrick) {
+    return static_cast<size_t>(inBrick.x + FieldGrid::kNodes * (inBrick.y + FieldGrid::kNodes * inBrick.z));
+}
+
+/// Calls visit(index in brick) for every node of a brick.
+template <class Visit>
+void eachNode(const Visit& visit) {
+    for (int z = 0; z < FieldGrid::kNodes; ++z)
+        for (int y = 0; y < FieldGrid::kNodes; ++y)
+            for (int x = 0; x < FieldGrid::kNodes; ++x)
+                visit(glm::ivec3(x, y, z));
+}
+
+bool inside(const glm::ivec3& node, const glm::ivec3& cells) {
+    return node.x <= cells.x && node.y <= cells.y && node.z <= cells.z;
+}
+
+} // namespace
+
+FieldGrid::FieldGrid(const FieldLayout& layout, double inside, double outside, const FillBrick& fill)
+    : layout_(layout), inside_(inside), outside_(outside) {
+    checkLayout(layout);
+    if (!(inside > 0.0) || !(outside > 0.0) || !std::isfinite(inside + outside))
+        refuse("reaches no finite distance from the surface", "give both sides a positive one");
+    bricks_ = (layout.cells + (kBrick - 1)) / kBrick;
+    table_.reserve(static_cast<size_t>(bricks_.x) * static_cast<size_t>(bricks_.y) *
+                   static_cast<size_t>(bricks_.z));
+    std::vector<float> nodes(kBrickNodes);
+    for (int z = 0; z < bricks_.z; ++z)
+        for (int y = 0; y < bricks_.y; ++y)
+            for (int x = 0; x < bricks_.x; ++x)
+                fillBrick({x, y, z}, fill, nodes);
+    nodes_.shrink_to_fit();
+    Hash64 hash;
+    hash.add(layout.voxel);
+    for (int axis = 0; axis < 3; ++axis) {
+        hash.add(layout.origin[axis]);
+        hash.add(layout.cells[axis]);
+    }
+    for (const Brick& brick : table_)
+        hash.add(brick.flat == brick.flat ? brick.flat : -0.0f);
+    for (const float value : nodes_)
+        hash.add(value);
+    hash_ = hash.value();
+}
+
+void FieldGrid::fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::vector<float>& nodes) {
+    const glm::ivec3 first = kBrick * brick;
+    fill(first, nodes);
+    float least = INFINITY, most = -INFINITY;
+    eachNode([&](const glm::ivec3& at) {
+        float& value = nodes[nodeIndex(at)];
+        if (!touchstone::inside(first + at, layout_.cells)) {
+            value = static_cast<float>(outside_); // beyond the grid: read by no cell
+            return;
+        }
+        if (!std::isfinite(value))
+            refuse("has a node that is no finite number", "check its file");
+        value = std::clamp(value, static_cast<float>(-inside_), static_cast<float>(outside_));
+        least = std::min(least, value);
+        most = std::max(most, value);
+    });
+    checkBorder(first, nodes);
+    if (least == most) {
+        table_.push_back({least, 0});
+    } else {
+        table_.push_back({kVaries, static_cast<uint32_t>(nodes_.size() / kBrickNodes)});
+        nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+    }
+    measure(first, nodes);
+}
+
+void FieldGrid::checkBorder(const glm::ivec3& first, std::span<const float> nodes) const {
+    eachNode([&](const glm::ivec3& at) {
+        const glm::ivec3 node = first + at;
+        if (!touchstone::inside(node, layout_.cells))
+            return;
+        const bool border = node.x == 0 || node.y == 0 || node.z == 0 || node.x == layout_.cells.x ||
+                            node.y == layout_.cells.y || node.z == layout_.cells.z;
+        if (border && !(nodes[nodeIndex(at)] > 0.0f))
+            refuse("reaches the border of its grid", "leave a voxel of free space on every side");
+    });
+}
+
+/// Bounds of the object, and of the gradient: within a cell each component lies between the differences along
+/// the four parallel edges.
+void FieldGrid::measure(const glm::ivec3& first, std::span<const float> nodes) {
+    for (int z = 0; z < kBrick; ++z)
+        for (int y = 0; y < kBrick; ++y)
+            for (int x = 0; x < kBrick; ++x) {
+                const glm::ivec3 cell(x, y, z);
+                if (!contains(first + cell))
+                    continue;
+                std::array<double, 8> corner{};
+                for (size_t k = 0; k < 8; ++k)
+                    corner[k] =
+                        static_cast<double>(nodes[nodeIndex(cell + glm::ivec3(k & 1, k >> 1 & 1, k >> 2))]);
+                glm::dvec3 steepest(0.0);
+                for (size_t k = 0; k < 8; ++k)
+                    for (int axis = 0; axis < 3; ++axis)
+                        steepest[axis] =
+                            std::max(steepest[axis], std::abs(corner[k] - corner[k ^ (size_t{1} << axis)]));
+                lipschitz_ = std::max(lipschitz_, glm::length(steepest) / layout_.voxel);
+                if (std::ranges::min(corner) <= 0.0) {
+                    const glm::dvec3 at = layout_.origin + layout_.voxel * glm::dvec3(first + cell);
+                    low_ = glm::min(low_, at);
+                    high_ = glm::max(high_, at + layout_.voxel);
+                }
+            }
+}
+
+size_t FieldGrid::memoryBytes() const noexcept {
+    return sizeof *this + table_.capacity() * sizeof(Brick) + nodes_.capacity() * sizeof(float);
+}
+
+const FieldGrid::Brick& FieldGrid::brickOf(const glm::ivec3& brick) const noexcept {
+    return table_[static_cast<size_t>(brick.x) +
+                  static_cast<size_t>(bricks_.x) *
+                      (static_cast<size_t>(brick.y) +
+                       static_cast<size_t>(bricks_.y) * static_cast<size_t>(brick.z))];
+}
+
+glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {
+    const glm::dvec3 last(layout_.cells - 1);
+    return glm::ivec3(glm::clamp(glm::floor(grid), glm::dvec3(0.0), last));
+}
+
+FieldCell FieldGrid::cell(const glm::ivec3& at) const noexcept {
+    const Brick& brick = brickOf(at / kBrick);
+    if (brick.flat == brick.flat) {
+        FieldCell flat;
+        flat.c[0] = static_cast<double>(brick.flat);
+        return flat;
+    }
+    const float* const values = nodes_.data() + brick.offset * kBrickNodes + nodeIndex(at % kBrick);
+    std::array<double, 8> node{};
+    for (size_t k = 0; k < 8; ++k)
+        node[k] = static_cast<double>(
+            values[(k & 1) + (k >> 1 & 1) * size_t{kNodes} + (k >> 2) * size_t{kNodes} * kNodes]);
+    return FieldCell::between(node);
+}
+
+float FieldGrid::flatBrick(const glm::ivec3& cell) const noexcept {
+    return brickOf(cell / kBrick).flat;
+}
+
+uint32_t FieldGrid::numberOf(const glm::ivec3& cell) const noexcept {
+    return static_cast<uint32_t>(cell.x) +
+           static_cast<uint32_t>(layout_.cells.x) *
+               (static_cast<uint32_t>(cell.y) +
+                static_cast<uint32_t>(layout_.cells.y) * static_cast<uint32_t>(cell.z));
+}
+
+glm::ivec3 FieldGrid::cellOf(uint32_t number) const noexcept {
+    const auto nx = static_cast<uint32_t>(layout_.cells.x), ny = static_cast<uint32_t>(layout_.cells.y),
+               nz = static_cast<uint32_t>(layout_.cells.z);
+    return {number % nx, number / nx % ny, std::min(number / nx / ny, nz - 1)};
+}
+
+double FieldGrid::node(const glm::ivec3& at) const noexcept {
+    const glm::ivec3 cell = glm::min(at, layout_.cells - 1), corner = at - cell;
+    return this->cell(cell).value(glm::dvec3(corner));
+}
+
+glm::dvec3 FieldGrid::nodeGradient(const glm::ivec3& at) const noexcept {
+    glm::dvec3 gradient(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::ivec3 before = at, after = at;
+        before[axis] = std::max(at[axis] - 1, 0);
+        after[axis] = std::min(at[axis] + 1, layout_.cells[axis]);
+        gradient[axis] = (node(after) - node(before)) / (layout_.voxel * (after[axis] - before[axis]));
+    }
+    return gradient;
+}
+
+FieldGrid gridOfDistance(const FieldLayout& layout, double inside, double outside,
+                         const std::function<double(const glm::dvec3&)>& distance) {
+    return FieldGrid(layout, inside, outside, [&](const glm::ivec3& first, std::span<float> nodes) {
+        const auto place = [&](const glm::dvec3& node) {
+            return layout.origin + layout.voxel * (glm::dvec3(first) + node);
+        };
+        const double middle = distance(place(glm::dvec3(0.5 * FieldGrid::kBrick)));
+        const double half = 0.5 * std::sqrt(3.0) * FieldGrid::kBrick * layout.voxel;
+        if (middle - half > outside || middle + half < -inside) {
+            std::ranges::fill(nodes, static_cast<float>(middle));
+            return;
+        }
+        size_t i = 0;
+        for (int z = 0; z < FieldGrid::kNodes; ++z)
+            for (int y = 0; y < FieldGrid::kNodes; ++y)
+                for (int x = 0; x < FieldGrid::kNodes; ++x)
+                    nodes[i++] = static_cast<float>(distance(place({x, y, z})));
+    });
+}
+
+} // namespace touchstone

@@ -1,0 +1,56 @@
+#pragma once
+// A distance field as a shape: the proxy's ball against an isosurface [002], swept.
+
+#include "haptics/shape/field/field_grid.h"
+#include "haptics/shape/shape.h"
+
+#include <memory>
+
+namespace touchstone {
+
+/// A ball of radius r touches where f at its centre is r: it rolls on the isosurface of that level, which is
+/// the surface's offset as far as f is a distance. Features are cells, numbered by the grid. Where several
+/// cells meet in a concave kink each holds the proxy with its own plane; at a convex kink only the cell that
+/// contains the proxy does, since its neighbours lie above their continuation there.
+///
+/// f tells distances up to FieldGrid::outside(): a ball larger than that touches nothing.
+class FieldShape final : public Shape {
+  public:
+    /// Object frame with the unit of the grid's. Throws Error where the field is nowhere negative.
+    explicit FieldShape(std::shared_ptr<const FieldGrid> grid);
+
+    [[nodiscard]] const FieldGrid& grid() const noexcept { return *grid_; }
+    /// f at a place.
+    [[nodiscard]] double value(const glm::dvec3& point) const noexcept;
+
+    [[nodiscard]] double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
+                               double limit) const noexcept override;
+    [[nodiscard]] size_t near(const glm::dvec3& point, double reach,
+                              std::span<FeatureDistance> found) const noexcept override;
+    [[nodiscard]] FeatureDistance distanceFrom(FeatureId feature,
+                                               const glm::dvec3& point) const noexcept override;
+    /// The nodes' gradients interpolated at the point [002 eqs. 1, 2].
+    [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
+                                           const glm::dvec3& point) const noexcept override;
+    [[nodiscard]] bool hasShadingNormals() const noexcept override { return true; }
+    [[nodiscard]] bool contains(const glm::dvec3& point) const noexcept override {
+        return value(point) < 0.0;
+    }
+    [[nodiscard]] double boundingRadius() const noexcept override { return boundingRadius_; }
+    [[nodiscard]] uint64_t identity() const noexcept override { return grid_->hash(); }
+
+  private:
+    struct Place;
+    [[nodiscard]] Place at(const glm::dvec3& point) const noexcept;
+    [[nodiscard]] FeatureDistance seen(const FieldCell& cell, const glm::ivec3& index,
+                                       const glm::dvec3& point) const noexcept;
+    [[nodiscard]] double sweepOutside(const glm::dvec3& centre, const glm::dvec3& motion, double level,
+                                      double from, double to) const noexcept;
+    [[nodiscard]] double sweepInside(const glm::dvec3& centre, const glm::dvec3& motion, double level,
+                                     double from, double to) const noexcept;
+
+    std::shared_ptr<const FieldGrid> grid_;
+    double boundingRadius_ = 0.0;
+};
+
+} // namespace touchstone

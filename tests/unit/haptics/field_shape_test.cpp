@@ -1,0 +1,222 @@
+// Distance fields as shapes: against closed forms, against brute force on the same field, and at every speed.
+
+#include "engine/core/error.h"
+#include "haptics/scene/shape_object.h"
+#include "haptics/shape/field/field_shape.h"
+#include "tests/support/corner.h"
+#include "tests/support/touch_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace touchstone::test {
+namespace {
+
+using Distance = std::function<double(const glm::dvec3&)>;
+
+/// A cube of 1.2 about the origin, `cells` a side; object units.
+FieldLayout cubeOf(int cells) {
+    return {.origin = glm::dvec3(-0.6), .voxel = 1.2 / cells, .cells = glm::ivec3(cells)};
+}
+
+std::shared_ptr<const FieldShape> fieldOf(const Distance& distance, int cells) {
+    return std::make_shared<FieldShape>(
+        std::make_shared<FieldGrid>(gridOfDistance(cubeOf(cells), 0.2, 0.1, distance)));
+}
+
+double ball(const glm::dvec3& p) {
+    return glm::length(p) - 0.4;
+}
+double torus(const glm::dvec3& p) {
+    return std::hypot(std::hypot(p.x, p.y) - 0.3, p.z) - 0.12;
+}
+double box(const glm::dvec3& p, const glm::dvec3& half) {
+    const glm::dvec3 q = glm::abs(p) - half;
+    return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0);
+}
+
+/// Alone in a scene: the corner's floor lies far below.
+struct FieldBench : TouchBench {
+    explicit FieldBench(const std::shared_ptr<const Shape>& shape, double scale = 0.15)
+        : TouchBench(cornerScene({{.normal = {0, 1, 0}, .stiffness = 600.0}}), cornerSettings()) {
+        settings.proxyRadius = 0.0;
+        const std::shared_ptr<HapticScene> both = copyOf(*scene);
+        addShape(*both, "field", shape, 0, Similarity{scale, {1, 0, 0, 0}, kMiddle});
+        scene = both;
+    }
+    static constexpr glm::dvec3 kMiddle{0.0, 0.5, 0.0};
+};
+
+struct StrokeError {
+    double off = 0.0;   ///< m, mean distance of the proxy from the smooth surface
+    double place = 0.0; ///< m, mean distance of the proxy from the smooth surface's place nearest to the HIP
+    double moves = 0.0; ///< of the proxy, a tick
+    int atBudget = 0;   ///< ticks
+};
+
+/// A stroke round the body, 4 mm deep. A field of voxel h is off the surface by O(h^2), and its normals,
+/// which turn at the faces of cells, are off by O(h): they move the place by O(h) times the depth.
+StrokeError strokeError(const Distance& distance, int cells) {
+    constexpr double kScale = 0.15, kDepth = 0.004;
+    constexpr int kTicks = 3000;
+    FieldBench bench(fieldOf(distance, cells));
+    const auto gradient = [&](const glm::dvec3& p) {
+        glm::dvec3 g;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 h(0.0);
+            h[axis] = 1e-6;
+            g[axis] = distance(p + h) - distance(p - h);
+        }
+        return glm::normalize(g);
+    };
+    const auto surface = [&](double a) {
+        glm::dvec3 p(0.42 * std::cos(a), 0.42 * std::sin(a), 0.05 * std::sin(3.0 * a));
+        for (int i = 0; i < 4; ++i)
+            p -= distance(p) * gradient(p);
+        return p;
+    };
+    const auto hipAt = [&](double a, double depth) {
+        const glm::dvec3 p = surface(a);
+        return FieldBench::kMiddle + kScale * p - depth * gradient(p);
+    };
+    bench.step(hipAt(0.0, -0.01));
+    bench.moveTo(hipAt(0.0, kDepth), 0.2);
+    StrokeError error;
+    for (int i = 0; i < kTicks; ++i) {
+        const HapticOutput& out = bench.step(hipAt(2e-3 * i, kDepth));
+        EXPECT_GT(out.contacts, 0u) << i;
+        const glm::dvec3 proxy = (out.proxy - FieldBench::kMiddle) / kScale;
+        error.off += kScale * std::abs(distance(proxy)) / kTicks;
+        error.place += kScale * glm::distance(proxy, surface(2e-3 * i)) / kTicks;
+        error.moves += static_cast<double>(out.iterations) / kTicks;
+        error.atBudget += has(out.flags, TickFlag::BudgetReached) ? 1 : 0;
+    }
+    return error;
+}
+
+TEST(FieldShape, TheProxysDistanceFromTheSurfaceFallsWithTheSquareOfTheVoxel) {
+    for (const auto& [name, distance] : {std::pair<const char*, Distance>{"ball", ball}, {"torus", torus}}) {
+        StrokeError coarsest, finest;
+        for (const int cells : {32, 48, 64, 96, 128}) {
+            const StrokeError error = strokeError(distance, cells);
+            std::printf(
+                "%s, voxel %.2f mm: %.3g um off the surface, %.3g um from the place; %.1f moves a tick\n",
+                name, 1e3 * 0.15 * 1.2 / cells, 1e6 * error.off, 1e6 * error.place, error.moves);
+            EXPECT_EQ(error.atBudget, 0);
+            (cells == 32 ? coarsest : finest) = error;
+        }
+        const auto order = [&](double StrokeError::*of) {
+            return std::log(coarsest.*of / finest.*of) / std::log(4.0);
+        };
+        EXPECT_GT(order(&StrokeError::off), 1.8) << name;
+        EXPECT_LT(order(&StrokeError::off), 2.2) << name;
+        EXPECT_GT(order(&StrokeError::place), 0.9) << name;
+    }
+}
+
+/// The time of impact against small steps along random lines through a bumpy field.
+TEST(FieldShape, TheTimeOfImpactAgreesWithSmallSteps) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-0.7, 0.7), share(0.0, 0.03);
+    const auto bumpy = fieldOf(
+        [](const glm::dvec3& p) {
+            return 0.5 * (ball(p) + 0.02 * std::sin(40.0 * p.x) * std::sin(33.0 * p.y));
+        },
+        40);
+    int hits = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const glm::dvec3 from(place(random), place(random), place(random));
+        const glm::dvec3 motion(place(random), place(random), place(random));
+        const double radius = share(random), begin = bumpy->value(from);
+        if (begin < radius)
+            continue;
+        const double impact = bumpy->sweep(from, radius, motion, 1.0);
+        constexpr int kSteps = 4000;
+        double first = 1.0;
+        for (int i = 1; i <= kSteps && first == 1.0; ++i)
+            if (bumpy->value(from + motion * (static_cast<double>(i) / kSteps)) < radius - 1e-12)
+                first = static_cast<double>(i) / kSteps;
+        EXPECT_LE(impact, first + 1e-12) << trial;
+        if (impact < 1.0) {
+            EXPECT_NEAR(bumpy->value(from + impact * motion), radius, 2e-13) << trial;
+            ++hits;
+        }
+    }
+    EXPECT_GT(hits, 200);
+}
+
+/// A plate of two voxels, from both sides, at every speed: never passed.
+TEST(FieldShape, AThinPlateIsNeverPassed) {
+    constexpr int kCells = 48;
+    const double half = 1.2 / kCells;
+    const auto plate = fieldOf([&](const glm::dvec3& p) { return box(p, {0.45, half, 0.45}); }, kCells);
+    for (const double radius : {0.0, 0.5e-3})
+        for (const double speed : {0.05, 1.0, 5.0, 50.0})
+            for (const double side : {1.0, -1.0}) {
+                FieldBench bench(plate);
+                bench.settings.proxyRadius = radius;
+                bench.step(FieldBench::kMiddle + glm::dvec3(0.01, side * 0.05, 0.007));
+                bench.moveTo(FieldBench::kMiddle + glm::dvec3(0.013, -side * 0.04, 0.01), speed,
+                             [&](const HapticOutput& out) {
+                                 EXPECT_GT(side * (out.proxy.y - FieldBench::kMiddle.y), 0.15 * half * 0.9)
+                                     << speed << " m/s";
+                             });
+                EXPECT_GT(bench.output.contacts, 0u);
+                EXPECT_GT(side * bench.output.force.y, 1.0);
+            }
+}
+
+/// In a concave edge both walls hold the proxy, wherever the edge lies in the grid.
+TEST(FieldShape, AConcaveEdgeHoldsTheProxyInItsCorner) {
+    for (const double shift : {0.0, 0.3}) {
+        constexpr int kCells = 40;
+        const double edge = shift * 1.2 / kCells; // on a face of the cells, and inside of them
+        // Two walls: solid where x < edge or y < edge, within a box.
+        const auto corner = fieldOf(
+            [&](const glm::dvec3& p) {
+                const double walls = std::min(p.x - edge, p.y - edge);
+                return std::max(walls, box(p, glm::dvec3(0.45)));
+            },
+            kCells);
+        FieldBench bench(corner);
+        bench.step(FieldBench::kMiddle + glm::dvec3(0.02, 0.02, 0.001));
+        bench.moveTo(FieldBench::kMiddle + glm::dvec3(-0.004, -0.003, 0.001), 0.2);
+        for (int i = 0; i < 50; ++i)
+            bench.step(FieldBench::kMiddle + glm::dvec3(-0.004, -0.003, 0.001));
+        const glm::dvec3 proxy = (bench.output.proxy - FieldBench::kMiddle) / 0.15;
+        const double rounding = 1.2 / kCells; // a corner is rounded by less than a voxel
+        EXPECT_NEAR(proxy.x, edge, rounding);
+        EXPECT_NEAR(proxy.y, edge, rounding);
+        EXPECT_GT(bench.output.force.x, 0.0);
+        EXPECT_GT(bench.output.force.y, 0.0);
+    }
+}
+
+TEST(FieldGrid, KeepsWhatItIsGivenAndRefusesWhatIsNone) {
+    const FieldGrid grid = gridOfDistance(cubeOf(20), 0.2, 0.1, ball);
+    for (const glm::ivec3& node :
+         {glm::ivec3(1, 9, 10), glm::ivec3(8, 8, 8), glm::ivec3(20, 20, 20), glm::ivec3(7, 16, 9)}) {
+        const double expected = std::clamp(ball(glm::dvec3(-0.6) + 0.06 * glm::dvec3(node)), -0.2, 0.1);
+        EXPECT_NEAR(grid.node(node), expected, 1e-7);
+    }
+    EXPECT_GE(grid.lipschitz(), 0.95);
+    EXPECT_LT(grid.lipschitz(), 1.8);
+    for (const glm::ivec3& cell : {glm::ivec3(0), glm::ivec3(19, 0, 3), glm::ivec3(19)})
+        EXPECT_EQ(grid.cellOf(grid.numberOf(cell)), cell);
+    const auto build = [](FieldLayout layout, const Distance& distance) {
+        return gridOfDistance(layout, 0.2, 0.1, distance);
+    };
+    EXPECT_THROW(build({.origin = glm::dvec3(0.0), .voxel = 0.1, .cells = {0, 4, 4}}, ball), Error);
+    EXPECT_THROW(build({.origin = glm::dvec3(0.0), .voxel = 0.0, .cells = glm::ivec3(4)}, ball), Error);
+    EXPECT_THROW(build({.origin = glm::dvec3(0.0), .voxel = 0.1, .cells = glm::ivec3(1 << 20)}, ball), Error);
+    EXPECT_THROW(build({.origin = glm::dvec3(NAN), .voxel = 0.1, .cells = glm::ivec3(4)}, ball), Error);
+    EXPECT_THROW(build(cubeOf(20), [](const glm::dvec3&) { return NAN; }), Error);
+    EXPECT_THROW(build(cubeOf(20), [](const glm::dvec3& p) { return p.x; }), Error) << "reaches the border";
+    EXPECT_THROW(fieldOf([](const glm::dvec3&) { return 0.05; }, 20), Error) << "nowhere negative";
+}
+
+} // namespace
+} // namespace touchstone::test
