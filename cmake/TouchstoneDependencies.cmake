@@ -23,6 +23,16 @@ pkg_check_modules(jack REQUIRED IMPORTED_TARGET jack)
 pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(xcb REQUIRED IMPORTED_TARGET xcb)
 
+# OpenVDB's own CMake module looks for packages that only its tools need.
+find_package(TBB REQUIRED)
+find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h REQUIRED)
+find_library(OPENVDB_LIBRARY openvdb REQUIRED)
+add_library(openvdb::openvdb SHARED IMPORTED)
+set_target_properties(openvdb::openvdb PROPERTIES
+    IMPORTED_LOCATION ${OPENVDB_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${OPENVDB_INCLUDE_DIR}
+    INTERFACE_LINK_LIBRARIES TBB::tbb)
+
 # Debian ships Dear ImGui as one static library that already holds the GLFW and Vulkan backends and
 # leaves stb undefined.
 find_library(IMGUI_LIBRARY imgui REQUIRED)

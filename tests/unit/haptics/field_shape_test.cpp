@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "haptics/scene/shape_object.h"
 #include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/mesh_to_field.h"
 #include "tests/support/corner.h"
 #include "tests/support/touch_bench.h"
 
@@ -193,6 +194,63 @@ TEST(FieldShape, AConcaveEdgeHoldsTheProxyInItsCorner) {
         EXPECT_GT(bench.output.force.x, 0.0);
         EXPECT_GT(bench.output.force.y, 0.0);
     }
+}
+
+/// A mesh of the ball and its field: nearer than a voxel; the places where it is felt differ by the field's
+/// error.
+TEST(FieldOfMesh, IsTheDistanceFromItsTriangles) {
+    for (const bool insideOut : {false, true}) {
+        assets::Shape shape = assets::sphere(0.075, 120, 120);
+        if (insideOut)
+            for (size_t t = 0; t + 2 < shape.indices.size(); t += 3)
+                std::swap(shape.indices[t + 1], shape.indices[t + 2]);
+        const TouchBench mesh(sceneOf(shape));
+        const HapticObject& object = *mesh.scene->objects[0];
+        const auto grid = fieldOfMesh(object, {.voxel = 1.0 / 64.0, .inside = 0.2, .outside = 0.05});
+        double most = 0.0;
+        const FieldShape field(grid);
+        for (double r = 0.31; r < 0.54; r += 0.013) // the ball has a radius of 0.5
+            for (double a = 0.0; a < 6.0; a += 0.37) {
+                const glm::dvec3 p =
+                    r * glm::normalize(glm::dvec3(std::cos(a), std::sin(a), std::sin(1.7 * a)));
+                most = std::max(most, std::abs(field.value(p) - (r - 0.5)));
+            }
+        EXPECT_LT(most, 1e-3) << "of facets and of the interpolation";
+        EXPECT_TRUE(field.contains(glm::dvec3(0.0)));
+        EXPECT_FALSE(field.contains({0.55, 0.0, 0.0}));
+        EXPECT_GT(field.boundingRadius(), 0.5);
+        EXPECT_LT(field.boundingRadius(), 0.92) << "the corner of a box about it";
+    }
+}
+
+TEST(FieldOfMesh, AnOpenSheetBecomesAShell) {
+    const TouchBench mesh(sceneOf(assets::plane(0.1, 0.1, 4, 4)));
+    const HapticObject& object = *mesh.scene->objects[0];
+    const double voxel = 1.0 / 64.0;
+    const FieldShape field(fieldOfMesh(object, {.voxel = voxel, .inside = 0.2, .outside = 0.05}));
+    for (const double side : {1.0, -1.0})
+        EXPECT_NEAR(field.value({0.1, side * 0.04, 0.1}), 0.04 - voxel, 0.1 * voxel);
+    EXPECT_TRUE(field.contains({0.1, 0.0, 0.1}));
+    FieldBench bench(std::make_shared<FieldShape>(field));
+    bench.step(FieldBench::kMiddle + glm::dvec3(0.003, 0.02, 0.001));
+    bench.moveTo(FieldBench::kMiddle + glm::dvec3(0.003, -0.02, 0.001), 1.0);
+    EXPECT_GT(bench.output.contacts, 0u);
+    EXPECT_NEAR(bench.output.proxy.y - FieldBench::kMiddle.y, 0.15 * voxel, 0.15 * 0.1 * voxel);
+}
+
+TEST(FieldOfMesh, RefusesWhatDoesNotFitAndCanBeCancelled) {
+    const TouchBench mesh(sceneOf(assets::sphere(0.075, 20, 20)));
+    const HapticObject& object = *mesh.scene->objects[0];
+    EXPECT_THROW((void)fieldOfMesh(object, {.voxel = 1e-5}), Error);
+    EXPECT_THROW((void)fieldOfMesh(object, {.voxel = 0.0}), Error);
+    EXPECT_THROW((void)fieldOfMesh(object, {.voxel = NAN}), Error);
+    const std::atomic<bool> cancel{true};
+    EXPECT_THROW((void)fieldOfMesh(object, {}, Progress(nullptr, &cancel)), Cancelled);
+    std::vector<double> fractions;
+    const Progress::Report report = [&](double fraction, const char*) { fractions.push_back(fraction); };
+    (void)fieldOfMesh(object, {}, Progress(&report, nullptr));
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_GT(fractions.size(), 5u);
 }
 
 TEST(FieldGrid, KeepsWhatItIsGivenAndRefusesWhatIsNone) {
