@@ -1,7 +1,5 @@
 #include "engine/scene/haptic_layers.h"
 
-#include "engine/core/json_number.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -30,13 +28,10 @@ void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     offer(haptic.dampingMap, ours.dampingMap, source);
     haptic.forceShading = ours.forceShading.value_or(ShadingChoice::Auto);
     haptic.sides = ours.sides.value_or(SideChoice::Both);
-    haptic.representation = ours.implicit.value_or(false) ? "implicit" : "mesh";
+    haptic.implicit = ours.implicit.value_or(false);
+    haptic.voxelSize = ours.voxelSize.value_or(0.0f);
     if (!ours.shader.is_null())
         haptic.unavailable["shader"] = ours.shader;
-    if (ours.implicit.value_or(false))
-        haptic.unavailable["representation"] = KeptJson("implicit");
-    if (ours.voxelSize)
-        haptic.unavailable["voxelSize"] = KeptJson(jsonOf(*ours.voxelSize));
     if (ours.forceShading == ShadingChoice::Bezier)
         haptic.unavailable["forceShading"] = KeptJson("bezier");
 }

@@ -73,8 +73,9 @@ struct HapticMaterial {
     Field<FactorMap> friction, stiffnessMap, dampingMap;
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
-    std::string representation = "mesh"; ///< "implicit" is kept and reported as not yet available
-    KeptFields unavailable;              ///< fields reserved for later, for `inspect`
+    bool implicit = false;  ///< representation: felt as a distance field
+    float voxelSize = 0.0f; ///< of the field, model metres; 0: chosen from the object's size
+    KeptFields unavailable; ///< fields reserved for later, for `inspect`
     bool operator==(const HapticMaterial&) const = default;
 };
 

@@ -1,5 +1,8 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/plan_effects.h"
+#include "haptics/scene/shape_object.h"
+
+#include <cmath>
 
 namespace touchstone {
 
@@ -7,6 +10,12 @@ namespace {
 
 ObjectUse objectUse(const Material& source, const HapticMaterialData& material) {
     ObjectUse use;
+    if (source.haptic.implicit) {
+        use.implicit = true;
+        use.voxelSize = source.haptic.voxelSize;
+        use.stiffness = std::isnan(material.stiffness) ? 0.0f : static_cast<float>(material.stiffness);
+        return use;
+    }
     use.oneSided = source.haptic.sides == SideChoice::Front;
     for (const HapticMap* map : {&material.normal, &material.height, &material.friction.map,
                                  &material.stiffnessMap.map, &material.dampingMap.map})
@@ -17,6 +26,18 @@ ObjectUse objectUse(const Material& source, const HapticMaterialData& material) 
     use.tangents = !material.normal.empty();
     use.normals = material.shading != ShadingMode::Off;
     return use;
+}
+
+/// The object of an instance: its mesh, or the distance field of its mesh.
+std::shared_ptr<const HapticObject> builtObject(const Scene& scene, int instance,
+                                                const Similarity& workspaceFromScene, const ObjectUse& use,
+                                                std::vector<Warning>& warnings,
+                                                const Progress& progress = {}) {
+    if (!use.implicit)
+        return buildHapticObject(scene, instance, workspaceFromScene, use, progress);
+    const auto mesh =
+        buildHapticObject(scene, instance, workspaceFromScene, ObjectUse{}, progress.part(0.0, 0.3));
+    return fieldObject(*mesh, workspaceFromScene, use, progress.part(0.3, 1.0), warnings);
 }
 
 } // namespace
@@ -96,9 +117,10 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
         const auto material = static_cast<size_t>(mesh.material);
         const Progress part = progress.part(fraction(done), fraction(done + mesh.triangleCount()));
         part.step(0.0, "placing vertices");
-        auto object = buildHapticObject(scene, static_cast<int>(i), workspaceFromScene,
-                                        objectUse(scene.materials[material], haptic->materials[material]),
-                                        mesh.triangleCount() < kWorthReporting ? part.silent() : part);
+        const ObjectUse use = objectUse(scene.materials[material], haptic->materials[material]);
+        const bool small = mesh.triangleCount() < kWorthReporting && !use.implicit;
+        auto object = builtObject(scene, static_cast<int>(i), workspaceFromScene, use, haptic->warnings,
+                                  small ? part.silent() : part);
         done += mesh.triangleCount();
         uses[material].add(*object);
         haptic->restMotions.push_back({object->workspaceFromObject, object->workspaceFromObject});
@@ -131,11 +153,11 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
     }
     for (std::shared_ptr<const HapticObject>& object : haptic->objects) {
         const auto m = static_cast<size_t>(object->material);
-        if (object->shape != nullptr || m >= uses.size())
+        if (object->instance < 0 || m >= uses.size())
             continue; // geometry and material are not from the file
         const ObjectUse use = objectUse(after[m], haptic->materials[m]);
         if (use != objectUse(before[m], compiled.materials[m]))
-            object = buildHapticObject(scene, object->instance, compiled.workspaceFromScene, use);
+            object = builtObject(scene, object->instance, compiled.workspaceFromScene, use, haptic->warnings);
         uses[m].add(*object);
     }
     if (compiled.hasRays())

@@ -52,8 +52,9 @@ Verdict shading(const HapticMaterialData& data, const MaterialUse& use) {
     const char* kind = data.shading == ShadingMode::TwoPass     ? "two-pass"
                        : data.shading == ShadingMode::Projected ? "projected"
                                                                 : "direction";
-    return {true,
-            std::string("vertex normals leave the face normals: the surface is meant to be smooth, ") + kind};
+    return {true, (use.field ? "the gradient of the distance field, "
+                             : "vertex normals leave the face normals: the surface is meant to be smooth, ") +
+                      std::string(kind)};
 }
 
 Verdict normalMap(const Material& material, const HapticMaterialData& data) {
@@ -102,6 +103,7 @@ Verdict damping(const HapticMaterialData& data, const MaterialUse& use) {
 void MaterialUse::add(const HapticObject& object) {
     const AttributeBytes more = object.attributeBytes();
     smooth |= object.anySmooth;
+    field |= object.shape != nullptr;
     heights |= !object.heights.empty();
     stiffness |= !object.stiffness.empty();
     damping |= anyPositive(object.damping);
@@ -119,8 +121,12 @@ void MaterialUse::add(const HapticObject& object) {
 void planMaterial(int index, const Material& material, const HapticMaterialData& data, const MaterialUse& use,
                   EffectPlan& plan) {
     const auto add = [&](Effect effect, Verdict verdict, uint64_t memory) {
+        const bool needsTriangles =
+            effect == Effect::NormalMap || effect == Effect::HeightMap || effect == Effect::VaryingStiffness;
         if (!use.placed)
             verdict = {false, "no touchable triangle has this material"};
+        else if (use.field && needsTriangles && verdict.on)
+            verdict = {false, "a distance field has no coordinates and no vertices"};
         plan.effects.push_back({effect, index, verdict.on, std::move(verdict.reason), memory});
     };
     // Coordinates that several maps read count once, with the first of them.

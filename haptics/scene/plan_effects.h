@@ -8,6 +8,8 @@ namespace touchstone {
 /// The parts of a material's effects that its objects determine.
 struct MaterialUse {
     bool placed = false; ///< some instance with triangles has the material
+    bool field =
+        false; ///< its objects are felt as distance fields, which have neither coordinates nor attributes
     bool smooth = false, heights = false, stiffness = false, damping = false, friction = false;
     AttributeBytes bytes;
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -13,5 +14,14 @@ namespace touchstone {
 /// neighbourhoods are built and the scene is handed to a servo. Throws Error.
 int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> shape, int material,
              const Similarity& workspaceFromObject);
+
+/// The object of a mesh that is felt as its distance field (`use.implicit`): voxels of use.voxelSize, or a
+/// 128th of the longest side where none is stated or where it would need too many cells, with a warning; as
+/// deep as 1.5 times the greatest force of the default limits pushes it in. Not for the servo thread. Throws
+/// Error, which names the mesh, and Cancelled.
+[[nodiscard]] std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
+                                                              const Similarity& workspaceFromScene,
+                                                              const ObjectUse& use, const Progress& progress,
+                                                              std::vector<Warning>& warnings);
 
 } // namespace touchstone

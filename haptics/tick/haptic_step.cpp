@@ -226,8 +226,8 @@ void limitForce(const HapticSettings& settings, const TickInput& input, const De
                               .position = sample.position,
                               .springLength = output.penetration / workspaceFromDevice.scale,
                               .coupling = sample.mapping.coupling};
-    output.command = ForceLimiter::limit(settings.forceScale * output.force, glm::dvec3(0.0), safety, workspaceFromDevice,
-                                         state.limiter, output.flags);
+    output.command = ForceLimiter::limit(settings.forceScale * output.force, glm::dvec3(0.0), safety,
+                                         workspaceFromDevice, state.limiter, output.flags);
     output.energyBalance = state.limiter.passivity.balance;
     // A hand that was absent for as long as a full force takes to fade may return anywhere: touch begins
     // again instead of pulling it back. A hand that stayed in sight (a lifted mouse, a recorded path) may

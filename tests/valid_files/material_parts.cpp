@@ -164,7 +164,7 @@ void addOurs(FileDraft& draft, json& material) {
             ours["sides"] = draw.pick(std::vector<std::string>{"front", "both"});
         if (draw.chance(0.2)) {
             ours["representation"] = draw.pick(std::vector<std::string>{"mesh", "implicit"});
-            ours["voxelSize"] = draw.real(1e-4, 1e-2);
+            ours["voxelSize"] = draw.real(0.02, 0.5);
         }
         if (draw.chance(0.1))
             ours["shader"] = {{"source", "bumps.glsl"}, {"parameters", {{"height", 1.0}}}};

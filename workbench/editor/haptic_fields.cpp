@@ -135,7 +135,7 @@ constexpr std::array kNumbers{
     NumberField{"dampingTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
                 TOUCHSTONE_SET(dampingMap)},
     NumberField{"voxelSize", "voxel size", "m", 1e-30f, kLargest, 0.0001f, 0.1f, true, "none",
-                "of the implicit representation, model metres; not yet available",
+                "of the distance field, model metres; none: a 128th of the object's longest side",
                 TOUCHSTONE_NUMBER(voxelSize)}};
 
 #undef TOUCHSTONE_NUMBER
@@ -155,7 +155,7 @@ constexpr std::array kChoices{
                 getChoice<&HapticStatement::sides, SideChoice>,
                 setChoice<&HapticStatement::sides, SideChoice>},
     ChoiceField{"representation", "representation", kRepresentations, 0,
-                "implicit is a distance field; not yet available",
+                "implicit: felt as a distance field of the triangles, without its maps",
                 getChoice<&HapticStatement::implicit, bool>, setChoice<&HapticStatement::implicit, bool>}};
 
 constexpr std::array kMaps{

@@ -45,10 +45,12 @@ bool mustRead(const Scene& scene, const std::vector<Material>& before, const std
     return false;
 }
 
-bool sameSides(const std::vector<Material>& before, const std::vector<Material>& after) {
-    return std::ranges::equal(
-        before, after, {}, [](const Material& m) { return m.haptic.sides; },
-        [](const Material& m) { return m.haptic.sides; });
+/// Touch goes on where the surfaces stay what they were.
+bool sameSurfaces(const std::vector<Material>& before, const std::vector<Material>& after) {
+    const auto surface = [](const Material& m) {
+        return std::tuple(m.haptic.sides, m.haptic.implicit, m.haptic.voxelSize);
+    };
+    return std::ranges::equal(before, after, {}, surface, surface);
 }
 
 /// Loads the file's scene with the changes applied, as it will be once saved.
@@ -81,7 +83,7 @@ MadeMaterials makeMaterials(const MaterialJob& job) {
         readAnew(job, made);
     } else {
         made.haptic = withMaterials(*job.model.haptic, scene, before, made.materials);
-        made.touchGoesOn = sameSides(before, made.materials);
+        made.touchGoesOn = sameSurfaces(before, made.materials);
         if (job.forTheEye) {
             auto seen = std::make_shared<Scene>(scene);
             seen->materials = made.materials;

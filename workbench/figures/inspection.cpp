@@ -131,6 +131,7 @@ Json objectsJson(const Model& model) {
     for (const auto& object : model.haptic->objects)
         objects.push_back({{"name", object->name},
                            {"triangles", object->triangleCount()},
+                           {"representation", object->shape != nullptr ? "implicit" : "mesh"},
                            {"vertices", object->shape != nullptr ? 0 : object->vertices.size() - 1},
                            {"welded_vertices", object->weldedVertices},
                            {"dropped_triangles", object->droppedTriangles},

@@ -91,10 +91,8 @@ void tellUnavailable(ImportContext& context, const HapticStatement& ours, const 
     };
     if (!ours.shader.is_null())
         tell("shader", "a haptic shader");
-    if (ours.implicit.value_or(false))
-        tell("representation", "the implicit representation");
-    else if (ours.voxelSize)
-        context.warn(place + ".voxelSize", "says nothing without representation \"implicit\"");
+    if (ours.voxelSize && !ours.implicit.value_or(false))
+        context.warn(place + ".voxelSize", "has no meaning without representation \"implicit\"");
     if (ours.forceShading == ShadingChoice::Bezier)
         tell("forceShading", "force shading \"bezier\"");
 }

@@ -31,6 +31,9 @@ struct ObjectUse {
     bool tangents = false;    ///< of a normal map
     bool normals = false;     ///< of force shading, where the surface is smooth
     bool oneSided = false;    ///< `sides` is front
+    bool implicit = false;    ///< felt as a distance field: nothing of the above
+    float voxelSize = 0.0f;   ///< of the field, model metres; 0: chosen from the object's size
+    float stiffness = 0.0f;   ///< N/m, of what is felt as a field: how deep a device pushes it in
     bool operator==(const ObjectUse&) const = default;
 };
 

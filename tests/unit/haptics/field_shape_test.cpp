@@ -253,6 +253,40 @@ TEST(FieldOfMesh, RefusesWhatDoesNotFitAndCanBeCancelled) {
     EXPECT_GT(fractions.size(), 5u);
 }
 
+/// In a file: the hand feels the field, the object stays that of its node.
+TEST(FieldOfMesh, AMaterialThatIsImplicitIsFeltAsAField) {
+    Scene scene = sceneOf(assets::sphere(0.075, 90, 90));
+    scene.materials[0].haptic.implicit = true;
+    scene.materials[0].haptic.voxelSize = 0.002f;
+    TouchBench field(scene, cornerSettings()), mesh(sceneOf(assets::sphere(0.075, 90, 90)), cornerSettings());
+    const HapticObject& object = *field.scene->objects[0];
+    ASSERT_NE(object.shape, nullptr);
+    EXPECT_EQ(object.instance, 0);
+    const auto& shape = dynamic_cast<const FieldShape&>(*object.shape);
+    EXPECT_NEAR(shape.grid().layout().voxel * object.workspaceFromObject.scale, 0.002, 1e-9);
+    for (TouchBench* bench : {&field, &mesh}) {
+        bench->settings.proxyRadius = 0.0;
+        bench->moveTo({0.01, 0.09, 0.002}, 0.2);
+        bench->moveTo({0.01, 0.07, 0.002}, 0.2);
+    }
+    EXPECT_LT(glm::distance(field.output.proxy, mesh.output.proxy), 1e-4);
+    EXPECT_EQ(field.output.object, 0);
+    // Edited while it is touched: a mesh again, and a field again.
+    std::vector<Material> before = scene.materials, after = before;
+    after[0].haptic.implicit = false;
+    const auto triangles = withMaterials(*field.scene, scene, before, after);
+    EXPECT_EQ(triangles->objects[0]->shape, nullptr);
+    EXPECT_GT(triangles->objects[0]->triangleCount(), 0u);
+    EXPECT_NE(withMaterials(*triangles, scene, after, before)->objects[0]->shape, nullptr);
+    // Coarser than the object: a shell.
+    scene.materials[0].haptic.voxelSize = 0.5f;
+    EXPECT_NE(TouchBench(scene).scene->objects[0]->shape, nullptr);
+    scene.materials[0].haptic.voxelSize = 1e-7f;
+    const TouchBench tooFine(scene);
+    ASSERT_EQ(tooFine.scene->warnings.size(), 1u);
+    EXPECT_EQ(tooFine.scene->warnings[0].place, "materials[0].voxelSize");
+}
+
 TEST(FieldGrid, KeepsWhatItIsGivenAndRefusesWhatIsNone) {
     const FieldGrid grid = gridOfDistance(cubeOf(20), 0.2, 0.1, ball);
     for (const glm::ivec3& node :
