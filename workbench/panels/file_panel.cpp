@@ -55,8 +55,6 @@ void header(FileDialog& dialog, Widgets& widgets) {
         browser.goUp();
     widgets.mark("fileUp");
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("The folder above (Alt + Up)");
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(browser.folder().c_str());
@@ -69,9 +67,7 @@ void places(FileBrowser& browser, float height, Widgets& widgets) {
         const std::filesystem::path folder = place.folder; // a click may change the list
         if (ImGui::Selectable(place.name.c_str(), folder == browser.folder()))
             browser.goTo(folder);
-        widgets.mark(("place:" + place.name).c_str());
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", folder.c_str());
+        widgets.mark(("place:" + place.name).c_str(), folder.string());
         ImGui::PopID();
     }
     ImGui::EndChild();

@@ -20,8 +20,7 @@ struct Note {
 constexpr std::array kNotes{
     // The bar.
     Note{"file", "Open a model or a recording, save the picture, quit"},
-    Note{"openPath", "Path of a .glb, a .gltf or a recording; Enter opens it"},
-    Note{"open", "Open what the path names"},
+    Note{"menu:open", "Open a model (glTF, OBJ, STL, PLY) or a recording (Ctrl+O)"},
     Note{"menu:recordings", "List the recordings in the panel below"},
     Note{"gallery", "Our scenes and recent files as pictures"},
     Note{"sample:", "Open this scene of ours"},
@@ -146,6 +145,18 @@ constexpr std::array kNotes{
     Note{"galleryClose", "Back to the model (Escape)"},
     Note{"gallery:", "Open this scene of ours"},
     Note{"recent:", "Open this file again"},
+    // Files.
+    Note{"openPath", "Narrows the list, or is a path (~ works); Enter opens it"},
+    Note{"open", "Open, or save under, what is chosen or typed"},
+    Note{"fileClose", "Close the browser (Escape)"},
+    Note{"fileUp", "The folder above (Alt+Up)"},
+    Note{"fileKind", "Which files are listed"},
+    Note{"file:", "A folder or a file; a double click opens it"},
+    Note{"place:", "Go to this folder"},
+    Note{"fileReplace", "Replace the file that is there"},
+    Note{"fileKeep", "Keep the file, choose another name"},
+    Note{"browseHere", "Choose in the window instead of the desktop's dialog"},
+    Note{"dialogCancel", "Open nothing"},
     // The material editor.
     Note{"edit.material", "The material that is edited"},
     Note{"edit.preset", "Numbers of a known material to begin with"},
