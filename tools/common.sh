@@ -56,6 +56,8 @@ figures_of_the_window() {
     done
     build release touchstone
     work=$(mktemp -d)
+    # shellcheck disable=SC2064 # the folder of this call
+    trap "rm -rf '$work'" EXIT
     mkdir -p "$work/touchstone" "$work/home/"{Documents,Downloads,Models,Scans}
     cp assets/scenes/{box,doughnut,prism_smooth}.glb "$work/home"
     {
@@ -67,6 +69,5 @@ figures_of_the_window() {
     } >"$work/script.py"
     HOME=$work/home TOUCHSTONE_FILE_DIALOG=window XDG_STATE_HOME=$work XDG_CACHE_HOME=$work xvfb-run -a -s '-screen 0 1280x800x24' \
         env PYTHONDONTWRITEBYTECODE=1 python3 "$work/script.py" "$PWD/build/release/bin/touchstone" "$work" docs/figures || status=$?
-    rm -rf "$work"
     return "$status"
 }

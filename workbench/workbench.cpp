@@ -1,6 +1,6 @@
 #include "devices/choice/device_choice.h"
 #include "engine/core/input_file.h"
-#include "workbench/screen/ui_scale.h"
+#include "workbench/figures/ui_scale.h"
 #include "workbench/workbench_window.h"
 
 #include <cstdio>
@@ -212,7 +212,8 @@ int windowCommand(const WindowOptions& options) {
     catchInterrupts();
     // What is wrong with the command line, before the display is asked for.
     if (!options.scene.empty())
-        requireFile(options.scene, options.scene.string(), "name a .gltf or .glb model, or a recording");
+        requireFile(options.scene, options.scene.string(),
+                    "name a glTF, OBJ, STL or PLY model, or a recording");
     if (!options.device.empty())
         requireDevice(options.device, "mouse, hand (the simulated one)");
     WorkbenchWindow workbench(options);

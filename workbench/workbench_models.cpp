@@ -51,7 +51,9 @@ void WorkbenchWindow::takeModel() {
 
 void WorkbenchWindow::show(LoadedModel loaded) {
     const ScenePtr scene = loaded.model.scene;
-    notice_.clear(); // of the previous model
+    notice_.clear();     // of the previous model
+    if (dialog_.saves()) // what it asks about was that model's
+        dialog_.close();
     touch_.show(std::move(loaded), scene->path == defaultScene().string());
     drawn_.shown(scene);
     unsavedChanges_.begin();

@@ -78,6 +78,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
         const Scene& scene = *touch_.shown().model.scene;
         input.scene = &scene;
         input.haptic = touch_.shown().model.haptic.get();
+        input.modelPath = materials_.path().string();
         input.modelName = materials_.path().filename().string();
         input.modelFacts = figure(static_cast<double>(scene.triangleCount()), 1) + " triangles" +
                            (scene.touchable() ? "" : ": nothing to touch");

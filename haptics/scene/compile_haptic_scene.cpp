@@ -13,7 +13,6 @@ ObjectUse objectUse(const Material& source, const HapticMaterialData& material) 
     if (source.haptic.implicit) {
         use.implicit = true;
         use.voxelSize = source.haptic.voxelSize;
-        use.stiffness = std::isnan(material.stiffness) ? 0.0f : static_cast<float>(material.stiffness);
         return use;
     }
     use.oneSided = source.haptic.sides == SideChoice::Front;
@@ -141,7 +140,6 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
                                            std::span<const Material> before,
                                            std::span<const Material> after) {
     const std::shared_ptr<HapticScene> haptic = copyOf(compiled);
-    haptic->shareNeighbourhoods(compiled);
     haptic->plan = {};
     std::vector<MaterialUse> uses;
     for (const MaterialPlacement& at : materialPlacements(scene)) {
@@ -151,15 +149,24 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
             haptic->materials[m] = buildHapticMaterial(scene, after[m], m, at.sets, haptic->warnings,
                                                        {&before[m], &compiled.materials[m]});
     }
-    for (std::shared_ptr<const HapticObject>& object : haptic->objects) {
+    bool sameMeshes = true;
+    for (size_t k = 0; k < haptic->objects.size(); ++k) {
+        std::shared_ptr<const HapticObject>& object = haptic->objects[k];
         const auto m = static_cast<size_t>(object->material);
         if (object->instance < 0 || m >= uses.size())
             continue; // geometry and material are not from the file
         const ObjectUse use = objectUse(after[m], haptic->materials[m]);
-        if (use != objectUse(before[m], compiled.materials[m]))
+        if (use != objectUse(before[m], compiled.materials[m])) {
+            const bool mesh = object->shape == nullptr;
             object = builtObject(scene, object->instance, compiled.workspaceFromScene, use, haptic->warnings);
+            sameMeshes = sameMeshes && mesh && object->shape == nullptr;
+            haptic->boundingRadii[k] = object->boundingRadius;
+            haptic->restSpheres[k] = boundingSphere(*object, object->workspaceFromObject);
+        }
         uses[m].add(*object);
     }
+    if (sameMeshes)
+        haptic->shareNeighbourhoods(compiled);
     if (compiled.hasRays())
         haptic->buildRays(); // of the rebuilt objects
     for (size_t m = 0; m < after.size(); ++m)

@@ -5,6 +5,7 @@
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/shape/field/mesh_to_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,20 +50,25 @@ int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> 
 std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
                                                 const Similarity& workspaceFromScene, const ObjectUse& use,
                                                 const Progress& progress, std::vector<Warning>& warnings) {
-    constexpr double kRoom = 1.5, kDeepest = 1.0; // object units: the longest side is 1
+    constexpr double kRoom = 1.5, kDeepest = 1.0, kFarthest = 0.25, kCoarsest = 0.25; // object units
+    constexpr double kLargestBall =
+        5e-3; // m: the panel's largest proxy radius, and what counts as near a model
     const DeviceLimits limits;
-    const double stiffness =
-        use.stiffness > 0.0f ? static_cast<double>(use.stiffness) : limits.recommendedStiffness;
     const double objectPerModel = workspaceFromScene.scale / mesh.workspaceFromObject.scale;
     FieldRequest request;
     if (use.voxelSize > 0.0f)
         request.voxel = static_cast<double>(use.voxelSize) * objectPerModel;
-    request.inside = std::min(kDeepest, kRoom * limits.maxForce / stiffness / mesh.workspaceFromObject.scale);
-    if (const double finest = finestVoxel(mesh, request.outside); request.voxel < finest) {
+    const double scale = mesh.workspaceFromObject.scale;
+    request.inside = std::min(kDeepest, kRoom * limits.maxForce / limits.recommendedStiffness / scale);
+    request.outside = std::clamp(kRoom * kLargestBall / scale, request.outside, kFarthest);
+    const double finest = finestVoxel(mesh, request.outside);
+    if (request.voxel < finest || request.voxel > kCoarsest) {
         const FieldRequest usual;
+        const char* const why =
+            request.voxel < finest ? "needs too many cells for " : "is larger than a quarter of ";
         warnings.push_back({"materials[" + std::to_string(mesh.material) + "].voxelSize",
-                            "needs too many cells for " + mesh.name + ": at least " +
-                                std::to_string(finest / objectPerModel) + " m fits; felt with " +
+                            why + mesh.name + ": " + std::to_string(finest / objectPerModel) + " to " +
+                                std::to_string(kCoarsest / objectPerModel) + " m fit; felt with " +
                                 std::to_string(usual.voxel / objectPerModel) + " m"});
         request.voxel = usual.voxel;
     }

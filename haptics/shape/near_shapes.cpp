@@ -9,8 +9,10 @@ bool NearShapes::add(const Shape& shape, int object, const Similarity* objectFro
                      const glm::dvec3& centre, double radius) noexcept {
     const bool foreign = objectFromReference != nullptr;
     std::array<FeatureDistance, 1> any;
+    // A shape's distance may exceed the true one (a field's by up to its Lipschitz bound, the root of 3).
+    const double wide = 2.0 * radius;
     if (shape.near(foreign ? objectFromReference->point(centre) : centre,
-                   foreign ? objectFromReference->scale * radius : radius, any) == 0)
+                   foreign ? objectFromReference->scale * wide : wide, any) == 0)
         return true;
     if (count_ == kMaxShapes)
         return false;

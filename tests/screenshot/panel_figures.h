@@ -3,6 +3,7 @@
 
 #include "devices/mouse/mouse_device.h"
 #include "tests/support/recorded_servo.h"
+#include "workbench/dialog/file_dialog.h"
 #include "workbench/editor/material_controller.h"
 #include "workbench/model/model.h"
 #include "workbench/timeline/timeline_controller.h"
@@ -84,6 +85,7 @@ class PanelFigures {
     MouseDevice hand_;
     PlaybackDevice again_{hand_};
     TimelineController timeline_{again_, {}};
+    FileDialog dialog_;
     PanelInput input_;
     PanelState state_;
     std::map<std::string, WidgetRect> rects_;
@@ -136,6 +138,7 @@ class PanelFigures {
         input_.canSaveMaterials = true;
         input_.servo = &servo_;
         input_.timeline = &timeline_;
+        input_.dialog = &dialog_;
         input_.tick = &servo_.last;
         input_.forces = &forces_;
         input_.framesPerSecond = 30.0;

@@ -49,6 +49,7 @@ void FileBrowser::goTo(const std::filesystem::path& folder) {
         text_.clear();
     chosen_.reset();
     shown_.clear();
+    contents_ = {};
     read_ = false;
     job_.abandon();
 }

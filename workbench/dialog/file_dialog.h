@@ -30,6 +30,8 @@ class FileDialog {
     /// While the browser has the keyboard.
     [[nodiscard]] bool covers() const { return stage_ == Stage::Browser || stage_ == Stage::Replace; }
     void close();
+    /// While it asks for a name to save under.
+    [[nodiscard]] bool saves() const { return open() && request_.saves(); }
 
     /// The window's browser in place of the desktop's dialog.
     void browse();

@@ -159,7 +159,7 @@ constexpr std::array kChoices{
                 getChoice<&HapticStatement::implicit, bool>, setChoice<&HapticStatement::implicit, bool>}};
 
 constexpr std::array kMaps{
-    MapField{"heightTexture", "height map", "relief of the surface", getMap<&HapticStatement::height>,
+    MapField{"heightTexture", "height map", "bump height of the surface", getMap<&HapticStatement::height>,
              setMap<&HapticStatement::height>},
     MapField{"frictionTexture", "friction map", "multiplies both coefficients",
              getMap<&HapticStatement::friction>, setMap<&HapticStatement::friction>},

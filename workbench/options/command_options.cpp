@@ -4,8 +4,8 @@
 #include "renderer/view.h"
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
+#include "workbench/figures/ui_scale.h"
 #include "workbench/options/shared_options.h"
-#include "workbench/screen/ui_scale.h"
 
 #include <algorithm>
 #include <charconv>
@@ -293,15 +293,15 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
                    "and `rate`, the servo's; without any, every shape and the rate")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
-    app.add_option("--ladder", options.ablations, "Climb this ladder alone (see --list); may be given again")
+    app.add_option("--ladder", options.ablations, "This ablation alone (see --list); may be given again")
         ->type_name("NAME")
         ->expected(1)
         ->take_all();
-    app.add_option("--rounds", options.rounds, "Turns that every rung takes [150]")
+    app.add_option("--rounds", options.rounds, "Turns that every configuration takes [150]")
         ->type_name("N")
         ->check(CLI::Range(2, 10000));
     app.add_flag("--quick", options.quick, "A rougher answer in less time");
-    app.add_flag("--list", options.list, "Print the ladders and shapes");
+    app.add_flag("--list", options.list, "Print the ablations and shapes");
     app.add_option_function<std::string>(
            "--shard", [&options](const std::string& text) { parseShard(text, options); },
            "Study every N-th of what is asked for only, from the I-th, and leave plots to `study merge`: for "

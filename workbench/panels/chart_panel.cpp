@@ -287,13 +287,12 @@ Outcome outcomeOf(const PanelInput& input) {
     std::snprintf(text, sizeof text, "%.1f s", input.recordedSeconds);
     if (input.chartsSaving)
         return {"drawing the figure", "", grey};
-    if (input.recording)
-        return {std::string("recording: ") + text, "", kRecorded};
     if (!saved.text().empty() && input.now - saved.at < kShown)
         return saved.problem.empty()
                    ? Outcome{"saved " + saved.file.filename().string(), saved.file.string(), kGreen}
-                   : Outcome{"not saved: " + saved.problem.substr(0, saved.problem.find('\n')), saved.problem,
-                             kRed};
+                   : Outcome{saved.problem.substr(0, saved.problem.find('\n')), saved.problem, kRed};
+    if (input.recording)
+        return {std::string("recording: ") + text, "", kRecorded};
     if (!input.recordingFile.empty())
         return {std::string("recorded ") + text + " in " +
                     std::filesystem::path(input.recordingFile).filename().string(),
@@ -326,6 +325,7 @@ void showOutcome(const Outcome& outcome, const ImVec2& beside, const ImVec2& cha
 
 void drawCharts(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const bool paused = state.stopped.has_value();
+    widgets.besideArrow(widgets.lampWidth("Pause"));
     // One label: a button that grew would push the others from under the pointer.
     if (widgets.lampButton("pause", "Pause", paused, kAmber))
         state.stopped = paused ? std::nullopt : std::optional(*input.forces);

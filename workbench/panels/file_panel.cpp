@@ -179,7 +179,8 @@ bool footer(FileBrowser& browser, Widgets& widgets) {
 
 void browserKeys(FileDialog& dialog, bool& moved) {
     FileBrowser& browser = dialog.browser();
-    if (pressed(GLFW_KEY_ESCAPE))
+    constexpr auto kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+    if (pressed(GLFW_KEY_ESCAPE) && !ImGui::IsPopupOpen("", kAny)) // the list of kinds lies on top
         dialog.close();
     if (ImGui::GetIO().KeyAlt && ImGui::IsKeyPressed(GLFW_KEY_UP, false))
         browser.goUp();

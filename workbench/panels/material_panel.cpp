@@ -4,6 +4,7 @@
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
 #include "workbench/figures/quantity.h"
+#include "workbench/panels/notes.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -292,16 +293,20 @@ class MaterialPanel {
         return pressed && enabled;
     }
 
+    /// The note of a widget, and what it is about now.
+    static std::string noteWith(const char* name, const std::string& now) {
+        return noteOf(name) + (now.empty() ? "" : ": " + now);
+    }
+
     void history() {
         ImGui::Spacing();
-        if (button("Undo", "undo", !edits_.undoName().empty(), "Ctrl+Z: " + edits_.undoName()))
+        if (button("Undo", "undo", !edits_.undoName().empty(), noteWith("undo", edits_.undoName())))
             edits_.undo();
         ImGui::SameLine();
-        if (button("Redo", "redo", !edits_.redoName().empty(), "Ctrl+Shift+Z: " + edits_.redoName()))
+        if (button("Redo", "redo", !edits_.redoName().empty(), noteWith("redo", edits_.redoName())))
             edits_.redo();
         ImGui::SameLine();
-        if (button("As in the file", "resetMaterial", edits_.edited(m_),
-                   "takes back all changes of this material")) {
+        if (button("As in the file", "resetMaterial", edits_.edited(m_), "")) {
             change(was_, "as in the file");
             edits_.endGesture();
         }
@@ -310,11 +315,11 @@ class MaterialPanel {
     void saving() {
         const bool inPlace = controller_.canSaveInPlace();
         if (button("Save", "save", edits_.edited() && !controller_.saving() && inPlace,
-                   inPlace ? "Ctrl+S: into " + controller_.path().string()
+                   inPlace ? noteWith("save", controller_.path().string())
                            : controller_.path().string() + " cannot be replaced: save to a new file"))
             controller_.save();
         ImGui::SameLine();
-        if (button("Save as...", "saveAs", !controller_.saving(), "to a new file"))
+        if (button("Save as...", "saveAs", !controller_.saving(), ""))
             state_.saveAsPressed = true;
         if (edits_.edited()) {
             ImGui::SameLine();

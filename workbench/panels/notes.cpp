@@ -167,8 +167,6 @@ constexpr std::array kNotes{
     Note{"resetMaterial", "Take back all changes of this material"},
     Note{"save", "Save into the file (Ctrl+S)"},
     Note{"saveAs", "Save under another name"},
-    Note{"target", "Path of the new file"},
-    Note{"saveTarget", "Save under this path"},
 };
 
 std::string settingNote(std::string_view name) {

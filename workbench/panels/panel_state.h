@@ -32,6 +32,7 @@ class HapticScene;
 /// Input of the panels.
 struct PanelInput {
     std::string modelName, modelFacts; ///< "doughnut.glb", "64,800 triangles"
+    std::string modelPath;             ///< of the open file, also after Save as
     const Scene* scene = nullptr;      ///< the current scene; null: none yet
     const HapticScene* haptic = nullptr;
     std::span<const std::filesystem::path> recent, samples; ///< to open

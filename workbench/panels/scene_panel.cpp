@@ -76,7 +76,7 @@ class NodeTree {
 
 void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.wrapped(input.modelName.empty() ? "none yet" : input.modelName);
-    widgets.mark("model", input.scene != nullptr ? input.scene->path : "");
+    widgets.mark("model", input.scene != nullptr ? input.modelPath : std::string());
     if (!input.modelFacts.empty())
         widgets.wrapped(input.modelFacts, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     if (input.scene != nullptr && !input.scene->nodes.empty())

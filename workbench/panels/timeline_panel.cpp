@@ -21,27 +21,27 @@ namespace {
 constexpr double kShiftStep = 0.1; // s
 
 /// `widest`: a label for which it has room, where its own changes and nothing beside it must move.
-bool button(const char* label, const char* name, const char* tip, Widgets& widgets, const char* widest = "") {
+bool button(const char* label, const char* name, Widgets& widgets, const char* widest = "") {
     const float width = std::max(Widgets::buttonWidth(label), Widgets::buttonWidth(widest));
     widgets.besideArrow(width);
     const bool pressed = ImGui::Button(label, ImVec2(width, 0.0f));
-    widgets.mark(name, tip);
+    widgets.mark(name);
     return pressed;
 }
 
 void transport(TimelineController& controller, Widgets& widgets) {
     Playback& at = controller.playback();
-    if (button("|<", "toBegin", "Home", widgets))
+    if (button("|<", "toBegin", widgets))
         at.toBegin();
-    if (button("<", "stepBack", "a tick back: Left; with Shift 100 ms", widgets))
+    if (button("<", "stepBack", widgets))
         at.step(-1);
-    if (button(at.playing() ? "Pause##play" : "Play##play", "play", "K", widgets, "Pause")) {
+    if (button(at.playing() ? "Pause##play" : "Play##play", "play", widgets, "Pause")) {
         controller.stopTouchingAgain();
         at.play(!at.playing());
     }
-    if (button(">", "stepOn", "a tick on: Right; with Shift 100 ms", widgets))
+    if (button(">", "stepOn", widgets))
         at.step(1);
-    if (button(">|", "toEnd", "End", widgets))
+    if (button(">|", "toEnd", widgets))
         at.toEnd();
     widgets.besideArrow(widgets.units(66.0f));
     ImGui::SetNextItemWidth(widgets.units(66.0f));
@@ -57,12 +57,12 @@ void transport(TimelineController& controller, Widgets& widgets) {
         ImGui::EndCombo();
     }
     widgets.mark("speed");
-    if (button("A", "markBegin", "the loop begins here: A", widgets))
+    if (button("A", "markBegin", widgets))
         at.markBegin();
-    if (button("B", "markEnd", "the loop ends here: B", widgets))
+    if (button("B", "markEnd", widgets))
         at.markEnd();
     ImGui::BeginDisabled(!at.beginMark() && !at.endMark()); // there all the time: nothing beside it moves
-    if (button("x", "clearMarks", "no loop: Shift+A", widgets))
+    if (button("x", "clearMarks", widgets))
         at.clearMarks();
     ImGui::EndDisabled();
 }
@@ -71,9 +71,7 @@ void examination(TimelineController& controller, Widgets& widgets) {
     char label[48] = "Verify";
     if (controller.verifying())
         std::snprintf(label, sizeof label, "Cancel (%.0f %%)", 100.0 * controller.verifyingFraction());
-    if (button((std::string(label) + "##verify").c_str(), "verify",
-               "touches all of it again, as fast as it goes, and compares every bit", widgets,
-               "Cancel (100 %)")) {
+    if (button((std::string(label) + "##verify").c_str(), "verify", widgets, "Cancel (100 %)")) {
         if (controller.verifying())
             controller.cancelVerifying();
         else
@@ -93,8 +91,7 @@ void examination(TimelineController& controller, Widgets& widgets) {
 
 /// Last on its line: it comes and goes.
 void openModel(TimelineController& controller, Widgets& widgets) {
-    if (!controller.modelIsOpen() && controller.modelFile() &&
-        button("Open its model", "openModel", "the model that was touched", widgets))
+    if (!controller.modelIsOpen() && controller.modelFile() && button("Open its model", "openModel", widgets))
         controller.wantModel();
 }
 

@@ -1,9 +1,9 @@
 #include "workbench/figures/quantity.h"
+#include "workbench/figures/ui_scale.h"
 #include "workbench/panels/colors.h"
 #include "workbench/panels/effect_switch.h"
 #include "workbench/panels/notes.h"
 #include "workbench/panels/panels.h"
-#include "workbench/screen/ui_scale.h"
 #include "workbench/screen/view_menu.h"
 
 #include <imgui.h>

@@ -22,7 +22,7 @@ ForceParts forceParts(const HapticOutput& tick) {
 }
 
 bool forceSent(const HapticOutput& tick, const HapticSettings& settings) {
-    return settings.forceEnabled && !has(tick.flags, TickFlag::SafetyLatched) &&
+    return settings.forceEnabled && settings.forceScale > 0.0 && !has(tick.flags, TickFlag::SafetyLatched) &&
            !has(tick.flags, TickFlag::ForceFault);
 }
 

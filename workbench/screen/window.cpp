@@ -1,7 +1,7 @@
 #include "workbench/screen/window.h"
 
 #include "engine/core/error.h"
-#include "workbench/screen/ui_scale.h"
+#include "workbench/figures/ui_scale.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

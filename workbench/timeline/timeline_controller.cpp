@@ -21,11 +21,16 @@ void TimelineController::demandUnused(const std::filesystem::path& file) const {
     const auto refuse = [&](const char* problem, const char* remedy) {
         throw Error(file.filename().string(), "", problem, remedy);
     };
-    if (looking() && timeline_->file() == file)
+    // By whatever path, or through a link.
+    const auto same = [&](const std::filesystem::path& other) {
+        std::error_code none;
+        return other == file || std::filesystem::equivalent(other, file, none);
+    };
+    if (looking() && same(timeline_->file()))
         refuse("is open", "go back to the live hand first");
-    if (opening() && openingFile_ == file)
+    if (opening() && same(openingFile_))
         refuse("is being opened", "cancel that first");
-    if (file == recorded_)
+    if (same(recorded_))
         refuse("is being recorded", "stop the recording first");
 }
 

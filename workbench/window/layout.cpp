@@ -1,5 +1,6 @@
 #include "workbench/window/layout.h"
 
+#include "workbench/figures/ui_scale.h"
 #include "workbench/panels/budget_panel.h"
 #include "workbench/panels/colors.h"
 #include "workbench/panels/effect_switch.h"
@@ -7,7 +8,6 @@
 #include "workbench/panels/file_panel.h"
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
-#include "workbench/screen/ui_scale.h"
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
@@ -121,10 +121,12 @@ void closeTopPopup(const PanelState& state) {
 
 /// Escape closes the topmost item.
 void escape(const PanelInput& input, PanelState& state) {
-    if (!keyPressed(GLFW_KEY_ESCAPE) || input.dialog->covers())
+    if (!keyPressed(GLFW_KEY_ESCAPE))
         return;
     if (ImGui::IsPopupOpen("", kAnyPopup))
         closeTopPopup(state);
+    else if (input.dialog->covers())
+        return; // it reads its keys itself
     else if (state.help)
         state.help = false;
     else if (state.leaving)
@@ -355,7 +357,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
         state.folds.bottom = !state.folds.bottom;
     if (!folds.bottom)
         dragBottom({picture.x, below, picture.width, display.y - below}, state.folds,
-                   display.y / input.scale - kBar - kMinHeight, widgets);
+                   display.y / input.scale - topOf(state) - kMinHeight, widgets);
     drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawSavedPicture(input, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);

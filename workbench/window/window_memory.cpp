@@ -3,7 +3,7 @@
 #include "engine/core/output_file.h"
 #include "workbench/figures/quantity.h"
 #include "workbench/figures/settings_json.h"
-#include "workbench/screen/ui_scale.h"
+#include "workbench/figures/ui_scale.h"
 
 #include <nlohmann/json.hpp>
 

@@ -32,7 +32,6 @@ std::string printable(std::span<const uint8_t> bytes) {
 [[noreturn]] void failOf(const ImportContext& context, const ProcessAnswer& answer, const std::string& name,
                          const MeshReader& reader) {
     using enum ProcessAnswer::End;
-    const std::string memory = std::to_string(reader.limits.memory >> 20) + " MiB";
     switch (answer.end) {
     case Exited:
         if (answer.status == 1 && !answer.output.empty())

@@ -153,8 +153,11 @@ const FieldGrid::Brick& FieldGrid::brickOf(const glm::ivec3& brick) const noexce
 }
 
 glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {
-    const glm::dvec3 last(layout_.cells - 1);
-    return glm::ivec3(glm::clamp(glm::floor(grid), glm::dvec3(0.0), last));
+    glm::ivec3 cell;
+    for (int axis = 0; axis < 3; ++axis) // fmax and fmin take a number for NaN
+        cell[axis] = static_cast<int>(
+            std::fmin(std::fmax(std::floor(grid[axis]), 0.0), static_cast<double>(layout_.cells[axis] - 1)));
+    return cell;
 }
 
 FieldCell FieldGrid::cell(const glm::ivec3& at) const noexcept {

@@ -13,7 +13,8 @@ namespace touchstone {
 /// cells meet in a concave kink each holds the proxy with its own plane; at a convex kink only the cell that
 /// contains the proxy does, since its neighbours lie above their continuation there.
 ///
-/// f tells distances up to FieldGrid::outside(): a ball larger than that touches nothing.
+/// f tells distances up to FieldGrid::outside(): a ball with a larger radius would touch the grid's box
+/// instead.
 class FieldShape final : public Shape {
   public:
     /// Object frame with the unit of the grid's. Throws Error where the field is nowhere negative.

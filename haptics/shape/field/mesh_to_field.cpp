@@ -67,7 +67,7 @@ std::shared_ptr<const FieldGrid> gridOf(const Soup& soup, const FieldLayout& lay
                                              kTimePerCell * layout.cells.x * layout.cells.y * layout.cells.z);
         distances = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
             interrupter, soup, *transform, band(request.outside), band(solid ? request.inside : 0.0),
-            solid ? 0 : openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+            solid ? openvdb::tools::DISABLE_RENORMALIZATION : openvdb::tools::UNSIGNED_DISTANCE_FIELD);
     }
     progress.step(0.7, kBuilding);
     openvdb::FloatGrid::ConstAccessor read = distances->getConstAccessor();
@@ -101,9 +101,13 @@ double finestVoxel(const HapticObject& mesh, double outside) {
     return voxel;
 }
 
-std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const FieldRequest& request,
+std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const FieldRequest& asked,
                                              const Progress& progress) {
     progress.stopIfCancelled();
+    // Clamped values must not enter a cell through which the surface passes.
+    FieldRequest request = asked;
+    request.inside = std::max(asked.inside, 2.0 * asked.voxel);
+    request.outside = std::max(asked.outside, 2.0 * asked.voxel);
     const FieldLayout layout = layoutFor(mesh, request);
     std::vector<openvdb::Vec3s> points;
     points.reserve(mesh.vertices.size());

@@ -19,13 +19,13 @@ struct FieldRequest {
 /// Negative inside a closed mesh, whichever way its triangles face; an open one, and one too thin to hold a
 /// node, becomes a shell of two voxels around its triangles. Distances are those to the triangles at the
 /// nodes. Throws Error where the voxel is no positive number and where the grid would have more than
-/// kMostFieldCells cells (the message names the smallest voxel that fits); Cancelled.
+/// kMostFieldCells cells (the message tells by how much the voxel is too small); Cancelled.
 [[nodiscard]] std::shared_ptr<const FieldGrid>
 fieldOfMesh(const HapticObject& mesh, const FieldRequest& request, const Progress& progress = {});
 
 /// The smallest voxel with which the mesh's field has at most kMostFieldCells cells.
 [[nodiscard]] double finestVoxel(const HapticObject& mesh, double outside);
 
-inline constexpr uint64_t kMostFieldCells = uint64_t{1} << 28;
+inline constexpr uint64_t kMostFieldCells = uint64_t{1} << 26;
 
 } // namespace touchstone

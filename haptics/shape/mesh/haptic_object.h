@@ -33,7 +33,6 @@ struct ObjectUse {
     bool oneSided = false;    ///< `sides` is front
     bool implicit = false;    ///< felt as a distance field: nothing of the above
     float voxelSize = 0.0f;   ///< of the field, model metres; 0: chosen from the object's size
-    float stiffness = 0.0f;   ///< N/m, of what is felt as a field: how deep a device pushes it in
     bool operator==(const ObjectUse&) const = default;
 };
 

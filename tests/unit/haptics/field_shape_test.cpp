@@ -278,13 +278,16 @@ TEST(FieldOfMesh, AMaterialThatIsImplicitIsFeltAsAField) {
     EXPECT_EQ(triangles->objects[0]->shape, nullptr);
     EXPECT_GT(triangles->objects[0]->triangleCount(), 0u);
     EXPECT_NE(withMaterials(*triangles, scene, after, before)->objects[0]->shape, nullptr);
-    // Coarser than the object: a shell.
-    scene.materials[0].haptic.voxelSize = 0.5f;
-    EXPECT_NE(TouchBench(scene).scene->objects[0]->shape, nullptr);
-    scene.materials[0].haptic.voxelSize = 1e-7f;
-    const TouchBench tooFine(scene);
-    ASSERT_EQ(tooFine.scene->warnings.size(), 1u);
-    EXPECT_EQ(tooFine.scene->warnings[0].place, "materials[0].voxelSize");
+    // Neighbourhoods of the field, which has none, are not those of the mesh.
+    field.scene->buildNeighbourhoods();
+    EXPECT_EQ(withMaterials(*field.scene, scene, before, after)->neighbourhoods(), nullptr);
+    for (const float size : {0.5f, 3e38f, 1e-7f}) {
+        scene.materials[0].haptic.voxelSize = size;
+        const TouchBench usual(scene);
+        EXPECT_NE(usual.scene->objects[0]->shape, nullptr);
+        ASSERT_EQ(usual.scene->warnings.size(), 1u) << size;
+        EXPECT_EQ(usual.scene->warnings[0].place, "materials[0].voxelSize");
+    }
 }
 
 TEST(FieldGrid, KeepsWhatItIsGivenAndRefusesWhatIsNone) {

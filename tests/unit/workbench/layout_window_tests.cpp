@@ -194,7 +194,7 @@ TEST_F(LayoutTest, AnAbsurdScaleOrSizeIsRefusedOrClampedWithAWarning) {
 
     std::ofstream(scratch_ / "state/touchstone/window.json") << R"({"version": 7, "ui_scale": 3})";
     std::filesystem::remove(status_);
-    size_ = "16384x16384";
+    size_ = "8192x8192";
     open(kDoughnut);
     const Json large = later();
     EXPECT_EQ(large["ui_scale"]["asked"], 1.0);

@@ -1,6 +1,6 @@
 // The size of type and widgets: never so large that the window has no room, whatever is asked for.
 
-#include "workbench/screen/ui_scale.h"
+#include "workbench/figures/ui_scale.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "workbench/screen/ui_scale.h"
+#include "workbench/figures/ui_scale.h"
 
 #include <algorithm>
 #include <charconv>
