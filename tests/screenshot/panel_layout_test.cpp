@@ -63,6 +63,7 @@ class PanelLayout : public ::testing::Test, protected PanelFigures {
         ImGuiIO& io = ImGui::GetIO();
         io.DisplaySize = ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
         io.DeltaTime = kFrame;
+        io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset; // as the window's Vulkan backend
         input_.scale = size.scale;
         applyStyle(size.scale);
         unsigned char* pixels = nullptr;

@@ -1,4 +1,5 @@
 #include "workbench/panels/colors.h"
+#include "workbench/panels/notes.h"
 #include "workbench/panels/panels.h"
 #include "workbench/panels/scale.h"
 
@@ -316,7 +317,8 @@ void showOutcome(const Outcome& outcome, const ImVec2& beside, const ImVec2& cha
         draw.AddRectFilled(ImVec2(at.x - widgets.units(4.0f), at.y),
                            ImVec2(end.x + widgets.units(4.0f), end.y), kGround);
     draw.AddText(at, outcome.color, outcome.text.c_str());
-    widgets.place("chartOutcome", {at.x, at.y, size.x, size.y});
+    widgets.place("chartOutcome",
+                  {at.x, at.y, size.x, size.y, outcome.more.empty() ? noteOf("chartOutcome") : outcome.more});
     if (!outcome.more.empty() && ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(at, end))
         ImGui::SetTooltip("%s", outcome.more.c_str());
 }

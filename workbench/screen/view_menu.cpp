@@ -9,7 +9,9 @@ namespace touchstone {
 
 namespace {
 
-void modeList(ViewOptions& options) {
+using Mark = std::function<void(const char*)>;
+
+void modeList(ViewOptions& options, const Mark& mark) {
     constexpr std::array kLabels{"as it looks",          "height map",
                                  "friction map",         "stiffness map",
                                  "damping map",          "normals",
@@ -21,30 +23,31 @@ void modeList(ViewOptions& options) {
     if (ImGui::Combo("##view", &mode, kLabels.data(), static_cast<int>(kLabels.size()),
                      static_cast<int>(kLabels.size())))
         options.mode = static_cast<ViewMode>(mode);
+    mark("view");
     ImGui::PopItemWidth();
 }
 
 /// The size of saved pictures.
-void pictureSizes(ViewOptions& options) {
+void pictureSizes(ViewOptions& options, const Mark& mark) {
     constexpr std::array<glm::ivec2, 5> kSizes{
         {{0, 0}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}}};
     const auto label = [](const glm::ivec2& size) {
         return size.x == 0 ? std::string("as in the window")
                            : std::to_string(size.x) + " x " + std::to_string(size.y);
     };
-    if (!ImGui::BeginCombo("Picture size", label(options.pictureSize).c_str()))
-        return;
-    for (const glm::ivec2& size : kSizes)
-        if (ImGui::Selectable(label(size).c_str(), size == options.pictureSize))
-            options.pictureSize = size;
-    ImGui::EndCombo();
+    if (ImGui::BeginCombo("Picture size", label(options.pictureSize).c_str())) {
+        for (const glm::ivec2& size : kSizes)
+            if (ImGui::Selectable(label(size).c_str(), size == options.pictureSize))
+                options.pictureSize = size;
+        ImGui::EndCombo();
+    }
+    mark("pictureSize");
 }
 
 } // namespace
 
 void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& mark) {
-    modeList(options);
-    mark("view");
+    modeList(options, mark);
     struct Toggle {
         const char* label;
         const char* name;
@@ -83,8 +86,7 @@ void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& 
         options.savePicture = true;
     mark("savePicture");
     ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
-    pictureSizes(options);
-    mark("pictureSize");
+    pictureSizes(options, mark);
 }
 
 } // namespace touchstone
