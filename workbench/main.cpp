@@ -17,6 +17,7 @@ struct Overloaded : Functions... {
 int main(int argc, char** argv) {
     using namespace touchstone;
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit is a write error and must not end the process
+    std::signal(SIGCHLD, SIG_DFL); // a parent that ignored it would leave us without our children's status
     try {
         int status = 0;
         const std::optional<Command> command = parseCommandLine(argc, argv, status);

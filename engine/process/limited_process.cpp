@@ -33,6 +33,25 @@ void limit(decltype(RLIMIT_CORE) what, rlim_t most, rlim_t beyond = 0) {
     setrlimit(what, &both);
 }
 
+/// In the child, whose table of handlers is its own: a handler of ours would run on our memory between the
+/// unblocking of the signals and exec. What is ignored stays ignored.
+void dropHandlers() {
+    for (int number = 1; number < NSIG; ++number) {
+        struct sigaction action {};
+        if (sigaction(number, nullptr, &action) != 0 || action.sa_handler == SIG_IGN)
+            continue;
+        action.sa_handler = SIG_DFL;
+        action.sa_flags = 0;
+        sigaction(number, &action, nullptr);
+    }
+}
+
+/// A copy outside of the standard streams: where the caller has closed one of these, a descriptor of ours may
+/// have its number, and would be overwritten before it is used.
+int beyondStreams(int descriptor, int otherwise) {
+    return fcntl(descriptor < 0 ? otherwise : descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+}
+
 /// In the child, which shares our memory until exec: system calls only.
 [[noreturn]] void become(const Start& start) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -49,9 +68,12 @@ void limit(decltype(RLIMIT_CORE) what, rlim_t most, rlim_t beyond = 0) {
         close(score);
     }
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    dup2(start.streams.input < 0 ? nothing : start.streams.input, STDIN_FILENO);
-    dup2(start.streams.output < 0 ? nothing : start.streams.output, STDOUT_FILENO);
-    dup2(nothing, STDERR_FILENO);
+    const int input = beyondStreams(start.streams.input, nothing),
+              output = beyondStreams(start.streams.output, nothing), error = beyondStreams(-1, nothing);
+    dup2(input, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(error, STDERR_FILENO);
+    dropHandlers();
     sigprocmask(SIG_SETMASK, &start.signals, nullptr);
     execv(start.program, start.arguments);
     _exit(kCannotStart);
@@ -74,7 +96,7 @@ pid_t startLimited(const std::string& program, const std::vector<std::string>& a
         raw.push_back(const_cast<char*>(argument.c_str())); // exec does not write to them
     raw.push_back(nullptr);
     Start start{program.c_str(), raw.data(), limits, streams, getpid(), {}};
-    // No handler of ours may run in the child.
+    // No handler of ours may run in the child before it drops them.
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &start.signals);

@@ -40,6 +40,8 @@ class Child {
         do
             ended = waitpid(pid_, &status_, options);
         while (ended < 0 && errno == EINTR);
+        if (ended < 0) // SIGCHLD is ignored, or another thread has waited for it: how it ended is lost
+            status_ = SIGKILL;
         running_ = ended == 0;
         return !running_;
     }

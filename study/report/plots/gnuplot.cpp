@@ -1,16 +1,13 @@
 #include "study/report/plots/gnuplot.h"
 
 #include "engine/core/output_file.h"
+#include "engine/process/process_answer.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -18,51 +15,15 @@ namespace touchstone::study {
 
 namespace {
 
-/// Result of a process: its exit status (-1 where it could not be started) and its output.
-struct Ended {
-    int status = -1;
-    std::string said;
-};
-
-/// Runs a program of the search path in `folder`, without a shell, with empty input.
-Ended run(const std::vector<std::string>& words, const std::filesystem::path& folder) {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return {-1, std::strerror(errno)};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-    std::vector<std::string> copies = words;
-    std::vector<char*> arguments;
-    for (std::string& word : copies)
-        arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
-    Ended ended;
-    if (failed != 0) {
-        close(ends[0]);
-        return {-1, std::strerror(failed)};
-    }
-    std::array<char, 4096> buffer{};
-    for (;;) {
-        const ssize_t got = read(ends[0], buffer.data(), buffer.size());
-        if (got > 0)
-            ended.said.append(buffer.data(), static_cast<size_t>(got));
-        else if (got == 0 || errno != EINTR)
-            break;
-    }
-    close(ends[0]);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    return ended;
+/// Runs a program of the search path in `folder` to its end, its output and its errors as one text. A
+/// gnuplot that waits for ever (a terminal that asks) is ended: nobody's end of work waits for a figure.
+ProcessAnswer run(std::vector<std::string> words, const std::filesystem::path& folder) {
+    std::vector<std::string> arguments{"sh", "-c", "cd -- \"$1\" && shift && exec \"$@\" 2>&1", "sh",
+                                       folder.string()};
+    std::ranges::move(words, std::back_inserter(arguments));
+    constexpr uint64_t kMostSaid = uint64_t{1} << 20;
+    return askProcess("/bin/sh", arguments, {.processorSeconds = 60, .seconds = 60}, FileDescriptor(),
+                      kMostSaid, [] { return false; });
 }
 
 /// Fallback fonts where Inter is not installed; gnuplot takes one name only.
@@ -80,18 +41,24 @@ std::string draw(const Figure& figure, const std::filesystem::path& folder, cons
     writeFile(folder / (figure.name + ".gp"), figure.script);
     writeFile(folder / (figure.name + ".dat"), figure.data);
     const std::string part = figure.name + ".part" + std::to_string(getpid());
-    const Ended ended =
-        run({program, "--default-settings", "-e", "out = '" + part + "'", figure.name + ".gp"}, folder);
+    const ProcessAnswer answer =
+        run({program, "--default-settings", "-e", "out = '" + part + "'", figure.name + ".gp"},
+            folder.empty() ? "." : folder);
+    using enum ProcessAnswer::End;
+    const std::string said(answer.output.begin(), answer.output.end());
     std::ostringstream svg;
     svg << std::ifstream(folder / part, std::ios::binary).rdbuf();
     std::error_code ignored;
     std::filesystem::remove(folder / part, ignored);
     const std::string file = (folder / (figure.name + ".svg")).string();
-    if (ended.status == -1)
-        return file + ": not drawn, gnuplot does not start: " + ended.said +
+    if (answer.end == NotStarted)
+        return file + ": not drawn, gnuplot does not start: " + said +
                "\n  remedy: apt-get install gnuplot-nox, then gnuplot " + figure.name + ".gp in that folder";
-    if (ended.status != 0 || svg.str().find("</svg>") == std::string::npos)
-        return file + ": not drawn, gnuplot said: " + ended.said + "\n  remedy: look at " + figure.name +
+    if (answer.end == TooSlow)
+        return file + ": not drawn, gnuplot did not end within a minute\n  remedy: look at " + figure.name +
+               ".gp beside it";
+    if (answer.end != Exited || answer.status != 0 || svg.str().find("</svg>") == std::string::npos)
+        return file + ": not drawn, gnuplot said: " + said + "\n  remedy: look at " + figure.name +
                ".gp beside it";
     writeFile(file, withFallback(svg.str()));
     return "";

@@ -3,8 +3,11 @@
 #include "engine/process/process_answer.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <initializer_list>
 #include <string>
 
 namespace touchstone {
@@ -53,6 +56,47 @@ TEST(ProcessAnswer, EndsWhereTheProgramDoesNot) {
     EXPECT_EQ(shell("exec >&-; exec sleep 1000", "", 10, {.seconds = 1}).end, End::TooSlow)
         << "though its output has ended";
     EXPECT_EQ(shell("sleep 1000 & exit 0").end, End::Exited) << "though another holds its output";
+}
+
+/// A caller whose standard streams are closed: the ends of the pipe then have their numbers.
+TEST(ProcessAnswer, ComesThroughWhereTheStandardStreamsAreClosed) {
+    const auto closed = [](std::initializer_list<int> streams) {
+        const pid_t caller = fork();
+        if (caller == 0) {
+            for (const int stream : streams)
+                close(stream);
+            const ProcessAnswer answer = shell("cat; echo end", "sent ");
+            _exit(answer.end == End::Exited && textOf(answer) == "sent end\n" ? 0 : 1);
+        }
+        int status = -1;
+        waitpid(caller, &status, 0);
+        return status;
+    };
+    EXPECT_EQ(closed({0}), 0);
+    EXPECT_EQ(closed({1}), 0);
+    EXPECT_EQ(closed({0, 1}), 0);
+    EXPECT_EQ(closed({0, 1, 2}), 0);
+}
+
+/// The system then waits for children by itself, and their status is lost: that is no success.
+TEST(ProcessAnswer, IsKilledWhereItsStatusIsLost) {
+    const pid_t caller = fork();
+    if (caller == 0) {
+        signal(SIGCHLD, SIG_IGN);
+        _exit(shell("exit 3").end == End::Killed ? 0 : 1);
+    }
+    int status = -1;
+    waitpid(caller, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+/// What the caller ignores the child ignores; what the caller handles ends the child.
+TEST(ProcessAnswer, HasNoHandlerOfTheCallers) {
+    const auto before = signal(SIGUSR1, [](int) {});
+    const ProcessAnswer answer = shell("kill -USR1 $$; echo alive");
+    signal(SIGUSR1, before);
+    EXPECT_EQ(answer.end, End::Killed);
+    EXPECT_EQ(answer.status, SIGUSR1);
 }
 
 TEST(ProcessAnswer, ItsFilesAreLimited) {
