@@ -1,3 +1,4 @@
+#include "haptics/comparison/comparison_solver.h"
 #include "workbench/figures/quantity.h"
 #include "workbench/workbench_window.h"
 
@@ -86,9 +87,10 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
             for (const Warning& warning : *warnings)
                 input.warnings.push_back((warning.place.empty() ? "" : warning.place + ": ") +
                                          warning.message);
-        for (std::string& warning : settingWarnings(state_.settings))
+        for (std::string& warning : settingWarnings(*input.haptic, state_.settings))
             input.warnings.push_back(std::move(warning));
-        if (has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
+        if (refusalOf(*input.haptic, state_.settings).empty() &&
+            has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
             input.warnings.emplace_back("the contact method is being prepared: swept until then");
     }
     input.problem = problem_;

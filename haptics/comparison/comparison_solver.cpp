@@ -3,21 +3,25 @@
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace touchstone {
 
 namespace {
 
-using Solver = std::variant<NeighbourhoodWatch, RayProxy<double>, RayProxy<float>>;
+constexpr bool isOfFields(ContactMethod method) {
+    return method == ContactMethod::VirtualPoint || method == ContactMethod::Potential;
+}
 
-Solver solverFor(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
-                 DeviceState& state, SolveResult& rest) noexcept {
-    const int budget = settings.iterationBudget;
-    if (settings.contact == ContactMethod::Neighbourhood)
-        return NeighbourhoodWatch(scene, motions, budget, state, rest);
-    if (settings.precision == Precision::Single)
-        return RayProxy<float>(scene, motions, budget, state, rest);
-    return RayProxy<double>(scene, motions, budget, state, rest);
+/// Where a model does not handle every object it would let the hand into one, and the sweep would then push
+/// it out.
+bool handles(const HapticScene& scene, ContactMethod method) noexcept {
+    if (method == ContactMethod::Sweep)
+        return true;
+    return std::ranges::all_of(scene.objects, [&](const auto& object) {
+        return isOfFields(method) ? object->shape != nullptr && object->shape->potential() != nullptr
+                                  : object->shape == nullptr;
+    });
 }
 
 /// The watch ignores jammed objects, and restarts where its reference object jumps.
@@ -40,19 +44,39 @@ void leaveCarry(ObjectMotions motions, DeviceState& state, uint32_t& flags) noex
 } // namespace
 
 bool comparisonIsReady(const HapticScene& scene, const HapticSettings& settings) noexcept {
-    // They would let the hand into a shape, and the sweep would then push it out.
-    const auto isShape = [](const auto& object) { return object->shape != nullptr; };
-    if (settings.contact != ContactMethod::Sweep && std::ranges::any_of(scene.objects, isShape))
+    if (!handles(scene, settings.contact))
         return false;
     switch (settings.contact) {
     case ContactMethod::Rays:
         return scene.hasRays();
     case ContactMethod::Neighbourhood:
         return scene.neighbourhoods() != nullptr;
+    case ContactMethod::VirtualPoint:
+    case ContactMethod::Potential:
+        return true;
     case ContactMethod::Sweep:
         break;
     }
     return false;
+}
+
+std::string refusalOf(const HapticScene& scene, const HapticSettings& settings) {
+    if (handles(scene, settings.contact))
+        return {};
+    const bool fields = isOfFields(settings.contact);
+    return "contact=" + settingValue(settings, "contact") +
+           (fields
+                ? " touches distance fields, and the scene has a mesh (representation: implicit makes it a "
+                  "field)"
+                : " touches meshes, and the scene has a distance field") +
+           ": swept";
+}
+
+std::vector<std::string> settingWarnings(const HapticScene& scene, const HapticSettings& settings) {
+    std::vector<std::string> warnings = settingWarnings(settings);
+    if (std::string refusal = refusalOf(scene, settings); !refusal.empty())
+        warnings.push_back(std::move(refusal));
+    return warnings;
 }
 
 /// The watch meets moving objects along the HIP's path relative to them.
@@ -66,10 +90,24 @@ void ComparisonSolver::followObjects(const HapticScene& scene, ObjectMotions mot
     sweepMovingObstaclesByRays(scene, motions, state, flags);
 }
 
+ComparisonSolver::Solver ComparisonSolver::solverFor(const HapticScene& scene, ObjectMotions motions,
+                                                     const HapticSettings& settings, DeviceState& state,
+                                                     SolveResult& rest) noexcept {
+    const int budget = settings.iterationBudget;
+    if (settings.contact == ContactMethod::Neighbourhood)
+        return NeighbourhoodWatch(scene, motions, budget, state, rest);
+    if (isOfFields(settings.contact))
+        return VirtualPoint(scene, motions, settings.contact, state, rest);
+    if (settings.precision == Precision::Single)
+        return RayProxy<float>(scene, motions, budget, state, rest);
+    return RayProxy<double>(scene, motions, budget, state, rest);
+}
+
 ComparisonSolver::ComparisonSolver(const HapticScene& scene, ObjectMotions motions,
                                    const HapticSettings& settings, DeviceState& state,
                                    SolveResult& rest) noexcept
-    : state_(state), solver_(solverFor(scene, motions, settings, state, rest)) {}
+    : state_(state), forceThreshold_(settings.forceThreshold),
+      solver_(solverFor(scene, motions, settings, state, rest)) {}
 
 bool ComparisonSolver::begin() noexcept {
     return std::visit([](auto& solver) { return solver.begin(); }, solver_);
@@ -96,14 +134,41 @@ void ComparisonSolver::placeAt(const glm::dvec3& place) noexcept {
     std::visit([&](auto& solver) { solver.placeAt(place); }, solver_);
 }
 
+bool ComparisonSolver::slideOnFacet(const glm::dvec3& place) noexcept {
+    auto* const solver = std::get_if<VirtualPoint>(&solver_);
+    return solver != nullptr && solver->slideTo(place);
+}
+
+glm::dvec3 ComparisonSolver::asPublished(const glm::dvec3& force, const glm::dvec3& hip,
+                                         double workspacePerReference, double stiffness, double damping,
+                                         const glm::dvec3& velocity,
+                                         const glm::dvec3& viscousForce) const noexcept {
+    if (!std::holds_alternative<VirtualPoint>(solver_))
+        return force;
+    const glm::dvec3 published =
+        stiffness * workspacePerReference * (state_.proxy - hip) - damping * velocity + viscousForce;
+    const double length = glm::length(published);
+    return forceThreshold_ > 0.0 && length > forceThreshold_ ? forceThreshold_ / length * published
+                                                             : published;
+}
+
 bool ComparisonSolver::returnTo(const glm::dvec3&, const glm::dvec3& hip) noexcept {
     moveTowards(hip);
     return true;
 }
 
 void leaveComparison(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
-    if (state.watch.touching)
+    if (!state.watch.touching)
+        return;
+    if (scene.neighbourhoods() != nullptr &&
+        scene.objects[static_cast<size_t>(state.reference)]->shape == nullptr) {
         leaveWatch(scene, motions, state);
+        return;
+    }
+    // A virtual point has no side, and lies where the sweep may not start.
+    state.watch.touching = state.placed = false;
+    state.clearance = 0.0;
+    state.friction = FrictionState::Free;
 }
 
 } // namespace touchstone

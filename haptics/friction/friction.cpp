@@ -18,6 +18,8 @@ FrictionAnswer askLaw(FrictionMode mode, const FrictionInput& input) {
         return elastoplasticLaw(input);
     case FrictionMode::VelocityThreshold:
         return velocityThresholdLaw(input);
+    case FrictionMode::Kim:
+        return kimLaw(input);
     case FrictionMode::Zilles:
     case FrictionMode::Off:
         break;
@@ -76,7 +78,7 @@ void holdBack(const glm::dvec3& held, const glm::dvec3& stretch, const glm::dvec
 
 template <class Solver>
 glm::dvec3 applyFriction(const HapticSettings& settings, const FrictionCone& cone, const glm::dvec3& velocity,
-                         const glm::dvec3& held, Solver& proxy, DeviceState& state,
+                         double dt, const glm::dvec3& held, Solver& proxy, DeviceState& state,
                          SolveResult& rest) noexcept {
     const FrictionMode mode = settings.friction;
     if (!cone.rough()) {
@@ -102,9 +104,12 @@ glm::dvec3 applyFriction(const HapticSettings& settings, const FrictionCone& con
                         .lastLength = glm::length(held - before),
                         .depth = limit.depth,
                         .staticFriction = limit.staticFriction,
-                        .dynamicFriction = limit.dynamicFriction};
+                        .dynamicFriction = limit.dynamicFriction,
+                        .dt = dt};
     if (mode == FrictionMode::VelocityThreshold)
         addSlip(settings, cone, velocity, input);
+    if (mode == FrictionMode::Kim)
+        input.growth = settings.frictionDepth * cone.workspacePerReference() * limit.depth;
     const FrictionAnswer answer = askLaw(mode, input);
     state.friction = answer.state;
     const bool ownPlace = mode != FrictionMode::Ho;
@@ -129,9 +134,9 @@ glm::dvec3 applyFriction(const HapticSettings& settings, const FrictionCone& con
     return got > asked ? std::sqrt(asked / got) * kept : kept;
 }
 
-template glm::dvec3 applyFriction(const HapticSettings&, const FrictionCone&, const glm::dvec3&,
+template glm::dvec3 applyFriction(const HapticSettings&, const FrictionCone&, const glm::dvec3&, double,
                                   const glm::dvec3&, ProxySolver&, DeviceState&, SolveResult&) noexcept;
-template glm::dvec3 applyFriction(const HapticSettings&, const FrictionCone&, const glm::dvec3&,
+template glm::dvec3 applyFriction(const HapticSettings&, const FrictionCone&, const glm::dvec3&, double,
                                   const glm::dvec3&, ComparisonSolver&, DeviceState&, SolveResult&) noexcept;
 
 } // namespace touchstone

@@ -1,7 +1,7 @@
 #pragma once
 // The friction laws: functions of lengths, independent of any mesh. One file each: zilles_law, ho_law,
-// elastoplastic_law, velocity_threshold_law; friction.cpp calls the one that the settings select and moves
-// the proxy.
+// elastoplastic_law, velocity_threshold_law, kim_law; friction.cpp calls the one that the settings select and
+// moves the proxy.
 
 #include "haptics/state/device_state.h"
 
@@ -22,6 +22,9 @@ struct FrictionInput {
     glm::dvec3 slip{0.0};   ///< velocity of the hand along the surface, length per s
     double threshold = 0.0; ///< of |slip|, length per s
     double viscosity = 0.0; ///< b / K, s: the length of the viscous force over |slip|
+    // Of kimLaw alone.
+    double dt = 1e-3;    ///< s
+    double growth = 0.0; ///< d |p_c - p_t| of [002 eq. 4]
 };
 
 /// Result of a law. The friction force is K * share * stretch.
@@ -57,6 +60,15 @@ struct FrictionAnswer {
 /// as long as |v| >= the threshold. Below it the contact sticks where it is: the spring begins slack. The
 /// bound of the viscous force by mu_d N is ours: it keeps the force in the cone at any speed.
 [[nodiscard]] FrictionAnswer velocityThresholdLaw(const FrictionInput& input) noexcept;
+
+/// Kim, Kyrikou, Sukhatme and Desbrun [002 §4.3]: the contact point follows its frictionless place by the
+/// fraction 1 - f of the way. f_c is the dynamic coefficient, f_v = f_c (1 + d |p_c - p_t|) (eq. 4), here at
+/// most 0.999 since at 1 the point never moves again. Equations 5 to 7 as printed (F_v in eq. 7 is F_r) take
+/// f = f_v in every tick: a low-pass whose drag is proportional to the servo's period. With
+///   f = tau / (tau + dt), tau = 1 ms f_v / (1 - f_v)
+/// it is the same at 1 kHz, and lags by tau v behind the velocity v at any rate. It knows no cone and no
+/// sticking: at rest the point creeps to its frictionless place with the time constant tau.
+[[nodiscard]] FrictionAnswer kimLaw(const FrictionInput& input) noexcept;
 
 /// Fraction of its limit up to which the elasto-plastic contact is purely elastic.
 inline constexpr double kElastic = 0.7;

@@ -92,6 +92,9 @@ class ProxySolver {
     /// True when the proxy at its present place is farther than its radius from every surface.
     [[nodiscard]] bool isFree() noexcept;
 
+    /// Stage 4 applies.
+    [[nodiscard]] static constexpr bool shades(const HapticSettings&) noexcept { return true; }
+
     /// At the end of the tick: stores the proxy's clearance from one-sided surfaces. No effect in scenes
     /// without them.
     void settleClearance() noexcept {

@@ -12,11 +12,12 @@ namespace {
 
 using S = HapticSettings;
 
-constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays"}, kPrecision[]{"double", "single"},
+constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays", "virtualPoint", "potential"},
+    kPrecision[]{"double", "single"},
     kShading[]{"off", "twoPass", "projected", "direction", "material", "singleRound"},
     kTexture[]{"off", "law", "blinn", "minsky", "blinnMagnitude"},
     kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
-    kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold"},
+    kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold", "kim"},
     kPassivity[]{"off", "observe", "control"};
 
 constexpr double kDegree = 0.017453292519943295;
@@ -24,7 +25,8 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr std::array kFields{
     wordField<&S::contact>("contact", kContact,
                            "how contacts are found; neighbourhood: Ho's walk over the mesh; rays: Zilles' "
-                           "god-object; both a point without a radius"),
+                           "god-object; virtualPoint and potential: Kim's point of a distance field and the "
+                           "force it replaces; all but sweep a point without a radius"),
     wordField<&S::precision>("precision", kPrecision,
                              "single: contact=rays finds contacts and solves for the proxy in floats"),
     wordField<&S::forceShading>("forceShading", kShading,
@@ -37,7 +39,8 @@ constexpr std::array kFields{
     wordField<&S::friction>(
         "friction", kFriction,
         "stiction point with static and dynamic coefficients; zilles: sawtooth; ho: two "
-        "states; elastoplastic: creeps before it slips; velocityThreshold: viscous above a speed"),
+        "states; elastoplastic: creeps before it slips; velocityThreshold: viscous above a speed; kim: the "
+        "contact point lags behind the hand, and creeps at rest"),
     numberField<&S::proxyRadius>("proxyRadius", "m", 0.0, 0.05,
                                  "radius of the proxy sphere; 0 is the god-object"),
     numberField<&S::stiffness>("stiffness", "N/m", 0.0, 1e5,
@@ -53,6 +56,10 @@ constexpr std::array kFields{
         "frictionViscosity", "N s/m", 0.0, 1e3,
         "friction=velocityThreshold: friction over speed while sliding, up to the "
         "dynamic limit"),
+    numberField<&S::frictionDepth>("frictionDepth", "1/m", 0.0, 1e4,
+                                   "friction=kim: growth of friction with the depth of the hand"),
+    numberField<&S::forceThreshold>("forceThreshold", "N", 0.0, 100.0,
+                                    "contact=virtualPoint and potential: largest force; 0: no threshold"),
     numberField<&S::shadingTiltLimit>("shadingTiltLimit", "deg", 0.0, 90.0,
                                       "most that shading tilts the true normal", kDegree),
     numberField<&S::textureTiltLimit>("textureTiltLimit", "deg", 0.0, 90.0,

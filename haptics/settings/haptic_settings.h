@@ -12,8 +12,9 @@
 namespace touchstone {
 
 /// Neighbourhood: Ho's walk over the mesh, for a point (comparison/neighbourhood_watch.h). Rays: Zilles'
-/// god-object moved by rays, also a point (comparison/ray_proxy.h).
-enum class ContactMethod : uint8_t { Sweep, Neighbourhood, Rays };
+/// god-object moved by rays, also a point (comparison/ray_proxy.h). VirtualPoint: Kim's contact point of a
+/// field, Potential: the force proportional to the field, both of a point (comparison/virtual_point.h).
+enum class ContactMethod : uint8_t { Sweep, Neighbourhood, Rays, VirtualPoint, Potential };
 /// Of the contact query and the proxy solve of contact=rays; the others are double.
 enum class Precision : uint8_t { Double, Single };
 /// Material: each material's forceShading (auto is two-pass). The others apply to every material that is not
@@ -28,7 +29,7 @@ enum class TextureFilter : uint8_t { Nearest, Bilinear, Bicubic, Mip };
 /// Precomputed: differences stored for each texel, interpolated like the heights. Analytic: the derivative of
 /// the filter.
 enum class TextureGradient : uint8_t { Central, Precomputed, Analytic };
-enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic, VelocityThreshold };
+enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic, VelocityThreshold, Kim };
 /// The response of safety to energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
 
@@ -52,6 +53,10 @@ struct HapticSettings {
     double frictionThreshold = 0.01;
     /// The same law's friction over the speed while it slides, N·s/m.
     double frictionViscosity = 2.0;
+    /// Of friction=kim: d of [002 eq. 4], 1/m, by which friction grows with the depth.
+    double frictionDepth = 0.0;
+    /// N, of contact=virtualPoint and potential: the force is no larger [002 §4.2]; 0: no threshold.
+    double forceThreshold = 0.0;
     /// rad, 30°: the papers' stable range [000 §4].
     double shadingTiltLimit = 0.5235987755982988;
     /// rad, 25°. Steeper felt normals are compressed below it; >= pi/2: no limit.

@@ -20,6 +20,20 @@ struct FeatureDistance {
     FeatureId feature = 0;
 };
 
+/// A potential f whose zero is a shape's surface, negative inside [002 §3.1]. The shape's frame and unit.
+class PotentialField {
+  public:
+    virtual ~PotentialField() = default;
+    [[nodiscard]] virtual double value(const glm::dvec3& point) const noexcept = 0;
+    /// The gradients at the eight nodes of the cell, interpolated [002 §3.2]: unlike the gradient of f it is
+    /// continuous.
+    [[nodiscard]] virtual glm::dvec3 gradient(const glm::dvec3& point) const noexcept = 0;
+    /// At least |f(a) - f(b)| / |a - b| for all a, b.
+    [[nodiscard]] virtual double lipschitz() const noexcept = 0;
+    /// Edge of a cell.
+    [[nodiscard]] virtual double voxel() const noexcept = 0;
+};
+
 /// Geometry in an object frame whose unit is about the size of the object. Immutable while a servo reads it.
 /// Every function runs on the servo thread: bounded, no allocation, no lock, no throw. Distances are signed
 /// and accurate to 1e-13: the solver rests at a gap of 1e-12 and counts what is within 2e-12 as contact
@@ -56,6 +70,12 @@ class Shape {
 
     /// Radius of a sphere about the object's origin that contains the object.
     [[nodiscard]] virtual double boundingRadius() const noexcept = 0;
+
+    /// Null where the shape is no potential field; lives as long as the shape.
+    [[nodiscard]] virtual const PotentialField* potential() const noexcept { return nullptr; }
+
+    /// What the shape keeps for the servo.
+    [[nodiscard]] virtual uint64_t memoryBytes() const noexcept = 0;
 
     /// Distinguishes this geometry from every other, for recordings.
     [[nodiscard]] virtual uint64_t identity() const noexcept = 0;

@@ -3,6 +3,7 @@
 // force. Only haptic_step.cpp includes this file. Functions that a scene may not need are out of line, so
 // that they take no registers from those that every scene needs.
 
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/force/contact_loads.h"
 #include "haptics/force/spring_damper.h"
 #include "haptics/friction/friction.h"
@@ -116,7 +117,7 @@ Felt feltForce(const HandTick& tick, const glm::dvec3& hip, const glm::dvec3& he
     SolveResult& rest = state.rest;
     const Similarity& workspaceFromReference =
         tick.motions[static_cast<size_t>(state.reference)].workspaceFromObject;
-    const bool oneFacet = Effects && anyOneFacet(scene.plan, settings);
+    const bool oneFacet = Effects && Solver::shades(settings) && anyOneFacet(scene.plan, settings);
     const bool asOne = !Effects || activeSet.count <= 1 || feltAsOne(tick, oneFacet, rest, activeSet);
     FeltShape shape;
     if (rest.contactCount > 0 && asOne)
@@ -157,7 +158,7 @@ Felt feltForce(const HandTick& tick, const glm::dvec3& hip, const glm::dvec3& he
         if (asOne)
             several.cone = FrictionCone(feel, velocity, workspaceFromReference.scale);
         stretch = workspaceFromReference.scale *
-                  applyFriction(settings, several.cone, velocity, held, proxy, state, rest);
+                  applyFriction(settings, several.cone, velocity, tick.dt, held, proxy, state, rest);
     }
     stopwatch.lap(Stage::Friction);
 
@@ -170,6 +171,14 @@ Felt feltForce(const HandTick& tick, const glm::dvec3& hip, const glm::dvec3& he
     else if constexpr (Effects)
         force = asOne ? springDamperForce(feel, stretch, several.cone.viscousForce(), velocity)
                       : several.force + several.cone.stiffness() * stretch + several.cone.viscousForce();
+    if constexpr (std::is_same_v<Solver, ComparisonSolver>) {
+        glm::dvec3 viscous(0.0);
+        if constexpr (Effects)
+            viscous = several.cone.viscousForce();
+        if (feel.touching)
+            force = proxy.asPublished(force, hip, workspaceFromReference.scale, feel.stiffness, feel.damping,
+                                      velocity, viscous);
+    }
     const double share =
         output.zoom > 1.0 && asOne ? bearableShare(feel.stiffness, output.zoom, settings, tick.limits) : 1.0;
     return {force, share, feel.touching ? feel.object : -1};

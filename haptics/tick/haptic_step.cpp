@@ -99,7 +99,7 @@ template <class Solver, class Stopwatch>
 
     // 3. Proxy solve: as near to the goal as free space allows. 4. Force shading: the same solve against the
     // interpolated planes.
-    if (effects && anyTwoPass(tick.scene.plan, tick.settings)) {
+    if (effects && Solver::shades(tick.settings) && anyTwoPass(tick.scene.plan, tick.settings)) {
         solveShaded(tick, hip, glm::length(state.travel) / workspaceFromReference.scale, proxy, state,
                     stopwatch);
     } else {

@@ -147,6 +147,10 @@ HapticSettings inEffect(HapticSettings settings, const HapticScene& scene) {
         settings.frictionThreshold = defaults.frictionThreshold;
         settings.frictionViscosity = defaults.frictionViscosity;
     }
+    if (settings.friction != FrictionMode::Kim)
+        settings.frictionDepth = defaults.frictionDepth;
+    if (settings.contact != ContactMethod::VirtualPoint && settings.contact != ContactMethod::Potential)
+        settings.forceThreshold = defaults.forceThreshold;
     return settings;
 }
 

@@ -68,6 +68,10 @@ void ReferenceTouch::adopt(const TickRecord& record, const HapticSettings& setti
     if (!state_.sampled || has(felt.flags, TickFlag::StartedInside) || reference < 0 ||
         static_cast<size_t>(reference) >= motions.size())
         return; // the next tick places it at its HIP
+    // A virtual point is no valid start of the sweep: the reference begins when the hand has left.
+    if (felt.contacts > 0 &&
+        (settings.contact == ContactMethod::VirtualPoint || settings.contact == ContactMethod::Potential))
+        return;
     const Similarity& workspaceFromReference = motions[static_cast<size_t>(reference)].workspaceFromObject;
     state_.reference = reference;
     state_.placed = true;

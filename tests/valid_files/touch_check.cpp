@@ -3,6 +3,7 @@
 #include "devices/stroke/stroke_path.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/scene/built_for.h"
 #include "haptics/tick/stepped_hand.h"
 #include "tests/support/scene_promises.h"
@@ -38,13 +39,13 @@ HapticSettings anySettings(Draw& draw) {
         if (!wrong.empty())
             throw std::logic_error(wrong);
     };
-    set("contact", {"sweep", "sweep", "neighbourhood", "rays"});
+    set("contact", {"sweep", "sweep", "neighbourhood", "rays", "virtualPoint", "potential"});
     set("precision", {"double", "single"});
     set("forceShading", {"material", "off", "twoPass", "projected", "direction", "singleRound"});
     set("texture", {"law", "off", "blinn", "minsky", "blinnMagnitude"});
     set("textureFilter", {"mip", "nearest", "bilinear", "bicubic"});
     set("textureGradient", {"central", "precomputed", "analytic"});
-    set("friction", {"zilles", "ho", "elastoplastic", "velocityThreshold", "off"});
+    set("friction", {"zilles", "ho", "elastoplastic", "velocityThreshold", "kim", "off"});
     set("passivity", {"observe", "control", "off"});
     settings.proxyRadius = draw.pick(std::vector{0.0, 0.0005, 0.005});
     settings.stiffness = draw.pick(std::vector{0.0, 0.0, 300.0, 3000.0});
@@ -106,12 +107,17 @@ class Touch {
         require(glm::length(command - last_) <= limits.maxForceRate * kTick * (1.0 + 1e-9),
                 "a command beyond maxForceRate");
         require(!has(o.flags, TickFlag::ForceFault), "a fault of the force");
-        require(!has(o.flags, TickFlag::NeighbourhoodMissing), "no neighbourhood though it was built");
+        if (usable)
+            require(has(o.flags, TickFlag::NeighbourhoodMissing) ==
+                        !refusalOf(*model_.haptic, settings_).empty(),
+                    "a contact method that is ready and was not used");
         require(has(o.flags, TickFlag::InputInvalid) == !usable, "a wrong InputInvalid");
         if (o.object >= 0) {
-            require(static_cast<size_t>(o.object) < model_.haptic->objects.size() && o.triangle >= 0 &&
-                        static_cast<size_t>(o.triangle) <
-                            model_.haptic->objects[static_cast<size_t>(o.object)]->triangleCount(),
+            const bool known = static_cast<size_t>(o.object) < model_.haptic->objects.size();
+            require(known, "a touched object that is not there");
+            const auto& object = known ? model_.haptic->objects[static_cast<size_t>(o.object)] : nullptr;
+            require(object == nullptr || object->shape != nullptr ||
+                        (o.triangle >= 0 && static_cast<size_t>(o.triangle) < object->triangleCount()),
                     "a touched triangle that is not there");
         }
         report_.contactTicks += o.contacts > 0 ? 1 : 0;

@@ -4,6 +4,7 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "engine/time/seconds_now.h"
+#include "haptics/comparison/comparison_solver.h"
 #include "renderer/draw_quality.h"
 #include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
@@ -212,7 +213,7 @@ nlohmann::ordered_json reportOf(const RunOptions& options, const RunResult& run)
                                 {"triangles", run.model.scene->triangleCount()}};
     json.update(run.hands.json(0));
     json.update({{"settings", settingsJson(options.settings)},
-                 {"setting_warnings", settingWarnings(options.settings)},
+                 {"setting_warnings", settingWarnings(*run.model.haptic, options.settings)},
                  {"servo", servoJson(run.servo, first, run.frames.seconds, run.stolen)},
                  {"wake_histogram", histogramJson(first.wake())},
                  {"step", first.stepJson()},

@@ -6,6 +6,7 @@
 #include "engine/core/float_mode.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/query/ray_floor.h"
 #include "haptics/recording/recording_writer.h"
 #include "haptics/servo/realtime_thread.h"
@@ -375,7 +376,7 @@ int touchCommand(const TouchOptions& options) {
             {"fit", options.fit == Fit::None ? "none" : "workspace"},
             {"loop", options.closedLoop ? plantJson(touch.plant()) : nlohmann::ordered_json("open")},
             {"settings", settingsJson(options.settings)},
-            {"setting_warnings", settingWarnings(options.settings)},
+            {"setting_warnings", settingWarnings(*model.haptic, options.settings)},
             {"load", loadJson(stages, peak)},
             {"ticks", planned.size()},
             {"step", statistics.stepJson()},

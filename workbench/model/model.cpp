@@ -1,5 +1,6 @@
 #include "workbench/model/model.h"
 
+#include "haptics/comparison/comparison_solver.h"
 #include "haptics/scene/built_for.h"
 #include "haptics/world/world_state.h"
 
@@ -38,7 +39,7 @@ Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor
 }
 
 void prepareFor(const Model& model, const HapticSettings& settings) {
-    for (const std::string& warning : settingWarnings(settings))
+    for (const std::string& warning : settingWarnings(*model.haptic, settings))
         std::fprintf(stderr, "touchstone: warning: %s\n", warning.c_str());
     buildFor(*model.haptic, settings);
 }

@@ -64,7 +64,8 @@ void sliders(HapticSettings& settings, Widgets& widgets) {
 void drawConfigurations(PanelState& state, Widgets& widgets) {
     HapticSettings& settings = state.settings;
     constexpr std::array kContact{"contact: swept sphere", "contact: neighbourhood watch",
-                                  "contact: rays (god-object)"};
+                                  "contact: rays (god-object)", "contact: virtual point (Kim)",
+                                  "contact: potential"};
     int method = static_cast<int>(settings.contact);
     if (widgets.combo("contact", method, kContact))
         settings.contact = static_cast<ContactMethod>(method);
@@ -93,7 +94,7 @@ void drawConfigurations(PanelState& state, Widgets& widgets) {
     }
     way(widgets, "frictionLaw", settings.friction, FrictionMode::Off, FrictionMode::Zilles,
         std::array{"friction: sawtooth (Zilles)", "friction: two states (Ho)", "friction: elasto-plastic",
-                   "friction: velocity threshold"});
+                   "friction: velocity threshold", "friction: lagging point (Kim)"});
     sliders(settings, widgets);
 }
 

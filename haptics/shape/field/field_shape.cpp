@@ -142,15 +142,19 @@ FeatureDistance FieldShape::distanceFrom(FeatureId feature, const glm::dvec3& po
     return seen(grid_->cell(index), index, point);
 }
 
-glm::dvec3 FieldShape::shadingNormal(FeatureId, const glm::dvec3& point) const noexcept {
+glm::dvec3 FieldShape::gradient(const glm::dvec3& point) const noexcept {
     const Place place = at(point);
-    glm::dvec3 normal(0.0);
+    glm::dvec3 sum(0.0);
     for (int k = 0; k < 8; ++k) {
         const glm::ivec3 corner(k & 1, k >> 1 & 1, k >> 2);
         const glm::dvec3 weight = glm::mix(1.0 - place.u, place.u, glm::dvec3(corner));
-        normal += weight.x * weight.y * weight.z * grid_->nodeGradient(place.cell + corner);
+        sum += weight.x * weight.y * weight.z * grid_->nodeGradient(place.cell + corner);
     }
-    return unit(normal, glm::dvec3(0.0));
+    return sum;
+}
+
+glm::dvec3 FieldShape::shadingNormal(FeatureId, const glm::dvec3& point) const noexcept {
+    return unit(gradient(point), glm::dvec3(0.0));
 }
 
 /// Sphere tracing: f grows by at most its Lipschitz bound, and by the distance from the grid.

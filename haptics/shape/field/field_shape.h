@@ -15,14 +15,17 @@ namespace touchstone {
 ///
 /// f tells distances up to FieldGrid::outside(): a ball with a larger radius would touch the grid's box
 /// instead.
-class FieldShape final : public Shape {
+class FieldShape final : public Shape, public PotentialField {
   public:
     /// Object frame with the unit of the grid's. Throws Error where the field is nowhere negative.
     explicit FieldShape(std::shared_ptr<const FieldGrid> grid);
 
     [[nodiscard]] const FieldGrid& grid() const noexcept { return *grid_; }
-    /// f at a place.
-    [[nodiscard]] double value(const glm::dvec3& point) const noexcept;
+    [[nodiscard]] double value(const glm::dvec3& point) const noexcept override;
+    [[nodiscard]] glm::dvec3 gradient(const glm::dvec3& point) const noexcept override;
+    [[nodiscard]] double lipschitz() const noexcept override { return grid_->lipschitz(); }
+    [[nodiscard]] double voxel() const noexcept override { return grid_->layout().voxel; }
+    [[nodiscard]] const PotentialField* potential() const noexcept override { return this; }
 
     [[nodiscard]] double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
                                double limit) const noexcept override;
@@ -30,7 +33,7 @@ class FieldShape final : public Shape {
                               std::span<FeatureDistance> found) const noexcept override;
     [[nodiscard]] FeatureDistance distanceFrom(FeatureId feature,
                                                const glm::dvec3& point) const noexcept override;
-    /// The nodes' gradients interpolated at the point [002 eqs. 1, 2].
+    /// The direction of `gradient` [002 eqs. 1, 2].
     [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
                                            const glm::dvec3& point) const noexcept override;
     [[nodiscard]] bool hasShadingNormals() const noexcept override { return true; }
@@ -38,6 +41,7 @@ class FieldShape final : public Shape {
         return value(point) < 0.0;
     }
     [[nodiscard]] double boundingRadius() const noexcept override { return boundingRadius_; }
+    [[nodiscard]] uint64_t memoryBytes() const noexcept override { return grid_->memoryBytes(); }
     [[nodiscard]] uint64_t identity() const noexcept override { return grid_->hash(); }
 
   private:

@@ -195,7 +195,7 @@ AttributeBytes HapticObject::attributeBytes() const {
 
 uint64_t HapticObject::memoryBytes() const {
     return bytesOf(vertices) + bytesOf(indices) + bytesOf(sourceIndices) + (anySmooth ? 0 : bytesOf(smooth)) +
-           attributeBytes().all() + tree.memoryBytes();
+           attributeBytes().all() + tree.memoryBytes() + (shape != nullptr ? shape->memoryBytes() : 0);
 }
 
 std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int instanceIndex,

@@ -37,6 +37,7 @@ class Ball final : public Shape {
     bool hasShadingNormals() const noexcept override { return false; }
     bool contains(const glm::dvec3& point) const noexcept override { return glm::length(point) < 0.5; }
     double boundingRadius() const noexcept override { return 0.5; }
+    uint64_t memoryBytes() const noexcept override { return sizeof *this; }
     uint64_t identity() const noexcept override { return 0x62616c6c; }
 };
 
