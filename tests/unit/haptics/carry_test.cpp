@@ -169,6 +169,8 @@ TEST(MovingObstacles, BetweenJawsThatAreNotItsReferenceItStaysWithOne) {
     close(0.011);
     EXPECT_TRUE(has(bench.output.flags, TickFlag::Jammed));
     EXPECT_FALSE(has(bench.output.flags, TickFlag::CandidatesFull));
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::BudgetReached))
+        << "no place is there, which is found soon";
     EXPECT_EQ(bench.state[0].jammed.count, 1u);
     EXPECT_NEAR(std::abs(bench.output.proxy.x), 1e-3, 1e-6) << "on the face of the other jaw";
 }
@@ -188,6 +190,147 @@ TEST(MovingObstacles, AStickingProxyGoesAllTheWayWithItsSurface) {
             EXPECT_EQ(bench.output.friction, FrictionState::Sticking);
             EXPECT_NEAR(bench.output.proxy.x, proxy.x + i * way, 1e-9) << way << " in tick " << i;
         }
+    }
+}
+
+/// A surface that runs away under a proxy that sticks takes it along by what friction can hold: twice its
+/// distance from the hand in a tick, also where a turn is divided into steps.
+TEST(MovingObstacles, ASurfaceThatRunsAwayTakesAStickingProxyAlongAsFarAsFrictionHolds) {
+    constexpr double kDepth = 1e-3, kAngle = 0.25; // rad in a tick, of which a step turns half
+    for (const bool turns : {false, true}) {
+        Boxes bench({{0.0, -0.05, 0.0}, {0.12, -0.05, 0.0}});
+        bench.settings.staticFriction = bench.settings.dynamicFriction = 50.0;
+        bench.moveTo({-0.03, 0.002, 0.003}, 0.1);
+        bench.moveTo({-0.03, -kDepth, 0.003}, 0.1);
+        ASSERT_EQ(bench.output.friction, FrictionState::Sticking);
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 proxy = bench.output.proxy, hip = bench.output.hip;
+            const double hold = 2.0 * glm::distance(proxy, hip), way = turns ? kAngle * 0.03 : 5e-3;
+            for (ObjectMotion& motion : bench.motions)
+                motion.before = motion.workspaceFromObject;
+            Similarity& pose = bench.motions[0].workspaceFromObject;
+            if (turns)
+                pose.rotation = glm::angleAxis(kAngle, glm::dvec3(0.0, 1.0, 0.0)) * pose.rotation;
+            else
+                pose.translation.z += way;
+            bench.step(hip);
+            EXPECT_NEAR(glm::distance(bench.output.proxy, proxy), std::min(hold, way),
+                        turns ? 0.02 * way : 1e-9)
+                << turns << " in tick " << i;
+            EXPECT_NEAR(bench.output.proxy.y, 0.0, 1e-6);
+        }
+    }
+}
+
+/// More facets meet at its tip than a solve has room for: it takes the proxy along as any other obstacle.
+TEST(MovingObstacles, ASpikeOfFortyFacetsTakesTheProxyAlong) {
+    constexpr int kFacets = 40;
+    constexpr double kPi = 3.141592653589793, kSpike = 0.05, kSpikeRadius = 0.02, kWay = 1e-3;
+    assets::Shape spike; // along +x, its tip at the origin
+    const auto at = [](double angle) {
+        return glm::vec3(glm::dvec3(-kSpike, kSpikeRadius * std::cos(angle), kSpikeRadius * std::sin(angle)));
+    };
+    for (int i = 0; i < kFacets; ++i) {
+        const glm::vec3 a = at(2.0 * kPi * i / kFacets), b = at(2.0 * kPi * (i + 1) / kFacets);
+        for (const glm::vec3& corner : {glm::vec3(0.0f), a, b, glm::vec3(at(0.0).x, 0.0f, 0.0f), b, a}) {
+            spike.indices.push_back(static_cast<uint32_t>(spike.positions.size()));
+            spike.positions.push_back(corner);
+        }
+    }
+    for (const double beside : {0.0, 1e-8}) {
+        Scene scene = Boxes::sceneWith({{0.0, -0.05, 0.0}});
+        const glm::dvec3 hip(0.0, 0.01, 0.0);
+        addShape(scene, spike, glm::translate(glm::dmat4(1.0), glm::dvec3(-0.03, hip.y + beside, 0.0)));
+        TouchBench bench(scene);
+        bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+        bench.step(hip);
+        ASSERT_EQ(bench.state[0].reference, 0);
+        double tip = -0.03;
+        for (int i = 0; i < 40; ++i) {
+            for (ObjectMotion& motion : bench.motions)
+                motion.before = motion.workspaceFromObject;
+            bench.motions[1].workspaceFromObject.translation.x += kWay;
+            tip += kWay;
+            bench.step(hip);
+            EXPECT_FALSE(has(bench.output.flags, TickFlag::StartedInside)) << i;
+            const double behind = tip - bench.output.proxy.x,
+                         aside = std::hypot(bench.output.proxy.y - hip.y - beside, bench.output.proxy.z);
+            const double apothem = std::cos(kPi / kFacets) * kSpikeRadius / kSpike;
+            EXPECT_TRUE(behind <= 1e-7 || aside >= apothem * behind - 1e-7)
+                << behind << " behind the tip, " << aside << " beside it, tick " << i;
+            if (std::abs(tip) > 1e-5) {
+                EXPECT_EQ(bench.output.contacts > 0, tip > 0.0) << i;
+            }
+        }
+    }
+}
+
+/// Two objects flush with each other that move together are one for friction.
+TEST(MovingObstacles, FrictionGoesOverTheBorderOfTwoThatMoveTogether) {
+    for (const FrictionMode law : {FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic}) {
+        Boxes two({{-0.05, -0.05, 0.0}, {0.05, -0.05, 0.0}});
+        TouchBench one(sceneOf(assets::box({0.2, 0.1, 0.1}),
+                               glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.05, 0.0))));
+        one.settings = two.settings;
+        one.motions.assign(one.scene->restMotions.begin(), one.scene->restMotions.end());
+        for (TouchBench* bench : {static_cast<TouchBench*>(&two), &one}) {
+            bench->settings.friction = law;
+            bench->settings.staticFriction = 0.6;
+            bench->settings.dynamicFriction = 0.4;
+        }
+        double apart = 0.0, x = 0.001, dragged = 0.0;
+        const auto tick = [&](double y, double along) {
+            x += along;
+            for (TouchBench* bench : {static_cast<TouchBench*>(&two), &one}) {
+                for (ObjectMotion& motion : bench->motions) {
+                    motion.before = motion.workspaceFromObject;
+                    motion.workspaceFromObject.translation.z += 2e-6;
+                }
+                bench->step({x, y, 0.001});
+            }
+            apart = std::max(apart, glm::distance(two.output.force, one.output.force));
+            dragged = std::max(dragged, std::abs(one.output.force.x));
+        };
+        for (int i = 0; i < 30; ++i)
+            tick(0.002 - 1e-4 * i, 0.0);
+        // Back and forth over the border. The proxy lags by up to 0.4 mm, so that it crosses now sliding, now
+        // as it begins to slide. No number of steps is as long as a cone is wide: rounding decides nothing.
+        constexpr double kStep = 1.0137e-5;
+        for (int turn = 0; turn < 12; ++turn) {
+            while (x > -0.39e-3 - 1e-5 * turn)
+                tick(-0.001, -kStep);
+            while (x < 0.001)
+                tick(-0.001, kStep);
+        }
+        EXPECT_GT(dragged, 0.15);
+        EXPECT_LT(apart, 1e-4) << settingValue(two.settings, "friction");
+    }
+}
+
+/// More objects about the hand than a tick can follow: it says so, and touch begins anew.
+TEST(MovingObstacles, AmongMoreObjectsThanThereIsRoomForTouchBeginsAnewAndSaysSo) {
+    constexpr double kSize = 0.002;
+    for (const int side : {6, 7}) { // 216 objects and 343; there is room for 256
+        Scene scene;
+        for (int i = 0; i < side * side * side; ++i) {
+            const glm::dvec3 middle = 2.0 * kSize * glm::dvec3(i % side, i / side % side, i / side / side);
+            const glm::dmat4 at = glm::translate(glm::dmat4(1.0), middle);
+            if (scene.instances.empty())
+                scene = sceneOf(assets::box(glm::dvec3(kSize)), at);
+            else
+                addShape(scene, assets::box(glm::dvec3(kSize)), at);
+        }
+        TouchBench bench(scene);
+        bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+        const glm::dvec3 hip = kSize * glm::dvec3(5.0, 5.0, 5.0); // between eight of them
+        bench.step(hip);
+        ASSERT_TRUE(bench.state[0].placed);
+        for (ObjectMotion& motion : bench.motions) {
+            motion.before = motion.workspaceFromObject;
+            motion.workspaceFromObject.translation.x += 1.5 * kSize;
+        }
+        bench.step(hip);
+        EXPECT_EQ(has(bench.output.flags, TickFlag::CandidatesFull), side == 7) << side;
     }
 }
 

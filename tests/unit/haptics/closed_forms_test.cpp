@@ -1,6 +1,7 @@
 // Touch against closed forms: on a plane, a box, a sphere and a torus the force is stiffness times depth
 // along the outward normal.
 
+#include "haptics/settings/tick_flags.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
@@ -306,6 +307,46 @@ TEST(ClosedForm, TheSameInputsGiveTheSameBits) {
                 ASSERT_EQ(bench.output.command.force(), other.command.force());
             }
         }
+    }
+}
+
+/// Outside an edge by less than its radius, however little, the proxy's centre is on the cylinder about the
+/// edge, where the line from the edge through the hand leaves it. It gets there in the tick, in few moves:
+/// one move after another along its planes gains the angle e / r alone, e the distance of the hand.
+TEST(ClosedForms, AroundARoundedEdgeTheProxyGoesInOneTick) {
+    constexpr double kRadius = 0.5e-3, kDegree = 3.141592653589793 / 180.0;
+    constexpr double kEdge = static_cast<double>(0.05f); // as the mesh has it
+    for (const double out : {5e-6, 5e-5, 2e-4})
+        for (const double turn : {10.0, 30.0, 55.0, -10.0, -30.0, -55.0}) {
+            TouchBench bench(sceneOf(assets::box(glm::dvec3(0.1))), plainSettings(kRadius));
+            const auto at = [](double distance, double degrees) {
+                return glm::dvec3(kEdge + distance * std::cos(degrees * kDegree),
+                                  kEdge + distance * std::sin(degrees * kDegree), 0.0107);
+            };
+            const double begin = turn > 0.0 ? 15.0 : 75.0;
+            bench.step(at(0.01, begin));
+            bench.moveTo(at(out, begin), 0.1);
+            EXPECT_LT(glm::distance(bench.output.proxy, at(kRadius, begin)), 1e-9) << out << ", " << turn;
+            bench.step(at(out, begin + turn));
+            EXPECT_LT(glm::distance(bench.output.proxy, at(kRadius, begin + turn)), 1e-9)
+                << out << ", " << turn;
+            EXPECT_FALSE(has(bench.output.flags, TickFlag::BudgetReached)) << out << ", " << turn;
+            EXPECT_LE(bench.output.iterations, 10u) << out << ", " << turn;
+        }
+}
+
+/// Touch begins in the frame of the object whose bounding ball is nearest: that of what it will meet first,
+/// not of a small one whose middle is nearer.
+TEST(ClosedForms, TouchBeginsInTheFrameOfTheNearestObject) {
+    for (const bool smallFirst : {false, true}) {
+        const assets::Shape large = assets::box(glm::dvec3(1.0)), small = assets::box(glm::dvec3(0.02));
+        Scene scene = sceneOf(smallFirst ? small : large);
+        glm::dmat4 beside(1.0);
+        beside[3] = glm::dvec4(1.0, 0.0, 0.0, 1.0);
+        addShape(scene, smallFirst ? large : small, beside);
+        TouchBench bench(scene);
+        bench.step({smallFirst ? 0.2 : 0.75, 0.0, 0.0}); // within the large one's ball, beside the small one
+        EXPECT_EQ(bench.state[0].reference, smallFirst ? 1 : 0);
     }
 }
 

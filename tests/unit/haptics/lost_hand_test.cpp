@@ -115,26 +115,46 @@ TEST(LostHand, ObjectsThatMoveOnUnseenTakeTheContactAlong) {
         }
 }
 
-/// What comes over the place of a hand that is in the free and not seen pushes the proxy all the same.
+/// What comes over the place of a hand that is in the free and not seen pushes the proxy all the same: the
+/// object whose frame the proxy is in, and another.
 TEST(LostHand, AnObjectThatComesUnseenIsMet) {
-    LostHand hand;
-    Scene scene = test::sceneOf(assets::box(glm::dvec3(0.1)));
-    test::addShape(scene, assets::box(glm::dvec3(0.1)),
-                   glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.0, 0.0)));
-    hand.scene = compileHapticScene(scene, Similarity{});
-    hand.motions = hand.scene->restMotions;
-    hand.press(0.051, 200);
-    ASSERT_EQ(hand.output.contacts, 0u);
-    for (int i = 0; i < 10; ++i) {
-        hand.motions[0].before = hand.motions[0].workspaceFromObject;
-        hand.motions[0].workspaceFromObject.translation.y += 3e-4;
-        hand.tick({}, false);
+    for (const size_t comes : {0u, 1u}) {
+        LostHand hand;
+        Scene scene = test::sceneOf(assets::box(glm::dvec3(0.1)));
+        const double aside = comes == 0 ? 0.2 : 0.0, above = comes == 0 ? 0.0 : 0.154;
+        test::addShape(scene, assets::box(glm::dvec3(0.1)),
+                       glm::translate(glm::dmat4(1.0), glm::dvec3(aside, above, 0.0)));
+        hand.scene = compileHapticScene(scene, Similarity{});
+        hand.motions = hand.scene->restMotions;
+        hand.press(0.051, 200);
+        ASSERT_EQ(hand.output.contacts, 0u);
+        ASSERT_EQ(hand.state.reference, 0);
+        // The lower box rises by 3 mm; or the upper one slides in from the side, 3 mm over the lower, its
+        // edge past the hand.
+        if (comes == 1) {
+            hand.motions[1].workspaceFromObject.translation = {0.0525, 0.1005, 0.0};
+            hand.motions[1].before = hand.motions[1].workspaceFromObject;
+            hand.press(0.051, 1);
+            ASSERT_EQ(hand.output.contacts, 0u);
+        }
+        const glm::dvec3 way = comes == 0 ? glm::dvec3(0.0, 3e-4, 0.0) : glm::dvec3(-5e-4, 0.0, 0.0);
+        for (int i = 0; i < 10; ++i) {
+            hand.motions[comes].before = hand.motions[comes].workspaceFromObject;
+            hand.motions[comes].workspaceFromObject.translation += way;
+            hand.tick({}, false);
+        }
+        hand.motions[comes].before = hand.motions[comes].workspaceFromObject;
+        hand.press(0.051, 1);
+        EXPECT_FALSE(has(hand.output.flags, TickFlag::StartedInside));
+        EXPECT_GT(hand.output.contacts, 0u) << comes;
+        if (comes == 0) {
+            EXPECT_NEAR(hand.output.proxy.y, 0.053, 1e-4);
+            EXPECT_GT(hand.output.force.y, 0.5);
+        } else {
+            EXPECT_NEAR(hand.output.proxy.x, 0.0475 - 0.05, 1e-4) << "beside the face that came";
+            EXPECT_LT(hand.output.force.x, -0.5);
+        }
     }
-    hand.motions[0].before = hand.motions[0].workspaceFromObject;
-    hand.press(0.051, 1);
-    EXPECT_FALSE(has(hand.output.flags, TickFlag::StartedInside));
-    EXPECT_NEAR(hand.output.proxy.y, 0.053, 1e-4);
-    EXPECT_GT(hand.output.force.y, 0.5);
 }
 
 TEST(LostHand, WhoComesBackElsewhereIsNotPulledBack) {

@@ -2,10 +2,12 @@
 
 #include "assets/shapes.h"
 #include "haptics/shape/mesh/mesh_adjacency.h"
+#include "haptics/shape/mesh/surface_walk.h"
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -127,6 +129,41 @@ TEST(MeshAdjacency, CollapsedTrianglesAreLeftOut) {
     EXPECT_EQ(adjacency.across(0, 1), 4u);
     EXPECT_EQ(adjacency.across(4, 0), 0u);
     EXPECT_EQ(adjacency.edges(), 5u);
+}
+
+/// On a flat convex sheet the distance from a place has one minimum. The walk finds it from wherever it
+/// starts, also about a vertex of the border, from where it must look to both sides.
+TEST(SurfaceWalk, AboutAVertexOfTheBorderItFindsTheNearestPlace) {
+    constexpr uint32_t kParts = 9;
+    constexpr double kPi = 3.141592653589793;
+    assets::Shape fan; // half a disc about the origin
+    fan.positions.emplace_back(0.0f);
+    for (uint32_t i = 0; i <= kParts; ++i) {
+        const double angle = kPi * i / kParts;
+        fan.positions.emplace_back(0.05 * std::sin(angle), 0.0, 0.05 * std::cos(angle));
+        if (i > 0)
+            fan.indices.insert(fan.indices.end(), {0, i, i + 1});
+    }
+    const auto scene = compileHapticScene(sceneOf(fan), Similarity{});
+    scene->buildNeighbourhoods();
+    const SurfaceView view{*scene->objects.front(), scene->neighbourhoods()->front()};
+    const Similarity workspaceFromObject = scene->restMotions[0].workspaceFromObject;
+    for (TriangleSide start = 0; start < 2 * kParts; ++start)
+        for (int i = 0; i <= 36; ++i)
+            for (const double out : {0.001, 0.02, 0.06})
+                for (const double high : {0.004, -0.004}) {
+                    const double angle = kPi * (i / 36.0 * 1.2 - 0.1);
+                    const glm::dvec3 goal = workspaceFromObject.inversePoint(
+                        {out * std::sin(angle), high, out * std::cos(angle)});
+                    double nearest = INFINITY;
+                    for (TriangleSide side = start & 1u; side < 2 * kParts; side += 2)
+                        nearest = std::min(nearest, nearestOnTriangle(view, side, goal).squared);
+                    WalkBudget budget{.steps = 64};
+                    const SurfacePlace found = walkTowards(view, start, goal, budget);
+                    EXPECT_NEAR(found.squared, nearest, 1e-12) << "from " << start << " to " << i;
+                    EXPECT_FALSE(budget.spent);
+                    EXPECT_EQ(found.side & 1u, start & 1u) << "it stays on its side";
+                }
 }
 
 } // namespace

@@ -514,6 +514,26 @@ TEST(NeighbourhoodWatch, TheMethodCanBeChangedWhileFrictionHolds) {
         }
 }
 
+/// The change is over after one tick: what sticks then holds, as far as its cone allows.
+TEST(NeighbourhoodWatch, AfterAChangeToTheSweepFrictionHoldsAsBefore) {
+    TouchBench bench = watchBench(sceneOf(assets::plane(0.1, 0.1, 3, 3)));
+    bench.settings.friction = FrictionMode::Zilles;
+    bench.settings.staticFriction = bench.settings.dynamicFriction = 1.0;
+    bench.settings.stiffness = 1000.0;
+    bench.step({0.004, 0.01, 0.003});
+    bench.moveTo({0.004, -0.001, 0.003}, 0.1);
+    bench.settings.contact = ContactMethod::Sweep;
+    bench.step({0.004, -0.001, 0.003});
+    bench.step({0.004, -0.001, 0.003});
+    EXPECT_FALSE(bench.state[0].watch.touching);
+    for (int i = 1; i <= 20; ++i) {
+        bench.step({0.004 + 2e-5 * i, -0.001, 0.003});
+        EXPECT_NEAR(bench.output.force.x, -1000.0 * 2e-5 * i, 1e-6) << i;
+        EXPECT_NEAR(bench.output.proxy.x, 0.004, 1e-9) << i;
+        EXPECT_EQ(bench.output.friction, FrictionState::Sticking) << i;
+    }
+}
+
 /// A loop that does not close puts a sheet elsewhere at once: the watch is not caught by the way between.
 TEST(NeighbourhoodWatch, AJumpSweepsOverNothing) {
     TouchBench bench = watchBench(sceneOf(assets::plane(0.1, 0.1, 3, 3)));

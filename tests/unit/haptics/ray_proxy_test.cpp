@@ -253,6 +253,25 @@ TEST_P(RayProxyIn, OfSeveralObjectsItTouchesTheOneInFrontAndStopsAtTheNext) {
     EXPECT_EQ(bench.output.planeCount, 2u);
 }
 
+/// At the corner of a box the path is as far from its middle as any of its points.
+TEST_P(RayProxyIn, AQuickHandMeetsAnotherObjectAtItsCorner) {
+    Scene scene = sceneOf(assets::box(glm::dvec3(0.1)));
+    glm::dmat4 at(1.0);
+    at[3] = glm::dvec4(0.3, 0.0, 0.0, 1.0);
+    addShape(scene, assets::box(glm::dvec3(0.1)), at);
+    for (const double side : {1.0, -1.0}) {
+        TouchBench bench(scene, rays());
+        bench.step({0.0, 0.06, 0.0});
+        bench.moveTo({0.0, 0.049, 0.001}, 0.2);
+        ASSERT_EQ(bench.output.object, 0);
+        bench.moveTo({0.0, 0.06, 0.0}, 0.2);
+        bench.moveTo({0.3 + side * 0.049, 0.053, 0.049}, 0.5);
+        bench.step({0.3 + side * 0.049, 0.0475, 0.049});
+        EXPECT_EQ(bench.output.object, 1) << side;
+        EXPECT_NEAR(bench.output.proxy.y, 0.05, near(0.1) + 1e-7) << side;
+    }
+}
+
 TEST_P(RayProxyIn, ABoxThatRisesIntoAStillHipHoldsItAndCarriesIt) {
     Scene scene = sceneOf(assets::box(glm::dvec3(0.04)));
     glm::dmat4 aside(1.0);

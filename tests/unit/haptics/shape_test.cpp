@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "haptics/scene/shape_object.h"
+#include "haptics/settings/tick_flags.h"
 #include "tests/support/corner.h"
 #include "tests/support/touch_bench.h"
 
@@ -134,6 +135,35 @@ TEST(Shape, AShapeThatMovesIntoAStillHandPushesItAsTheClosedFormSays) {
         EXPECT_LT(glm::distance(out.proxy, place), 1e-8) << i;
     }
     EXPECT_GT(bench.output.force.x, 1.0);
+}
+
+/// Two objects that share one shape close in on the hand from both sides: each is a contact of its own, and
+/// the proxy goes out between them, on the circle in which the two balls around their surfaces meet.
+TEST(Shape, TwoObjectsOfOneShapePushTheProxyOutBetweenThem) {
+    const double reach = kBall + kRadius;
+    FloorAndBall bench({-0.06, 0.5, 0.0});
+    const std::shared_ptr<HapticScene> three = copyOf(*bench.scene);
+    addShape(*three, "second ball", three->objects[1]->shape, 1, FloorAndBall::poseAt({0.06, 0.5, 0.0}));
+    bench.scene = three;
+    bench.motions.assign(three->restMotions.begin(), three->restMotions.end());
+    const glm::dvec3 hip(5e-4, 0.52, 1e-3);
+    bench.step(hip);
+    ASSERT_EQ(bench.output.contacts, 0u);
+    for (int i = 1; i <= 300; ++i) {
+        const double half = 0.06 - 1e-4 * i; // of the distance of their centres
+        for (const size_t ball : {1u, 2u})
+            bench.motions[ball] = {FloorAndBall::poseAt({ball == 1 ? -half : half, 0.5, 0.0}),
+                                   bench.motions[ball].workspaceFromObject, false};
+        const HapticOutput& out = bench.step(hip);
+        const double ring = std::sqrt(std::max(reach * reach - half * half, 0.0));
+        const glm::dvec3 away = glm::normalize(glm::dvec3(0.0, hip.y - 0.5, hip.z));
+        EXPECT_FALSE(has(out.flags, TickFlag::Jammed)) << i;
+        if (ring > glm::length(glm::dvec2(hip.y - 0.5, hip.z)) + 1e-3) {
+            EXPECT_LT(glm::distance(out.proxy, glm::dvec3(0.0, 0.5, 0.0) + ring * away), 1e-8) << i;
+            EXPECT_EQ(out.planeCount, 2u) << i;
+        }
+    }
+    EXPECT_GT(bench.output.force.y, 5.0);
 }
 
 TEST(Shape, RefusesWhatHasNoSizeOrNoMaterial) {

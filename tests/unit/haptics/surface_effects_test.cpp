@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <vector>
 
 namespace touchstone::test {
 namespace {
@@ -136,6 +138,26 @@ TEST(Texture, TheForceOnASineFollowsTheDisplacementLaw) {
         if (depth < scale) {
             EXPECT_GT(below, 100);
         }
+    }
+}
+
+/// A map is as high as its scale times its texels, whatever the scale, one metre too: half a millimetre above
+/// the middle adds as much to the depth.
+TEST(Texture, AnEvenHeightAddsToTheDepthAtEveryScale) {
+    constexpr double kHigh = 5e-4, kDepth = 2e-3;
+    for (const double scale : {1e-3, 0.1, 1.0, 2.0}) {
+        Scene scene = sinePlane(scale, 1, 8);
+        const auto texel = static_cast<float>(0.5 + kHigh / scale);
+        std::vector<std::byte>& bytes = scene.images[0].pixels.bytes;
+        for (size_t at = 0; at < bytes.size(); at += sizeof texel)
+            std::memcpy(&bytes[at], &texel, sizeof texel);
+        HapticSettings s = bare();
+        s.texture = TextureMode::BlinnMagnitude;
+        TouchBench bench(scene, s);
+        bench.step({0.01, 0.01, 0.003});
+        bench.moveTo({0.01, -kDepth, 0.003}, 0.1);
+        const double skin = 0.5 * kWeldTolerance * std::sqrt(0.08);
+        EXPECT_NEAR(bench.output.force.y, 1000.0 * (kDepth + skin + kHigh), 1e-3) << scale;
     }
 }
 

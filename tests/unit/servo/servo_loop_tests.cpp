@@ -363,6 +363,9 @@ TEST(ServoLoop, ASlowPortIsCountedAndNeverBunches) {
     TickRecord record;
     uint64_t ticks = 0, last = 0;
     while (loop.popRecord(record)) {
+        const uint64_t elapsed = ticks == 0 ? 1 : record.tick - last;
+        EXPECT_DOUBLE_EQ(record.dt, static_cast<double>(elapsed) / kQuick.rateHz)
+            << "what was skipped counts";
         ++ticks;
         last = record.tick;
     }

@@ -107,6 +107,7 @@ TEST(WorldState, FollowsRotationAndEvenScale) {
                   {glm::vec4(0.0f, 0.0f, half, half), glm::vec4(0.0f, 0.0f, half, half)}),
           channel(1, AnimatedPath::Scale, {0.0f, 1.0f},
                   {glm::vec4(2.0f, 2.0f, 2.0f, 0.0f), glm::vec4(2.0f, 2.0f, 2.0f, 0.0f)})}});
+    EXPECT_TRUE(animationWarnings(scene).empty()) << "an even scale is followed as it is";
     Moved moved(std::move(scene));
     const Similarity rest = moved.haptic->restMotions[0].workspaceFromObject;
     const Similarity now = moved.world.advance(0.5)[0].workspaceFromObject;
