@@ -56,6 +56,13 @@ void MouseDevice::feel(const TouchFeedback& felt) noexcept {
         felt_.force = glm::dvec3(0.0);
 }
 
+DeviceLimits MouseDevice::limits() const {
+    DeviceLimits limits;
+    if (presses_)
+        limits.press = std::max(press_, kHoverForce);
+    return limits;
+}
+
 const ObjectMotion* MouseDevice::motionOf(int object) const noexcept {
     return object >= 0 && static_cast<size_t>(object) < felt_.objects.size()
                ? &felt_.objects[static_cast<size_t>(object)]
@@ -149,13 +156,15 @@ void MouseDevice::follow(const glm::dvec3& goal, double dt) noexcept {
     velocity_ = (velocity_ - w * pull) * decay;
 }
 
-/// Keeps the force within the given press. With the last tick's force F, normal part N along n and tangential
-/// part T, a hand that moves deeper by e feels N + k e along n: so e <= (sqrt(press^2 - T^2) - N) / k. T
-/// grows by at most k times the displacement along the surface (and by MouseGoal::grip, of what friction
-/// holds). Friction holds no more than mu N, and N with mu N reaches the whole press at T = press mu / sqrt(1
+/// Keeps the hand from sinking deeper than the given press allows. With the last tick's force F, normal part
+/// N along n and tangential part T, a hand that moves deeper by e feels N + k e along n: so e <=
+/// (sqrt(press^2 - T^2) - N) / k. T grows by at most k times the displacement along the surface (and by
+/// MouseGoal::grip, of what friction holds). Friction holds no more than mu N, and N with mu N reaches the
+/// whole press at T = press mu / sqrt(1
 /// + mu^2). The last proxy's position, moved with its object, is free: the proxy of this tick is no farther
 /// from the hand. In the air, where the next surface may be anywhere and have the maximum stiffness, a
-/// pressing hand moves by press / k for that stiffness in a tick.
+/// pressing hand moves by press / k for that stiffness in a tick. Where it slides onto a stiffer surface than
+/// the last tick's, it bears no more in that tick (DeviceLimits::press), and comes up in the next.
 void MouseDevice::boundPress(const glm::dvec3& from) noexcept {
     const MouseGoal& goal = told_.value().goal;
     if (!std::isfinite(press_))

@@ -50,11 +50,12 @@ struct MouseGoal {
 ///
 /// The hand yields to the felt force (TouchFeedback), not to the command. Otherwise it would sink in by press
 /// / smoothing.stiffness, 4 mm for 0.6 N, whenever the safety stage fades the force, and be pushed out again.
-/// It presses with at most MouseGoal::press: the force of the last tick plus stiffness times the displacement
-/// into the surface in this tick never exceeds it. So the force stays within the given press however long no
-/// goal arrives and however the objects move meanwhile. A hand that neither presses nor touches what it
-/// pressed before receives no force (DeviceMapping::coupling): what it hits on its way is known one tick
-/// later. Samples have no age: a stalled frame does not make the position of the hand less certain.
+/// It presses with at most MouseGoal::press, however long no goal arrives, however the objects move meanwhile
+/// and whatever it slides onto: it sinks no deeper than the last tick's force and stiffness allow, and where
+/// a tick finds it deeper than that, on a stiffer surface, it gives way in that tick (DeviceLimits::press). A
+/// hand that neither presses nor touches what it pressed before receives no force (DeviceMapping::coupling):
+/// what it hits on its way is known one tick later. Samples have no age: a stalled frame does not make the
+/// position of the hand less certain.
 class MouseDevice final : public Device {
   public:
     /// N (stage 7) with which a hovering hand may resist a moving object, until it is pushed aside.
@@ -70,7 +71,8 @@ class MouseDevice final : public Device {
     void release() noexcept;
 
     [[nodiscard]] std::string name() const override { return "mouse"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    /// Of a hand that presses, the press. Servo thread, after `sample`.
+    [[nodiscard]] DeviceLimits limits() const override;
     void feel(const TouchFeedback& felt) noexcept override;
     /// Servo thread. `time` must not run backwards (then the hand stands still).
     [[nodiscard]] DeviceSample sample(double time) noexcept override;

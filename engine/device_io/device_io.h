@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace touchstone {
@@ -37,6 +38,9 @@ struct DeviceLimits {
     double apparentMass = 0.075;      ///< kg at the tip, minimum over all directions. Phantom Premium 1.5
     double coulombFriction = 0.0;     ///< N at the tip, the minimum over all directions; 0: unknown
     bool commandDelay = false;        ///< a command acts a tick later, not at once
+    /// N, > 0: a hand that the program moves gives way within the tick rather than press harder (stage 7).
+    /// Infinite: the hand of a device, which bears what it bears.
+    double press = std::numeric_limits<double>::infinity();
 
     bool operator==(const DeviceLimits&) const = default;
 };
@@ -64,8 +68,9 @@ struct DeviceSample {
 /// Workspace. `objects` is valid during the call that passes it.
 struct TouchFeedback {
     bool touching = false;
-    glm::dvec3 hip{0.0}, proxy{0.0};      ///< m, at the end of the last tick
-    glm::dvec3 force{0.0};                ///< N, stage 7: before safety, also while the force is off
+    glm::dvec3 hip{0.0}, proxy{0.0}; ///< m, at the end of the last tick
+    /// N, stage 7: before safety, also while the force is off, and before the hand gives way.
+    glm::dvec3 force{0.0};
     std::span<const glm::dvec3> planes{}; ///< unit normals of the active constraint planes
     int object = -1;                      ///< touched; index into `objects`
     ObjectMotions objects{};              ///< to this tick; empty: nothing moves

@@ -1,6 +1,7 @@
 #include "haptics/force/spring_damper.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace touchstone {
 
@@ -25,6 +26,11 @@ double bearableShare(double stiffness, double zoom, const HapticSettings& settin
                      const DeviceLimits& limits) noexcept {
     const double most = std::max(settings.stiffness, limits.maxStiffness), felt = stiffness * zoom;
     return felt > most ? most / felt : 1.0;
+}
+
+double yieldingShare(const glm::dvec3& force, double press) noexcept {
+    const double length = glm::length(force);
+    return length > press && std::isfinite(length) ? press / length : 1.0;
 }
 
 } // namespace touchstone

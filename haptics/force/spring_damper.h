@@ -23,4 +23,8 @@ namespace touchstone {
 [[nodiscard]] double bearableShare(double stiffness, double zoom, const HapticSettings& settings,
                                    const DeviceLimits& limits) noexcept;
 
+/// Fraction of a force (N) that remains where the hand gives way rather than bear more than `press` (N, > 0):
+/// the direction stays, and with it the friction cone. A force that is not finite stays so.
+[[nodiscard]] double yieldingShare(const glm::dvec3& force, double press) noexcept;
+
 } // namespace touchstone

@@ -32,6 +32,7 @@ constexpr std::array kLimits{
     limit<&DeviceLimits::apparentMass>("apparentMass"),
     limit<&DeviceLimits::coulombFriction>("coulombFriction"),
     switchField<&DeviceLimits::commandDelay>("commandDelay", ""),
+    limit<&DeviceLimits::press>("press"),
 };
 static_assert(kLimits.size() == memberCount<DeviceLimits>(), "a limit is not recorded");
 

@@ -62,7 +62,7 @@ struct ServoLoop::Touch {
         felt[hand].feedback = {.touching = output.contacts > 0,
                                .hip = output.hip,
                                .proxy = output.proxy,
-                               .force = output.force,
+                               .force = output.force / output.borne,
                                .planes = {felt[hand].planes.data(), output.planeCount},
                                .object = output.object};
     }

@@ -102,7 +102,7 @@ inline void publishContact(const Similarity& workspaceFromReference, const Solve
 /// Result of stages 5 to 7.
 struct Felt {
     glm::dvec3 force{0.0}; ///< N, reference object frame
-    double share = 1.0;    ///< fraction of it that the device bears
+    double share = 1.0;    ///< fraction of it that the device bears; at most 1
     int object = -1;       ///< HapticScene::objects; -1: nothing is touched
 };
 

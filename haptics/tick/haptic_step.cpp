@@ -83,7 +83,6 @@ template <class Solver, class Stopwatch>
     if (!proxy.begin()) {
         state.friction = FrictionState::Free;
         state.shaded = false;
-        output.proxy = output.hip;
         output.flags = output.flags | TickFlag::StartedInside;
         return;
     }
@@ -113,11 +112,14 @@ template <class Solver, class Stopwatch>
     const bool varied = effects || (activeSet.count > 1 && !feltAsOne(tick, false, rest, activeSet));
     const Felt felt = varied ? feelEffects(tick, hip, held, activeSet, proxy, state, output, stopwatch)
                              : feltForce<false>(tick, hip, held, activeSet, proxy, state, output, stopwatch);
+    if (tick.limits.press < INFINITY) [[unlikely]]
+        output.borne = yieldingShare(felt.share * felt.force, tick.limits.press);
+    const double share = felt.share * output.borne;
     output.force = workspaceFromReference.direction(felt.force);
-    if (output.zoom > 1.0)
-        output.force *= felt.share;
+    if (share < 1.0)
+        output.force *= share;
     if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
-        pushObjects(workspaceFromReference, felt.force, felt.share, *tick.parts, world);
+        pushObjects(workspaceFromReference, felt.force, share, *tick.parts, world);
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
     // The object touched now becomes the reference object. A proxy surrounded by more triangles than a tick

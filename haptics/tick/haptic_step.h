@@ -35,7 +35,8 @@ struct HapticOutput {
     glm::dvec3 proxy{0.0};       ///< centre of the proxy sphere (IHIP, god-object)
     glm::dvec3 normal{0.0};      ///< unit normal of the felt surface (shaded, textured); zero without contact
     glm::dvec3 force{0.0};       ///< N, stage 7, before safety
-    DeviceCommand command;       ///< device frame, after safety
+    double borne = 1.0;    ///< in (0, 1], what `force` is of the surface's: less where the hand gives way
+    DeviceCommand command; ///< device frame, after safety
     glm::dvec3 commandInWorkspace{0.0};
     double penetration = 0.0; ///< |proxy - HIP|, m
     uint32_t contacts = 0;    ///< touching features in the last solve

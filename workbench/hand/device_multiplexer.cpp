@@ -14,7 +14,10 @@ std::string DeviceMultiplexer::name() const {
 }
 
 DeviceLimits DeviceMultiplexer::limits() const {
-    return driven_ != nullptr ? driven_->limits() : mouse_.limits();
+    if (driven_ != nullptr)
+        return driven_->limits();
+    // A path, and a glide, press as deep as they lead.
+    return followed_ == nullptr && !gliding_ ? mouse_.limits() : DeviceLimits{};
 }
 
 void DeviceMultiplexer::hold(std::shared_ptr<LinkedDevice> device) {

@@ -58,6 +58,14 @@ void PlaybackDevice::feel(const TouchFeedback& felt) noexcept {
         own_.feel({.objects = felt.objects});
 }
 
+/// The command is the user's hand's; what the recorded or gliding hand feels is not bounded by its press.
+DeviceLimits PlaybackDevice::limits() const {
+    DeviceLimits limits = own_.limits();
+    if (followed_ != nullptr || gliding_)
+        limits.press = DeviceLimits{}.press;
+    return limits;
+}
+
 DeviceSample PlaybackDevice::sample(double time) noexcept {
     const DeviceSample own = own_.sample(time);
     const RecordedPath* path = path_.adopt();

@@ -69,7 +69,7 @@ class PlaybackDevice final : public Device {
     void collect() { path_.collect(); }
 
     [[nodiscard]] std::string name() const override { return own_.name(); }
-    [[nodiscard]] DeviceLimits limits() const override { return own_.limits(); }
+    [[nodiscard]] DeviceLimits limits() const override;
     void feel(const TouchFeedback& felt) noexcept override;
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void apply(const DeviceCommand& command) noexcept override { own_.apply(command); }

@@ -350,5 +350,34 @@ TEST(ClosedForms, TouchBeginsInTheFrameOfTheNearestObject) {
     }
 }
 
+/// A hand that gives way bears its press and no more, in the same direction, friction included; below it
+/// nothing changes, to the last bit.
+TEST(ClosedForms, AHandThatGivesWayBearsItsPressAlone) {
+    HapticSettings settings = plainSettings(0.0);
+    settings.friction = FrictionMode::Zilles;
+    settings.staticFriction = settings.dynamicFriction = 0.5;
+    const Scene plane = sceneOf(assets::plane(0.2, 0.2, 7, 5));
+    TouchBench firm(plane, settings), yielding(plane, settings);
+    yielding.limits.press = 1.0;
+    int gaveWay = 0, bore = 0;
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 hip(2e-5 * i, 0.001 - 1e-5 * i, 0.003);
+        const glm::dvec3 force = firm.step(hip).force;
+        const HapticOutput& felt = yielding.step(hip);
+        EXPECT_EQ(felt.proxy, firm.output.proxy) << i;
+        if (glm::length(force) <= 1.0) {
+            EXPECT_EQ(felt.force, force) << i;
+            EXPECT_EQ(felt.borne, 1.0) << i;
+            bore += glm::length(force) > 0.0 ? 1 : 0;
+        } else {
+            EXPECT_LT(glm::distance(felt.force, glm::normalize(force)), 1e-14) << i;
+            EXPECT_LT(glm::distance(felt.force / felt.borne, force), 1e-14 * glm::length(force)) << i;
+            ++gaveWay;
+        }
+    }
+    EXPECT_GT(gaveWay, 100);
+    EXPECT_GT(bore, 50);
+}
+
 } // namespace
 } // namespace touchstone::test
