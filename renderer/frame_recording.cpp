@@ -14,14 +14,6 @@ using Layout = vk::ImageLayout;
 constexpr vk::ImageAspectFlags kColor = vk::ImageAspectFlagBits::eColor;
 constexpr vk::ImageAspectFlags kDepth = vk::ImageAspectFlagBits::eDepth;
 
-void setViewport(const vk::raii::CommandBuffer& commands, vk::Extent2D extent) {
-    // Negative height: clip space has y up, as in the camera. Core since Vulkan 1.1.
-    const auto width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
-    commands.setViewport(
-        0, vk::Viewport{.x = 0.0f, .y = height, .width = width, .height = -height, .maxDepth = 1.0f});
-    commands.setScissor(0, vk::Rect2D{.extent = extent});
-}
-
 } // namespace
 
 void SceneRenderer::Impl::writeOverlay(FrameSlot& slot, const OverlayDraw& draw) {
@@ -76,16 +68,8 @@ void SceneRenderer::Impl::drawOverlay(const vk::raii::CommandBuffer& commands, c
     drawBatches(OverlayPass::Translucent);
 }
 
-void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overlay& overlay,
-                                 const OverlayDraw& draw) {
+void SceneRenderer::Impl::beginFresh(const FrameSlot& slot) const {
     const vk::raii::CommandBuffer& commands = slot.commands;
-    commands.reset();
-    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    slot.timed = *slot.timestamps != vk::QueryPool{};
-    if (slot.timed) {
-        commands.resetQueryPool(*slot.timestamps, 0, 2);
-        commands.writeTimestamp2(Stage::eTopOfPipe, *slot.timestamps, 0);
-    }
     // Earlier readers of this image are the window's fragment shader and copies.
     transition(commands, *slot.color.image, kColor, Layout::eUndefined, Layout::eColorAttachmentOptimal,
                Stage::eFragmentShader | Stage::eCopy | Stage::eColorAttachmentOutput,
@@ -95,14 +79,25 @@ void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overla
                Layout::eDepthStencilAttachmentOptimal, Stage::eLateFragmentTests,
                Access::eDepthStencilAttachmentWrite, Stage::eEarlyFragmentTests,
                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-    // The background covers every pixel, so nothing is loaded or cleared but depth.
+}
+
+void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overlay& overlay,
+                                 const OverlayDraw& draw, const KeptPicture* kept) {
+    const vk::raii::CommandBuffer& commands = slot.commands;
+    beginCommands(slot);
+    if (kept != nullptr)
+        kept->copyTo(commands, slot);
+    else
+        beginFresh(slot);
+    // The background covers every pixel of a fresh frame, so nothing is loaded or cleared but depth.
+    using Load = vk::AttachmentLoadOp;
     const vk::RenderingAttachmentInfo color{.imageView = *slot.color.view,
                                             .imageLayout = Layout::eColorAttachmentOptimal,
-                                            .loadOp = vk::AttachmentLoadOp::eDontCare,
+                                            .loadOp = kept != nullptr ? Load::eLoad : Load::eDontCare,
                                             .storeOp = vk::AttachmentStoreOp::eStore};
     const vk::RenderingAttachmentInfo depth{.imageView = *slot.depth.view,
                                             .imageLayout = Layout::eDepthStencilAttachmentOptimal,
-                                            .loadOp = vk::AttachmentLoadOp::eClear,
+                                            .loadOp = kept != nullptr ? Load::eLoad : Load::eClear,
                                             .storeOp = vk::AttachmentStoreOp::eDontCare,
                                             .clearValue = vk::ClearDepthStencilValue{.depth = 1.0f}};
     commands.beginRendering(vk::RenderingInfo{.renderArea = {.extent = slot.color.extent},
@@ -111,7 +106,9 @@ void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overla
                                               .pColorAttachments = &color,
                                               .pDepthAttachment = &depth});
     setViewport(commands, slot.color.extent);
-    drawScene(commands, slot.frameSet, view.mode);
+    if (kept != nullptr)
+        castShadow(slot, view, *kept);
+    drawScene(commands, slot.frameSet, view.mode, kept != nullptr);
     if (!overlay.empty())
         drawOverlay(commands, slot, draw, overlay.hiddenAlpha > 0.0f);
     commands.endRendering();

@@ -65,17 +65,29 @@ void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot) {
     slot.colorBytes = nullptr; // first: both sizes at once may not fit
     slot.color = GpuImage{};
     slot.depth = GpuImage{};
-    GpuImage color =
-        createImage(gpu, {.format = kSceneFormat,
-                          .extent = extent,
-                          .levels = 1,
-                          .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc,
-                          .otherFormat = kSceneByteFormat});
-    slot.depth = createImage(
-        gpu,
-        {.format = kDepthFormat, .extent = extent, .levels = 1, .usage = Usage::eDepthStencilAttachment});
+    GpuImage color = createImage(
+        gpu, {.format = kSceneFormat,
+              .extent = extent,
+              .levels = 1,
+              .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst,
+              .otherFormat = kSceneByteFormat});
+    slot.depth = createImage(gpu, {.format = kDepthFormat,
+                                   .extent = extent,
+                                   .levels = 1,
+                                   .usage = Usage::eDepthStencilAttachment | Usage::eSampled |
+                                            Usage::eTransferSrc | Usage::eTransferDst});
     slot.colorBytes = createView(gpu, color, kSceneByteFormat);
     slot.color = std::move(color); // last: its extent says that the slot has this size
+}
+
+void beginCommands(FrameSlot& slot) {
+    slot.commands.reset();
+    slot.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    slot.timed = *slot.timestamps != vk::QueryPool{};
+    if (!slot.timed)
+        return;
+    slot.commands.resetQueryPool(*slot.timestamps, 0, 2);
+    slot.commands.writeTimestamp2(vk::PipelineStageFlagBits2::eTopOfPipe, *slot.timestamps, 0);
 }
 
 void waitFor(const Gpu::Impl& gpu, FrameSlot& slot, SceneRenderer::Statistics& statistics) {

@@ -22,11 +22,10 @@ struct FrameSlot {
     bool timed = false;
 };
 
-/// The frames in flight of one eye.
+/// Frames in flight.
 struct FrameRing {
     std::array<FrameSlot, 2> slots;
     size_t next = 0;
-    FrameSlot* last = nullptr;
 };
 
 /// `layout`: of the descriptor set for the frame's uniforms and its environment, which setEnvironment sets.
@@ -35,6 +34,8 @@ void createSlot(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, FrameSlot&
 void setEnvironment(const Gpu::Impl& gpu, const GpuEnvironment& environment, FrameSlot& slot);
 /// Recreates the images; waits for the device.
 void resizeSlot(const Gpu::Impl& gpu, vk::Extent2D extent, FrameSlot& slot);
+/// Begins the slot's commands, and its time.
+void beginCommands(FrameSlot& slot);
 /// Waits until the slot's last frame is finished and records the times of waiting and of the frame.
 void waitFor(const Gpu::Impl& gpu, FrameSlot& slot, SceneRenderer::Statistics& statistics);
 

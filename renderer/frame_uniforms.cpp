@@ -51,11 +51,20 @@ void setEnvironmentLight(const Environment& from, float exposure, shared::FrameU
 
 } // namespace
 
+glm::dvec3 eyeOf(const View& view) {
+    const glm::dmat3 axes(view.viewFromWorkspace);
+    return -(glm::inverse(axes) * glm::dvec3(view.viewFromWorkspace[3]));
+}
+
+glm::dmat4 clipFromEye(const View& view) {
+    return view.clipFromView * glm::dmat4(glm::dmat3(view.viewFromWorkspace));
+}
+
 void SceneRenderer::Impl::writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye,
                                         const Overlay& overlay, vk::Extent2D extent) {
     shared::FrameUniforms uniforms{};
-    const glm::dmat4 viewFromEye(glm::dmat3(view.viewFromWorkspace));
-    uniforms.clipFromEye = glm::mat4(view.clipFromView * viewFromEye);
+    uniforms.clipFromEye = glm::mat4(clipFromEye(view));
+    uniforms.eyeFromClip = glm::mat4(glm::inverse(clipFromEye(view)));
     uniforms.toLight0 = unitOrZero(view.lights[0].toLight);
     uniforms.toLight1 = unitOrZero(view.lights[1].toLight);
     const float exposure = view.exposure;

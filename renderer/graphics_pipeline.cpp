@@ -1,5 +1,7 @@
 #include "renderer/graphics_pipeline.h"
 
+#include <array>
+
 namespace touchstone {
 
 namespace {
@@ -53,14 +55,20 @@ vk::raii::Pipeline makePipeline(const Gpu::Impl& gpu, const vk::raii::PipelineCa
     const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = recipe.depthTest,
                                                         .depthWriteEnable = recipe.depthWrite,
                                                         .depthCompareOp = recipe.depthCompare};
-    const vk::PipelineColorBlendAttachmentState attachment = blendState(recipe);
-    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &attachment};
+    std::array<vk::PipelineColorBlendAttachmentState, 1 + kLightImages> attachments;
+    attachments.fill(blendState(recipe)); // not every device has different ones
+    std::array<vk::Format, 1 + kLightImages> formats;
+    formats.fill(kLightFormat);
+    formats[0] = kSceneFormat;
+    const uint32_t attachmentCount = recipe.keepsLight ? 1 + kLightImages : 1;
+    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = attachmentCount,
+                                                      .pAttachments = attachments.data()};
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                              vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
     const vk::PipelineDynamicStateCreateInfo dynamics{.dynamicStateCount = dynamic.size(),
                                                       .pDynamicStates = dynamic.data()};
-    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = 1,
-                                                    .pColorAttachmentFormats = &kSceneFormat,
+    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = attachmentCount,
+                                                    .pColorAttachmentFormats = formats.data(),
                                                     .depthAttachmentFormat = kDepthFormat};
     return {gpu.device, cache,
             vk::GraphicsPipelineCreateInfo{.pNext = recipe.renderPass ? nullptr : &rendering,

@@ -13,6 +13,9 @@ inline constexpr vk::Format kSceneFormat = vk::Format::eR8G8B8A8Srgb; ///< encod
 inline constexpr vk::Format kSceneByteFormat =
     vk::Format::eR8G8B8A8Unorm; ///< the same bytes, for copies and the window
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+/// Of the light that is kept beside a picture (scene.frag, KEPT).
+inline constexpr vk::Format kLightFormat = vk::Format::eR16G16B16A16Sfloat;
+inline constexpr uint32_t kLightImages = 3;
 
 /// The variable parts of our pipelines.
 struct PipelineRecipe {
@@ -24,6 +27,7 @@ struct PipelineRecipe {
     bool depthTest = true, depthWrite = true, blend = false;
     bool twoSources = false; ///< with blend: output color 1 of the fragment shader is the factor of the
                              ///< destination
+    bool keepsLight = false; ///< attachments of a kept picture: kLightImages of kLightFormat after the colour
     vk::CompareOp depthCompare = vk::CompareOp::eLessOrEqual;
     vk::PipelineLayout layout;
     vk::RenderPass renderPass; ///< null: dynamic rendering into kSceneFormat and kDepthFormat

@@ -5,6 +5,8 @@
 #include "renderer/shader_code.h"
 #include "shaders/shared/scene_types.h"
 
+#include <array>
+
 namespace touchstone {
 
 namespace {
@@ -36,6 +38,17 @@ vk::raii::PipelineLayout makeLayout(const Gpu::Impl& gpu, std::initializer_list<
                                                      .pSetLayouts = sets.begin(),
                                                      .pushConstantRangeCount = withObject ? 1u : 0u,
                                                      .pPushConstantRanges = &object}};
+}
+
+vk::raii::DescriptorSetLayout makeKeptSetLayout(const Gpu::Impl& gpu) {
+    std::array<vk::DescriptorSetLayoutBinding, 1 + kLightImages> bindings;
+    for (uint32_t i = 0; i < bindings.size(); ++i)
+        bindings[i] = {.binding = i,
+                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                       .descriptorCount = 1,
+                       .stageFlags = vk::ShaderStageFlagBits::eFragment};
+    return {gpu.device,
+            vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(), .pBindings = bindings.data()}};
 }
 
 std::vector<vk::VertexInputAttributeDescription> sceneAttributes(uint32_t first) {
@@ -84,9 +97,10 @@ Pipelines::Pipelines(const Gpu::Impl& gpu)
       frameSet_(makeSetLayout(gpu, 1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment)),
       materialSet_(makeSetLayout(gpu, shared::kTextureSlots, vk::ShaderStageFlagBits::eFragment)),
       falseColorSet_(makeSetLayout(gpu, 1, vk::ShaderStageFlagBits::eFragment)),
-      sceneLayout_(makeLayout(gpu, {*frameSet_, *materialSet_}, true)),
+      keptSet_(makeKeptSetLayout(gpu)), sceneLayout_(makeLayout(gpu, {*frameSet_, *materialSet_}, true)),
       falseColorLayout_(makeLayout(gpu, {*frameSet_, *falseColorSet_}, true)),
       overlayLayout_(makeLayout(gpu, {*frameSet_}, false)),
+      keptLayout_(makeLayout(gpu, {*frameSet_, *keptSet_}, false)),
       cache_(gpu.device, vk::PipelineCacheCreateInfo{}) {}
 
 template <class Make>
@@ -100,8 +114,8 @@ vk::Pipeline Pipelines::cached(const Key& key, Make&& make) {
     return *found->second;
 }
 
-vk::Pipeline Pipelines::scene(uint32_t features) {
-    return cached({Kind::Scene, features, 0}, [&](PipelineRecipe& recipe) {
+vk::Pipeline Pipelines::scene(uint32_t features, bool keepsLight) {
+    return cached({Kind::Scene, features, keepsLight}, [&](PipelineRecipe& recipe) {
         const bool points = (features & shared::kIsPoints) != 0;
         recipe.vertexCode = shaders::scene_vert;
         recipe.fragmentCode = shaders::scene_frag;
@@ -116,6 +130,11 @@ vk::Pipeline Pipelines::scene(uint32_t features) {
         } else if ((features & shared::kIsTransmissive) != 0 && gpu_.dualSourceBlending) {
             recipe.fragmentCode = shaders::scene_glass_frag;
             recipe.twoSources = true;
+        }
+        if (keepsLight) {
+            recipe.fragmentCode = points ? std::span<const uint32_t>(shaders::scene_kept_points_frag)
+                                         : std::span<const uint32_t>(shaders::scene_kept_frag);
+            recipe.keepsLight = true;
         }
         recipe.layout = *sceneLayout_;
     });
@@ -142,12 +161,24 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
     });
 }
 
-vk::Pipeline Pipelines::background() {
-    return cached({Kind::Background, 0, 0}, [&](PipelineRecipe& recipe) {
+vk::Pipeline Pipelines::background(bool keepsLight) {
+    return cached({Kind::Background, keepsLight, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::full_screen_vert;
         recipe.fragmentCode = shaders::background_frag;
         recipe.depthWrite = false;
+        if (keepsLight)
+            recipe.fragmentCode = shaders::background_kept_frag;
+        recipe.keepsLight = keepsLight;
         recipe.layout = *overlayLayout_;
+    });
+}
+
+vk::Pipeline Pipelines::keptShadow() {
+    return cached({Kind::KeptShadow, 0, 0}, [&](PipelineRecipe& recipe) {
+        recipe.vertexCode = shaders::full_screen_vert;
+        recipe.fragmentCode = shaders::kept_shadow_frag;
+        recipe.depthTest = recipe.depthWrite = false;
+        recipe.layout = *keptLayout_;
     });
 }
 

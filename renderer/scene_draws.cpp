@@ -62,24 +62,27 @@ double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm
 
 /// Each side is sorted by its own depth, so that the contents of a glass are drawn between its far and its
 /// near side.
-void SceneRenderer::Impl::addBlended(DrawItem item, double distance, double halfDepth) {
+void SceneRenderer::Impl::addBlended(DrawItem item, double distance, double halfDepth,
+                                     std::vector<DrawItem>& draws) const {
     const Scene& scene = scene_->scene();
     const Mesh& mesh =
         scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(item.instance)].mesh)];
     if (scene.materials[static_cast<size_t>(mesh.material)].doubleSided && !mesh.indices.empty()) {
         item.sides = DrawItem::Sides::Far;
         item.distance = distance + halfDepth;
-        draws_.push_back(item);
+        draws.push_back(item);
     }
     item.sides = DrawItem::Sides::Near;
     item.distance = distance - halfDepth;
-    draws_.push_back(item);
+    draws.push_back(item);
 }
 
-void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent) {
-    draws_.clear();
+void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent,
+                                       Part part, std::vector<DrawItem>& draws) const {
+    draws.clear();
     if (!scene_)
         return;
+    const Frustum seen(clipFromEye(view));
     const Scene& scene = scene_->scene();
     const uint32_t light = (view.lights[1].irradiance != glm::vec3(0.0f) ? shared::kHasSecondLight : 0u) |
                            (view.probe.radius > 0.0 ? shared::kHasProbeShadow : 0u) |
@@ -91,6 +94,9 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         const PreparedMesh& mesh = drawn.mesh;
         const bool strokes = mesh.strokes > 0;
         if (mesh.empty() || (strokes && view.mode != ViewMode::Shaded)) // lines and points have no haptics
+            continue;
+        const bool blended = view.mode == ViewMode::Shaded && (drawn.features & shared::kIsBlended) != 0;
+        if (part != Part::All && (part == Part::Live) != (blended || moving_.moves(i)))
             continue;
         const glm::dmat3 linear = view.workspaceFromScene.scale *
                                   (glm::mat3_cast(view.workspaceFromScene.rotation) * glm::dmat3(poses[i]));
@@ -104,6 +110,12 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));
         const double stretch = largestStretch(linear);
+        if (!strokes) {
+            item.centre = origin;
+            item.radius = stretch * mesh.radius;
+            if (seen.misses(item.centre, item.radius))
+                continue;
+        }
         // All lines of sight of an orthographic view are parallel.
         const glm::dvec3 sight = view.orthographic() ? glm::dot(origin, back) * back : origin;
         // The mesh's minimum distance from the eye: there an error of one metre is this many pixels.
@@ -112,15 +124,15 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
                                    ? view.allowedError * nearest / (pixelsAtUnitDepth * stretch)
                                    : 0.0;
         const DrawLevel& level = levelWithin(mesh, allowed);
-        item.firstIndex = level.firstIndex;
-        item.indexCount = level.indexCount;
-        if (view.mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0)
-            addBlended(item, glm::length(sight), halfDepth(linear, mesh.halfSize, sight));
+        item.firstIndex = strokes ? 0 : level.firstIndex;
+        item.indexCount = strokes ? mesh.strokes : level.indexCount;
+        if (blended)
+            addBlended(item, glm::length(sight), halfDepth(linear, mesh.halfSize, sight), draws);
         else
-            draws_.push_back(item);
+            draws.push_back(item);
     }
     // Opaque items with few state changes; blended ones last, from the farthest.
-    std::stable_sort(draws_.begin(), draws_.end(), [](const DrawItem& a, const DrawItem& b) {
+    std::stable_sort(draws.begin(), draws.end(), [](const DrawItem& a, const DrawItem& b) {
         const bool blendedA = (a.features & shared::kIsBlended) != 0,
                    blendedB = (b.features & shared::kIsBlended) != 0;
         if (blendedA != blendedB)
@@ -132,7 +144,7 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
 }
 
 void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, const DrawItem& item,
-                                   ViewMode mode) {
+                                   ViewMode mode, bool keepsLight) {
     const Scene& scene = scene_->scene();
     const int meshIndex = scene.instances[static_cast<size_t>(item.instance)].mesh;
     const int materialIndex = scene.meshes[static_cast<size_t>(meshIndex)].material;
@@ -140,7 +152,7 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     const bool shaded = mode == ViewMode::Shaded;
     const vk::PipelineLayout layout = shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, shaded
-                                                                ? pipelines_.scene(item.features)
+                                                                ? pipelines_.scene(item.features, keepsLight)
                                                                 : pipelines_.falseColor(item.features, mode));
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, layout, 1,
@@ -154,7 +166,7 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
         commands.setCullMode(Cull::eNone);
         commands.bindVertexBuffers(0, scene_->vertices(),
                                    vk::DeviceSize{mesh.strokeVertex * sizeof(SceneVertex)});
-        commands.draw(4, mesh.strokes, 0, 0);
+        commands.draw(4, item.indexCount, 0, item.firstIndex);
         commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
         return;
     }
@@ -164,34 +176,40 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     statistics.drawnTriangles += item.indexCount / 3;
 }
 
-void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
+void SceneRenderer::Impl::bindScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
                                     ViewMode mode) {
-    bool backgroundDrawn = false;
-    if (!draws_.empty()) {
-        commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
-        commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
-        if (mode != ViewMode::Shaded)
-            commands.bindVertexBuffers(1, scene_->scalars(), vk::DeviceSize{0});
-        const vk::PipelineLayout layout =
-            mode == ViewMode::Shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
-        for (const DrawItem& item : draws_) {
-            // After everything opaque, but before transmissive items.
-            if (mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0 && !backgroundDrawn) {
-                drawBackground(commands, frameSet);
-                commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
-                backgroundDrawn = true;
-            }
-            drawItem(commands, item, mode);
+    if (!scene_)
+        return;
+    commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
+    commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
+    if (mode != ViewMode::Shaded)
+        commands.bindVertexBuffers(1, scene_->scalars(), vk::DeviceSize{0});
+    commands.bindDescriptorSets(
+        vk::PipelineBindPoint::eGraphics,
+        mode == ViewMode::Shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout(), 0, frameSet, {});
+}
+
+void SceneRenderer::Impl::drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
+                                    ViewMode mode, bool over) {
+    bool backgroundDrawn = over;
+    if (!draws_.empty())
+        bindScene(commands, frameSet, mode);
+    for (const DrawItem& item : draws_) {
+        // After everything opaque, but before transmissive items.
+        if (mode == ViewMode::Shaded && (item.features & shared::kIsBlended) != 0 && !backgroundDrawn) {
+            drawBackground(commands, frameSet);
+            bindScene(commands, frameSet, mode);
+            backgroundDrawn = true;
         }
+        drawItem(commands, item, mode);
     }
     if (!backgroundDrawn)
         drawBackground(commands, frameSet);
 }
 
-void SceneRenderer::Impl::drawBackground(const vk::raii::CommandBuffer& commands,
-                                         vk::DescriptorSet frameSet) {
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.background());
+void SceneRenderer::Impl::drawBackground(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
+                                         bool keepsLight) {
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.background(keepsLight));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.overlayLayout(), 0, frameSet,
                                 {});
     commands.setCullMode(vk::CullModeFlagBits::eNone);

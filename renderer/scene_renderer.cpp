@@ -19,7 +19,9 @@ constexpr vk::ImageAspectFlags kColor = vk::ImageAspectFlagBits::eColor;
 
 } // namespace
 
-SceneRenderer::Impl::Impl(Gpu& owner) : gpu(owner.impl()), pipelines_(gpu), shapes_(makeShapeMeshes()) {
+SceneRenderer::Impl::Impl(Gpu& owner)
+    : gpu(owner.impl()), pipelines_(gpu), shapes_(makeShapeMeshes()), kept_(gpu, pipelines_),
+      warmKept_(gpu, pipelines_) {
     const auto vertexBytes = std::as_bytes(std::span(shapes_.vertices));
     const auto indexBytes = std::as_bytes(std::span(shapes_.indices));
     using Usage = vk::BufferUsageFlagBits;
@@ -30,11 +32,19 @@ SceneRenderer::Impl::Impl(Gpu& owner) : gpu(owner.impl()), pipelines_(gpu), shap
     Uploader uploader(gpu);
     uploader.buffer(shapeVertices_, 0, vertexBytes);
     uploader.buffer(shapeIndices_, 0, indexBytes);
-    for (FrameRing& ring : rings_)
-        for (FrameSlot& slot : ring.slots)
+    for (FrameRing* ring : {&rings_[0], &rings_[1], &rest_})
+        for (FrameSlot& slot : ring->slots)
             createSlot(gpu, pipelines_.frameSet(), slot);
     createSlot(gpu, pipelines_.frameSet(), warm_);
     setEnvironment(nullptr);
+}
+
+std::vector<FrameSlot*> SceneRenderer::Impl::allSlots() {
+    std::vector<FrameSlot*> slots{&warm_, &kept_.slot, &warmKept_.slot};
+    for (FrameRing* ring : {&rings_[0], &rings_[1], &rest_})
+        for (FrameSlot& slot : ring->slots)
+            slots.push_back(&slot);
+    return slots;
 }
 
 SceneRenderer::Impl::~Impl() {
@@ -47,6 +57,8 @@ void SceneRenderer::Impl::clear() {
     coming_.reset();
     poses.clear();
     draws_.clear();
+    keptDraws_.clear();
+    ++content_;
     statistics.triangles = 0;
     statistics.deviceBytes = 0;
 }
@@ -59,40 +71,8 @@ void SceneRenderer::Impl::beginScene(std::shared_ptr<const PreparedScene> prepar
     cold_.clear();
     for (size_t i = 0; i < scene.instances.size(); ++i)
         if (known.insert(coming_->mesh(scene.instances[i].mesh).features).second)
-            cold_.push_back(static_cast<int>(i));
-}
-
-void SceneRenderer::Impl::warmUp(int instance) {
-    const GpuScene::DrawnMesh& drawn =
-        coming_->mesh(coming_->scene().instances[static_cast<size_t>(instance)].mesh);
-    if (drawn.mesh.empty())
-        return;
-    DrawItem item; // its constants are zero: all vertices map to the eye and no pixel is drawn
-    item.instance = instance;
-    item.features =
-        drawn.features | shared::kHasProbeShadow | (environment_.source ? shared::kHasEnvironment : 0u);
-    item.firstIndex = drawn.mesh.levels.front().firstIndex;
-    item.indexCount = 3;
-    draws_.assign(1, item);
-    if (warm_.color.extent.width == 0)
-        resizeSlot(gpu, {16, 16}, warm_);
-    // An ordinary frame of the new scene.
-    std::swap(scene_, coming_);
-    try {
-        writeUniforms(warm_, View{}, glm::dvec3(0.0), Overlay{}, warm_.color.extent);
-        record(warm_, View{}, Overlay{}, OverlayDraw{});
-    } catch (...) { // the current scene stays
-        std::swap(scene_, coming_);
-        throw;
-    }
-    std::swap(scene_, coming_);
-    draws_.clear();
-    gpu.device.resetFences(*warm_.done);
-    const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *warm_.commands};
-    gpu.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted},
-                      *warm_.done);
-    SceneRenderer::Statistics ignored;
-    waitFor(gpu, warm_, ignored);
+            for (const Cold::Kind kind : {Cold::Kind::Kept, Cold::Kind::Frame}) // from the back
+                cold_.push_back({static_cast<int>(i), kind});
 }
 
 bool SceneRenderer::Impl::continueScene(double seconds) {
@@ -123,6 +103,7 @@ void SceneRenderer::Impl::setMaterialColors(std::vector<glm::vec3> colors) {
     if (colors == materialColors_)
         return;
     materialColors_ = std::move(colors);
+    ++content_;
     if (scene_) {
         gpu.device.waitIdle();
         scene_->forgetFalseColor();
@@ -133,43 +114,54 @@ void SceneRenderer::Impl::setEnvironment(std::shared_ptr<const Environment> envi
     GpuEnvironment fresh = uploadEnvironment(gpu, std::move(environment));
     gpu.device.waitIdle();
     environment_ = std::move(fresh);
-    for (FrameRing& ring : rings_)
-        for (FrameSlot& slot : ring.slots)
-            touchstone::setEnvironment(gpu, environment_, slot);
-    touchstone::setEnvironment(gpu, environment_, warm_);
+    ++content_;
+    for (FrameSlot* slot : allSlots())
+        touchstone::setEnvironment(gpu, environment_, *slot);
 }
 
-void SceneRenderer::Impl::render(const View& view, const Overlay& overlay, int width, int height, Eye which) {
+vk::Extent2D SceneRenderer::Impl::allowedExtent(int width, int height) const {
     const int largest =
         static_cast<int>(std::min({gpu.limits.maxImageDimension2D, gpu.limits.maxFramebufferWidth,
                                    gpu.limits.maxFramebufferHeight, 16384u}));
-    const vk::Extent2D extent{static_cast<uint32_t>(std::clamp(width, 1, largest)),
-                              static_cast<uint32_t>(std::clamp(height, 1, largest))};
-    FrameRing& ring = rings_[static_cast<size_t>(which)];
+    return {static_cast<uint32_t>(std::clamp(width, 1, largest)),
+            static_cast<uint32_t>(std::clamp(height, 1, largest))};
+}
+
+void SceneRenderer::Impl::submit(const FrameSlot& slot) const {
+    gpu.device.resetFences(*slot.done);
+    const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *slot.commands};
+    gpu.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted},
+                      *slot.done);
+}
+
+void SceneRenderer::Impl::render(const View& view, const Overlay& overlay, int width, int height, Eye which) {
+    drawFrame(rings_[static_cast<size_t>(which)], view, overlay, allowedExtent(width, height), which,
+              nullptr);
+}
+
+void SceneRenderer::Impl::drawFrame(FrameRing& ring, const View& view, const Overlay& overlay,
+                                    vk::Extent2D extent, Eye which, const KeptPicture* kept) {
     FrameSlot& slot = ring.slots[ring.next];
+    const FrameSlot*& last = last_[static_cast<size_t>(which)];
     waitFor(gpu, slot, statistics);
     if (slot.color.extent != extent) {
-        if (ring.last == &slot)
-            ring.last = nullptr;
+        if (last == &slot)
+            last = nullptr;
         resizeSlot(gpu, extent, slot);
     }
     if (scene_ && view.mode != ViewMode::Shaded && !scene_->falseColorReady(view.mode)) {
         gpu.device.waitIdle();
         scene_->prepareFalseColor(view.mode, materialColors_);
     }
-    const glm::dmat3 viewAxes(view.viewFromWorkspace);
-    const glm::dvec3 eye = -(glm::inverse(viewAxes) * glm::dvec3(view.viewFromWorkspace[3]));
+    const glm::dvec3 eye = eyeOf(view);
     statistics.drawCalls = statistics.drawnTriangles = 0;
-    collectDraws(view, eye, extent);
+    collectDraws(view, eye, extent, kept != nullptr ? Part::Live : Part::All, draws_);
     const OverlayDraw draw = layOut(overlay, eye);
     writeUniforms(slot, view, eye, overlay, extent);
     writeOverlay(slot, draw);
-    record(slot, view, overlay, draw);
-    gpu.device.resetFences(*slot.done);
-    const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *slot.commands};
-    gpu.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted},
-                      *slot.done);
-    ring.last = &slot;
+    record(slot, view, overlay, draw, kept);
+    submit(slot);
+    last = &slot;
     ring.next = (ring.next + 1) % ring.slots.size();
     statistics.pipelines = pipelines_.compiled();
 }
@@ -268,6 +260,12 @@ void SceneRenderer::setEnvironment(std::shared_ptr<const Environment> environmen
 
 void SceneRenderer::render(const View& view, const Overlay& overlay, int width, int height, Eye eye) {
     translatingErrors("drawing the scene", [&] { impl_->render(view, overlay, width, height, eye); });
+}
+
+PictureState SceneRenderer::renderKept(const View& view, const Overlay& overlay, const glm::ivec2& coarse,
+                                       const glm::ivec2& full) {
+    return translatingErrors("drawing the scene",
+                             [&] { return impl_->renderKept(view, overlay, coarse, full); });
 }
 
 PixelData SceneRenderer::readPixels() {

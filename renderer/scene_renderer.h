@@ -19,6 +19,13 @@ namespace touchstone {
 /// Two pictures of the same scene, each with its own size: the window's, and a small inset.
 enum class Eye : uint8_t { Main, Magnifier };
 
+/// What renderKept drew.
+enum class PictureState : uint8_t {
+    Coarse,   ///< a whole frame of the coarse size: something has changed since the last one
+    Refining, ///< the same, and a part of the picture to be kept
+    Kept,     ///< a frame of the full size over the kept picture
+};
+
 /// Main thread only. Two frames of each eye are in flight; `render` waits only when the last but one is
 /// unfinished.
 class SceneRenderer {
@@ -59,6 +66,15 @@ class SceneRenderer {
     /// Records and submits one frame; returns without waiting for it. width, height: pixels, 1..16384
     /// (bounded by the device). Throws DeviceLost, and Error when the device is out of memory.
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye = Eye::Main);
+
+    /// For a CPU that draws: a frame of the main eye in which a picture of the full size is kept. While view,
+    /// scene or an object's pose changes, `coarse` pixels are drawn, as by `render`. Once nothing of that has
+    /// changed since the last frame, so are steps of about 10 ms of the picture of all opaque objects that
+    /// rest, with the full mesh (not View::allowedError); and when it is complete, frames of `full` pixels
+    /// copy it and draw only the probe's shadow, moving and blended objects and the overlay. An object that
+    /// has moved is drawn in each frame until the picture is begun anew. Sizes and errors as in `render`.
+    [[nodiscard]] PictureState renderKept(const View& view, const Overlay& overlay, const glm::ivec2& coarse,
+                                          const glm::ivec2& full);
 
     /// Waits for the last frame of the main eye and reads it: RGBA8, sRGB, rows from the top, alpha 255.
     /// Empty before the first.

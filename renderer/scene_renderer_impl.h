@@ -2,7 +2,9 @@
 // Implementation of SceneRenderer; for renderer/ only.
 
 #include "renderer/frame_slot.h"
+#include "renderer/frustum.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/kept_picture.h"
 #include "renderer/overlay_geometry.h"
 #include "renderer/pipelines.h"
 #include "renderer/scene_renderer.h"
@@ -14,14 +16,20 @@
 
 namespace touchstone {
 
+/// What of a scene is drawn: a whole picture; what a kept one consists of; or what is drawn over that in each
+/// frame.
+enum class Part : uint8_t { All, Resting, Live };
+
 /// One instance in one frame.
 struct DrawItem {
     int instance = 0;
-    uint32_t firstIndex = 0, indexCount = 0; ///< of triangles; otherwise the mesh's lines or points are drawn
+    uint32_t firstIndex = 0, indexCount = 0; ///< of triangles; or lines or points of the mesh's strokes
     uint32_t features = 0;
     /// Of transmissive items: side to draw. All: as in the material.
     enum class Sides : uint8_t { All, Far, Near } sides = Sides::All;
     double distance = 0.0;
+    glm::dvec3 centre{0.0}; ///< of a ball around it, eye frame
+    double radius = -1.0;   ///< < 0: unknown, as of lines and points, whose width is one of pixels
     bool mirrored = false;
     shared::ObjectConstants constants;
 };
@@ -31,7 +39,7 @@ struct SceneRenderer::Impl {
     ~Impl();
 
     /// The image of an eye's last frame, for the window; valid until its next render.
-    [[nodiscard]] const FrameSlot* lastFrame(Eye eye) const { return rings_[static_cast<size_t>(eye)].last; }
+    [[nodiscard]] const FrameSlot* lastFrame(Eye eye) const { return last_[static_cast<size_t>(eye)]; }
 
     void clear();
     void beginScene(std::shared_ptr<const PreparedScene> prepared);
@@ -39,6 +47,8 @@ struct SceneRenderer::Impl {
     void abandon() { coming_.reset(); }
     void compileLater() { cold_.clear(); } ///< of the new scene: when it is first drawn
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye);
+    [[nodiscard]] PictureState renderKept(const View& view, const Overlay& overlay, const glm::ivec2& coarse,
+                                          const glm::ivec2& full);
     void setMaterialColors(std::vector<glm::vec3> colors);
     void setEnvironment(std::shared_ptr<const Environment> environment);
     [[nodiscard]] PixelData readPixels();
@@ -58,16 +68,45 @@ struct SceneRenderer::Impl {
     [[nodiscard]] const Scene* scene() const { return scene_ ? &scene_->scene() : nullptr; }
 
   private:
-    void warmUp(int instance);
-    void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent);
-    void addBlended(DrawItem item, double distance, double halfDepth);
+    /// A pipeline to compile before it is needed: for an instance of the coming scene, in a frame or in a
+    /// kept picture.
+    struct Cold {
+        enum class Kind : uint8_t { Frame, Kept };
+        int instance = 0;
+        Kind kind = Kind::Frame;
+    };
+    void warmUp(const Cold& cold);
+    void warmUpKept();
+    void drawWarm(const KeptPicture* kept);
+    [[nodiscard]] std::vector<FrameSlot*> allSlots();
+    void submit(const FrameSlot& slot) const;
+    [[nodiscard]] vk::Extent2D allowedExtent(int width, int height) const;
+    /// A whole frame, or what is drawn over a complete kept picture.
+    void drawFrame(FrameRing& ring, const View& view, const Overlay& overlay, vk::Extent2D extent, Eye eye,
+                   const KeptPicture* kept);
+    /// One step of the kept picture, unless the last one is still being drawn.
+    void advanceKept();
+    void drawStep(KeptPicture& kept, const std::vector<DrawItem>& draws);
+    /// Draws on from kept.place; returns the work done.
+    [[nodiscard]] double drawOn(KeptPicture& kept, const std::vector<DrawItem>& draws);
+    void castShadow(const FrameSlot& slot, const View& view, const KeptPicture& kept);
+    void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent, Part part,
+                      std::vector<DrawItem>& draws) const;
+    void addBlended(DrawItem item, double distance, double halfDepth, std::vector<DrawItem>& draws) const;
     void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
                        vk::Extent2D extent);
     void writeOverlay(FrameSlot& slot, const OverlayDraw& draw);
-    void record(FrameSlot& slot, const View& view, const Overlay& overlay, const OverlayDraw& draw);
-    void drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, ViewMode mode);
-    void drawItem(const vk::raii::CommandBuffer& commands, const DrawItem& item, ViewMode mode);
-    void drawBackground(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet);
+    void record(FrameSlot& slot, const View& view, const Overlay& overlay, const OverlayDraw& draw,
+                const KeptPicture* kept);
+    void beginFresh(const FrameSlot& slot) const;
+    /// `over`: a picture that has the background.
+    void drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, ViewMode mode,
+                   bool over);
+    void bindScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, ViewMode mode);
+    void drawItem(const vk::raii::CommandBuffer& commands, const DrawItem& item, ViewMode mode,
+                  bool keepsLight = false);
+    void drawBackground(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
+                        bool keepsLight = false);
     void drawOverlay(const vk::raii::CommandBuffer& commands, const FrameSlot& slot, const OverlayDraw& draw,
                      bool showHidden);
 
@@ -76,11 +115,20 @@ struct SceneRenderer::Impl {
     GpuEnvironment environment_;
     GpuBuffer shapeVertices_, shapeIndices_;
     ShapeMeshes shapes_;
-    std::array<FrameRing, 2> rings_; ///< of each Eye
-    FrameSlot warm_;                 ///< for frames that compile pipelines and are not shown
-    std::vector<int> cold_;          ///< instances of `coming_` whose pipelines have not been used yet
+    std::array<FrameRing, 2> rings_;         ///< of each Eye
+    FrameRing rest_;                         ///< of the main one over the kept picture, in that's size
+    std::array<const FrameSlot*, 2> last_{}; ///< drawn for each Eye
+    FrameSlot warm_;                         ///< for frames that compile pipelines and are not shown
+    KeptPicture kept_, warmKept_;
+    MovingInstances moving_;
+    uint64_t content_ = 0;   ///< PictureKey::content
+    std::vector<Cold> cold_; ///< of `coming_`, not used yet
     std::vector<glm::vec3> materialColors_;
-    std::vector<DrawItem> draws_; ///< a member, to reuse its memory between frames
+    std::vector<DrawItem> draws_;     ///< a member, to reuse its memory between frames
+    std::vector<DrawItem> keptDraws_; ///< of the picture being refined
 };
+
+[[nodiscard]] glm::dvec3 eyeOf(const View& view);       ///< workspace
+[[nodiscard]] glm::dmat4 clipFromEye(const View& view); ///< the eye frame has the workspace's axes
 
 } // namespace touchstone

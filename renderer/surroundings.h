@@ -14,6 +14,7 @@ struct Lamp {
     glm::dvec3 towards{0.0, 1.0, 0.0}; ///< workspace; need not be unit
     glm::vec3 radiance{0.0f};          ///< linear RGB, at its centre
     double sharpness = 8.0;            ///< > 0; falls to half within acos(1 - 0.414 / sharpness): 19° for 8
+    bool operator==(const Lamp&) const = default;
 };
 
 /// Linear RGB radiance by direction; y of the workspace is up. Between horizon and zenith, and between the
@@ -24,6 +25,7 @@ struct Surroundings {
     glm::vec3 rim{0.44f, 0.43f, 0.42f};
     glm::vec3 below{0.10f, 0.097f, 0.094f};
     std::array<Lamp, 2> lamps{};
+    bool operator==(const Surroundings&) const = default;
 
     [[nodiscard]] static Surroundings dark() {
         return {glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f), {}};

@@ -13,6 +13,11 @@
 
 namespace touchstone {
 
+/// Exactly.
+[[nodiscard]] inline bool operator==(const Similarity& a, const Similarity& b) {
+    return a.scale == b.scale && a.rotation == b.rotation && a.translation == b.translation;
+}
+
 /// Shaded is the visual appearance; the others are false-colour views of haptic quantities. Tilt: between the
 /// facet and the felt normal, with its maps. Dihedral: the largest angle between the facets at an edge of the
 /// vertex. Effects: SceneRenderer::setMaterialColors.
@@ -37,6 +42,7 @@ inline constexpr std::array<std::string_view, 10> kViewModeNames{
 struct DirectionalLight {
     glm::dvec3 toLight{0.0, 0.0, 1.0}; ///< workspace, towards the light; need not be unit
     glm::vec3 irradiance{0.0f};        ///< linear RGB at normal incidence; zero: off
+    bool operator==(const DirectionalLight&) const = default;
 };
 
 /// A ball that shades the surface near it, which shows its height above the surface. It is the only occluder,
@@ -44,14 +50,18 @@ struct DirectionalLight {
 struct ProbeShadow {
     glm::dvec3 centre{0.0}; ///< workspace, m
     double radius = 0.0;    ///< m; 0: none
+    bool operator==(const ProbeShadow&) const = default;
 };
 
 /// Linear RGB at the upper and lower edge of the image; not exposed or tone mapped.
 struct Background {
     glm::vec3 top{0.235f, 0.26f, 0.295f};
     glm::vec3 bottom{0.055f, 0.06f, 0.07f};
+    bool operator==(const Background&) const = default;
 };
 
+/// What a picture shows but for poses and overlays. A kept picture is drawn anew when any of it changes
+/// (PictureKey).
 struct View {
     glm::dmat4 viewFromWorkspace{1.0};
     glm::dmat4 clipFromView{1.0}; ///< depth 0..1, y up; must match the aspect of the image
@@ -67,6 +77,8 @@ struct View {
     /// Error of simplified meshes, pixels; 0: the full mesh is drawn. Only for scenes prepared with
     /// simplified meshes.
     double allowedError = 0.0;
+
+    bool operator==(const View&) const = default;
 
     /// The projection keeps depth out of x and y.
     [[nodiscard]] bool orthographic() const { return clipFromView[2][3] == 0.0; }

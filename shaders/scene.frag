@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // glTF 2.0's metallic-roughness, its KHR_materials_* looks and unlit colours, under two directional lights and the
 // surroundings (renderer/surroundings.h, renderer/environment.h). TRANSMISSIVE adds the share of what lies behind, for
-// blending with two sources; POINTS cuts squares to discs.
+// blending with two sources; POINTS cuts squares to discs; KEPT draws without the probe's shadow and adds what
+// kept_shadow.frag needs to cast it afterwards.
 #include "shared/scene_types.h"
 
 layout(constant_id = 0) const uint kFeatures = 0u;
@@ -40,6 +41,13 @@ layout(location = 0, index = 1) out vec4 outThrough; ///< factor of what lies be
 #else
 layout(location = 0) out vec4 outColor;
 #endif
+#ifdef KEPT
+// Linear light that the probe may take away: all of the first light, all of the surroundings; and the light in all. In
+// the alphas the normal; zero where nothing is to be taken away.
+layout(location = 1) out vec4 keptFirst;
+layout(location = 2) out vec4 keptAround;
+layout(location = 3) out vec4 keptTotal;
+#endif
 
 bool has(uint feature) { return (kFeatures & feature) != 0u; }
 
@@ -51,6 +59,7 @@ vec2 uvOf(uint slot) {
 }
 
 #include "surface_normal.glsl"
+#include "probe_shadow.glsl"
 #include "surface_light.glsl"
 #include "material_layers.glsl"
 #include "tone.glsl"
@@ -101,6 +110,21 @@ Surface specularGlossiness(vec3 base) {
     return Surface(base * (1.0 - largest(look.rgb)), look.rgb, 1.0, 1.0 - look.a, 0.0, vec3(1.0));
 }
 
+/// What the surface sends where the probe leaves it `left` of the lights; `scattered`: of the light from behind.
+vec3 lit(Surface s, vec3 specular, vec3 n, vec3 smoothNormal, vec3 v, float nv, float occlusion, vec3 scattered,
+         vec2 left) {
+    vec3 color = frame.irradiance0.rgb * (left.x * reflected(s, n, v, frame.toLight0.xyz, nv));
+    if (has(kHasSecondLight)) color += frame.irradiance1.rgb * reflected(s, n, v, frame.toLight1.xyz, nv);
+    const vec3 r = reflect(-v, n);
+    left.y *= occlusion;
+    color += left.y * (s.diffuse * irradianceAt(n) + specular * surroundings(r, s.roughness, s.alpha));
+    if (has(kIsTransmissive)) color += scattered;
+    if (has(kHasSheen)) color = underSheen(color, n, v, nv, left);
+    if (has(kHasEmission)) color += emission();
+    if (has(kHasClearcoat)) color = underCoat(color, smoothNormal, v, left);
+    return color;
+}
+
 /// Writes what the surface sends (linear, not tone mapped) and the share `through` of what lies behind it.
 void writeOver(vec3 color, vec3 through, float alpha) {
     // What lies behind has been through the tone mapper's toe already.
@@ -124,6 +148,9 @@ void main() {
     const float alpha = has(kIsBlended) && !has(kIsSolid) ? base.a : 1.0;
     if (has(kIsUnlit)) { // as it is, without tone mapping
         outColor = vec4(has(kHasEmission) ? base.rgb + emission() : base.rgb, alpha);
+#ifdef KEPT
+        keptFirst = keptAround = keptTotal = vec4(0.0);
+#endif
         return;
     }
 
@@ -160,22 +187,22 @@ void main() {
     }
 
     vec2 left = vec2(1.0);
-    if (has(kHasProbeShadow)) left = leftByProbe(n, frame.toLight0.xyz);
+    if (has(kHasProbeShadow)) left = leftByProbe(eyePosition, n, frame.toLight0.xyz);
     const vec3 specular = specularShare(s, nv);
-    vec3 color = frame.irradiance0.rgb * (left.x * reflected(s, n, v, frame.toLight0.xyz, nv));
-    if (has(kHasSecondLight)) color += frame.irradiance1.rgb * reflected(s, n, v, frame.toLight1.xyz, nv);
-    const vec3 r = reflect(-v, n);
-    left.y *= occlusion;
-    color += left.y * (s.diffuse * irradianceAt(n) + specular * surroundings(r, s.roughness, s.alpha));
+    vec3 scattered = vec3(0.0);
     if (has(kIsTransmissive)) {
         // What is rough scatters the light from behind instead of showing what is there.
         through *= 1.0 - largest(specular);
-        color += through * s.alpha * irradianceAt(-v);
+        scattered = through * s.alpha * irradianceAt(-v);
         through *= 1.0 - s.alpha;
     }
-    if (has(kHasSheen)) color = underSheen(color, n, v, nv, left);
-    if (has(kHasEmission)) color += emission();
-    if (has(kHasClearcoat)) color = underCoat(color, smoothNormal, v, left);
+    const vec3 color = lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, left);
+#ifdef KEPT
+    // The light is linear in what is left of each.
+    keptFirst = vec4(color - lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, vec2(0.0, 1.0)), n.x);
+    keptAround = vec4(color - lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, vec2(1.0, 0.0)), n.y);
+    keptTotal = vec4(color, n.z);
+#endif
     if (has(kIsTransmissive)) writeOver(color, through, alpha);
     else outColor = vec4(toneMapped(color), alpha);
 }

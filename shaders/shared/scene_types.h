@@ -22,6 +22,7 @@ using uint = uint32_t;
 /// Once a frame.
 struct FrameUniforms {
     mat4 clipFromEye;
+    mat4 eyeFromClip;      ///< its inverse
     vec4 toLight0;         ///< xyz unit, workspace axes
     vec4 toLight1;
     vec4 irradiance0;      ///< rgb, exposed

@@ -46,8 +46,9 @@ Layouts layoutsOf(std::span<const uint32_t> code) {
 TEST(ShaderLayout, FrameUniforms) {
     const Layouts layouts = layoutsOf(shaders::scene_frag);
     ASSERT_TRUE(layouts.count("FrameUniforms"));
-    EXPECT_EQ(layouts.at("FrameUniforms").size(), 21u) << "a member that this test does not know";
+    EXPECT_EQ(layouts.at("FrameUniforms").size(), 22u) << "a member that this test does not know";
     EXPECT_SAME_PLACE(layouts, FrameUniforms, clipFromEye);
+    EXPECT_SAME_PLACE(layouts, FrameUniforms, eyeFromClip);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight0);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, toLight1);
     EXPECT_SAME_PLACE(layouts, FrameUniforms, irradiance0);
