@@ -45,7 +45,7 @@ struct PreparedScene {
 struct PrepareOptions {
     /// Meshes of more than twice this many triangles are simplified by halves down to about this many; 0:
     /// none is.
-    size_t coarsest = 2000;
+    size_t coarsest = 100;
     /// Set it to stop: the scene may then lack levels and textures. May be null.
     const std::atomic<bool>* cancel = nullptr;
     Progress progress = {}; ///< for reporting only; `cancel` cancels
