@@ -128,8 +128,10 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         item.indexCount = strokes ? mesh.strokes : level.indexCount;
         if (blended)
             addBlended(item, glm::length(sight), halfDepth(linear, mesh.halfSize, sight), draws);
-        else
+        else {
+            item.distance = glm::length(sight);
             draws.push_back(item);
+        }
     }
     // Opaque items with few state changes; blended ones last, from the farthest.
     std::stable_sort(draws.begin(), draws.end(), [](const DrawItem& a, const DrawItem& b) {
@@ -139,7 +141,9 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
             return blendedB;
         if (blendedA)
             return a.distance > b.distance;
-        return a.features < b.features;
+        if (a.features != b.features)
+            return a.features < b.features;
+        return a.distance < b.distance; // the nearest hide what is behind them before it is shaded
     });
 }
 

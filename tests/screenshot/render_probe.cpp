@@ -31,7 +31,7 @@ struct Probe {
 
     explicit Probe(ScenePtr shown = torusScene(), double error = 0.0)
         : scene(std::move(shown)), allowedError(error) {
-        renderer.beginScene(prepareScene(scene, {.coarsest = error > 0.0 ? 2000u : 0u}));
+        renderer.beginScene(prepareScene(scene, {.coarsest = error > 0.0 ? PrepareOptions{}.coarsest : 0u}));
         while (!renderer.continueScene(1.0)) {
         }
     }
