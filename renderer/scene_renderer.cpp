@@ -202,6 +202,10 @@ SceneRenderer::SceneRenderer(Gpu& gpu)
     : impl_(translatingErrors("making the renderer", [&] { return std::make_unique<Impl>(gpu); })) {}
 SceneRenderer::~SceneRenderer() = default;
 
+void SceneRenderer::warmUp() {
+    translatingErrors("compiling shaders", [&] { impl_->warmUpOverlays(); });
+}
+
 void SceneRenderer::setScene(ScenePtr scene) {
     if (!scene) {
         translatingErrors("emptying the scene", [&] { impl_->clear(); });

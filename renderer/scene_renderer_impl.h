@@ -45,6 +45,7 @@ struct SceneRenderer::Impl {
     void beginScene(std::shared_ptr<const PreparedScene> prepared);
     [[nodiscard]] bool continueScene(double seconds);
     void abandon() { coming_.reset(); }
+    void warmUpOverlays();
     void compileLater() { cold_.clear(); } ///< of the new scene: when it is first drawn
     void render(const View& view, const Overlay& overlay, int width, int height, Eye eye);
     [[nodiscard]] PictureState renderKept(const View& view, const Overlay& overlay, const glm::ivec2& coarse,
@@ -77,7 +78,7 @@ struct SceneRenderer::Impl {
     };
     void warmUp(const Cold& cold);
     void warmUpKept();
-    void drawWarm(const KeptPicture* kept);
+    void drawWarm(const Overlay& overlay, const KeptPicture* kept);
     [[nodiscard]] std::vector<FrameSlot*> allSlots();
     void submit(const FrameSlot& slot) const;
     [[nodiscard]] vk::Extent2D allowedExtent(int width, int height) const;

@@ -33,7 +33,7 @@ void SceneRenderer::Impl::warmUp(const Cold& cold) {
         if (kept)
             warmUpKept();
         else
-            drawWarm(nullptr);
+            drawWarm({}, nullptr);
     } catch (...) { // the current scene stays
         std::swap(scene_, coming_);
         throw;
@@ -45,20 +45,49 @@ void SceneRenderer::Impl::warmUp(const Cold& cold) {
 void SceneRenderer::Impl::warmUpKept() {
     warmKept_.restart({.view = {}, .size = {kWarmSize.width, kWarmSize.height}});
     drawStep(warmKept_, draws_);
-    draws_.clear(); // a frame over it, with the shadow
-    drawWarm(&warmKept_);
     SceneRenderer::Statistics ignored;
     waitFor(gpu, warmKept_.slot, ignored);
+    statistics.pipelines = pipelines_.compiled();
 }
 
-void SceneRenderer::Impl::drawWarm(const KeptPicture* kept) {
+void SceneRenderer::Impl::drawWarm(const Overlay& overlay, const KeptPicture* kept) {
     View view;
     view.probe.radius = 1.0;
-    writeUniforms(warm_, view, glm::dvec3(0.0), Overlay{}, kWarmSize);
-    record(warm_, view, Overlay{}, OverlayDraw{}, kept);
+    const OverlayDraw draw = layOut(overlay, glm::dvec3(0.0));
+    writeUniforms(warm_, view, glm::dvec3(0.0), overlay, kWarmSize);
+    writeOverlay(warm_, draw);
+    record(warm_, view, overlay, draw, kept);
     submit(warm_);
     SceneRenderer::Statistics ignored;
     waitFor(gpu, warm_, ignored);
+    statistics.pipelines = pipelines_.compiled();
+}
+
+void SceneRenderer::Impl::warmUpOverlays() {
+    if (warm_.color.extent != kWarmSize)
+        resizeSlot(gpu, kWarmSize, warm_);
+    constexpr glm::dvec3 kFrom{0.0, 0.0, 0.5}, kTo{0.5, 0.5, 0.5};
+    Overlay overlay;
+    overlay.spheres.push_back({.centre = kFrom, .radius = 0.1});
+    overlay.arrows.push_back({.from = kFrom, .to = kTo, .radius = 0.1});
+    overlay.lines.push_back({.from = kFrom, .to = kTo});
+    overlay.discs.push_back({.centre = kFrom, .radius = 0.1, .color = {1.0f, 1.0f, 1.0f, 0.5f}});
+    draws_.clear();
+    drawWarm(overlay, nullptr);
+    warmUpKept();
+    drawWarm({}, &warmKept_);
+}
+
+void compileAhead(const std::string& device, const std::shared_ptr<const PreparedScene>& prepared) noexcept {
+    try {
+        const std::unique_ptr<Gpu> gpu =
+            Gpu::headless({.device = device, .validation = false, .log = nullptr});
+        SceneRenderer renderer(*gpu);
+        renderer.beginScene(prepared);
+        while (!renderer.continueScene(1.0)) {
+        }
+    } catch (...) { // then the window compiles
+    }
 }
 
 } // namespace touchstone

@@ -10,9 +10,11 @@ namespace touchstone {
 namespace {
 
 constexpr int kSoftwarePixels = 800 * 450; // of the scene image on a software device
-constexpr int kHardwarePixels = 2560 * 1440;
+constexpr int kMostPixels = 2560 * 1440;   // of one that is kept, or drawn by hardware
+constexpr int kSettling =
+    2; // frames after another way of drawing whose times are those of the last: two in flight
 constexpr double kSmallestScale = 0.55; // of the picture's size; below it edges show staircases
-constexpr double kSoftwareError = 0.25; // pixels, tolerance of simplified meshes on a software device
+constexpr double kSoftwareError = 0.5;  // pixels, least tolerance of meshes that a software device simplifies
 
 constexpr const char* kMemoryFile = "window.json"; // in the state folder
 
@@ -29,15 +31,20 @@ std::vector<std::filesystem::path> recordingFolders(const RecordingOptions& opti
 } // namespace
 
 DrawQuality qualityOn(const Gpu& gpu) {
-    return DrawQuality({.largestPixels = gpu.isSoftware() ? kSoftwarePixels : kHardwarePixels,
+    return DrawQuality({.largestPixels = gpu.isSoftware() ? kSoftwarePixels : kMostPixels,
                         .smallestScale = kSmallestScale,
                         .finestError = gpu.isSoftware() ? kSoftwareError : 0.0});
+}
+
+DrawQuality keptQuality() {
+    return DrawQuality(
+        {.largestPixels = kMostPixels, .smallestScale = kSmallestScale, .finestError = kSoftwareError});
 }
 
 WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     : memory_(readMemory(stateFolder() / kMemoryFile, &memoryWarning_)),
       window_("Touchstone", firstSize(options.size, memory_.size)), screen_(window_, gpuOptions(options.gpu)),
-      quality_(qualityOn(screen_.gpu())),
+      quality_(qualityOn(screen_.gpu())), keptQuality_(keptQuality()),
       touch_(options, [this](const std::string& text) { notice_ = text; }),
       interruptedForce_(touch_.forceSwitch()), forceKey_(touch_.forceSwitch()),
       forceWatch_(window_.handle(), GLFW_KEY_SPACE, [this](bool plain) { forceKey_.press(plain); }),
@@ -62,6 +69,10 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     state_.workspace.zoom = options.zoom;
     state_.device = options.device;
     state_.view.pictureSize = options.pictureSize;
+    onScreen([this] { screen_.renderer().warmUp(); });
+    // A second device would say to the validation layer what nobody reads.
+    if (const Gpu& gpu = screen_.gpu(); gpu.isSoftware() && !gpu.validationActive())
+        opening_.compileFor(gpu.name());
     holdDevice();
     sendSettings();
     touch_.start();
@@ -200,9 +211,14 @@ double WorkbenchWindow::aspect() const {
 
 void WorkbenchWindow::pace(double start) {
     const double busy = secondsNow() - start;
-    // The picture that was saved in this frame says nothing about how long the others take.
-    quality_.frameDone(std::max(busy - std::exchange(savedSeconds_, 0.0), screen_.busy()));
-    longestFrame_ = std::max(longestFrame_, busy);
+    // The picture that was saved in this frame says nothing about how long the others take; nor do the steps
+    // of one that is being refined.
+    const double drawing = std::max(busy - std::exchange(savedSeconds_, 0.0), screen_.busy());
+    const ModelPicture::Drawn& drawn = picture_.drawn();
+    if (drawn.state != PictureState::Refining && drawn.frames > kSettling)
+        (drawn.state == PictureState::Kept ? keptQuality_ : quality_).frameDone(drawing);
+    if (screen_.target().statistics().framesPresented > 1) // the first keeps no picture waiting
+        longestFrame_ = std::max(longestFrame_, busy);
     window_.waitEvents(0.0);
     for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
         window_.waitEvents(left);

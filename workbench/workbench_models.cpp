@@ -22,6 +22,7 @@ void WorkbenchWindow::takeAnotherDevice(const DeviceLost& lost) {
         try {
             screen_.renew(*std::exchange(why, std::nullopt), secondsNow());
             quality_ = qualityOn(screen_.gpu());
+            keptQuality_ = keptQuality();
             opening_.takeDevice(screen_.renderer());
         } catch (const DeviceLost& again) {
             why = again;

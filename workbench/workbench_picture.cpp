@@ -7,7 +7,7 @@ namespace touchstone {
 void WorkbenchWindow::draw() {
     gallery_.update(state_.gallery, samples_, memory_.recent, screen_.target());
     const PixelRect area = pictureArea();
-    const PanelInput input = panelInput(quality_.sceneSize({area.width, area.height}));
+    const PanelInput input = panelInput(picture_.drawn().size);
     auto widgets = drawPanels(input, state_);
     widgets.merge(drawMaterials(input.scale));
     const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
@@ -33,25 +33,29 @@ void WorkbenchWindow::draw() {
         poseAt(shownTick().time, *touch_.shown().model.scene, screen_.renderer());
     }
     const HapticSettings settings = shownSettings();
-    const ModelPicture::Frame frame{.model = touch_.shown().model,
-                                    .tick = shownTick(),
-                                    .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
-                                    .settings = settings,
-                                    .camera = view_.camera(),
-                                    .options = state_.view,
-                                    .place = area,
-                                    .sceneSize = input.sceneSize,
-                                    .allowedError = quality_.allowedError(),
-                                    .pixelsPerPoint = static_cast<float>(points),
-                                    .scale = scale_,
-                                    .software = screen_.gpu().isSoftware()};
+    const ModelPicture::Frame frame{
+        .model = touch_.shown().model,
+        .tick = shownTick(),
+        .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
+        .settings = settings,
+        .camera = view_.camera(),
+        .options = state_.view,
+        .place = area,
+        .sceneSize = quality_.sceneSize({area.width, area.height}),
+        .keptSize = keptSize({area.width, area.height}),
+        .allowedError =
+            (picture_.drawn().state == PictureState::Kept ? keptQuality_ : quality_).allowedError(),
+        .pixelsPerPoint = static_cast<float>(points),
+        .scale = scale_,
+        .software = screen_.gpu().isSoftware()};
     screen_.target().endFrame(&screen_.renderer(), picture_.draw(frame, screen_.renderer()));
     const double before = secondsNow();
     (void)picture_.save(frame, screen_.renderer());
     savedSeconds_ = secondsNow() - before;
     (void)chartPictures_.update(screen_.target());
     chartSaver_.update();
-    status_.update(secondsNow(), input, state_, widgets, screen_.validationMessages());
+    status_.update(secondsNow(), input, state_, widgets,
+                   {.drawn = picture_.drawn(), .validationMessages = screen_.validationMessages()});
 }
 
 std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
@@ -194,6 +198,16 @@ PixelRect WorkbenchWindow::pixelsOf(const WidgetRect& rect) {
     const float pixels = ImGui::GetIO().DisplayFramebufferScale.x;
     return {static_cast<int>(rect.x * pixels), static_cast<int>(rect.y * pixels),
             static_cast<int>(rect.width * pixels), static_cast<int>(rect.height * pixels)};
+}
+
+glm::ivec2 WorkbenchWindow::keptSize(const glm::ivec2& area) const {
+    if (!screen_.gpu().isSoftware())
+        return glm::ivec2(0);
+    // Pixel for pixel where it can be: sceneSize is in multiples of eight.
+    const glm::ivec2 size = keptQuality_.sceneSize(area);
+    return keptQuality_.quality() == 1.0 && glm::all(glm::lessThan(glm::abs(area - size), glm::ivec2(8)))
+               ? area
+               : size;
 }
 
 PixelRect WorkbenchWindow::pictureArea() const {

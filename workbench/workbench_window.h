@@ -50,6 +50,8 @@
 namespace touchstone {
 /// Draw quality of a device: coarser for a software device.
 [[nodiscard]] DrawQuality qualityOn(const Gpu& gpu);
+/// Of frames over a kept picture, on any device: the whole resolution first.
+[[nodiscard]] DrawQuality keptQuality();
 
 /// Main thread only.
 class WorkbenchWindow {
@@ -120,6 +122,8 @@ class WorkbenchWindow {
     [[nodiscard]] static PixelRect pixelsOf(const WidgetRect& rect);
     /// Saves the window's state for the next run.
     void remember();
+    /// Resolution of the picture that is kept where the CPU draws, for a part of the framebuffer; else 0.
+    [[nodiscard]] glm::ivec2 keptSize(const glm::ivec2& area) const;
     /// The part of the framebuffer without bar and panels, pixels.
     [[nodiscard]] PixelRect pictureArea() const;
     [[nodiscard]] double aspect() const;
@@ -134,8 +138,9 @@ class WorkbenchWindow {
     Window window_;
     Screen screen_;
     EnvironmentLight environment_;
-    DrawQuality quality_;
-    std::string notice_; // of the recorder
+    DrawQuality quality_;     // of frames in which everything is drawn
+    DrawQuality keptQuality_; // of frames over a kept picture, for what moves and lets see through it
+    std::string notice_;      // of the recorder
     LiveTouch touch_;
     InterruptedForce interruptedForce_;
     ForceKey forceKey_;

@@ -260,6 +260,27 @@ TEST_F(KeptPictureTest, AnotherSizeWhileItIsRefined) {
     EXPECT_EQ(differenceFromWhole(view, {}), 0);
 }
 
+TEST_F(KeptPictureTest, NothingIsCompiledWhenItIsFirstDrawn) {
+    const auto prepared = prepareScene(torusScene(24, 12));
+    compileAhead(gpu_->name(), prepared);
+    compileAhead("no device of this name", prepared); // is no failure
+    SceneRenderer fresh(*gpu_);
+    fresh.warmUp();
+    fresh.beginScene(prepared);
+    while (!fresh.continueScene(0.0)) {
+    }
+    const uint64_t compiled = fresh.statistics().pipelines;
+    EXPECT_GT(compiled, 0u);
+    const View view = shadowed(viewFor(*prepared->scene), {0.06, 0.03, 0.0});
+    for (int frame = 0; frame < 100; ++frame) {
+        if (fresh.renderKept(view, touchOverlay(), kCoarse, kSize) == PictureState::Kept)
+            break;
+        gpu_->waitIdle();
+    }
+    EXPECT_EQ(fresh.renderKept(view, touchOverlay(), kCoarse, kSize), PictureState::Kept);
+    EXPECT_EQ(fresh.statistics().pipelines, compiled);
+}
+
 TEST_F(KeptPictureTest, SmallestAndImpossibleSizes) {
     const auto scene = torusScene(24, 12);
     renderer_->setScene(scene);

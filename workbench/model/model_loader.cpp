@@ -2,6 +2,7 @@
 
 #include "devices/stroke/stroke_library.h"
 #include "engine/core/error.h"
+#include "renderer/scene_renderer.h"
 
 #include <sys/resource.h>
 
@@ -51,7 +52,7 @@ void ModelLoader::begin(const Request& request) {
     fraction_.store(0.0, std::memory_order_relaxed);
     result_.reset();
     failure_ = nullptr;
-    worker_ = std::thread([this, request] {
+    worker_ = std::thread([this, request, device = device_] {
         // For this thread and those that it starts; if refused, loading competes with rendering.
         (void)::setpriority(PRIO_PROCESS, 0, kNiceness);
         LoadOptions options;
@@ -79,6 +80,8 @@ void ModelLoader::begin(const Request& request) {
             loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
             loaded.prepared =
                 prepareScene(loaded.model.scene, {.cancel = &cancelled_, .progress = whole.part(0.3, 1.0)});
+            if (!device.empty() && !cancelled_.load(std::memory_order_relaxed))
+                compileAhead(device, loaded.prepared);
             result_ = std::move(loaded);
         } catch (...) {
             failure_ = std::current_exception();

@@ -31,6 +31,9 @@ class ModelLoader {
     ModelLoader(const ModelLoader&) = delete;
     ModelLoader& operator=(const ModelLoader&) = delete;
 
+    /// From now on, models' shaders are compiled by the worker, too, for this device (renderer's
+    /// compileAhead).
+    void compileFor(std::string device) { device_ = std::move(device); }
     void start(const std::filesystem::path& path);
 
     /// Cancels loading; `loading` stays true until the worker has ended.
@@ -56,6 +59,7 @@ class ModelLoader {
     };
     void begin(const Request& request);
 
+    std::string device_; // empty: shaders are compiled when they are first drawn
     std::filesystem::path path_;
     std::optional<Request> next_; // started when the worker has ended
     std::thread worker_;

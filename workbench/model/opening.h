@@ -14,6 +14,8 @@ namespace touchstone {
 /// current model stays until the new one is ready. Main thread.
 class Opening {
   public:
+    /// As ModelLoader::compileFor.
+    void compileFor(std::string device) { loader_.compileFor(std::move(device)); }
     /// A second call replaces the first.
     void start(const std::filesystem::path& path, SceneRenderer& renderer);
     /// Every frame: returns the model in the frame in which the renderer shows it. Throws the failure, Error

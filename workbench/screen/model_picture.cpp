@@ -1,5 +1,6 @@
 #include "workbench/screen/model_picture.h"
 
+#include "engine/time/seconds_now.h"
 #include "workbench/screen/gui_pixels.h"
 #include "workbench/screen/magnifier.h"
 
@@ -69,7 +70,7 @@ EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
         setUp(frame, static_cast<double>(frame.place.width) / std::max(frame.place.height, 1), renderer);
     setup.view.allowedError = frame.allowedError;
     EyePlaces places{.main = frame.place, .magnifier = {}};
-    renderer.render(setup.view, overlay_, frame.sceneSize.x, frame.sceneSize.y);
+    drawMain(frame, setup.view, renderer);
     if (setup.hasModel && frame.options.magnifier)
         drawMagnifier(frame, setup, renderer, places);
     const float margin = kLegendMargin * frame.scale;
@@ -79,6 +80,22 @@ EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
         drawViewLegend(legendOf(frame, renderer), low / frame.pixelsPerPoint + glm::vec2(margin, -margin),
                        frame.scale);
     return places;
+}
+
+void ModelPicture::drawMain(const Frame& frame, const View& view, SceneRenderer& renderer) {
+    const PictureState before = drawn_.state;
+    if (frame.keptSize.x > 0) {
+        drawn_.state = renderer.renderKept(view, overlay_, frame.sceneSize, frame.keptSize);
+    } else {
+        drawn_.state = PictureState::Coarse;
+        renderer.render(view, overlay_, frame.sceneSize.x, frame.sceneSize.y);
+    }
+    drawn_.frames = drawn_.state == before ? drawn_.frames + 1 : 1;
+    drawn_.size = drawn_.state == PictureState::Kept ? frame.keptSize : frame.sceneSize;
+    if (drawn_.state == PictureState::Coarse)
+        changed_ = secondsNow();
+    else if (drawn_.state == PictureState::Kept && before != PictureState::Kept)
+        drawn_.refinedIn = secondsNow() - changed_;
 }
 
 ViewLegend ModelPicture::legendOf(const Frame& frame, const SceneRenderer& renderer) const {

@@ -22,7 +22,8 @@ class ModelPicture {
         const OrbitCamera& camera;
         ViewOptions& options;
         PixelRect place;             ///< of the framebuffer
-        glm::ivec2 sceneSize{1};     ///< resolution of the scene image
+        glm::ivec2 sceneSize{1};     ///< resolution of the scene image while something changes
+        glm::ivec2 keptSize{0};      ///< and once it rests, of the kept one; 0: none is kept
         double allowedError = 0.0;   ///< of these, tolerance of simplified meshes
         float pixelsPerPoint = 1.0f; ///< framebuffer pixels per window coordinate
         float scale = 1.0f;          ///< window coordinates per layout unit
@@ -31,6 +32,14 @@ class ModelPicture {
     /// Draws into the renderer's images, and the legend into the current ImGui frame. Returns where the
     /// images belong.
     [[nodiscard]] EyePlaces draw(const Frame& frame, SceneRenderer& renderer);
+    /// What `draw` drew last: its resolution, and whether over a kept picture.
+    struct Drawn {
+        PictureState state = PictureState::Coarse;
+        int frames = 0; ///< in this state, with that one
+        glm::ivec2 size{0};
+        double refinedIn = 0.0; ///< s from the last change to the kept picture, when there was one last
+    };
+    [[nodiscard]] const Drawn& drawn() const { return drawn_; }
     /// A new renderer.
     void takeDevice() { colored_.reset(); }
 
@@ -57,7 +66,11 @@ class ModelPicture {
     [[nodiscard]] ViewLegend legendOf(const Frame& frame, const SceneRenderer& renderer) const;
     [[nodiscard]] PixelData drawAnew(const Frame& frame, const glm::ivec2& size, SceneRenderer& renderer);
 
+    void drawMain(const Frame& frame, const View& view, SceneRenderer& renderer);
+
     PictureController controller_;
+    Drawn drawn_;
+    double changed_ = 0.0; ///< time of the last change of what is kept, s
     Overlay overlay_;
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan gave the colours
     EffectColors colors_;

@@ -14,6 +14,8 @@ namespace touchstone {
 
 namespace {
 
+constexpr const char* kPictureStates[]{"coarse", "refining", "kept"}; // by PictureState
+
 nlohmann::ordered_json stagesJson(const ServoView& servo) {
     nlohmann::ordered_json json;
     for (size_t i = 0; i < kStageCount; ++i)
@@ -74,7 +76,7 @@ nlohmann::ordered_json chartsJson(const PanelInput& input, const PanelState& sta
 } // namespace
 
 void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
-                        const std::map<std::string, WidgetRect>& widgets, size_t validationMessages) {
+                        const std::map<std::string, WidgetRect>& widgets, const Screen& screen) {
     if (target_.empty() || (last_ >= 0.0 && now - last_ < kInterval))
         return;
     last_ = now;
@@ -184,7 +186,10 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"longest_frame_s", input.longestFrame},
         {"scene_size", {input.sceneSize.x, input.sceneSize.y}},
         {"gpu", input.gpuName},
-        {"validation_messages", validationMessages},
+        {"picture",
+         {{"state", kPictureStates[static_cast<size_t>(screen.drawn.state)]},
+          {"refined_in_s", screen.drawn.refinedIn}}},
+        {"validation_messages", screen.validationMessages},
         {"widgets", rects},
     };
     writeFile(target_, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

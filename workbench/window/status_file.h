@@ -1,6 +1,7 @@
 #pragma once
 
 #include "workbench/panels/panel_state.h"
+#include "workbench/screen/model_picture.h"
 
 #include <filesystem>
 
@@ -11,9 +12,14 @@ class StatusFile {
   public:
     explicit StatusFile(std::filesystem::path target) : target_(std::move(target)) {}
 
+    /// What the screen tells of itself.
+    struct Screen {
+        ModelPicture::Drawn drawn;
+        size_t validationMessages = 0;
+    };
     /// At most twice a second; does nothing without a target. `now`: s. `widgets` in window coordinates.
     void update(double now, const PanelInput& input, const PanelState& state,
-                const std::map<std::string, WidgetRect>& widgets, size_t validationMessages);
+                const std::map<std::string, WidgetRect>& widgets, const Screen& screen);
 
   private:
     static constexpr double kInterval = 0.5; // s

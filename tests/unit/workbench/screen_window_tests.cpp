@@ -83,6 +83,39 @@ TEST_F(ScreenWindowTest, AnySizeWillDo) {
     expectSilentEnd();
 }
 
+TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
+    const auto stateIs = [this](const char* wanted) {
+        return until(std::string("a picture that is ") + wanted,
+                     [&](const Json& s) { return s["picture"]["state"] == wanted; });
+    };
+    const auto expectWhole = [](const Json& now) {
+        const Json& place = now["widgets"]["picture"];
+        EXPECT_EQ(now["scene_size"][0].get<double>(), place["width"].get<double>());
+        EXPECT_EQ(now["scene_size"][1].get<double>(), place["height"].get<double>());
+        EXPECT_GT(now["picture"]["refined_in_s"], 0.0);
+    };
+    open(kDoughnut, {"--hand", "simulated"});
+    expectWhole(stateIs("kept"));
+    EXPECT_TRUE(modelIsSeen());
+    display_.key("t"); // the turntable
+    stateIs("coarse");
+    EXPECT_TRUE(modelIsSeen());
+    display_.key("t");
+    stateIs("kept");
+    resize(800, 700);
+    until("the new size", [](const Json& s) { return s["widgets"]["picture"]["width"] < 500.0; });
+    expectWhole(stateIs("kept"));
+    EXPECT_TRUE(modelIsSeen());
+    // What moves by itself is drawn over it.
+    openByPath(TOUCHSTONE_ASSETS "/moving.glb");
+    until("the moving model", [](const Json& s) { return s["model"] == "moving.glb" && !s["loading"]; });
+    stateIs("kept");
+    const Json before = later(), after = later();
+    EXPECT_EQ(after["picture"]["state"], "kept");
+    EXPECT_GT(after["frames"].get<int>(), before["frames"].get<int>());
+    expectSilentEnd();
+}
+
 TEST_F(ScreenWindowTest, MinimisedItGoesOnTouchingAndComesBack) {
     open(kDoughnut, {"--hand", "simulated"});
     for (int i = 0; i < 3; ++i) {
