@@ -46,6 +46,8 @@ glm::dvec3 OrbitCamera::up() const {
 }
 
 double OrbitCamera::nearPlane() const {
+    if (orthographic) // all that lies before the target, however near that is
+        return distance - 4.0 * sceneRadius;
     // Float depth holds about 1e-7 of the range near 1, so the ratio far/near is kept below some 1e4.
     return std::max(distance - 2.0 * sceneRadius, 0.05 * distance);
 }
@@ -61,7 +63,10 @@ glm::dmat4 OrbitCamera::viewFromWorkspace() const {
 }
 
 glm::dmat4 OrbitCamera::clipFromView(double aspect) const {
-    return glm::perspectiveRH_ZO(fovY, aspect, nearPlane(), farPlane());
+    if (!orthographic)
+        return glm::perspectiveRH_ZO(fovY, aspect, nearPlane(), farPlane());
+    const double half = distance * std::tan(0.5 * fovY);
+    return glm::orthoRH_ZO(-half * aspect, half * aspect, -half, half, nearPlane(), farPlane());
 }
 
 void OrbitCamera::lookFrom(Side side) {
@@ -104,20 +109,23 @@ void OrbitCamera::frame(const Bounds& bounds, double aspect) {
                                                (corner & 4) ? 1.0 : -1.0);
         const double across =
             std::max(std::abs(glm::dot(p, right())) / slopeX, std::abs(glm::dot(p, up())) / slopeY);
-        distance = std::max(distance, across + glm::dot(p, back(*this)));
+        distance = std::max(distance, across + (orthographic ? 0.0 : glm::dot(p, back(*this))));
     }
-    distance = std::max(kFrameMargin * distance, sceneRadius);
+    distance = std::max(kFrameMargin * distance, orthographic ? 0.01 * sceneRadius : sceneRadius);
 }
 
 Ray OrbitCamera::rayThroughPixel(const glm::dvec2& pixel, const glm::dvec2& imageSize) const {
     const double slope = metresPerPixelAtUnitDepth(fovY, imageSize.y);
     const glm::dvec2 fromCentre = (pixel - 0.5 * imageSize) * slope;
+    if (orthographic)
+        return {eye() + nearPlane() * forward() + distance * (fromCentre.x * right() - fromCentre.y * up()),
+                forward()};
     return {eye(), glm::normalize(forward() + fromCentre.x * right() - fromCentre.y * up())};
 }
 
 glm::dvec3 OrbitCamera::viewPlaneDisplacement(const glm::dvec2& pixels, double heightPixels,
                                               const glm::dvec3& at) const {
-    const double depth = std::max(glm::dot(at - eye(), forward()), nearPlane());
+    const double depth = orthographic ? distance : std::max(glm::dot(at - eye(), forward()), nearPlane());
     const double metres = depth * metresPerPixelAtUnitDepth(fovY, heightPixels);
     return metres * (pixels.x * right() - pixels.y * up());
 }
@@ -125,8 +133,8 @@ glm::dvec3 OrbitCamera::viewPlaneDisplacement(const glm::dvec2& pixels, double h
 glm::dvec3 OrbitCamera::pixelOf(const glm::dvec3& point, const glm::dvec2& imageSize) const {
     const glm::dvec3 fromEye = point - eye();
     const double depth = glm::dot(fromEye, forward());
-    const double scale =
-        1.0 / (std::max(std::abs(depth), 1e-300) * metresPerPixelAtUnitDepth(fovY, imageSize.y));
+    const double spread = orthographic ? distance : std::max(std::abs(depth), 1e-300);
+    const double scale = 1.0 / (spread * metresPerPixelAtUnitDepth(fovY, imageSize.y));
     return {0.5 * imageSize.x + glm::dot(fromEye, right()) * scale,
             0.5 * imageSize.y - glm::dot(fromEye, up()) * scale, depth};
 }

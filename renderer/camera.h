@@ -31,7 +31,8 @@ struct OrbitCamera {
     double yaw = 0.0;                 ///< rad, positive moves the eye to the right
     double pitch = 0.0;               ///< rad, positive moves the eye up; kept within ±kMaxPitch
     double fovY = 0.6108652381980153; ///< rad, full vertical angle: 35°, a short telephoto lens
-    double sceneRadius = 0.13;        ///< m, radius around `target` that near and far planes enclose
+    bool orthographic = false; ///< shows at the target what the perspective shows there, and all in its size
+    double sceneRadius = 0.13; ///< m, radius around `target` that near and far planes enclose
 
     static constexpr double kMaxPitch =
         1.5707963267948966; ///< rad, 90°: straight from above, where yaw determines the right axis
@@ -44,7 +45,7 @@ struct OrbitCamera {
     [[nodiscard]] glm::dvec3 right() const;   ///< unit
     [[nodiscard]] glm::dvec3 up() const;      ///< unit
 
-    [[nodiscard]] double nearPlane() const; ///< m, > 0
+    [[nodiscard]] double nearPlane() const; ///< m before the eye; > 0 in a perspective
     [[nodiscard]] double farPlane() const;  ///< m
 
     [[nodiscard]] glm::dmat4 viewFromWorkspace() const;
@@ -64,7 +65,8 @@ struct OrbitCamera {
     /// or degenerate box keeps the camera usable.
     void frame(const Bounds& bounds, double aspect = 16.0 / 9.0);
 
-    /// The ray through a pixel position (x right, y down from the upper left corner of the image, in pixels).
+    /// The ray from the eye, in an orthographic view from the near plane, through a pixel position (x right,
+    /// y down from the upper left corner of the image, in pixels).
     [[nodiscard]] Ray rayThroughPixel(const glm::dvec2& pixel, const glm::dvec2& imageSize) const;
     /// A pointer movement in pixels (x right, y down) as a displacement in the plane parallel to the image
     /// through `at`: metres in the workspace. Points behind the eye are moved to the near plane.

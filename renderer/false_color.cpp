@@ -10,8 +10,11 @@
 
 namespace touchstone {
 
-const std::vector<float>* vertexValues(const Mesh& mesh, ViewMode mode) {
+const std::vector<float>* vertexValues(const Mesh& mesh, const Material& material, ViewMode mode) {
     const std::vector<float>* values = nullptr;
+    // As they are felt: a height map comes before the heights of the vertices.
+    if (mode == ViewMode::Height && !hapticQuantity(material, mode).base)
+        values = &mesh.heights;
     if (mode == ViewMode::Friction)
         values = &mesh.friction;
     if (mode == ViewMode::Stiffness)
@@ -143,15 +146,15 @@ FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
     }
     double low = 1e300, high = -1e300;
     for (const Mesh& mesh : scene.meshes) {
-        const HapticQuantity quantity =
-            hapticQuantity(scene.materials[static_cast<size_t>(mesh.material)], mode);
+        const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+        const HapticQuantity quantity = hapticQuantity(material, mode);
         const auto include = [&](float value) {
             for (const float map : {quantity.offset, quantity.offset + quantity.gain}) {
                 low = std::min(low, static_cast<double>(value * map));
                 high = std::max(high, static_cast<double>(value * map));
             }
         };
-        if (const std::vector<float>* values = vertexValues(mesh, mode))
+        if (const std::vector<float>* values = vertexValues(mesh, material, mode))
             for (const float value : *values)
                 include(value);
         else if (quantity.base)

@@ -50,12 +50,14 @@ void SceneRenderer::Impl::drawOverlay(const vk::raii::CommandBuffer& commands, c
         }
     };
     const auto drawLines = [&](OverlayPass pass) {
-        if (draw.lines.empty())
+        const auto count =
+            pass == OverlayPass::Hidden ? draw.shownHidden : static_cast<uint32_t>(draw.lines.size());
+        if (count == 0)
             return;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.lines(pass));
         commands.bindVertexBuffers(0, *slot.overlay.buffer, linesAt);
         commands.setCullMode(vk::CullModeFlagBits::eNone);
-        commands.draw(4, static_cast<uint32_t>(draw.lines.size()), 0, 0);
+        commands.draw(4, count, 0, 0);
         ++statistics.drawCalls;
     };
     // First the hidden parts, against the scene's depth alone; then the items among themselves.
@@ -109,6 +111,8 @@ void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overla
     if (kept != nullptr)
         castShadow(slot, view, *kept);
     drawScene(commands, slot.frameSet, view.mode, kept != nullptr);
+    if (view.wireframe)
+        drawWireframe(commands, slot.frameSet);
     if (!overlay.empty())
         drawOverlay(commands, slot, draw, overlay.hiddenAlpha > 0.0f);
     commands.endRendering();

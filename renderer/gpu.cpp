@@ -209,7 +209,9 @@ void createDevice(Gpu::Impl& gpu, const GpuOptions& options) {
     features.synchronization2 = true;
     features.shaderTerminateInvocation = true; // for `discard`; every Vulkan 1.3 device has it
     gpu.dualSourceBlending = gpu.physical.getFeatures().dualSrcBlend;
-    const vk::PhysicalDeviceFeatures core{.dualSrcBlend = gpu.dualSourceBlending};
+    gpu.lineTriangles = gpu.physical.getFeatures().fillModeNonSolid;
+    const vk::PhysicalDeviceFeatures core{.dualSrcBlend = gpu.dualSourceBlending,
+                                          .fillModeNonSolid = gpu.lineTriangles};
     std::vector<const char*> extensions;
     if (*gpu.surface)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

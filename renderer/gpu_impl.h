@@ -29,6 +29,7 @@ struct Gpu::Impl {
     vk::PhysicalDeviceLimits limits;
     uint32_t timestampBits = 0;
     bool software = false;
+    bool lineTriangles = false;      ///< without it no wireframe is drawn
     bool dualSourceBlending = false; ///< without it coloured glass is blended in grey
     bool validation = false;
     std::string name, description, validationNote;

@@ -285,12 +285,17 @@ void GpuScene::uploadScalars(FalseColor& target) {
             uploader_.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));
             continue;
         }
-        if (const std::vector<float>* values = vertexValues(mesh, target.mode)) {
-            uploader_.buffer(target.scalars, place, bytesOf(*values));
+        // A negative scalar is drawn grey: the quantity is not stated. So heights, which may be negative,
+        // count from the lowest one.
+        const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
+        if (const std::vector<float>* values = vertexValues(mesh, material, target.mode)) {
+            std::vector<float> shown = *values;
+            if (target.mode == ViewMode::Height)
+                for (float& height : shown)
+                    height = std::max(0.0f, height - static_cast<float>(target.scale.low));
+            uploader_.buffer(target.scalars, place, bytesOf(shown));
             continue;
         }
-        // A negative scalar is drawn grey: the quantity is not stated.
-        const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
         const std::vector<float> same(mesh.positions.size(),
                                       hapticQuantity(material, target.mode).base.value_or(-1.0f));
         uploader_.buffer(target.scalars, place, bytesOf(same));
@@ -302,6 +307,7 @@ void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& ma
         return;
     FalseColor fresh;
     fresh.mode = mode;
+    fresh.scale = falseColorScale(*scene_, mode);
     uploadScalars(fresh);
     const size_t count = scene_->materials.size();
     const vk::DeviceSize stride =
@@ -310,7 +316,6 @@ void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& ma
         createBuffer(gpu_, stride * count, vk::BufferUsageFlagBits::eUniformBuffer, MemoryUse::Upload);
     fresh.pool = makePool(gpu_, std::max<size_t>(count, 1), 1);
     fresh.sets = allocateSets(gpu_, fresh.pool, pipelines_.falseColorSet(), count);
-    fresh.scale = falseColorScale(*scene_, mode);
     const FalseColorScale& scale = fresh.scale;
     const double range = scale.high - scale.low;
     for (size_t m = 0; m < count; ++m) {
@@ -320,6 +325,8 @@ void GpuScene::prepareFalseColor(ViewMode mode, const std::vector<glm::vec3>& ma
         shared::FalseColorUniforms uniforms{};
         uniforms.map = {quantity.offset, quantity.gain, static_cast<float>(1.0 / range),
                         static_cast<float>(-scale.low / range)};
+        if (mode == ViewMode::Height && !quantity.base)
+            uniforms.map.w = 0.0f; // of vertices, which count from the lowest height
         if (mode == ViewMode::Normals)
             uniforms.map.x = material.normalScale;
         if (mode == ViewMode::Effects)

@@ -50,7 +50,8 @@ vk::raii::Pipeline makePipeline(const Gpu::Impl& gpu, const vk::raii::PipelineCa
         .pVertexAttributeDescriptions = recipe.attributes.data()};
     const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = recipe.topology};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo rasterization{.lineWidth = 1.0f};
+    const vk::PipelineRasterizationStateCreateInfo rasterization{.polygonMode = recipe.fill,
+                                                                 .lineWidth = 1.0f};
     const vk::PipelineMultisampleStateCreateInfo samples;
     const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = recipe.depthTest,
                                                         .depthWriteEnable = recipe.depthWrite,

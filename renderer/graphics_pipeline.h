@@ -24,6 +24,7 @@ struct PipelineRecipe {
     std::vector<vk::VertexInputBindingDescription> bindings;
     std::vector<vk::VertexInputAttributeDescription> attributes;
     vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
+    vk::PolygonMode fill = vk::PolygonMode::eFill;
     bool depthTest = true, depthWrite = true, blend = false;
     bool twoSources = false; ///< with blend: output color 1 of the fragment shader is the factor of the
                              ///< destination

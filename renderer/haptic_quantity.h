@@ -18,6 +18,7 @@ struct HapticQuantity {
 [[nodiscard]] HapticQuantity hapticQuantity(const Material& material, ViewMode mode);
 
 /// The mesh's own values of this quantity, one per vertex; null if it has none.
-[[nodiscard]] const std::vector<float>* vertexValues(const Mesh& mesh, ViewMode mode);
+[[nodiscard]] const std::vector<float>* vertexValues(const Mesh& mesh, const Material& material,
+                                                     ViewMode mode);
 
 } // namespace touchstone

@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-/// Colours are linear RGB with straight alpha, 0..1. Every item is drawn with the depth test and once more,
-/// faintly, where the scene hides it, so that a HIP inside an object is visible.
+/// Colours are linear RGB with straight alpha, 0..1. Every item but the grid is drawn with the depth test and
+/// once more, faintly, where the scene hides it, so that a HIP inside an object is visible.
 struct Overlay {
     struct Sphere {
         glm::dvec3 centre{0.0};
@@ -39,6 +39,7 @@ struct Overlay {
     std::vector<Arrow> arrows;
     std::vector<Line> lines;
     std::vector<Disc> discs;
+    std::vector<Line> grid; ///< lines that are not drawn where the scene hides them
     /// Alpha factor of the pass for hidden items; 0 disables it.
     float hiddenAlpha = 0.45f;
 
@@ -47,9 +48,10 @@ struct Overlay {
         arrows.clear();
         lines.clear();
         discs.clear();
+        grid.clear();
     }
     [[nodiscard]] bool empty() const {
-        return spheres.empty() && arrows.empty() && lines.empty() && discs.empty();
+        return spheres.empty() && arrows.empty() && lines.empty() && discs.empty() && grid.empty();
     }
 };
 

@@ -204,10 +204,15 @@ OverlayDraw layOut(const Overlay& overlay, const glm::dvec3& eye) {
         layout.add(Shape::Disc, disc.radius * frame, disc.centre, disc.color);
     }
     OverlayDraw draw = layout.finish();
-    for (const Overlay::Line& line : overlay.lines)
-        if (finite(line.from) && finite(line.to))
-            draw.lines.push_back({glm::vec4(glm::vec3(line.from - eye), line.width),
-                                  glm::vec4(glm::vec3(line.to - eye), 0.0f), line.color});
+    const auto addLines = [&](const std::vector<Overlay::Line>& lines) {
+        for (const Overlay::Line& line : lines)
+            if (finite(line.from) && finite(line.to))
+                draw.lines.push_back({glm::vec4(glm::vec3(line.from - eye), line.width),
+                                      glm::vec4(glm::vec3(line.to - eye), 0.0f), line.color});
+    };
+    addLines(overlay.lines);
+    draw.shownHidden = static_cast<uint32_t>(draw.lines.size());
+    addLines(overlay.grid);
     return draw;
 }
 

@@ -52,7 +52,8 @@ struct OverlayDraw {
     };
     std::vector<ShapeInstance> shapes;
     std::vector<Batch> batches;
-    std::vector<LineInstance> lines;
+    std::vector<LineInstance> lines; ///< the first `shownHidden` also where the scene hides them
+    uint32_t shownHidden = 0;
 };
 [[nodiscard]] OverlayDraw layOut(const Overlay& overlay, const glm::dvec3& eye);
 

@@ -147,7 +147,8 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
                           : mode == ViewMode::Effects ? shared::kShowsFlat
                                                       : shared::kShowsMap;
     // The UV transform here implies the second UV set: the shader reads both.
-    features &= shared::kHasNormalTexture | shared::kHasTangents; // sufficient for false colour
+    features &=
+        shared::kHasNormalTexture | shared::kHasTangents | shared::kIsClipped; // sufficient for false colour
     features |= shared::kHasUvTransform;
     return cached({Kind::FalseColor, features, view}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::false_color_vert;
@@ -158,6 +159,19 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
         recipe.bindings.push_back({1, sizeof(float), vk::VertexInputRate::eVertex});
         recipe.attributes.push_back({6, 1, Format::eR32Sfloat, 0});
         recipe.layout = *falseColorLayout_;
+    });
+}
+
+vk::Pipeline Pipelines::wireframe(bool clipped) {
+    return cached({Kind::Wireframe, clipped ? 1u : 0u, 0}, [&](PipelineRecipe& recipe) {
+        recipe.vertexCode = shaders::wireframe_vert;
+        recipe.fragmentCode = shaders::wireframe_frag;
+        recipe.constants = {clipped ? shared::kIsClipped : 0u};
+        describeSceneVertices(recipe);
+        recipe.fill = vk::PolygonMode::eLine;
+        recipe.blend = true;
+        recipe.depthWrite = false;
+        recipe.layout = *sceneLayout_;
     });
 }
 

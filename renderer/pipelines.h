@@ -35,6 +35,8 @@ class Pipelines {
     /// `keepsLight`: into the attachments of a kept picture; not for blended features.
     [[nodiscard]] vk::Pipeline scene(uint32_t features, bool keepsLight = false);
     [[nodiscard]] vk::Pipeline falseColor(uint32_t features, ViewMode mode);
+    /// `clipped`: kIsClipped. Only where the device draws triangles as lines.
+    [[nodiscard]] vk::Pipeline wireframe(bool clipped);
     [[nodiscard]] vk::Pipeline background(bool keepsLight = false);
     [[nodiscard]] vk::Pipeline keptShadow();
     [[nodiscard]] vk::Pipeline shapes(OverlayPass pass);
@@ -43,7 +45,7 @@ class Pipelines {
     [[nodiscard]] size_t compiled() const { return pipelines_.size(); }
 
   private:
-    enum class Kind : uint8_t { Scene, FalseColor, Background, KeptShadow, Shapes, Lines };
+    enum class Kind : uint8_t { Scene, FalseColor, Wireframe, Background, KeptShadow, Shapes, Lines };
     using Key = std::tuple<Kind, uint32_t, uint32_t>;
     template <class Make>
     vk::Pipeline cached(const Key& key, Make&& make);

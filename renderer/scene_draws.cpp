@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace touchstone {
 
@@ -58,6 +59,21 @@ double halfDepth(const glm::dmat3& linear, const glm::dvec3& halfSize, const glm
     return sum;
 }
 
+/// The plane in the eye frame of an instance that the plane has cut in its static pose and that moved to
+/// `pose` since; nullopt where the pose has no inverse: nothing is drawn of it.
+std::optional<glm::vec4> clipInEye(const ClipPlane& plane, const glm::dmat4& atRest, const glm::dmat4& pose,
+                                   const Similarity& workspaceFromScene, const glm::dvec3& eye) {
+    glm::dvec4 inScene(plane.normal, -plane.offset);
+    if (pose != atRest) {
+        if (glm::determinant(glm::dmat3(pose)) == 0.0)
+            return std::nullopt;
+        inScene = glm::transpose(glm::inverse(pose)) * planeInMesh(plane, atRest);
+    }
+    // dot(n, p) + d with p = (q + eye - t) / s turned back, q in the eye frame.
+    const glm::dvec3 normal = workspaceFromScene.direction(glm::dvec3(inScene)) / workspaceFromScene.scale;
+    return glm::vec4(glm::dvec4(normal, inScene.w + glm::dot(normal, eye - workspaceFromScene.translation)));
+}
+
 } // namespace
 
 /// Each side is sorted by its own depth, so that the contents of a glass are drawn between its far and its
@@ -89,7 +105,10 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
                            (environment_.source ? shared::kHasEnvironment : 0u);
     const glm::dvec3 back = glm::transpose(glm::dmat3(view.viewFromWorkspace))[2];
     const double pixelsAtUnitDepth = 0.5 * extent.height * std::abs(view.clipFromView[1][1]);
+    const std::vector<bool> hidden = hiddenInstances(scene, view.part);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
+        if (hidden[i])
+            continue;
         const GpuScene::DrawnMesh& drawn = scene_->mesh(scene.instances[i].mesh);
         const PreparedMesh& mesh = drawn.mesh;
         const bool strokes = mesh.strokes > 0;
@@ -107,6 +126,14 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         item.features = drawn.features | light;
         if (!setConstants(linear, origin, item))
             continue;
+        if (view.part.clip && isClipped(scene, scene.instances[i])) {
+            const std::optional<glm::vec4> clip = clipInEye(*view.part.clip, scene.instances[i].sceneFromMesh,
+                                                            poses[i], view.workspaceFromScene, eye);
+            if (!clip)
+                continue;
+            item.constants.clip = *clip;
+            item.features |= shared::kIsClipped;
+        }
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));
         const double stretch = largestStretch(linear);
@@ -161,7 +188,10 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, layout, 1,
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
-    const bool bothSides = scene.materials[static_cast<size_t>(materialIndex)].doubleSided;
+    // A cut shows the insides, which are felt unless the material is felt from outside only.
+    const Material& material = scene.materials[static_cast<size_t>(materialIndex)];
+    const bool bothSides = material.doubleSided || ((item.features & shared::kIsClipped) != 0 &&
+                                                    material.haptic.sides != SideChoice::Front);
     commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     commands.pushConstants<shared::ObjectConstants>(layout, kObjectStages, 0, item.constants);
     ++statistics.drawCalls;

@@ -108,6 +108,8 @@ struct SceneRenderer::Impl {
                   bool keepsLight = false);
     void drawBackground(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
                         bool keepsLight = false);
+    /// The edges of what drawScene drew last.
+    void drawWireframe(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet);
     void drawOverlay(const vk::raii::CommandBuffer& commands, const FrameSlot& slot, const OverlayDraw& draw,
                      bool showHidden);
 

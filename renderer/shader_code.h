@@ -23,4 +23,6 @@ namespace touchstone::shaders {
 #include "shaders/scene_points_vert.h"
 #include "shaders/scene_vert.h"
 #include "shaders/window_frag.h"
+#include "shaders/wireframe_frag.h"
+#include "shaders/wireframe_vert.h"
 } // namespace touchstone::shaders

@@ -1,7 +1,7 @@
 #pragma once
 // A view of a scene: camera, light, and displayed quantity. Plain data.
 
-#include "engine/math/similarity.h"
+#include "engine/scene/scene_part.h"
 #include "renderer/camera.h"
 #include "renderer/surroundings.h"
 
@@ -66,7 +66,9 @@ struct View {
     glm::dmat4 viewFromWorkspace{1.0};
     glm::dmat4 clipFromView{1.0}; ///< depth 0..1, y up; must match the aspect of the image
     Similarity workspaceFromScene;
+    ScenePart part; ///< what is drawn of the scene
     ViewMode mode = ViewMode::Shaded;
+    bool wireframe = false; ///< the triangles' edges over the surface; the device draws none where it cannot
     std::array<DirectionalLight, 2> lights{};
     Surroundings surroundings;
     ProbeShadow probe;

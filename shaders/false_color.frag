@@ -7,6 +7,7 @@
 layout(constant_id = 0) const uint kFeatures = 0u;
 layout(constant_id = 1) const uint kView = 0u;
 layout(set = 0, binding = 0) uniform Frame { FrameUniforms frame; };
+layout(push_constant) uniform Object { ObjectConstants object; };
 layout(set = 1, binding = 0) uniform Parameters { FalseColorUniforms parameters; };
 layout(set = 1, binding = 1) uniform sampler2D map;
 
@@ -45,6 +46,7 @@ float tilt(vec3 n, vec2 uv) {
 }
 
 void main() {
+    if ((kFeatures & kIsClipped) != 0u && dot(object.clip, vec4(eyePosition, 1.0)) > 0.0) discard;
     const vec2 set = parameters.uvOffset.z > 0.5 ? uvs.zw : uvs.xy;
     const vec2 uv = vec2(dot(parameters.uvLinear.xy, set), dot(parameters.uvLinear.zw, set)) + parameters.uvOffset.xy;
     vec3 n = normalize(eyeNormal);

@@ -143,6 +143,7 @@ void main() {
 #ifdef POINTS
     if (dot(sprite, sprite) > 1.0) discard;
 #endif
+    if (has(kIsClipped) && dot(object.clip, vec4(eyePosition, 1.0)) > 0.0) discard;
     const vec4 base = baseColor();
     if (has(kIsMasked) && base.a < material.emissiveCutoff.a) discard;
     const float alpha = has(kIsBlended) && !has(kIsSolid) ? base.a : 1.0;

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Mesh vertices into the eye frame. FALSE_COLOR adds the scalar of the false-colour view.
+// Mesh vertices into the eye frame. FALSE_COLOR adds the scalar of the false-colour view; WIREFRAME draws edges over
+// the surface that they belong to.
 #include "shared/scene_types.h"
 
 layout(constant_id = 0) const uint kFeatures = 0u;
@@ -19,6 +20,7 @@ layout(location = 5) in vec4 color;
 #endif
 
 layout(location = 0) out vec3 eyePosition;
+#ifndef WIREFRAME
 layout(location = 1) out vec3 eyeNormal;
 layout(location = 2) out vec4 eyeTangent;
 layout(location = 3) out vec4 uvs;
@@ -27,10 +29,12 @@ layout(location = 5) out float vertexScalar;
 #else
 layout(location = 4) out vec4 vertexColor;
 #endif
+#endif
 
 void main() {
     const vec4 p = vec4(position, 1.0);
     eyePosition = vec3(dot(object.eyeFromMesh[0], p), dot(object.eyeFromMesh[1], p), dot(object.eyeFromMesh[2], p));
+#ifndef WIREFRAME
     eyeNormal = vec3(dot(object.normalFromMesh[0].xyz, normal), dot(object.normalFromMesh[1].xyz, normal),
                      dot(object.normalFromMesh[2].xyz, normal));
     // A constant where the material needs none: an unused output costs triangle setup on software devices.
@@ -46,5 +50,9 @@ void main() {
     vertexColor = vec4(1.0);
     if ((kFeatures & kHasVertexColor) != 0u) vertexColor = color;
 #endif
+#endif
     gl_Position = frame.clipFromEye * vec4(eyePosition, 1.0);
+#ifdef WIREFRAME
+    gl_Position.z -= 1e-4 * gl_Position.w;
+#endif
 }

@@ -69,6 +69,7 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     state_.workspace.zoom = options.zoom;
     state_.device = options.device;
     state_.view.pictureSize = options.pictureSize;
+    firstPart_ = options.part;
     onScreen([this] { screen_.renderer().warmUp(); });
     // A second device would say to the validation layer what nobody reads.
     if (const Gpu& gpu = screen_.gpu(); gpu.isSoftware() && !gpu.validationActive())

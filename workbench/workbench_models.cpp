@@ -61,6 +61,12 @@ void WorkbenchWindow::show(LoadedModel loaded) {
     materials_.open(touch_.shown().model, !isSample(scene->path) && !meshFormatNamed(scene->path));
     view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
     nameAfter(scene->path);
+    state_.view.part = {};
+    try {
+        state_.view.part = partNamed(*scene, std::exchange(firstPart_, {}));
+    } catch (const Error& error) {
+        problem_ = error.what();
+    }
 }
 
 void WorkbenchWindow::nameAfter(const std::filesystem::path& file) {
@@ -76,7 +82,7 @@ void WorkbenchWindow::takeMaterials() {
         touch_.saved(materials_.path(), *saved, textOf(materials_.edits().patches()));
         nameAfter(materials_.path());
     }
-    const std::optional<MadeMaterials> made = materials_.update(touch_.shown().model);
+    const std::optional<MadeMaterials> made = materials_.update(touch_.whole());
     if (!made)
         return;
     if (made->read)

@@ -20,6 +20,7 @@ void WorkbenchWindow::draw() {
                   .covered = state_.gallery || state_.leaving.has_value() || dialog_.covers(),
                   .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
                  state_.view);
+    showPart(area, points, widgets);
     doWhatWasAsked(widgets);
     sendSettings();
     // While an edge is dragged nothing is written.
@@ -58,6 +59,36 @@ void WorkbenchWindow::draw() {
                    {.drawn = picture_.drawn(), .validationMessages = screen_.validationMessages()});
 }
 
+void WorkbenchWindow::showPart(const PixelRect& area, double points,
+                               std::map<std::string, WidgetRect>& rects) {
+    Widgets widgets(scale_, &state_.hovered);
+    const auto corner = glm::vec2(glm::dvec2(area.x + area.width, area.y) / points);
+    if (state_.view.axes && !state_.gallery && !dialog_.covers())
+        if (const auto move =
+                drawAxisGizmo(view_.camera(), corner, scale_, [&](const char* name) { widgets.mark(name); }))
+            state_.view.move = move;
+    const glm::dvec2 origin = glm::dvec2(area.x, area.y) / points,
+                     size = glm::dvec2(area.width, area.height) / points;
+    const auto pointed = [&] {
+        const ImVec2 at = ImGui::GetIO().MousePos;
+        if (!ImGui::IsMousePosValid())
+            return -1;
+        return touch_.nodeAt(view_.camera().rayThroughPixel(
+            glm::dvec2(static_cast<double>(at.x), static_cast<double>(at.y)) - origin, size));
+    };
+    partMenu_.update({.scene = hasModel() ? touch_.shown().model.scene.get() : nullptr,
+                      .covered = state_.gallery || state_.leaving.has_value() || dialog_.covers(),
+                      .pointed = pointed},
+                     state_.view.part, [&](const char* name) { widgets.mark(name); });
+    rects.merge(widgets.take());
+    try {
+        touch_.showPart(state_.view.part);
+    } catch (const std::exception& error) {
+        problem_ = std::string("this part of the model cannot be felt: ") + error.what();
+        state_.view.part = touch_.shown().model.part;
+    }
+}
+
 std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     MaterialPanelInput input;
@@ -83,6 +114,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
         const Scene& scene = *touch_.shown().model.scene;
         input.scene = &scene;
         input.haptic = touch_.shown().model.haptic.get();
+        input.part = touch_.shown().model.part;
         input.modelPath = materials_.path().string();
         input.modelName = materials_.path().filename().string();
         input.modelFacts = figure(static_cast<double>(scene.triangleCount()), 1) + " triangles" +
@@ -201,7 +233,7 @@ PixelRect WorkbenchWindow::pixelsOf(const WidgetRect& rect) {
 }
 
 glm::ivec2 WorkbenchWindow::keptSize(const glm::ivec2& area) const {
-    if (!screen_.gpu().isSoftware())
+    if (!screen_.gpu().isSoftware() || state_.view.wireframe) // edges are drawn over all of a frame
         return glm::ivec2(0);
     // Pixel for pixel where it can be: sceneSize is in multiples of eight.
     const glm::ivec2 size = keptQuality_.sceneSize(area);

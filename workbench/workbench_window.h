@@ -22,9 +22,11 @@
 #include "workbench/options/gpu_options.h"
 #include "workbench/panels/material_window.h"
 #include "workbench/readings/force_parts.h"
+#include "workbench/screen/axis_gizmo.h"
 #include "workbench/screen/key_queue.h"
 #include "workbench/screen/key_watch.h"
 #include "workbench/screen/model_picture.h"
+#include "workbench/screen/part_menu.h"
 #include "workbench/screen/screen.h"
 #include "workbench/screen/view_control.h"
 #include "workbench/timeline/timeline_controller.h"
@@ -112,6 +114,8 @@ class WorkbenchWindow {
     void moveHand();
     void holdDevice();
     void draw();
+    /// Menu and keys that hide objects, and what they ask for.
+    void showPart(const PixelRect& area, double points, std::map<std::string, WidgetRect>& rects);
     std::map<std::string, WidgetRect> drawMaterials(float scale);
     [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize);
     /// Handles the requests of this frame's buttons and menus.
@@ -154,6 +158,8 @@ class WorkbenchWindow {
     FileDialog dialog_;
     Gallery gallery_;
     ViewControl view_;
+    PartMenu partMenu_;
+    PartNames firstPart_; ///< of the command line, until a model is open
     PanelState state_;
     ModelPicture picture_{stateFolder() / "pictures"};
     PictureController chartPictures_{stateFolder() / "pictures"};

@@ -29,6 +29,39 @@ void get(ByteReader& bytes, RecordingOrigin& origin) {
     bytes.get(origin.rateHz);
 }
 
+/// Nodes, then the clipping plane if there is one.
+void put(ByteWriter& bytes, const ScenePart& part) {
+    bytes.put(static_cast<uint32_t>(part.hidden.size()));
+    for (const int node : part.hidden)
+        bytes.put(static_cast<int32_t>(node));
+    bytes.put(static_cast<uint8_t>(part.clip.has_value()));
+    if (!part.clip)
+        return;
+    bytes.put(part.clip->normal);
+    bytes.put(part.clip->offset);
+}
+
+void get(ByteReader& bytes, ScenePart& part) {
+    uint32_t count = 0;
+    bytes.get(count);
+    for (int32_t node = 0, before = -1; count > 0; --count, before = node) {
+        bytes.get(node);
+        if (node <= before)
+            throw Error("", "hidden nodes", "are not in order", "");
+        part.hidden.push_back(node);
+    }
+    uint8_t clips = 0;
+    bytes.get(clips);
+    if (clips == 0)
+        return;
+    ClipPlane plane;
+    bytes.get(plane.normal);
+    bytes.get(plane.offset);
+    if (!clipPlane(plane.normal, plane.offset))
+        throw Error("", "clipping plane", "has no direction or place", "");
+    part.clip = plane;
+}
+
 void put(ByteWriter& bytes, const RecordedScene& scene) {
     const SceneIdentity& identity = scene.identity;
     bytes.put(scene.number);
@@ -40,8 +73,10 @@ void put(ByteWriter& bytes, const RecordedScene& scene) {
     bytes.put(identity.fileHash);
     bytes.put(identity.feltHash);
     putLimits(bytes, identity.limits);
-    if (!identity.edits.empty())
+    if (!identity.edits.empty() || !identity.part.whole())
         bytes.put(identity.edits);
+    if (!identity.part.whole())
+        put(bytes, identity.part);
 }
 
 void get(ByteReader& bytes, RecordedScene& scene) {
@@ -62,6 +97,8 @@ void get(ByteReader& bytes, RecordedScene& scene) {
     identity.fit = static_cast<Fit>(fit);
     if (bytes.left() > 0)
         bytes.get(identity.edits);
+    if (bytes.left() > 0)
+        get(bytes, identity.part);
 }
 
 void put(ByteWriter& bytes, const RecordedSettings& settings) {

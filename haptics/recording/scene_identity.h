@@ -2,7 +2,7 @@
 // Identifies the touched scene: its file, and whether a given scene is the same.
 
 #include "engine/device_io/device_io.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/scene_part.h"
 #include "haptics/scene/haptic_scene.h"
 
 #include <cstdint>
@@ -21,6 +21,7 @@ struct SceneIdentity {
     uint64_t feltHash = 0;    ///< of all data that touch reads: see feltHash
     /// Changes since the file was read: MaterialPatches as JSON (engine/save). Empty: none.
     std::string edits;
+    ScenePart part; ///< what was seen and felt of it
     Fit fit = Fit::None;
     /// Of the device that touched it; only in recordings of format 1, whose ticks do not have them.
     std::optional<DeviceLimits> limits;

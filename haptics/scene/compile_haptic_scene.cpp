@@ -1,5 +1,6 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/plan_effects.h"
+#include "haptics/scene/scene_parts.h"
 #include "haptics/scene/shape_object.h"
 
 #include <cmath>
@@ -9,21 +10,11 @@ namespace touchstone {
 namespace {
 
 ObjectUse objectUse(const Material& source, const HapticMaterialData& material) {
+    if (!source.haptic.implicit)
+        return meshUse(material, source.haptic.sides == SideChoice::Front);
     ObjectUse use;
-    if (source.haptic.implicit) {
-        use.implicit = true;
-        use.voxelSize = source.haptic.voxelSize;
-        return use;
-    }
-    use.oneSided = source.haptic.sides == SideChoice::Front;
-    for (const HapticMap* map : {&material.normal, &material.height, &material.friction.map,
-                                 &material.stiffnessMap.map, &material.dampingMap.map})
-        if (!map->empty())
-            use.uv[map->layout().texCoord & 1] = true;
-    if (!material.height.empty())
-        use.uvGradients[material.height.layout().texCoord & 1] = true;
-    use.tangents = !material.normal.empty();
-    use.normals = material.shading != ShadingMode::Off;
+    use.implicit = true;
+    use.voxelSize = source.haptic.voxelSize;
     return use;
 }
 

@@ -27,6 +27,21 @@ void refuseStale(DeviceSample& sample) noexcept {
     sample.valid = sample.valid && sample.age <= sample.limits.staleAge; // a NaN age is not fresh
 }
 
+/// A touch that holds on to an object of which nothing is left begins again, clear of what is left around the
+/// hand.
+void forgetEmptied(const HapticScene& scene, DeviceState& device) noexcept {
+    const auto gone = [&](int object) {
+        return object >= 0 && scene.objects[static_cast<size_t>(object)]->empty();
+    };
+    if (gone(device.reference)) {
+        device.forgetTouch();
+        device.mustLeave = true;
+    } else if (gone(device.shadedObject)) {
+        device.shaded = false;
+        device.shadedObject = -1;
+    }
+}
+
 } // namespace
 
 struct ServoLoop::Touch {
@@ -166,6 +181,8 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     if (offer != nullptr)
         offer->world.forget();
     if (goesOn) {
+        for (DeviceState& device : touch.devices)
+            forgetEmptied(*offer->scene, device);
         // As in a replay that resumes here: the objects have their previous poses.
         if (std::isfinite(touch.previousTime))
             offer->world.advance(touch.previousTime);

@@ -71,7 +71,8 @@ struct DevicePort {
 /// Effect of a new scene on the present touch.
 enum class SceneSwap : uint8_t {
     Anew,         ///< another world: touch begins again, and its force fades in
-    SameGeometry, ///< the scene offered last, with other materials (withMaterials): touch continues
+    SameGeometry, ///< the scene offered last, with other materials (withMaterials) or with more hidden
+                  ///< objects (partOf): touch continues
 };
 
 /// The owner thread constructs, starts and stops; every other function states its thread.

@@ -92,6 +92,7 @@ struct FalseColorUniforms {
 struct ObjectConstants {
     vec4 eyeFromMesh[3];
     vec4 normalFromMesh[3];
+    vec4 clip;             ///< with kIsClipped: what is drawn lies where dot(clip, (p, 1)) <= 0, eye frame
 };
 
 // What a material needs; the pipelines are specialised on these bits, so that what it lacks costs nothing.
@@ -127,6 +128,7 @@ TOUCHSTONE_CONST uint kHasEnvironment = 134217728u;
 TOUCHSTONE_CONST uint kIsSolid = 268435456u;       ///< with kIsBlended: its alpha is 1 all the same (it transmits)
 TOUCHSTONE_CONST uint kIsLines = 536870912u;
 TOUCHSTONE_CONST uint kIsPoints = 1073741824u;
+TOUCHSTONE_CONST uint kIsClipped = 2147483648u;
 
 // Views of false_color.frag.
 TOUCHSTONE_CONST uint kShowsMap = 0u;

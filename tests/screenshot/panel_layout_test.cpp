@@ -181,6 +181,13 @@ void PanelLayout::inEveryState(const Size& size, const std::function<void(const 
         "the file menu", [] {}, [&] { click("file"); });
     in(
         "the view menu", [&] { input_.scaleFits = false; }, [&] { click("viewMenu"); });
+    in(
+        "the view menu of a clipped model",
+        [&] {
+            state_.view.part.clip = ClipPlane{{0.0, 0.6, 0.8}, -0.0213};
+            state_.view.part.hidden = {0};
+        },
+        [&] { click("viewMenu"); });
     in("the editor", [&] { state_.editMaterials = true; });
     in(
         "the presets", [&] { state_.editMaterials = true; }, [&] { click("edit.preset"); });

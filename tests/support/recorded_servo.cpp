@@ -1,6 +1,7 @@
 #include "tests/support/recorded_servo.h"
 
 #include "engine/load/scene_loader.h"
+#include "haptics/scene/scene_parts.h"
 #include "haptics/tick/stepped_hand.h"
 
 #include <gtest/gtest.h>
@@ -183,7 +184,8 @@ ReplayReport replayOf(const std::filesystem::path& file, const std::vector<Touch
     Replayer replayer([&](const RecordedScene& scene) {
         // Compiled anew, as another process would: nothing that the first run built is there.
         const TouchedScene& offered = scenes.at(scene.number - 1);
-        const auto haptic = compileHapticScene(*offered.source, offered.haptic->workspaceFromScene);
+        const auto whole = compileHapticScene(*offered.source, offered.haptic->workspaceFromScene);
+        const auto haptic = partOf(*whole, *offered.source, scene.identity.part);
         EXPECT_EQ(feltHash(*haptic, *offered.source), scene.identity.feltHash);
         return ReplayScene{haptic, offered.source};
     });

@@ -7,6 +7,10 @@
 #include "workbench/options/commands.h"
 #include "workbench/options/gpu_options.h"
 #include "workbench/screen/effect_colors.h"
+#include "workbench/screen/ground_grid.h"
+#include "workbench/screen/gui_pixels.h"
+
+#include <imgui.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -33,9 +37,10 @@ ViewMode viewModeOf(const std::string& name) {
 int renderCommand(const RenderOptions& options) {
     const ViewMode mode = viewModeOf(options.view);
     // The plan belongs to the haptic scene.
-    const Model model = mode == ViewMode::Effects
-                            ? loadModel(options.scene, Fit::Workspace)
-                            : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded);
+    Model model = mode == ViewMode::Effects
+                      ? loadModel(options.scene, Fit::Workspace)
+                      : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded);
+    takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
     SceneRenderer renderer(*gpu);
@@ -44,9 +49,27 @@ int renderCommand(const RenderOptions& options) {
     if (mode == ViewMode::Effects)
         renderer.setMaterialColors(effectColors(model.haptic->plan, model.scene->materials.size()).materials);
 
-    View view = chosenView(options.camera, model, options.size);
+    const GroundGrid grid(model.scene->bounds);
+    Bounds drawn = model.scene->bounds;
+    if (options.grid && !grid.bounds.empty()) {
+        drawn.include(grid.bounds.low);
+        drawn.include(grid.bounds.high);
+    }
+    View view = chosenView(options.camera, model, options.size, drawn);
     view.mode = mode;
-    writePicture(options.out, renderStill(renderer, view, Overlay{}, options.size.x, options.size.y));
+    view.part = model.part;
+    view.wireframe = options.wireframe;
+    Overlay overlay;
+    if (options.grid)
+        grid.draw(model.workspaceFromScene, 1.0f, overlay);
+    PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);
+    if (options.grid)
+        drawGui(picture, 1.0f, [&] {
+            ImGui::GetBackgroundDrawList()->AddText(
+                ImVec2(12.0f, static_cast<float>(options.size.y) - 12.0f - ImGui::GetTextLineHeight()),
+                IM_COL32(235, 238, 242, 255), grid.label().c_str());
+        });
+    writePicture(options.out, picture);
     std::printf("%d x %d pixels, written to %s\n", options.size.x, options.size.y, options.out.c_str());
     return 0;
 }

@@ -43,8 +43,10 @@ constexpr double kFrameRate = 30.0;
 
 View firstView(const Model& model, const glm::ivec2& size) {
     const double aspect = static_cast<double>(size.x) / size.y;
-    return viewOf(OrbitCamera::threeQuarter(workspaceBounds(model), aspect), model.workspaceFromScene,
-                  aspect);
+    View view =
+        viewOf(OrbitCamera::threeQuarter(workspaceBounds(model), aspect), model.workspaceFromScene, aspect);
+    view.part = model.part;
+    return view;
 }
 
 /// Statistics and files of the ticks.
@@ -263,7 +265,8 @@ void printResult(const RunResult& run) {
 int runCommand(const RunOptions& options) {
     catchInterrupts();
     RunHands hands(options);
-    const Model model = loadModel(options.scene, Fit::Workspace);
+    Model model = loadModel(options.scene, Fit::Workspace);
+    takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     prepareFor(model, options.settings);
     model.haptic->buildRays(); // the report measures the proxy gap with Embree during the run
@@ -286,7 +289,7 @@ int runCommand(const RunOptions& options) {
     session.subscribe(controller);
     session.subscribe(reader);
     session.set(options.settings);
-    (void)session.touch(model.haptic, model.scene, identify(*model.haptic, *model.scene, Fit::Workspace));
+    (void)session.touch(model.haptic, model.scene, identityOf(model, Fit::Workspace));
     realtime::resetViolations();
     const StolenTime stolenTime;
     session.start();

@@ -172,7 +172,7 @@ class OfflineRecorder {
 
     OfflineRecorder(const TouchOptions& options, const Model& model)
         : writer_(options.record, recordingOrigin("touch", options.rateHz)), settings_(options.settings),
-          identity_(identify(*model.haptic, *model.scene, options.fit)) {}
+          identity_(identityOf(model, options.fit)) {}
 
     void add(const OfflineTick& tick, const TouchCheckpoint& first) {
         TickRecord record;
@@ -298,14 +298,15 @@ int touchCommand(const TouchOptions& options) {
     if (path)
         warnOfSlowPath(*path, options);
     StageClock clock;
-    const Model model = loadModelToTouch(options.scene, options.fit, &clock);
+    Model model = loadModelToTouch(options.scene, options.fit, &clock);
+    takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     clock.at("preparing for the settings");
     prepareFor(model, options.settings);
     clock.at("laying the stroke");
     std::optional<StrokePath> stroke;
     if (!path) {
-        stroke = layStroke(*model.scene, model.workspaceFromScene, options.stroke);
+        stroke = layStroke(*sceneOf(model.scene, model.part), model.workspaceFromScene, options.stroke);
         path = pathOf(*stroke, options);
     }
     const std::vector<StageTime> stages = clock.take();

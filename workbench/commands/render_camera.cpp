@@ -4,6 +4,7 @@
 #include "renderer/scene_camera.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -50,10 +51,12 @@ SceneCamera placedCamera(const CameraOptions& options, const Bounds& bounds, dou
     const glm::dvec3 up = options.up.value_or(usualUp(eye, target));
     if (const std::string problem = sightProblem(eye, target, up); !problem.empty())
         throw Error("--camera-position", "", problem, "give another --camera-position, --look-at or --up");
-    return lookAt(eye, target, up, fov);
+    SceneCamera camera = lookAt(eye, target, up, fov);
+    camera.halfHeight = glm::distance(eye, target) * std::tan(0.5 * fov); // if it is orthographic
+    return camera;
 }
 
-View viewFrom(const SceneCamera& camera, const Model& model, const glm::ivec2& size) {
+View viewFrom(const SceneCamera& camera, const Model& model, const glm::ivec2& size, const Bounds& drawn) {
     const Bounds& bounds = model.scene->bounds;
     const double aspect = static_cast<double>(size.x) / size.y;
     if (!bounds.empty() && !(glm::distance(camera.eye, bounds.centre()) <= kFarthest * bounds.diagonal()))
@@ -62,23 +65,28 @@ View viewFrom(const SceneCamera& camera, const Model& model, const glm::ivec2& s
     if (const std::string why = unseenBecause(camera, bounds, aspect, size.y); !why.empty())
         std::fprintf(stderr, "touchstone: warning: the picture shows nothing of the model: %s\n",
                      why.c_str());
-    return viewOf(camera, model.workspaceFromScene, bounds, aspect);
+    return viewOf(camera, model.workspaceFromScene, drawn, aspect);
 }
 
 } // namespace
 
-View chosenView(const CameraOptions& options, const Model& model, const glm::ivec2& size) {
+View chosenView(const CameraOptions& options, const Model& model, const glm::ivec2& size,
+                const Bounds& drawn) {
     if (options.name)
-        return viewFrom(cameraOfFile(*model.scene, *options.name), model, size);
+        return viewFrom(cameraOfFile(*model.scene, *options.name), model, size, drawn);
     OrbitCamera camera;
     const double fov = options.fov ? glm::radians(*options.fov) : camera.fovY;
-    if (options.position)
-        return viewFrom(placedCamera(options, model.scene->bounds, fov), model, size);
+    if (options.position) {
+        SceneCamera placed = placedCamera(options, model.scene->bounds, fov);
+        placed.orthographic = options.orthographic;
+        return viewFrom(placed, model, size, drawn);
+    }
     const double aspect = static_cast<double>(size.x) / size.y;
     camera = OrbitCamera::threeQuarter(workspaceBounds(model), aspect);
     if (options.side)
         camera.lookFrom(*options.side);
     camera.fovY = fov;
+    camera.orthographic = options.orthographic;
     camera.frame(workspaceBounds(model), aspect);
     return viewOf(camera, model.workspaceFromScene, aspect);
 }

@@ -18,8 +18,8 @@ std::vector<DevicePort> RunHands::connect(const Model& model) {
     for (const Hand& hand : hands_)
         simulated += hand.device == nullptr ? 1 : 0;
     if (simulated > 0)
-        stroke =
-            std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, options_.stroke));
+        stroke = std::make_shared<StrokePath>(
+            layStroke(*sceneOf(model.scene, model.part), model.workspaceFromScene, options_.stroke));
     std::vector<DevicePort> ports;
     size_t before = 0; // simulated hands
     for (Hand& hand : hands_) {

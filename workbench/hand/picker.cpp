@@ -83,6 +83,13 @@ std::optional<PointedSurface> Picker::look(const Ray& ray, double time, const Ha
     return surface;
 }
 
+int Picker::instanceAt(const Ray& ray, double time) {
+    if (scene_ == nullptr)
+        return -1;
+    const auto hit = pickSurface(*scene_, world_.advance(time), ray.origin, ray.direction);
+    return hit ? scene_->objects[static_cast<size_t>(hit->object)]->instance : -1;
+}
+
 void Picker::hardestWith(const HapticSettings& settings, PointedSurface& surface) const {
     surface.stiffest =
         settings.stiffness > 0.0 ? hardest_.stiffnessFactor * settings.stiffness : hardest_.stiffness;

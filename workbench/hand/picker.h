@@ -22,6 +22,8 @@ class Picker {
     /// maximum stiffness and friction of the scene. `limits` of the hand in use.
     [[nodiscard]] std::optional<PointedSurface>
     look(const Ray& ray, double time, const HapticSettings& settings, const DeviceLimits& limits);
+    /// Scene::instances of the first hit at `time`; -1: none.
+    [[nodiscard]] int instanceAt(const Ray& ray, double time);
     /// Transform of an object (HapticScene::objects) from its pose at `time` to its rest pose, both in the
     /// workspace.
     [[nodiscard]] Similarity restFromNow(int object, double time);

@@ -2,6 +2,7 @@
 
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/scene/built_for.h"
+#include "haptics/scene/scene_parts.h"
 #include "haptics/world/world_state.h"
 
 #include <cstdio>
@@ -36,6 +37,18 @@ Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor
     model.scene = loadScene(path, options);
     model.workspaceFromScene = workspaceFromScene(*model.scene, fit);
     return model;
+}
+
+void takePart(Model& model, const ScenePart& part) {
+    model.part = part;
+    if (model.haptic != nullptr && !part.whole())
+        model.haptic = partOf(*model.haptic, *model.scene, part);
+}
+
+SceneIdentity identityOf(const Model& model, Fit fit) {
+    SceneIdentity identity = identify(*model.haptic, *model.scene, fit);
+    identity.part = model.part;
+    return identity;
 }
 
 void prepareFor(const Model& model, const HapticSettings& settings) {

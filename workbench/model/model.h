@@ -2,7 +2,9 @@
 // A model for both rendering and haptics.
 
 #include "engine/load/scene_loader.h"
+#include "engine/scene/scene_part.h"
 #include "engine/time/stage_clock.h"
+#include "haptics/recording/scene_identity.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
 
@@ -15,6 +17,7 @@ struct Model {
     ScenePtr scene;
     std::shared_ptr<const HapticScene> haptic; ///< null for a model to see only
     Similarity workspaceFromScene;
+    ScenePart part; ///< what is seen and felt; `haptic` has no more, `scene` is the whole
 };
 
 /// Loads and compiles, without the ray structure (HapticScene::buildRays). Any thread; throws
@@ -24,6 +27,11 @@ struct Model {
 [[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock = nullptr);
 /// For rendering only; `falseColor`: with the data for false colours.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor);
+
+/// Leaves a part of a whole model. Any thread; throws Error.
+void takePart(Model& model, const ScenePart& part);
+/// For recordings. Reads the file again.
+[[nodiscard]] SceneIdentity identityOf(const Model& model, Fit fit);
 
 /// Builds what these settings need beyond the plan, before the first tick, and prints on stderr what is not
 /// available.

@@ -33,18 +33,13 @@ void ModelLoader::start(const std::filesystem::path& path) {
     next_ = Request{path};
 }
 
-namespace {
-
-/// Null where the simulated hand finds no place to press: the model may still be touched.
-std::shared_ptr<const StrokePath> tourOver(const Model& model) {
+std::shared_ptr<const StrokePath> tourOver(const Scene& scene, const Similarity& workspaceFromScene) {
     try {
-        return std::make_shared<StrokePath>(layStroke(*model.scene, model.workspaceFromScene, {}));
+        return std::make_shared<StrokePath>(layStroke(scene, workspaceFromScene, {}));
     } catch (const Error&) {
         return nullptr;
     }
 }
-
-} // namespace
 
 void ModelLoader::begin(const Request& request) {
     cancelled_.store(false, std::memory_order_relaxed);
@@ -74,7 +69,7 @@ void ModelLoader::begin(const Request& request) {
                 const EstimatedProgress estimate(
                     whole.part(0.25, 0.29), "laying the stroke",
                     kTimePerTriangle * static_cast<double>(loaded.model.scene->triangleCount()));
-                loaded.path = tourOver(loaded.model);
+                loaded.path = tourOver(*loaded.model.scene, loaded.model.workspaceFromScene);
             }
             whole.step(0.29, "knowing the model again");
             loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);

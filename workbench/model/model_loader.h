@@ -14,6 +14,10 @@
 
 namespace touchstone {
 
+/// The simulated hand's tour; null where it finds no place to press: the model may still be touched.
+[[nodiscard]] std::shared_ptr<const StrokePath> tourOver(const Scene& scene,
+                                                         const Similarity& workspaceFromScene);
+
 /// A model with the stroke of the simulated hand (null where there is nothing to touch).
 struct LoadedModel {
     Model model;

@@ -91,6 +91,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     app.add_option("--status-json", options.statusJson,
                    "Keep this file up to date with what the window shows: servo, force, settings, widgets")
         ->type_name("FILE");
+    addPart(app, options.part);
     addRecording(app, options.recording);
     addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
@@ -155,6 +156,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
     addSize(app, "--size", options.size, "Size of the picture [800x450]");
     addSettings(app, options.settings);
     addRate(app, options.rateHz, "Servo rate [1000]");
+    addPart(app, options.part);
     addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
 }
@@ -196,6 +198,7 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
     addSettings(app, options.settings);
     addRate(app, options.rateHz,
             "Resample the path at this rate; without it one tick a row (1000 for a stroke)");
+    addPart(app, options.part);
 }
 
 void defineReplay(CLI::App& app, ReplayOptions& options) {
@@ -253,7 +256,10 @@ void defineRender(CLI::App& app, RenderOptions& options) {
     app.add_option("--view", options.view, "What is shown: the look, or a map of what is felt [shaded]")
         ->type_name("NAME")
         ->check(CLI::IsMember(views));
+    app.add_flag("--wireframe", options.wireframe, "Draw the edges of the triangles over the surface");
+    app.add_flag("--grid", options.grid, "Draw a grid on the ground; its spacing stands in the picture");
     addCamera(app, options.camera);
+    addPart(app, options.part);
     addEnvironment(app, options.environment);
     addGpu(app, options.gpu);
 }

@@ -4,7 +4,7 @@
 
 #include "devices/plant/plant_parameters.h"
 #include "devices/stroke/stroke_library.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/scene_part.h"
 #include "haptics/settings/haptic_settings.h"
 #include "renderer/camera.h"
 
@@ -45,6 +45,7 @@ struct WindowOptions {
     std::filesystem::path
         environment; ///< a panorama that lights the picture; empty: the closed-form surroundings
     std::string gpu; ///< part of a Vulkan device's name
+    PartNames part;  ///< of the first model
 };
 int windowCommand(const WindowOptions& options);
 
@@ -67,6 +68,7 @@ struct RunOptions {
     PlantParameters plant;             ///< in the closed loop
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
+    PartNames part; ///< what is seen and felt
 };
 int runCommand(const RunOptions& options);
 
@@ -84,6 +86,7 @@ struct TouchOptions {
     double rateHz = 0.0;     ///< 0: one tick per row of the path
     bool closedLoop = false; ///< the path is the hand's intention; the hand is compliant and holds a device
     PlantParameters plant;   ///< in the closed loop
+    PartNames part;          ///< what is felt
 };
 int touchCommand(const TouchOptions& options);
 
@@ -115,6 +118,7 @@ struct CameraOptions {
     /// Scene frame, m. A placed camera has a position; the target is the model's centre without one.
     std::optional<glm::dvec3> position, target, up;
     std::optional<double> fov; ///< degrees, vertical; of placed cameras and of sides
+    bool orthographic = false; ///< of placed cameras and of sides: as large at the target as with `fov`
 };
 
 /// touchstone render SCENE --out F.png --size WxH
@@ -123,6 +127,8 @@ struct RenderOptions {
     glm::ivec2 size{1280, 720};
     std::string view = "shaded";
     CameraOptions camera;
+    PartNames part; ///< what is drawn
+    bool wireframe = false, grid = false;
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
 };

@@ -175,7 +175,14 @@ void addCamera(CLI::App& app, CameraOptions& camera) {
                               },
                               "Vertical angle of view [35]")
                            ->type_name("DEG");
-    name->excludes(from)->excludes(position)->excludes(fov);
+    CLI::Option* projection =
+        app.add_option_function<std::string>(
+               "--projection",
+               [&camera](const std::string& kind) { camera.orthographic = kind == "orthographic"; },
+               "Perspective, or parallel lines of sight that show as much at the target [perspective]")
+            ->type_name("KIND")
+            ->check(CLI::IsMember({"perspective", "orthographic"}));
+    name->excludes(from)->excludes(position)->excludes(fov)->excludes(projection);
     from->excludes(position);
     app.parse_complete_callback([&camera] {
         if (!camera.target)
@@ -185,6 +192,33 @@ void addCamera(CLI::App& app, CameraOptions& camera) {
         if (!problem.empty())
             throw CLI::ValidationError("--camera-position", problem);
     });
+}
+
+void addPart(CLI::App& app, PartNames& part) {
+    const auto addNames = [&app](const char* option, std::vector<std::string>& names, const char* meaning) {
+        app.add_option(option, names, meaning)->type_name("NAME")->expected(1)->take_all();
+    };
+    addNames("--hide", part.hide,
+             "Neither draw nor touch this object and what is below it: the name of its node or mesh; may be "
+             "given again");
+    addNames("--isolate", part.isolate, "Draw and touch this object alone; may be given again");
+    app.add_option_function<std::string>(
+           "--clip",
+           [&part](const std::string& text) {
+               const size_t last = text.rfind(',');
+               const std::optional<glm::dvec3> normal = vectorOf(std::string_view(text).substr(0, last));
+               const std::optional<double> offset = last != std::string::npos
+                                                        ? numberOf(std::string_view(text).substr(last + 1))
+                                                        : std::nullopt;
+               part.clip = normal && offset ? clipPlane(*normal, *offset) : std::nullopt;
+               if (!part.clip)
+                   throw CLI::ValidationError("--clip", "'" + text +
+                                                            "' is no plane; write X,Y,Z,OFFSET with a "
+                                                            "direction that is not zero");
+           },
+           "Neither draw nor touch what lies beyond a plane: its direction X,Y,Z, and how far along it the "
+           "plane stands, in the model's own metres and axes")
+        ->type_name("X,Y,Z,OFFSET");
 }
 
 CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std::string& meaning,

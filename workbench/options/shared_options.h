@@ -26,6 +26,8 @@ CLI::Option* addPicture(CLI::App& app, const std::string& option, std::filesyste
                         const std::string& meaning);
 /// --camera, --from, --camera-position, --look-at, --up and --fov. Sets the app's parse_complete_callback.
 void addCamera(CLI::App& app, CameraOptions& camera);
+/// --hide, --isolate and --clip.
+void addPart(CLI::App& app, PartNames& part);
 /// A repeatable option NAME=VALUE; `assign` returns the problem.
 CLI::Option* addAssignments(CLI::App& app, const std::string& option, const std::string& meaning,
                             std::function<std::string(std::string_view, std::string_view)> assign);

@@ -35,6 +35,7 @@ struct PanelInput {
     std::string modelPath;             ///< of the open file, also after Save as
     const Scene* scene = nullptr;      ///< the current scene; null: none yet
     const HapticScene* haptic = nullptr;
+    ScenePart part;                                         ///< what is seen and felt of it
     std::span<const std::filesystem::path> recent, samples; ///< to open
     std::span<const std::string> sampleNotes;               ///< note of each sample
     std::span<const GalleryEntry> gallery;

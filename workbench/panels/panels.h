@@ -8,6 +8,11 @@ namespace touchstone {
 /// File and view menus, effects, force, record, servo lamp, help.
 void drawTopBar(const PanelInput& input, PanelState& state, Widgets& widgets);
 
+/// The clipping plane: on and off, its direction and place. toggleClip: at first across the view, through the
+/// middle of the model.
+void drawClip(const PanelInput& input, PanelState& state, Widgets& widgets);
+void toggleClip(const PanelInput& input, PanelState& state);
+
 /// The hand in use: mouse, simulated hand, device.
 void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Selects the simulated hand's next stroke (-1: previous) and switches to that hand.

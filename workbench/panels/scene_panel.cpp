@@ -1,6 +1,7 @@
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
 #include "workbench/panels/panels.h"
+#include "workbench/screen/part_menu.h"
 
 #include <imgui.h>
 
@@ -26,8 +27,8 @@ int touchedNode(const PanelInput& input) {
 
 class NodeTree {
   public:
-    NodeTree(const Scene& scene, int touched, Widgets& widgets)
-        : scene_(scene), touched_(touched), widgets_(widgets), children_(scene.nodes.size()) {
+    NodeTree(const Scene& scene, int touched, ScenePart& part, Widgets& widgets)
+        : scene_(scene), touched_(touched), part_(part), widgets_(widgets), children_(scene.nodes.size()) {
         for (size_t i = 0; i < scene.nodes.size(); ++i)
             if (scene.nodes[i].parent >= 0)
                 children_[static_cast<size_t>(scene.nodes[i].parent)].push_back(i);
@@ -46,17 +47,26 @@ class NodeTree {
         if (drawn_++ >= kMaxNodes)
             return;
         const bool leaf = children_[node].empty(), touched = static_cast<int>(node) == touched_;
-        const std::string name =
-            scene_.nodes[node].name.empty() ? "node " + std::to_string(node) : scene_.nodes[node].name;
+        const std::string name = nodeLabel(scene_, static_cast<int>(node));
         ImGui::PushID(static_cast<int>(node));
-        if (touched)
-            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.45f, 0.82f, 0.55f, 1.0f));
+        const bool hidden = isHidden(part_, static_cast<int>(node));
+        eye(static_cast<int>(node), hidden);
+        ImGui::SameLine();
+        const bool colored = touched || hidden;
+        if (colored)
+            ImGui::PushStyleColor(ImGuiCol_Text, hidden ? ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)
+                                                        : ImVec4(0.45f, 0.82f, 0.55f, 1.0f));
         const bool open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen |
                                                               ImGuiTreeNodeFlags_SpanAvailWidth |
                                                               (leaf ? ImGuiTreeNodeFlags_Leaf : 0));
         widgets_.mark(("node:" + std::to_string(node)).c_str());
-        if (touched)
+        if (colored)
             ImGui::PopStyleColor();
+        if (ImGui::BeginPopupContextItem("object")) {
+            drawPartItems(scene_, static_cast<int>(node), part_,
+                          [this](const char* item) { widgets_.mark(item); });
+            ImGui::EndPopup();
+        }
         if (open) {
             for (const size_t child : children_[node])
                 draw(child);
@@ -65,8 +75,24 @@ class NodeTree {
         ImGui::PopID();
     }
 
+    /// A disc that is full while the object is shown, a ring while it is hidden; a click changes it.
+    void eye(int node, bool hidden) {
+        const float side = ImGui::GetTextLineHeight(), radius = 0.28f * side;
+        const ImVec2 at = ImGui::GetCursorScreenPos(), centre(at.x + 0.5f * side, at.y + 0.5f * side);
+        if (ImGui::InvisibleButton("eye", ImVec2(side, side)))
+            hidden ? showNode(scene_, node, part_) : hideNode(scene_, node, part_);
+        const ImU32 color =
+            ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+        if (hidden)
+            ImGui::GetWindowDrawList()->AddCircle(centre, radius, color);
+        else
+            ImGui::GetWindowDrawList()->AddCircleFilled(centre, radius, color);
+        widgets_.mark(("eye:" + std::to_string(node)).c_str());
+    }
+
     const Scene& scene_;
     int touched_;
+    ScenePart& part_;
     Widgets& widgets_;
     std::vector<std::vector<size_t>> children_;
     size_t drawn_ = 0;
@@ -80,7 +106,7 @@ void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!input.modelFacts.empty())
         widgets.wrapped(input.modelFacts, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     if (input.scene != nullptr && !input.scene->nodes.empty())
-        NodeTree(*input.scene, touchedNode(input), widgets).draw();
+        NodeTree(*input.scene, touchedNode(input), state.view.part, widgets).draw();
     if (input.warnings.empty() && input.notice.empty())
         return;
     widgets.section("WARNINGS");

@@ -99,6 +99,8 @@ void viewMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
         return;
     drawViewMenu(state.view, [&](const char* name) { widgets.mark(name); });
     ImGui::Separator();
+    drawClip(input, state, widgets);
+    ImGui::Separator();
     const auto fold = [&](const char* label, const char* key, bool& folded) {
         bool shown = !folded;
         if (ImGui::MenuItem(label, key, &shown))

@@ -78,6 +78,11 @@ bool ctrlPressed(int key, bool repeat) {
            ImGui::IsKeyPressed(key, repeat);
 }
 
+bool altPressed(int key) {
+    const ImGuiIO& io = ImGui::GetIO();
+    return !io.WantTextInput && io.KeyAlt && !io.KeyCtrl && !io.KeySuper && ImGui::IsKeyPressed(key, false);
+}
+
 double keyAxis(std::initializer_list<int> less, std::initializer_list<int> more) {
     return (anyDown(more) ? 1.0 : 0.0) - (anyDown(less) ? 1.0 : 0.0);
 }

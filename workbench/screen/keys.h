@@ -16,6 +16,8 @@ namespace touchstone {
 /// The same with Ctrl, without Alt and Super; `repeat`: also key repeats. While a text field has the focus,
 /// not its editing keys: A, C, V, X, Y, Z, Enter, arrows and the like.
 [[nodiscard]] bool ctrlPressed(int key, bool repeat = false);
+/// The same with Alt, without Ctrl and Super.
+[[nodiscard]] bool altPressed(int key);
 /// -1, 0 or 1 from two groups of held keys.
 [[nodiscard]] double keyAxis(std::initializer_list<int> less, std::initializer_list<int> more);
 

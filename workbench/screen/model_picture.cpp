@@ -1,8 +1,12 @@
 #include "workbench/screen/model_picture.h"
 
 #include "engine/time/seconds_now.h"
+#include "workbench/screen/axis_gizmo.h"
+#include "workbench/screen/ground_grid.h"
 #include "workbench/screen/gui_pixels.h"
 #include "workbench/screen/magnifier.h"
+
+#include <imgui.h>
 
 #include <algorithm>
 #include <utility>
@@ -17,8 +21,9 @@ constexpr int kSoftwareMagnifierPeriod = 3;     ///< frames between updates: the
 constexpr float kLegendMargin = 14.0f;          ///< layout units
 
 void scaleLines(Overlay& overlay, double factor) {
-    for (Overlay::Line& line : overlay.lines)
-        line.width *= static_cast<float>(factor);
+    for (std::vector<Overlay::Line>* lines : {&overlay.lines, &overlay.grid})
+        for (Overlay::Line& line : *lines)
+            line.width *= static_cast<float>(factor);
 }
 
 /// Copies `inset` over `picture`.
@@ -40,12 +45,16 @@ ModelPicture::Setup ModelPicture::setUp(const Frame& frame, double aspect, Scene
                                       : ShownOverlays{false, false, false, false, false, false}},
                 .hasModel = frame.model.scene != nullptr && frame.model.haptic != nullptr};
     setup.view.mode = options.mode;
+    setup.view.part = frame.model.part;
+    setup.view.wireframe = options.wireframe;
     overlay_.clear();
     if (!setup.hasModel)
         return setup;
     setup.look.frictionCoefficient =
         frictionCoefficientAt(frame.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
     drawTick(frame.tick, frame.settings, setup.look, overlay_);
+    if (options.grid)
+        GroundGrid(frame.model.scene->bounds).draw(frame.model.workspaceFromScene, 1.0f, overlay_);
     if (setup.look.shown.shadow)
         setup.view.probe = probeShadow(frame.tick, frame.settings);
     colorMaterials(frame, renderer);
@@ -59,6 +68,8 @@ View ModelPicture::magnified(const Frame& frame, Setup setup) {
     View near =
         viewOf(Magnifier::camera(frame.camera, frame.tick.output.proxy), frame.model.workspaceFromScene, 1.0);
     near.mode = setup.view.mode;
+    near.part = setup.view.part;
+    near.wireframe = setup.view.wireframe;
     near.allowedError = setup.view.allowedError;
     near.probe = setup.view.probe;
     near.probe.radius *= kMagnifierOverlayScale;
@@ -68,7 +79,8 @@ View ModelPicture::magnified(const Frame& frame, Setup setup) {
 EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
     Setup setup =
         setUp(frame, static_cast<double>(frame.place.width) / std::max(frame.place.height, 1), renderer);
-    setup.view.allowedError = frame.allowedError;
+    setup.view.allowedError =
+        frame.options.wireframe ? 0.0 : frame.allowedError; // the edges of the model itself
     EyePlaces places{.main = frame.place, .magnifier = {}};
     drawMain(frame, setup.view, renderer);
     if (setup.hasModel && frame.options.magnifier)
@@ -77,8 +89,7 @@ EyePlaces ModelPicture::draw(const Frame& frame, SceneRenderer& renderer) {
     const glm::vec2 low(static_cast<float>(frame.place.x),
                         static_cast<float>(frame.place.y + frame.place.height));
     if (setup.hasModel)
-        drawViewLegend(legendOf(frame, renderer), low / frame.pixelsPerPoint + glm::vec2(margin, -margin),
-                       frame.scale);
+        drawLabels(frame, low / frame.pixelsPerPoint + glm::vec2(margin, -margin), frame.scale, renderer);
     return places;
 }
 
@@ -96,6 +107,23 @@ void ModelPicture::drawMain(const Frame& frame, const View& view, SceneRenderer&
         changed_ = secondsNow();
     else if (drawn_.state == PictureState::Kept && before != PictureState::Kept)
         drawn_.refinedIn = secondsNow() - changed_;
+}
+
+void ModelPicture::drawLabels(const Frame& frame, const glm::vec2& low, float scale,
+                              const SceneRenderer& renderer) const {
+    drawViewLegend(legendOf(frame, renderer), low, scale);
+    if (!frame.options.grid)
+        return;
+    constexpr float kBeside = 250.0f; // layout units: right of the legend
+    const std::string label = GroundGrid(frame.model.scene->bounds).label();
+    const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+    const float pad = 5.0f * scale;
+    const ImVec2 at(low.x + (frame.options.mode == ViewMode::Shaded ? 0.0f : kBeside * scale) + pad,
+                    low.y - size.y - pad);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddRectFilled(ImVec2(at.x - pad, at.y - pad), ImVec2(at.x + size.x + pad, at.y + size.y + pad),
+                       IM_COL32(18, 20, 23, 200), 5.0f * scale);
+    draw.AddText(at, IM_COL32(220, 224, 228, 255), label.c_str());
 }
 
 ViewLegend ModelPicture::legendOf(const Frame& frame, const SceneRenderer& renderer) const {
@@ -150,7 +178,9 @@ PixelData ModelPicture::drawAnew(const Frame& frame, const glm::ivec2& size, Sce
     drawGui(picture, scale, [&] {
         if (magnifier)
             Magnifier::drawFrame(glm::vec2(inset.x, inset.y), static_cast<float>(inset.width), scale);
-        drawViewLegend(legendOf(frame, renderer), {margin, static_cast<float>(size.y) - margin}, scale);
+        drawLabels(frame, {margin, static_cast<float>(size.y) - margin}, scale, renderer);
+        if (frame.options.axes)
+            paintAxes(frame.camera, {static_cast<float>(size.x), 0.0f}, scale);
     });
     return picture;
 }

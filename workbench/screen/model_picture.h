@@ -60,6 +60,10 @@ class ModelPicture {
     [[nodiscard]] Setup setUp(const Frame& frame, double aspect, SceneRenderer& renderer);
     /// The magnifier's, of the main one's; fills overlay_, too.
     [[nodiscard]] View magnified(const Frame& frame, Setup setup);
+    /// Grid's label and legend; in a saved picture the axes, too. `low`: lower left corner, `high`: upper
+    /// right.
+    void drawLabels(const Frame& frame, const glm::vec2& low, float scale,
+                    const SceneRenderer& renderer) const;
     void colorMaterials(const Frame& frame, SceneRenderer& renderer);
     void drawMagnifier(const Frame& frame, const Setup& setup, SceneRenderer& renderer, EyePlaces& places);
     /// The legend of what `renderer` drew last.

@@ -54,6 +54,12 @@ void optionKeys(ViewOptions& options) {
         options.mode =
             static_cast<ViewMode>((static_cast<size_t>(options.mode) + step) % kViewModeNames.size());
     }
+    if (keyPressed(keyOf('z')))
+        options.wireframe = !options.wireframe;
+    if (keyPressed(keyOf('l')))
+        options.grid = !options.grid;
+    if (keyPressed({keyOf('5'), GLFW_KEY_KP_5}))
+        options.orthographic = !options.orthographic;
     if (keyPressed(keyOf('m')))
         options.magnifier = !options.magnifier;
     if (keyPressed(keyOf('o')))
@@ -120,6 +126,7 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
         if (!ImGui::GetIO().WantTextInput)
             turnWithKeys(now);
     }
+    camera_.orthographic = options.orthographic;
     if (options.move)
         go(*std::exchange(options.move, std::nullopt), now);
     if (options.turntable)

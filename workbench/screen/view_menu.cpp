@@ -60,6 +60,10 @@ void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& 
                              Toggle{"Planes", "showPlanes", shown.planes},
                              Toggle{"Friction", "showFriction", shown.friction},
                              Toggle{"Normal", "showNormal", shown.normal},
+                             Toggle{"Wireframe (Z)", "wireframe", options.wireframe},
+                             Toggle{"Grid (L)", "grid", options.grid},
+                             Toggle{"Axes", "axes", options.axes},
+                             Toggle{"Orthographic (5)", "orthographic", options.orthographic},
                              Toggle{"Magnifier (M)", "magnifier", options.magnifier},
                              Toggle{"Turntable (T)", "turntable", options.turntable}};
     const float column = 0.5f * ImGui::GetContentRegionAvail().x;

@@ -25,6 +25,11 @@ struct ShownOverlays {
 struct ViewOptions {
     ViewMode mode = ViewMode::Shaded;
     ShownOverlays overlays;
+    ScenePart part;                 ///< to be seen and felt
+    bool wireframe = false;         ///< the triangles' edges over the surface
+    bool grid = false;              ///< on the ground beneath the model
+    bool axes = true;               ///< in the picture's corner, to look along
+    bool orthographic = false;      ///< projection
     bool turntable = false;         ///< the camera orbits by itself
     bool magnifier = false;         ///< magnified inset that follows the probe
     bool freeHand = false;          ///< the mouse moves its hand in space, not over the pointed surface

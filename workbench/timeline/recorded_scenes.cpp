@@ -37,8 +37,9 @@ FoundScene loadRecordedScene(const RecordedScene& recorded, const std::filesyste
     loading.edits = recorded.identity.edits;
     loading.images.visual = false;
     loading.cancel = cancel;
-    const Model model = loadModel(path, recorded.identity.fit, loading);
-    const SceneIdentity now = identify(*model.haptic, *model.scene, recorded.identity.fit);
+    Model model = loadModel(path, recorded.identity.fit, loading);
+    takePart(model, recorded.identity.part);
+    const SceneIdentity now = identityOf(model, recorded.identity.fit);
     return {.recorded = recorded,
             .path = path,
             .sameFile = now.fileHash == recorded.identity.fileHash,

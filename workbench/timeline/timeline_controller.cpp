@@ -226,6 +226,8 @@ void TimelineController::describe(const RecordedScene* scene) {
             notes_.push_back(name + " has changed since it was touched");
         if (fit_ != ModelFit::Missing && !scene->identity.edits.empty())
             notes_.emplace_back("its materials had been edited and not saved");
+        if (fit_ != ModelFit::Missing && !scene->identity.part.whole())
+            notes_.emplace_back("a part of it was hidden or clipped");
     }
     for (const std::string* problem : {&lensProblem_, &againProblem_})
         if (!problem->empty())

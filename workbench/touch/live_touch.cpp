@@ -3,6 +3,7 @@
 #include "engine/time/seconds_now.h"
 #include "session/device_port.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace touchstone {
@@ -24,6 +25,11 @@ LiveTouch::~LiveTouch() {
 void LiveTouch::show(LoadedModel loaded, bool generated) {
     shown_ = std::move(loaded);
     shown_.identity.generated = generated;
+    whole_ = shown_.model;
+    felt_ = whole_.haptic;
+    toWhole_ = SceneSwap::SameGeometry;
+    wholeEdits_ = shown_.identity.edits;
+    ++model_;
     offerScene();
     hand_.offerPath(shown_.path);
     strokes_.show(shown_.model.scene, shown_.model.workspaceFromScene, shown_.path);
@@ -31,12 +37,53 @@ void LiveTouch::show(LoadedModel loaded, bool generated) {
 }
 
 void LiveTouch::change(const MadeMaterials& made) {
+    const SceneSwap swap = made.touchGoesOn ? SceneSwap::SameGeometry : SceneSwap::Anew;
     if (made.scene != nullptr)
-        shown_.model.scene = made.scene;
+        shown_.model.scene = whole_.scene = made.scene;
+    whole_.haptic = made.haptic;
+    wholeEdits_ = made.edits;
+    if (swap == SceneSwap::Anew) // also for a part of the geometry before, which may be on its way
+        toWhole_ = toPart_ = swap;
+    if (!shown_.model.part.whole())
+        return; // a part of it follows (showPart)
+    felt_ = made.haptic;
+    shown_.identity.edits = made.edits;
     shown_.model.haptic = made.haptic;
     shown_.identity.feltHash = made.feltHash;
-    shown_.identity.edits = made.edits;
-    offerScene(made.touchGoesOn ? SceneSwap::SameGeometry : SceneSwap::Anew);
+    offerScene(swap);
+}
+
+void LiveTouch::showPart(const ScenePart& part) {
+    if (!hasModel())
+        return;
+    if (const std::optional<FeltPart> made = partBuild_.take(); made && partModel_ == model_)
+        takePart(*made);
+    if (partBuild_.busy() || (part == shown_.model.part && felt_ == whole_.haptic))
+        return;
+    partModel_ = model_;
+    toPart_ = std::exchange(toWhole_, SceneSwap::SameGeometry);
+    partEdits_ = wholeEdits_;
+    partBuild_.start(whole_, part);
+}
+
+void LiveTouch::takePart(const FeltPart& made) {
+    const ScenePart& before = shown_.model.part;
+    const bool onlyLess =
+        made.part.clip == before.clip && std::ranges::includes(made.part.hidden, before.hidden);
+    const SceneSwap swap = onlyLess ? toPart_ : SceneSwap::Anew;
+    const bool same = made.part == before;
+    felt_ = made.whole;
+    shown_.model.part = shown_.identity.part = made.part;
+    shown_.model.haptic = made.haptic;
+    shown_.identity.feltHash = made.feltHash;
+    shown_.identity.edits = partEdits_;
+    offerScene(swap);
+    if (same) // other materials
+        return;
+    builtAgain_ = true; // the mouse may have pressed on what is gone
+    shown_.path = made.path;
+    hand_.offerPath(shown_.path);
+    strokes_.show(made.strokes, shown_.model.workspaceFromScene, shown_.path);
 }
 
 void LiveTouch::saved(const std::filesystem::path& path, const FileStamp& stamp, std::string edits) {
@@ -45,6 +92,7 @@ void LiveTouch::saved(const std::filesystem::path& path, const FileStamp& stamp,
     shown_.identity.generated = false;
     shown_.identity.fileSize = stamp.size;
     shown_.identity.fileHash = stamp.hash;
+    wholeEdits_ = partEdits_ = edits;
     shown_.identity.edits = std::move(edits);
     session_.identify(shown_.identity);
 }
@@ -77,6 +125,11 @@ void LiveTouch::layStroke(const StrokeRequest& stroke, const glm::dvec3& facing,
     }
     if (auto path = strokes_.update(stroke, facing, simulated))
         hand_.offerPath(std::move(path));
+}
+
+int LiveTouch::nodeAt(const Ray& ray) {
+    const int instance = picker_.instanceAt(ray, tick().time);
+    return instance >= 0 ? shown_.model.scene->instances[static_cast<size_t>(instance)].node : -1;
 }
 
 /// To the session, the pointer and the sound.

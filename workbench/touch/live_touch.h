@@ -9,6 +9,7 @@
 #include "workbench/hand/picker.h"
 #include "workbench/hand/stroke_controller.h"
 #include "workbench/model/background_build.h"
+#include "workbench/model/felt_part.h"
 #include "workbench/model/model_loader.h"
 #include "workbench/options/commands.h"
 #include "workbench/readings/window_readings.h"
@@ -41,6 +42,12 @@ class LiveTouch {
     void show(LoadedModel loaded, bool generated);
     /// Continues with other materials of the same model; contact is kept where possible.
     void change(const MadeMaterials& made);
+    /// The open model with all its parts, for what changes it; `shown` has the part that is seen and felt.
+    [[nodiscard]] const Model& whole() const { return whole_; }
+    /// Every frame: the part of the model that is to be seen and felt. It is compiled on a worker, and comes
+    /// into effect in `update`. Where something is hidden touch continues; where something comes back, or a
+    /// plane cuts anew, nothing is felt before the hand is clear of it. Throws Error of the worker once.
+    void showPart(const ScenePart& part);
     /// True if touch was reset since the last call: a model was opened, or its geometry was rebuilt.
     [[nodiscard]] bool takeBuiltAgain() { return std::exchange(builtAgain_, false); }
     /// The model's file has been written with these edits.
@@ -63,6 +70,8 @@ class LiveTouch {
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
         return picker_.look(ray, tick().time, settings, tick().sample.limits);
     }
+    /// The node (Scene::nodes) of that surface; -1: there is none.
+    [[nodiscard]] int nodeAt(const Ray& ray);
     [[nodiscard]] const TickRecord& tick() const { return session_.tick(); } ///< the latest at `update`
     [[nodiscard]] ForceSwitch& forceSwitch() { return session_.forceSwitch(); }
     /// CLOCK_MONOTONIC, s, at time 0 of the ticks.
@@ -80,6 +89,7 @@ class LiveTouch {
     [[nodiscard]] std::string strokeNotice() const { return strokes_.notice(); }
 
   private:
+    void takePart(const FeltPart& made);
     void offerScene(SceneSwap swap = SceneSwap::Anew);
 
     DeviceMultiplexer hand_;
@@ -90,6 +100,13 @@ class LiveTouch {
     RecordingController controller_;
     WindowReadings readings_;
     LoadedModel shown_;
+    Model whole_;
+    std::shared_ptr<const HapticScene> felt_; // what the felt scene is a part of
+    // From what is felt to a part of whole_, and of the part that is being compiled:
+    SceneSwap toWhole_ = SceneSwap::SameGeometry, toPart_ = SceneSwap::SameGeometry;
+    FeltPartBuild partBuild_;
+    uint64_t model_ = 0, partModel_ = 0; // models shown so far; at the start of partBuild_
+    std::string wholeEdits_, partEdits_; // of whole_, and of the part that is being compiled
     bool builtAgain_ = false;
     BackgroundBuild build_;
     Picker picker_;

@@ -181,6 +181,8 @@ void coveredKeys(const PanelInput& input, PanelState& state) {
         state.stopped = state.stopped ? std::nullopt : std::optional(*input.forces);
     if (keyPressed(keyOf('s')))
         state.sound.on = !state.sound.on;
+    if (altPressed(keyOf('b')))
+        toggleClip(input, state);
     if (keyPressed(keyOf('e')))
         state.editMaterials = !state.editMaterials;
 }

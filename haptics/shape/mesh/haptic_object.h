@@ -80,6 +80,8 @@ struct HapticObject {
     TriangleTree tree;     ///< for proximity queries
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
+    /// Nothing is left of it (scene/scene_parts.h): no query meets it.
+    [[nodiscard]] bool empty() const { return shape == nullptr && indices.empty(); }
     [[nodiscard]] uint64_t memoryBytes() const;          ///< without Embree's part
     [[nodiscard]] AttributeBytes attributeBytes() const; ///< part of memoryBytes
 };

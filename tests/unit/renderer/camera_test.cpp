@@ -137,6 +137,42 @@ TEST(OrbitCamera, FramedBoxIsInsideTheImageAndFillsIt) {
     }
 }
 
+/// The same of parallel lines of sight, at any zoom: pixels, rays and movements agree with the matrices, and
+/// nothing between eye and far plane is cut away.
+TEST(OrbitCamera, OrthographicViewsArePickedWhereTheyAreDrawn) {
+    const glm::dvec2 size(640.0, 480.0);
+    for (const double zoom : {1.0, 0.05, 20.0}) {
+        OrbitCamera camera = tilted();
+        camera.orthographic = true;
+        camera.zoom(zoom);
+        for (const glm::dvec3 point :
+             {glm::dvec3(0.0), glm::dvec3(0.05, 0.02, -0.03), glm::dvec3(-0.04, 0.06, 0.02)}) {
+            const glm::dvec3 direct = camera.pixelOf(point, size), matrix = projected(camera, point, size);
+            EXPECT_NEAR(direct.x, matrix.x, 1e-8);
+            EXPECT_NEAR(direct.y, matrix.y, 1e-8);
+            EXPECT_GT(matrix.z, 0.0) << zoom;
+            EXPECT_LT(matrix.z, 1.0) << zoom;
+            const Ray ray = camera.rayThroughPixel(glm::dvec2(direct), size);
+            EXPECT_NEAR(glm::length(glm::cross(point - ray.origin, ray.direction)), 0.0, 1e-13);
+            EXPECT_GT(glm::dot(point - ray.origin, ray.direction), 0.0) << "it starts before the model";
+            const glm::dvec3 moved = point + camera.viewPlaneDisplacement({7.0, -3.0}, size.y, point);
+            EXPECT_NEAR(camera.pixelOf(moved, size).x, direct.x + 7.0, 1e-8);
+            EXPECT_NEAR(camera.pixelOf(moved, size).y, direct.y - 3.0, 1e-8);
+        }
+    }
+}
+
+TEST(OrbitCamera, OrthographicShowsAtTheTargetWhatThePerspectiveShows) {
+    OrbitCamera camera = tilted();
+    const glm::dvec2 size(640.0, 480.0);
+    const glm::dvec3 beside = camera.target + 0.02 * camera.right() - 0.01 * camera.up();
+    const glm::dvec3 perspective = camera.pixelOf(beside, size);
+    camera.orthographic = true;
+    const glm::dvec3 parallel = camera.pixelOf(beside, size);
+    EXPECT_NEAR(parallel.x, perspective.x, 1e-9);
+    EXPECT_NEAR(parallel.y, perspective.y, 1e-9);
+}
+
 TEST(OrbitCamera, ThreeQuarterViewSeesThreeSidesOfABox) {
     Bounds box;
     box.include(glm::dvec3(-0.05));

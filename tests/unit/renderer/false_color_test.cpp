@@ -44,6 +44,25 @@ TEST(FalseColorScale, VerticesOutrankTheMaterial) {
     EXPECT_EQ(scale.unit, "N/m");
 }
 
+/// As they are felt: a height map comes before the heights of vertices.
+TEST(FalseColorScale, SpansTheHeightsOfVertices) {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.meshes.resize(1);
+    scene.meshes[0].positions.resize(3);
+    scene.meshes[0].heights = {-0.002f, 0.001f, 0.0f};
+    FalseColorScale scale = falseColorScale(scene, ViewMode::Height);
+    EXPECT_TRUE(scale.meaningful);
+    EXPECT_EQ(scale.unit, "m");
+    EXPECT_FLOAT_EQ(static_cast<float>(scale.low), -0.002f);
+    EXPECT_FLOAT_EQ(static_cast<float>(scale.high), 0.001f);
+    TextureRef map;
+    map.image = 0;
+    scene.materials[0].haptic.height.value = HeightMap{map, 0.004f, 0.5f};
+    scale = falseColorScale(scene, ViewMode::Height);
+    EXPECT_FLOAT_EQ(static_cast<float>(scale.high), 0.002f);
+}
+
 TEST(FalseColorScale, OneValueStillHasTwoEnds) {
     Material material;
     material.haptic.staticFriction.value = 0.4f;

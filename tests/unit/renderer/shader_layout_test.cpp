@@ -101,6 +101,7 @@ TEST(ShaderLayout, ObjectConstants) {
     ASSERT_TRUE(layouts.count("ObjectConstants"));
     EXPECT_SAME_PLACE(layouts, ObjectConstants, eyeFromMesh);
     EXPECT_SAME_PLACE(layouts, ObjectConstants, normalFromMesh);
+    EXPECT_SAME_PLACE(layouts, ObjectConstants, clip);
     EXPECT_LE(sizeof(shared::ObjectConstants), 128u)
         << "every Vulkan device has this much for push constants";
 }

@@ -182,6 +182,47 @@ TEST_F(Render, SeesTheModelFromEverySide) {
               1e-9);
 }
 
+/// Parallel lines of sight through the target's plane: the limit of a long lens from there.
+TEST_F(Render, AnyCameraMayBeOrthographic) {
+    const std::vector<std::string> parallel{"--projection", "orthographic"};
+    const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    EXPECT_GT(difference(kPlaced, with(kPlaced, parallel)), 0.02);
+    EXPECT_GT(difference({"--from", "right"}, with(parallel, {"--from", "right"})), 0.01);
+    EXPECT_EQ(picture({"--projection", "perspective"}), picture({}));
+    EXPECT_EQ(render({"--projection", "fisheye"}).status, 2);
+    EXPECT_EQ(render({"--camera", "0", "--projection", "orthographic"}).status, 2);
+}
+
+TEST_F(Render, DrawsAPartOfTheModel) {
+    // The nodes of the corner have no names: "node 0" and on.
+    const std::string whole = picture({});
+    EXPECT_NE(picture({"--hide", "node 1"}), whole);
+    EXPECT_EQ(picture({"--hide", "node 0", "--hide", "node 2"}), picture({"--isolate", "node 1"}));
+    EXPECT_GT(difference({}, {"--clip", "1,0,0,0.5"}), 0.02);
+    EXPECT_EQ(picture({"--clip", "3,0,0,0.5"}), picture({"--clip", "1,0,0,0.5"}))
+        << "a direction has no length";
+    EXPECT_EQ(picture({"--clip", "1,0,0,5"}), whole) << "beyond the model";
+    expectRefused({"--hide", "nose"}, {"--hide", "there is no object 'nose'", "node 0, node 1"});
+    expectRefused({"--isolate", "nose"}, {"--isolate", "'nose'"});
+    for (const char* plane :
+         {"0,0,0,1", "1,0,0", "nan,0,0,1", "1,0,0,nan", "1,0,0,inf", "", "1,0,0,0,0", "x"}) {
+        const ProgramResult result = render({"--clip", plane});
+        EXPECT_EQ(result.status, 2) << plane << ": " << result.err;
+        EXPECT_NE(result.err.find("--clip"), std::string::npos) << result.err;
+    }
+}
+
+TEST_F(Render, DrawsEdgesAndTheGround) {
+    EXPECT_GT(difference({}, {"--wireframe"}), 0.002);
+    EXPECT_GT(difference({}, {"--grid"}), 0.02);
+    std::vector<std::string> placed = kPlaced;
+    placed.emplace_back("--grid");
+    EXPECT_GT(difference(kPlaced, placed), 0.02) << "with a placed camera, too";
+}
+
 TEST_F(Render, AnImpossibleCameraIsRefused) {
     expectRefused({"--camera", "7"},
                   {"no camera '7'", "0 lens at the node stand0 (perspective)", "1 at the node stand1"});

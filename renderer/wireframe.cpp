@@ -1,0 +1,29 @@
+// The edges of the drawn triangles, as a pass over the scene.
+
+#include "renderer/scene_renderer_impl.h"
+
+namespace touchstone {
+
+void SceneRenderer::Impl::drawWireframe(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet) {
+    if (draws_.empty() || !gpu.lineTriangles)
+        return;
+    const vk::PipelineLayout layout = pipelines_.sceneLayout();
+    commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
+    commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
+    commands.setCullMode(vk::CullModeFlagBits::eNone); // what is seen of a back is drawn, too
+    for (const DrawItem& item : draws_) {
+        const int mesh = scene_->scene().instances[static_cast<size_t>(item.instance)].mesh;
+        const PreparedMesh& prepared = scene_->mesh(mesh).mesh;
+        if (prepared.strokes > 0 || item.sides == DrawItem::Sides::Far) // glass is there twice
+            continue;
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
+                              pipelines_.wireframe((item.features & shared::kIsClipped) != 0));
+        commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+        commands.pushConstants<shared::ObjectConstants>(layout, kObjectStages, 0, item.constants);
+        commands.drawIndexed(item.indexCount, 1, item.firstIndex, prepared.firstVertex, 0);
+        ++statistics.drawCalls;
+    }
+}
+
+} // namespace touchstone

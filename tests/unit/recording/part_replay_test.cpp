@@ -1,0 +1,120 @@
+// Objects that are hidden and come back while a hand touches them, and recordings of that.
+
+#include "haptics/recording/recording_format.h"
+#include "haptics/scene/scene_parts.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_servo.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+
+namespace touchstone::test {
+namespace {
+
+/// Two floors of 0.1 m in y = 0, side by side along x: nodes 0 and 1, objects 0 and 1.
+TouchedScene twoFloors() {
+    auto source = std::make_shared<Scene>();
+    source->path = "floors";
+    source->materials.emplace_back();
+    for (const float x : {0.0f, 0.2f}) {
+        Mesh mesh;
+        mesh.positions = {{x - 0.05f, 0.0f, -0.05f},
+                          {x - 0.05f, 0.0f, 0.05f},
+                          {x + 0.05f, 0.0f, 0.05f},
+                          {x + 0.05f, 0.0f, -0.05f}};
+        mesh.normals.assign(4, {0.0f, 1.0f, 0.0f});
+        mesh.indices = {0, 1, 2, 0, 2, 3};
+        const int next = static_cast<int>(source->meshes.size());
+        source->meshes.push_back(std::move(mesh));
+        source->nodes.emplace_back();
+        source->instances.push_back({.node = next, .mesh = next});
+    }
+    TouchedScene scene;
+    scene.haptic = compileHapticScene(*source, Similarity{});
+    scene.source = std::move(source);
+    scene.identity = identify(*scene.haptic, *scene.source, Fit::None);
+    return scene;
+}
+
+TouchedScene partOfFloors(const TouchedScene& whole, std::vector<int> hidden) {
+    TouchedScene part = whole;
+    part.identity.part.hidden = std::move(hidden);
+    part.haptic = partOf(*whole.haptic, *whole.source, part.identity.part);
+    part.identity.feltHash = feltHash(*part.haptic, *part.source);
+    return part;
+}
+
+TEST(PartReplay, WhatIsHiddenLetsGoWhatIsBesideItDoesNot) {
+    ScratchFolder scratch;
+    const std::filesystem::path file = scratch / "parts.tsrec";
+    std::atomic<double> height{0.01};
+    RecordedServo rig([&](double) { return at({0.01, height.load(), 0.02}); });
+    rig.recorder.start(file, "test");
+    const TouchedScene whole = twoFloors();
+    rig.offer(whole);
+    rig.ticks(1000);
+    height = -0.002;
+    rig.ticks(1000);
+    const auto force = [&] { return glm::length(rig.records.back().output.force); };
+    const double before = force();
+    ASSERT_GT(before, 1.0);
+
+    const TouchedScene beside = partOfFloors(whole, {1});
+    const size_t first = rig.records.size();
+    rig.offer(beside, SceneSwap::SameGeometry);
+    rig.ticks(500);
+    EXPECT_EQ(force(), before) << "nothing that is touched has changed";
+    for (size_t i = first; i < rig.records.size(); ++i)
+        ASSERT_GT(rig.records[i].output.contacts, 0u);
+
+    rig.offer(partOfFloors(whole, {0, 1}), SceneSwap::SameGeometry);
+    rig.ticks(1000);
+    EXPECT_EQ(force(), 0.0);
+    EXPECT_EQ(glm::length(rig.records.back().output.command.force()), 0.0);
+
+    // It comes back around the hand, which feels nothing until it has left: 2 mm below it, then 4 mm above.
+    rig.offer(beside);
+    rig.ticks(1000);
+    EXPECT_EQ(force(), 0.0) << "2 mm below the floor";
+    height = 0.004;
+    rig.ticks(500);
+    height = -0.001;
+    rig.ticks(500);
+    EXPECT_EQ(force(), 0.0) << "it was within reach all the time";
+    height = 0.008;
+    rig.ticks(500);
+    height = -0.002;
+    rig.ticks(2000);
+    EXPECT_NEAR(force(), before, 1e-6 * before);
+    rig.finish();
+    rig.expectWithinLimits();
+    expectEqualReplay(replayOf(file, rig.scenes));
+}
+
+/// The whole way of the window's flight recorder: hash, part and back.
+TEST(PartReplay, TheRecordingKnowsThePart) {
+    RecordedScene scene{3, {}};
+    scene.identity.path = "floors.glb";
+    scene.identity.part.hidden = {1, 4, 70000};
+    scene.identity.part.clip = clipPlane({1, 2, -2}, 0.25);
+    const auto again = std::get<RecordedScene>(decode(1, encode(scene)));
+    EXPECT_EQ(again.identity.part, scene.identity.part);
+    EXPECT_EQ(again.identity.edits, "");
+    scene.identity.edits = "{}";
+    scene.identity.part.clip.reset();
+    EXPECT_EQ(std::get<RecordedScene>(decode(1, encode(scene))).identity.part, scene.identity.part);
+    scene.identity.part.hidden = {4, 1};
+    EXPECT_THROW((void)decode(1, encode(scene)), Error);
+    scene.identity.part.hidden = {-1};
+    EXPECT_THROW((void)decode(1, encode(scene)), Error);
+    scene.identity.part = {};
+    scene.identity.part.clip = ClipPlane{glm::dvec3(0.0), 1.0};
+    EXPECT_THROW((void)decode(1, encode(scene)), Error);
+    scene.identity.part.clip = ClipPlane{glm::dvec3(1, 0, 0), std::nan("")};
+    EXPECT_THROW((void)decode(1, encode(scene)), Error);
+}
+
+} // namespace
+} // namespace touchstone::test
