@@ -62,7 +62,6 @@ FieldGrid::FieldGrid(const FieldLayout& layout, double inside, double outside, c
         for (int y = 0; y < bricks_.y; ++y)
             for (int x = 0; x < bricks_.x; ++x)
                 fillBrick({x, y, z}, fill, nodes);
-    nodes_.shrink_to_fit();
     Hash64 hash;
     hash.add(layout.voxel);
     for (int axis = 0; axis < 3; ++axis) {
@@ -71,35 +70,49 @@ FieldGrid::FieldGrid(const FieldLayout& layout, double inside, double outside, c
     }
     for (const Brick& brick : table_)
         hash.add(brick.flat == brick.flat ? brick.flat : -0.0f);
-    for (const float value : nodes_)
-        hash.add(value);
+    for (size_t brick = 0; brick < kept_; ++brick)
+        for (const float value :
+             std::span(chunks_[brick / kChunk].get() + brick % kChunk * kBrickNodes, kBrickNodes))
+            hash.add(value);
     hash_ = hash.value();
 }
 
 void FieldGrid::fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::vector<float>& nodes) {
     const glm::ivec3 first = kBrick * brick;
     fill(first, nodes);
-    float least = INFINITY, most = -INFINITY;
-    eachNode([&](const glm::ivec3& at) {
-        float& value = nodes[nodeIndex(at)];
-        if (!touchstone::inside(first + at, layout_.cells)) {
-            value = static_cast<float>(outside_); // beyond the grid: read by no cell
-            return;
-        }
-        if (!std::isfinite(value))
-            refuse("has a node that is no finite number", "check its file");
-        value = std::clamp(value, static_cast<float>(-inside_), static_cast<float>(outside_));
+    if (!touchstone::inside(first + kBrick, layout_.cells))
+        eachNode([&](const glm::ivec3& at) {
+            if (!touchstone::inside(first + at, layout_.cells))
+                nodes[nodeIndex(at)] = static_cast<float>(outside_); // beyond the grid: read by no cell
+        });
+    const auto deepest = static_cast<float>(-inside_), farthest = static_cast<float>(outside_);
+    float least = INFINITY, most = -INFINITY, sum = 0.0f;
+    for (float& value : nodes) {
+        sum += 0.0f * value; // not a number where one is not finite
+        value = std::min(std::max(value, deepest), farthest);
         least = std::min(least, value);
         most = std::max(most, value);
-    });
-    checkBorder(first, nodes);
-    if (least == most) {
-        table_.push_back({least, 0});
-    } else {
-        table_.push_back({kVaries, static_cast<uint32_t>(nodes_.size() / kBrickNodes)});
-        nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
     }
+    if (sum != sum)
+        refuse("has a node that is no finite number", "check its file");
+    if (glm::any(glm::equal(first, glm::ivec3(0))) ||
+        glm::any(glm::greaterThanEqual(first + kBrick, layout_.cells)))
+        checkBorder(first, nodes);
+    if (least == most) {
+        table_.push_back({least, nullptr});
+        measureFlat(first, least);
+        return;
+    }
+    table_.push_back({kVaries, keep(nodes)});
     measure(first, nodes);
+}
+
+const float* FieldGrid::keep(std::span<const float> nodes) {
+    if (kept_ == chunks_.size() * kChunk)
+        chunks_.push_back(std::make_unique<float[]>(kChunk * kBrickNodes));
+    float* const place = chunks_.back().get() + kept_++ % kChunk * kBrickNodes;
+    std::ranges::copy(nodes, place);
+    return place;
 }
 
 void FieldGrid::checkBorder(const glm::ivec3& first, std::span<const float> nodes) const {
@@ -117,32 +130,46 @@ void FieldGrid::checkBorder(const glm::ivec3& first, std::span<const float> node
 /// Bounds of the object, and of the gradient: within a cell each component lies between the differences along
 /// the four parallel edges.
 void FieldGrid::measure(const glm::ivec3& first, std::span<const float> nodes) {
-    for (int z = 0; z < kBrick; ++z)
-        for (int y = 0; y < kBrick; ++y)
-            for (int x = 0; x < kBrick; ++x) {
-                const glm::ivec3 cell(x, y, z);
-                if (!contains(first + cell))
-                    continue;
-                std::array<double, 8> corner{};
-                for (size_t k = 0; k < 8; ++k)
-                    corner[k] =
-                        static_cast<double>(nodes[nodeIndex(cell + glm::ivec3(k & 1, k >> 1 & 1, k >> 2))]);
-                glm::dvec3 steepest(0.0);
-                for (size_t k = 0; k < 8; ++k)
-                    for (int axis = 0; axis < 3; ++axis)
-                        steepest[axis] =
-                            std::max(steepest[axis], std::abs(corner[k] - corner[k ^ (size_t{1} << axis)]));
-                lipschitz_ = std::max(lipschitz_, glm::length(steepest) / layout_.voxel);
-                if (std::ranges::min(corner) <= 0.0) {
-                    const glm::dvec3 at = layout_.origin + layout_.voxel * glm::dvec3(first + cell);
-                    low_ = glm::min(low_, at);
-                    high_ = glm::max(high_, at + layout_.voxel);
+    constexpr size_t kStep[] = {1, kNodes, size_t{kNodes} * kNodes};
+    const glm::ivec3 cells = glm::min(glm::ivec3(kBrick), layout_.cells - first);
+    float steepest = 0.0f;
+    for (int z = 0; z < cells.z; ++z)
+        for (int y = 0; y < cells.y; ++y)
+            for (int x = 0; x < cells.x; ++x) {
+                const float* const at = nodes.data() + nodeIndex({x, y, z});
+                float sum = 0.0f;
+                for (size_t axis = 0; axis < 3; ++axis) {
+                    const size_t d = kStep[axis], b = kStep[(axis + 1) % 3], c = kStep[(axis + 2) % 3];
+                    const float edge =
+                        std::max(std::max(std::abs(at[d] - at[0]), std::abs(at[d + b] - at[b])),
+                                 std::max(std::abs(at[d + c] - at[c]), std::abs(at[d + b + c] - at[b + c])));
+                    sum += edge * edge;
                 }
+                steepest = std::max(steepest, sum);
+                const float lowest = std::min(
+                    std::min(std::min(at[0], at[1]), std::min(at[kNodes], at[kNodes + 1])),
+                    std::min(std::min(at[kNodes * kNodes], at[kNodes * kNodes + 1]),
+                             std::min(at[kNodes * kNodes + kNodes], at[kNodes * kNodes + kNodes + 1])));
+                if (lowest <= 0.0f)
+                    include(first + glm::ivec3(x, y, z), first + glm::ivec3(x, y, z) + 1);
             }
+    constexpr double kRounded = 1.0 + 1e-6; // the sum is of floats
+    lipschitz_ = std::max(lipschitz_, kRounded * std::sqrt(static_cast<double>(steepest)) / layout_.voxel);
+}
+
+void FieldGrid::measureFlat(const glm::ivec3& first, float value) {
+    if (value <= 0.0f)
+        include(first, glm::min(first + kBrick, layout_.cells));
+}
+
+void FieldGrid::include(const glm::ivec3& low, const glm::ivec3& high) {
+    low_ = glm::min(low_, layout_.origin + layout_.voxel * glm::dvec3(low));
+    high_ = glm::max(high_, layout_.origin + layout_.voxel * glm::dvec3(high));
 }
 
 size_t FieldGrid::memoryBytes() const noexcept {
-    return sizeof *this + table_.capacity() * sizeof(Brick) + nodes_.capacity() * sizeof(float);
+    return sizeof *this + table_.capacity() * sizeof(Brick) +
+           chunks_.size() * kChunk * kBrickNodes * sizeof(float);
 }
 
 const FieldGrid::Brick& FieldGrid::brickOf(const glm::ivec3& brick) const noexcept {
@@ -162,12 +189,12 @@ glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {
 
 FieldCell FieldGrid::cell(const glm::ivec3& at) const noexcept {
     const Brick& brick = brickOf(at / kBrick);
-    if (brick.flat == brick.flat) {
+    if (brick.nodes == nullptr) {
         FieldCell flat;
         flat.c[0] = static_cast<double>(brick.flat);
         return flat;
     }
-    const float* const values = nodes_.data() + brick.offset * kBrickNodes + nodeIndex(at % kBrick);
+    const float* const values = brick.nodes + nodeIndex(at % kBrick);
     std::array<double, 8> node{};
     for (size_t k = 0; k < 8; ++k)
         node[k] = static_cast<double>(

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -80,11 +81,14 @@ class FieldGrid {
 
   private:
     struct Brick {
-        float flat;      ///< NaN: the nodes differ
-        uint32_t offset; ///< of its nodes, in bricks
+        float flat;         ///< NaN: the nodes differ
+        const float* nodes; ///< null: all are `flat`
     };
     void fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::vector<float>& nodes);
+    [[nodiscard]] const float* keep(std::span<const float> nodes);
     void measure(const glm::ivec3& first, std::span<const float> nodes);
+    void measureFlat(const glm::ivec3& first, float value);
+    void include(const glm::ivec3& low, const glm::ivec3& high);
     void checkBorder(const glm::ivec3& first, std::span<const float> nodes) const;
     [[nodiscard]] const Brick& brickOf(const glm::ivec3& brick) const noexcept;
 
@@ -92,7 +96,10 @@ class FieldGrid {
     double inside_, outside_, lipschitz_ = 0.0;
     glm::ivec3 bricks_{0};
     std::vector<Brick> table_;
-    std::vector<float> nodes_;
+    /// The nodes of kChunk bricks each: growing copies nothing.
+    static constexpr size_t kChunk = 64;
+    std::vector<std::unique_ptr<float[]>> chunks_;
+    size_t kept_ = 0; ///< bricks in them
     glm::dvec3 low_{INFINITY}, high_{-INFINITY};
     uint64_t hash_ = 0;
 };
