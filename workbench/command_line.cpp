@@ -21,7 +21,8 @@ std::string asTyped(int argc, char** argv) {
 } // namespace
 
 std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
-    CLI::App app{"Touchstone: open a model (glTF, OBJ, STL, PLY), see it and touch it."};
+    CLI::App app{"Touchstone: open a model (glTF, OBJ, STL, PLY) or a volume (NRRD, MetaImage, NIfTI, "
+                 "OpenVDB), see it and touch it."};
     app.name("touchstone");
     app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
     app.footer(settingsHelp() + "\n" + strokesHelp() + "\n" + kExitHelp);

@@ -230,11 +230,12 @@ int windowCommand(const WindowOptions& options) {
     // What is wrong with the command line, before the display is asked for.
     if (!options.scene.empty())
         requireFile(options.scene, options.scene.string(),
-                    "name a glTF, OBJ, STL or PLY model, or a recording");
+                    "name a glTF, OBJ, STL or PLY model, a volume, or a recording");
     if (!options.device.empty())
         requireDevice(options.device, "mouse, hand (the simulated one)");
     WorkbenchWindow workbench(options);
-    workbench.open(options.scene.empty() ? defaultScene() : options.scene);
+    workbench.open(options.scene.empty() ? defaultScene() : options.scene,
+                   {.iso = options.iso, .volume = nullptr});
     while (!workbench.closed())
         workbench.frame();
     return 0;

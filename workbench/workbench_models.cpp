@@ -3,13 +3,13 @@
 
 namespace touchstone {
 
-void WorkbenchWindow::open(const std::filesystem::path& path) {
+void WorkbenchWindow::open(const std::filesystem::path& path, const VolumeChoice& choice) {
     problem_.clear();
     state_.gallery = false;
     if (isRecording(path))
         return timeline_.open(path);
     longestFrame_ = 0.0;
-    opening_.start(path, screen_.renderer());
+    opening_.start(path, screen_.renderer(), choice);
 }
 
 void WorkbenchWindow::takeAnotherDevice(const DeviceLost& lost) {
@@ -52,14 +52,19 @@ void WorkbenchWindow::takeModel() {
 
 void WorkbenchWindow::show(LoadedModel loaded) {
     const ScenePtr scene = loaded.model.scene;
+    // Another surface of the volume that is shown: it is looked at from the same side.
+    const bool sameVolume =
+        hasModel() && scene->volume != nullptr && scene->volume == touch_.shown().model.scene->volume;
     notice_.clear();     // of the previous model
     if (dialog_.saves()) // what it asks about was that model's
         dialog_.close();
     touch_.show(std::move(loaded), scene->path == defaultScene().string());
     drawn_.shown(scene);
     unsavedChanges_.begin();
-    materials_.open(touch_.shown().model, !isSample(scene->path) && !meshFormatNamed(scene->path));
-    view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
+    materials_.open(touch_.shown().model,
+                    !isSample(scene->path) && !meshFormatNamed(scene->path) && scene->volume == nullptr);
+    if (!sameVolume)
+        view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
     nameAfter(scene->path);
     state_.view.part = {};
     try {

@@ -198,6 +198,10 @@ void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& wi
         notice_.clear();
     if (std::exchange(state_.quitPressed, false))
         window_.close();
+    if (const auto iso = std::exchange(state_.iso, std::nullopt); iso && hasModel()) {
+        const Scene& scene = *touch_.shown().model.scene;
+        open(scene.path, {.iso = iso, .volume = scene.volume});
+    }
     if (const auto gone = std::exchange(state_.forget, std::nullopt)) {
         memory_.forget(*gone);
         remember();

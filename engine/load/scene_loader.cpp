@@ -9,15 +9,20 @@
 #include "engine/import/geometry/skin.h"
 #include "engine/import/materials/gltf_images.h"
 #include "engine/import/mesh_file/mesh_import.h"
+#include "engine/import/volume_file/volume_edits.h"
+#include "engine/import/volume_file/volume_import.h"
+#include "engine/import/volume_file/volume_scene.h"
 #include "engine/save/material_patch.h"
 #include "engine/scene/haptic_layers.h"
 
 #include <new>
+#include <system_error>
+#include <utility>
 
 namespace touchstone {
 namespace {
 
-ScenePtr importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
+std::shared_ptr<Scene> importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
     // 1. Check and repair: the structure of the JSON, then the relations of its parts. Valid data needs no
     // further checks.
     context.step(0.2, "checking");
@@ -74,12 +79,39 @@ ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
     return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp);
 }
 
+/// The surface becomes a mesh for the eye; the hand feels the volume.
+ScenePtr importVolume(ImportContext& context, const std::filesystem::path& path, VolumeFormat format) {
+    std::shared_ptr<const Volume> volume = context.options().volume;
+    if (volume == nullptr) {
+        std::error_code problem;
+        const uint64_t size = std::filesystem::file_size(path, problem);
+        volume = readVolume(context, path, format, installedVolumeReader(problem ? 0 : size));
+    }
+    std::string edits = context.options().edits;
+    const std::optional<double> editedIso = takeIso(edits);
+    const double iso = context.options().iso.value_or(editedIso.value_or(volume->defaultIso()));
+    std::vector<uint8_t> glb = glbOfVolume(context, *volume, iso);
+    if (!edits.empty())
+        glb = withMaterials(glb, patchesFrom(edits), context.file());
+    for (const std::string& note : volume->facts().notes)
+        context.warn("volume", note);
+    context.countFileBytes(volume->memoryBytes());
+    const auto scene =
+        importGltf(context, takeGltfApart(context, std::move(glb), path.parent_path()), volume->facts().file);
+    scene->bounds = volume->bounds(); // whatever the value at the surface
+    scene->volume = std::move(volume);
+    scene->iso = iso;
+    return scene;
+}
+
 } // namespace
 
 ScenePtr loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     ImportContext context(path.string(), options);
     try {
         context.step(0.0, "reading the file");
+        if (const auto format = volumeFormatNamed(path))
+            return importVolume(context, path, *format);
         checkMeshSize(path);
         return importBytes(context, readWholeFile(path, context.file(), context.progress().part(0.0, 0.15)),
                            path.parent_path());

@@ -71,6 +71,14 @@ Reading readAll(int pipe, uint64_t most, std::vector<uint8_t>& block, std::vecto
     }
 }
 
+/// Of a child that has ended, from what waitpid gives.
+void setEnd(ProcessAnswer& answer, int status) {
+    using enum ProcessAnswer::End;
+    const bool missing = WIFEXITED(status) && WEXITSTATUS(status) == kCannotStart;
+    answer.end = missing ? NotStarted : WIFEXITED(status) ? Exited : Killed;
+    answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
+}
+
 } // namespace
 
 FileDescriptor::~FileDescriptor() {
@@ -146,10 +154,30 @@ ProcessAnswer askProcess(const std::string& program, const std::vector<std::stri
     }
     if (answer.end == TooLong)
         return answer;
-    const int status = child.status();
-    const bool missing = WIFEXITED(status) && WEXITSTATUS(status) == kCannotStart;
-    answer.end = missing ? NotStarted : WIFEXITED(status) ? Exited : Killed;
-    answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
+    setEnd(answer, child.status());
+    return answer;
+}
+
+ProcessAnswer askProcessInto(const FileDescriptor& output, const std::string& program,
+                             const std::vector<std::string>& arguments, const ProcessLimits& limits,
+                             const FileDescriptor& input, const std::function<bool()>& stop) {
+    using enum ProcessAnswer::End;
+    ProcessAnswer answer;
+    const pid_t pid =
+        startLimited(program, arguments, limits, {.input = input.get(), .output = output.get()});
+    if (pid < 0)
+        return answer;
+    Child child(pid);
+    const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits.seconds);
+    for (int wait = 1; !child.wait(WNOHANG); wait = std::min(2 * wait, kInterval)) {
+        answer.end = stop() ? Stopped : std::chrono::steady_clock::now() >= due ? TooSlow : NotStarted;
+        if (answer.end != NotStarted)
+            return answer; // and kills it
+        poll(nullptr, 0, wait);
+    }
+    setEnd(answer, child.status());
+    if (answer.end == Killed && answer.status == SIGXFSZ)
+        answer.end = TooLong;
     return answer;
 }
 

@@ -51,4 +51,11 @@ struct ProcessAnswer {
                                        const ProcessLimits& limits, const FileDescriptor& input,
                                        uint64_t maxOutput, const std::function<bool()>& stop);
 
+/// The same for a program that writes to the file `output` instead, whose size limits.fileSize bounds; the
+/// answer has no bytes.
+[[nodiscard]] ProcessAnswer askProcessInto(const FileDescriptor& output, const std::string& program,
+                                           const std::vector<std::string>& arguments,
+                                           const ProcessLimits& limits, const FileDescriptor& input,
+                                           const std::function<bool()>& stop);
+
 } // namespace touchstone

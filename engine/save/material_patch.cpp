@@ -4,6 +4,7 @@
 #include "engine/import/file/gltf_file.h"
 #include "engine/import/file/gltf_uri.h"
 #include "engine/import/mesh_file/mesh_import.h"
+#include "engine/import/volume_file/volume_format.h"
 #include "engine/save/json_parts.h"
 #include "engine/save/replace_file.h"
 
@@ -239,6 +240,9 @@ std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes, const Materia
 FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
                         const MaterialPatches& patches, const std::filesystem::path& target) {
     const std::string shownAs = source.string();
+    if (volumeFormatNamed(source))
+        throw Error(shownAs, "", "a volume has no place for what is felt; nothing was written",
+                    "record the session: a recording keeps the changes");
     std::vector<uint8_t> bytes = readWholeFile(source, shownAs);
     if (stampOf(bytes) != loaded)
         throw Error(shownAs, "", "has changed since it was opened; nothing was written",

@@ -107,6 +107,8 @@ struct SceneTexture {
     TextureRef reference;
 };
 
+class Volume; // engine/volume/volume.h
+
 struct Scene {
     std::string path; ///< as given by the user
     FileStamp file;   ///< of the file itself, not of those that it refers to
@@ -120,7 +122,11 @@ struct Scene {
     std::vector<SceneCamera> cameras; ///< in the order of Scene::nodes
     std::vector<Warning> warnings;
     std::vector<std::string> extensionsUsed;
-    Bounds bounds; ///< scene frame, static pose, over the instances' vertices
+    Bounds bounds; ///< scene frame, static pose, over the instances' vertices; of a volume its whole box
+    /// Null, or the volume that the file holds: then the only instance is drawn as the mesh of the surface
+    /// where the values are `iso`, and felt as the field of distances from it.
+    std::shared_ptr<const Volume> volume;
+    double iso = 0.0;
 
     [[nodiscard]] uint64_t triangleCount() const; ///< over the instances
     [[nodiscard]] uint64_t lineCount() const;     ///< segments, over the instances

@@ -1,6 +1,7 @@
 #include "haptics/recording/scene_identity.h"
 
 #include "engine/core/checksum.h"
+#include "engine/import/volume_file/volume_edits.h"
 #include "engine/scene/animation.h"
 
 #include <fstream>
@@ -145,6 +146,7 @@ SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit) {
     readBytes(source.path, identity);
     identity.feltHash = feltHash(scene, source);
     identity.fit = fit;
+    identity.edits = withIso({}, source);
     return identity;
 }
 

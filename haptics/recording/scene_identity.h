@@ -19,7 +19,8 @@ struct SceneIdentity {
     uint64_t fileSize = 0;    ///< bytes; of the file itself, not of those that it refers to
     uint64_t fileHash = 0;    ///< Hash64 of its bytes
     uint64_t feltHash = 0;    ///< of all data that touch reads: see feltHash
-    /// Changes since the file was read: MaterialPatches as JSON (engine/save). Empty: none.
+    /// Changes since the file was read: MaterialPatches as JSON (engine/save), and the value at a volume's
+    /// surface as its member "iso". Empty: none.
     std::string edits;
     ScenePart part; ///< what was seen and felt of it
     Fit fit = Fit::None;

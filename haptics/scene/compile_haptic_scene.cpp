@@ -9,20 +9,26 @@ namespace touchstone {
 
 namespace {
 
-ObjectUse objectUse(const Material& source, const HapticMaterialData& material) {
+ObjectUse objectUse(const Scene& scene, const Material& source, const HapticMaterialData& material) {
+    ObjectUse use;
+    if (scene.volume != nullptr) {
+        use.implicit = true; // whatever its material states
+        return use;
+    }
     if (!source.haptic.implicit)
         return meshUse(material, source.haptic.sides == SideChoice::Front);
-    ObjectUse use;
     use.implicit = true;
     use.voxelSize = source.haptic.voxelSize;
     return use;
 }
 
-/// The object of an instance: its mesh, or the distance field of its mesh.
+/// The object of an instance: its mesh, or the distance field of its mesh or of the scene's volume.
 std::shared_ptr<const HapticObject> builtObject(const Scene& scene, int instance,
                                                 const Similarity& workspaceFromScene, const ObjectUse& use,
                                                 std::vector<Warning>& warnings,
                                                 const Progress& progress = {}) {
+    if (scene.volume != nullptr)
+        return volumeObject(scene, instance, workspaceFromScene, progress, warnings);
     if (!use.implicit)
         return buildHapticObject(scene, instance, workspaceFromScene, use, progress);
     const auto mesh =
@@ -107,7 +113,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
         const auto material = static_cast<size_t>(mesh.material);
         const Progress part = progress.part(fraction(done), fraction(done + mesh.triangleCount()));
         part.step(0.0, "placing vertices");
-        const ObjectUse use = objectUse(scene.materials[material], haptic->materials[material]);
+        const ObjectUse use = objectUse(scene, scene.materials[material], haptic->materials[material]);
         const bool small = mesh.triangleCount() < kWorthReporting && !use.implicit;
         auto object = builtObject(scene, static_cast<int>(i), workspaceFromScene, use, haptic->warnings,
                                   small ? part.silent() : part);
@@ -146,8 +152,8 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
         const auto m = static_cast<size_t>(object->material);
         if (object->instance < 0 || m >= uses.size())
             continue; // geometry and material are not from the file
-        const ObjectUse use = objectUse(after[m], haptic->materials[m]);
-        if (use != objectUse(before[m], compiled.materials[m])) {
+        const ObjectUse use = objectUse(scene, after[m], haptic->materials[m]);
+        if (use != objectUse(scene, before[m], compiled.materials[m])) {
             const bool mesh = object->shape == nullptr;
             object = builtObject(scene, object->instance, compiled.workspaceFromScene, use, haptic->warnings);
             sameMeshes = sameMeshes && mesh && object->shape == nullptr;

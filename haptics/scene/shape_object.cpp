@@ -4,6 +4,10 @@
 #include "engine/device_io/device_io.h"
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/shape/field/mesh_to_field.h"
+#include "haptics/shape/field/volume_to_field.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +16,18 @@
 namespace touchstone {
 
 namespace {
+
+/// m, workspace: how deep a device pushes, and the largest ball (the panel's largest proxy radius, and what
+/// counts as near a model), with room.
+struct Depths {
+    double inside = 0.0, outside = 0.0;
+};
+
+Depths depths() {
+    constexpr double kRoom = 1.5, kLargestBall = 5e-3;
+    const DeviceLimits limits;
+    return {kRoom * limits.maxForce / limits.recommendedStiffness, kRoom * kLargestBall};
+}
 
 std::shared_ptr<HapticObject> objectOf(std::string name, std::shared_ptr<const Shape> shape, int material,
                                        const Similarity& workspaceFromObject) {
@@ -50,17 +66,14 @@ int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> 
 std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
                                                 const Similarity& workspaceFromScene, const ObjectUse& use,
                                                 const Progress& progress, std::vector<Warning>& warnings) {
-    constexpr double kRoom = 1.5, kDeepest = 1.0, kFarthest = 0.25, kCoarsest = 0.25; // object units
-    constexpr double kLargestBall =
-        5e-3; // m: the panel's largest proxy radius, and what counts as near a model
-    const DeviceLimits limits;
+    constexpr double kDeepest = 1.0, kFarthest = 0.25, kCoarsest = 0.25; // object units
     const double objectPerModel = workspaceFromScene.scale / mesh.workspaceFromObject.scale;
     FieldRequest request;
     if (use.voxelSize > 0.0f)
         request.voxel = static_cast<double>(use.voxelSize) * objectPerModel;
     const double scale = mesh.workspaceFromObject.scale;
-    request.inside = std::min(kDeepest, kRoom * limits.maxForce / limits.recommendedStiffness / scale);
-    request.outside = std::clamp(kRoom * kLargestBall / scale, request.outside, kFarthest);
+    request.inside = std::min(kDeepest, depths().inside / scale);
+    request.outside = std::clamp(depths().outside / scale, request.outside, kFarthest);
     const double finest = finestVoxel(mesh, request.outside);
     if (request.voxel < finest || request.voxel > kCoarsest) {
         const FieldRequest usual;
@@ -77,6 +90,32 @@ std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
                  mesh.workspaceFromObject);
     object->instance = mesh.instance;
     object->objectFromMesh = mesh.objectFromMesh;
+    return object;
+}
+
+std::shared_ptr<const HapticObject> volumeObject(const Scene& scene, int instance,
+                                                 const Similarity& workspaceFromScene,
+                                                 const Progress& progress, std::vector<Warning>& warnings) {
+    constexpr double kFarthest = 0.25; // of the volume's longest side
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(instance)].mesh)];
+    const double scale = workspaceFromScene.scale;
+    const glm::dvec3 sides = scene.volume->bounds().extent();
+    const FieldReach reach{
+        .inside = depths().inside / scale,
+        .outside = std::min(depths().outside / scale, kFarthest * std::max({sides.x, sides.y, sides.z}))};
+    const VolumeField field = fieldOfVolume(*scene.volume, scene.iso, reach, scene.path, progress);
+    if (field.coarser > 1.0)
+        warnings.push_back({"volume", "is felt with voxels " + std::to_string(field.coarser) +
+                                          " times as large as its own: a field has at most " +
+                                          std::to_string(static_cast<uint64_t>(kMostVolumeNodes)) +
+                                          " nodes"});
+    const auto object = objectOf(mesh.name, std::make_shared<FieldShape>(field.grid), mesh.material,
+                                 workspaceFromScene * field.sceneFromObject);
+    object->instance = instance;
+    const Similarity objectFromScene = field.sceneFromObject.inverse();
+    object->objectFromMesh = glm::translate(glm::dmat4(1.0), objectFromScene.translation) *
+                             glm::mat4_cast(objectFromScene.rotation) *
+                             glm::scale(glm::dmat4(1.0), glm::dvec3(objectFromScene.scale));
     return object;
 }
 

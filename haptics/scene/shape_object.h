@@ -24,4 +24,12 @@ int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> 
                                                               const ObjectUse& use, const Progress& progress,
                                                               std::vector<Warning>& warnings);
 
+/// The object of a scene's volume (Scene::volume): the field of distances from the surface where its values
+/// are Scene::iso, as deep as above and at most kDeepestVoxels. Not for the servo thread. Throws Error and
+/// Cancelled.
+[[nodiscard]] std::shared_ptr<const HapticObject> volumeObject(const Scene& scene, int instance,
+                                                               const Similarity& workspaceFromScene,
+                                                               const Progress& progress,
+                                                               std::vector<Warning>& warnings);
+
 } // namespace touchstone

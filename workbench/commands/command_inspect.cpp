@@ -49,6 +49,18 @@ void printInspection(const Json& json) {
     if (!json["bounds_m"].is_null())
         print("  bounds %s to %s m", text(json["bounds_m"]["low"]), text(json["bounds_m"]["high"]));
     print(", fitted to the workspace by a factor of %s\n", text(json["workspace_from_scene_scale"]));
+    if (json.contains("volume")) {
+        const Json& volume = json["volume"];
+        std::printf("  %s volume: %s voxels of %s, %s m apart, values %s to %s, surface at %s (Otsu's "
+                    "threshold or what "
+                    "the file states: %s)\n",
+                    text(volume["format"]).c_str(), text(volume["voxels"]).c_str(),
+                    text(volume["type"]).c_str(), text(volume["spacing_m"]).c_str(),
+                    text(volume["values"]["low"]).c_str(), text(volume["values"]["high"]).c_str(),
+                    text(volume["iso"]).c_str(), text(volume["default_iso"]).c_str());
+        print("    %s bytes of values, %s bytes of the field that is felt\n", text(volume["memory_bytes"]),
+              text(volume["field_memory_bytes"]));
+    }
     if (!json["extensions_used"].empty())
         print("  extensions %s\n", json["extensions_used"].dump());
     for (const Json& animation : json["animations"])
@@ -93,7 +105,7 @@ void printInspection(const Json& json) {
 } // namespace
 
 int inspectCommand(const InspectOptions& options) {
-    const Model model = loadModelToTouch(options.scene, Fit::Workspace);
+    const Model model = loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso);
     const Json json = inspectionOf(model);
     printInspection(json);
     // A name that is not UTF-8 is replaced, so that the output stays valid.

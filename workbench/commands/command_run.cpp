@@ -265,7 +265,9 @@ void printResult(const RunResult& run) {
 int runCommand(const RunOptions& options) {
     catchInterrupts();
     RunHands hands(options);
-    Model model = loadModel(options.scene, Fit::Workspace);
+    LoadOptions loading;
+    loading.iso = options.iso;
+    Model model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     prepareFor(model, options.settings);

@@ -298,7 +298,7 @@ int touchCommand(const TouchOptions& options) {
     if (path)
         warnOfSlowPath(*path, options);
     StageClock clock;
-    Model model = loadModelToTouch(options.scene, options.fit, &clock);
+    Model model = loadModelToTouch(options.scene, options.fit, &clock, options.iso);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     clock.at("preparing for the settings");

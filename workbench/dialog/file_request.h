@@ -18,8 +18,9 @@ struct FileKind {
 };
 
 namespace file_kinds {
-inline constexpr std::array<std::string_view, 7> kOpened = {".glb", ".gltf", ".vrm",  ".obj",
-                                                            ".stl", ".ply",  ".tsrec"};
+inline constexpr std::array<std::string_view, 14> kOpened = {".glb", ".gltf",   ".vrm",  ".obj",  ".stl",
+                                                             ".ply", ".nrrd",   ".nhdr", ".mhd",  ".mha",
+                                                             ".nii", ".nii.gz", ".vdb",  ".tsrec"};
 inline constexpr std::array<std::string_view, 1> kRecording = {".tsrec"};
 } // namespace file_kinds
 

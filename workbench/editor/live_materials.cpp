@@ -57,6 +57,9 @@ bool sameSurfaces(const std::vector<Material>& before, const std::vector<Materia
 void readAnew(const MaterialJob& job, MadeMaterials& made) {
     LoadOptions options;
     options.edits = job.edits;
+    options.volume = job.model.scene->volume;
+    if (options.volume != nullptr)
+        options.iso = job.model.scene->iso;
     const ScenePtr scene = loadScene(job.path, options);
     if (scene->file != job.stamp)
         throw Error(scene->path, "", "has changed since it was opened", "open it again");

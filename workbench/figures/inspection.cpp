@@ -4,7 +4,9 @@
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "engine/time/samples.h"
+#include "engine/volume/volume.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/shape/field/field_shape.h"
 #include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
 
@@ -239,6 +241,25 @@ Json slopesJson(const Model& model) {
     return {{"memory_bytes", bytes}, {"build_s", seconds}};
 }
 
+Json volumeJson(const Model& model) {
+    const Volume& volume = *model.scene->volume;
+    const VolumeFacts& facts = volume.facts();
+    uint64_t field = 0;
+    for (const auto& object : model.haptic->objects)
+        if (const auto* shape = dynamic_cast<const FieldShape*>(object->shape.get()))
+            field += shape->grid().memoryBytes();
+    return {
+        {"format", facts.format},
+        {"type", facts.fileType},
+        {"voxels", {facts.size.x, facts.size.y, facts.size.z}},
+        {"spacing_m", {glm::length(facts.axes[0]), glm::length(facts.axes[1]), glm::length(facts.axes[2])}},
+        {"values", {{"low", volume.low()}, {"high", volume.high()}}},
+        {"iso", model.scene->iso},
+        {"default_iso", volume.defaultIso()},
+        {"memory_bytes", volume.memoryBytes()},
+        {"field_memory_bytes", field}};
+}
+
 } // namespace
 
 Json inspectionOf(const Model& model) {
@@ -248,29 +269,32 @@ Json inspectionOf(const Model& model) {
         animations.push_back({{"name", animation.name},
                               {"duration_s", animation.duration},
                               {"channels", animation.channels.size()}});
-    return {{"command", "inspect"},
-            {"scene", scene.path},
-            {"meshes", scene.meshes.size()},
-            {"instances", scene.instances.size()},
-            {"nodes", scene.nodes.size()},
-            {"triangles", scene.triangleCount()},
-            {"lines", scene.lineCount()},
-            {"points", scene.pointCount()},
-            {"touchable", scene.touchable()},
-            {"bounds_m", scene.bounds.empty() ? Json()
-                                              : Json{{"low", vectorJson(scene.bounds.low)},
-                                                     {"high", vectorJson(scene.bounds.high)}}},
-            {"workspace_from_scene_scale", model.workspaceFromScene.scale},
-            {"extensions_used", scene.extensionsUsed},
-            {"animations", animations},
-            {"cameras", camerasJson(scene)},
-            {"images", imagesJson(scene)},
-            {"materials", materialsJson(model)},
-            {"objects", objectsJson(model)},
-            {"tick_p50_ns", tickCostJson(model)},
-            {"neighbourhood", neighbourhoodJson(model)},
-            {"slopes", slopesJson(model)},
-            {"warnings", warningsJson(model)}};
+    Json json{{"command", "inspect"},
+              {"scene", scene.path},
+              {"meshes", scene.meshes.size()},
+              {"instances", scene.instances.size()},
+              {"nodes", scene.nodes.size()},
+              {"triangles", scene.triangleCount()},
+              {"lines", scene.lineCount()},
+              {"points", scene.pointCount()},
+              {"touchable", scene.touchable()},
+              {"bounds_m", scene.bounds.empty() ? Json()
+                                                : Json{{"low", vectorJson(scene.bounds.low)},
+                                                       {"high", vectorJson(scene.bounds.high)}}},
+              {"workspace_from_scene_scale", model.workspaceFromScene.scale},
+              {"extensions_used", scene.extensionsUsed},
+              {"animations", animations},
+              {"cameras", camerasJson(scene)},
+              {"images", imagesJson(scene)},
+              {"materials", materialsJson(model)},
+              {"objects", objectsJson(model)},
+              {"tick_p50_ns", tickCostJson(model)},
+              {"neighbourhood", neighbourhoodJson(model)},
+              {"slopes", slopesJson(model)},
+              {"warnings", warningsJson(model)}};
+    if (scene.volume != nullptr)
+        json["volume"] = volumeJson(model);
+    return json;
 }
 
 } // namespace touchstone

@@ -22,16 +22,19 @@ Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& o
     return model;
 }
 
-Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock) {
+Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock,
+                       std::optional<double> iso) {
     LoadOptions options;
+    options.iso = iso;
     if (clock != nullptr)
         options.progress = [clock](double, const char* what) { clock->at(what); };
     options.images.visual = false;
     return loadModel(path, fit, options);
 }
 
-Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor) {
+Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor, std::optional<double> iso) {
     LoadOptions options;
+    options.iso = iso;
     options.images.haptic = falseColor;
     Model model;
     model.scene = loadScene(path, options);

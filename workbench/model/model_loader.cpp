@@ -25,12 +25,12 @@ void ModelLoader::abandon() {
     next_.reset();
 }
 
-void ModelLoader::start(const std::filesystem::path& path) {
+void ModelLoader::start(const std::filesystem::path& path, const VolumeChoice& choice) {
     path_ = path;
     if (!worker_.joinable())
-        return begin({path});
+        return begin({path, choice});
     abandon();
-    next_ = Request{path};
+    next_ = Request{path, choice};
 }
 
 std::shared_ptr<const StrokePath> tourOver(const Scene& scene, const Similarity& workspaceFromScene) {
@@ -60,6 +60,8 @@ void ModelLoader::begin(const Request& request) {
             // For a million triangles on two cores; the simplification is by far the longest.
             const Progress whole(&options.progress, &cancelled_);
             LoadOptions loading = options;
+            loading.iso = request.choice.iso;
+            loading.volume = request.choice.volume;
             loading.progress = [&](double fraction, const char* what) {
                 whole.report(0.25 * fraction, what);
             };
@@ -73,8 +75,10 @@ void ModelLoader::begin(const Request& request) {
             }
             whole.step(0.29, "knowing the model again");
             loaded.identity = identify(*loaded.model.haptic, *loaded.model.scene, Fit::Workspace);
-            loaded.prepared =
-                prepareScene(loaded.model.scene, {.cancel = &cancelled_, .progress = whole.part(0.3, 1.0)});
+            PrepareOptions prepare{.cancel = &cancelled_, .progress = whole.part(0.3, 1.0)};
+            if (request.choice.volume != nullptr)
+                prepare.coarsest = 0; // another surface of a volume that is shown: no time to simplify it
+            loaded.prepared = prepareScene(loaded.model.scene, prepare);
             if (!device.empty() && !cancelled_.load(std::memory_order_relaxed))
                 compileAhead(device, loaded.prepared);
             result_ = std::move(loaded);

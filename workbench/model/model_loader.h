@@ -26,6 +26,12 @@ struct LoadedModel {
     std::shared_ptr<const PreparedScene> prepared; ///< for the renderer
 };
 
+/// Of a volume: LoadOptions::iso and LoadOptions::volume.
+struct VolumeChoice {
+    std::optional<double> iso;
+    std::shared_ptr<const Volume> volume;
+};
+
 /// Loads models on a worker thread, one at a time: a new request cancels the current one and starts when that
 /// has ended. Main thread only; only the destructor waits for the worker.
 class ModelLoader {
@@ -38,7 +44,7 @@ class ModelLoader {
     /// From now on, models' shaders are compiled by the worker, too, for this device (renderer's
     /// compileAhead).
     void compileFor(std::string device) { device_ = std::move(device); }
-    void start(const std::filesystem::path& path);
+    void start(const std::filesystem::path& path, const VolumeChoice& choice = {});
 
     /// Cancels loading; `loading` stays true until the worker has ended.
     void abandon();
@@ -60,6 +66,7 @@ class ModelLoader {
   private:
     struct Request {
         std::filesystem::path path;
+        VolumeChoice choice;
     };
     void begin(const Request& request);
 

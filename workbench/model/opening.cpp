@@ -4,9 +4,9 @@
 
 namespace touchstone {
 
-void Opening::start(const std::filesystem::path& path, SceneRenderer& renderer) {
+void Opening::start(const std::filesystem::path& path, SceneRenderer& renderer, const VolumeChoice& choice) {
     cancel(renderer);
-    loader_.start(path);
+    loader_.start(path, choice);
 }
 
 std::optional<LoadedModel> Opening::update(SceneRenderer& renderer) {

@@ -57,8 +57,10 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
 
 void defineWindow(CLI::App& app, WindowOptions& options) {
     addScene(app, options.scene)
-        ->description("Model (glTF, OBJ, STL, PLY) or recording (.tsrec) to open in a window; without it the "
-                      "board of effects");
+        ->description(
+            "Model (glTF, OBJ, STL, PLY), volume (NRRD, MetaImage, NIfTI, OpenVDB) or recording (.tsrec) "
+            "to open in a window; without it the board of effects");
+    addIso(app, options.iso);
     addSettings(app, [&options](std::string_view name, std::string_view value) {
         HapticSettings tried; // tests validity; applied over the settings of the last run
         options.settings.emplace_back(name, value);
@@ -125,6 +127,7 @@ void requireHands(const RunOptions& options) {
 
 void defineRun(CLI::App& app, RunOptions& options) {
     addScene(app, options.scene)->required();
+    addIso(app, options.iso);
     app.add_flag_function(
         "--headless", [](int64_t) {}, "Accepted for older scripts: `run` never opens a window");
     app.add_option("--seconds", options.seconds, "How long [10]")
@@ -163,6 +166,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
 
 void defineTouch(CLI::App& app, TouchOptions& options) {
     addScene(app, options.scene)->required();
+    addIso(app, options.iso);
     CLI::Option* path =
         app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
             ->type_name("HIP.csv");
@@ -248,6 +252,7 @@ void defineEdit(CLI::App& app, EditOptions& options) {
 
 void defineRender(CLI::App& app, RenderOptions& options) {
     addScene(app, options.scene)->required();
+    addIso(app, options.iso);
     addPicture(app, "--out", options.out, "The picture: PNG or JPEG")->required();
     addSize(app, "--size", options.size, "Size of the picture [1280x720]");
     std::vector<std::string> views;
@@ -266,6 +271,7 @@ void defineRender(CLI::App& app, RenderOptions& options) {
 
 void defineInspect(CLI::App& app, InspectOptions& options) {
     addScene(app, options.scene)->required();
+    addIso(app, options.iso);
     app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
 }
 

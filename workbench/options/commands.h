@@ -43,9 +43,10 @@ struct WindowOptions {
     std::filesystem::path statusJson; ///< written twice a second if given
     RecordingOptions recording;
     std::filesystem::path
-        environment; ///< a panorama that lights the picture; empty: the closed-form surroundings
-    std::string gpu; ///< part of a Vulkan device's name
-    PartNames part;  ///< of the first model
+        environment;           ///< a panorama that lights the picture; empty: the closed-form surroundings
+    std::string gpu;           ///< part of a Vulkan device's name
+    std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    PartNames part;            ///< of the first model
 };
 int windowCommand(const WindowOptions& options);
 
@@ -68,7 +69,8 @@ struct RunOptions {
     PlantParameters plant;             ///< in the closed loop
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
-    PartNames part; ///< what is seen and felt
+    std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    PartNames part;            ///< what is seen and felt
 };
 int runCommand(const RunOptions& options);
 
@@ -83,10 +85,11 @@ struct TouchOptions {
     std::filesystem::path sound;  ///< WAV; empty: not requested
     Fit fit = Fit::None;
     HapticSettings settings;
-    double rateHz = 0.0;     ///< 0: one tick per row of the path
-    bool closedLoop = false; ///< the path is the hand's intention; the hand is compliant and holds a device
-    PlantParameters plant;   ///< in the closed loop
-    PartNames part;          ///< what is felt
+    double rateHz = 0.0;       ///< 0: one tick per row of the path
+    bool closedLoop = false;   ///< the path is the hand's intention; the hand is compliant and holds a device
+    PlantParameters plant;     ///< in the closed loop
+    std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    PartNames part;            ///< what is felt
 };
 int touchCommand(const TouchOptions& options);
 
@@ -131,6 +134,7 @@ struct RenderOptions {
     bool wireframe = false, grid = false;
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
+    std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
 };
 int renderCommand(const RenderOptions& options);
 
@@ -138,6 +142,7 @@ int renderCommand(const RenderOptions& options);
 struct InspectOptions {
     std::filesystem::path scene;
     std::filesystem::path json; ///< empty: not requested
+    std::optional<double> iso;  ///< of a volume: the value at its surface; none: Volume::defaultIso
 };
 int inspectCommand(const InspectOptions& options);
 

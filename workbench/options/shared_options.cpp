@@ -311,8 +311,19 @@ void addRecording(CLI::App& app, RecordingOptions& options) {
         ->check(CLI::Range(1.0, 600.0));
 }
 
+void addIso(CLI::App& app, std::optional<double>& iso) {
+    app.add_option("--iso", iso,
+                   "Of a volume: the value at its surface; inside are the higher ones [Otsu's threshold]")
+        ->type_name("VALUE");
+}
+
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
-    return app.add_option("SCENE", scene, "Model: a .gltf, .glb, .obj, .stl or .ply file")->type_name("");
+    return app
+        .add_option(
+            "SCENE", scene,
+            "Model: a .gltf, .glb, .obj, .stl or .ply file; volume: .nrrd, .nhdr, .mhd, .mha, .nii, .nii.gz "
+            "or .vdb")
+        ->type_name("");
 }
 
 void addDevice(CLI::App& app, const std::string& builtIn,

@@ -43,6 +43,8 @@ void addRate(CLI::App& app, double& rate, const std::string& meaning);
 void addGpu(CLI::App& app, std::string& gpu);
 void addEnvironment(CLI::App& app, std::filesystem::path& file);
 void addRecording(CLI::App& app, RecordingOptions& options);
+/// --iso, of volumes.
+void addIso(CLI::App& app, std::optional<double>& iso);
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene);
 /// --device; `builtIn`: names accepted besides devices.
 void addDevice(CLI::App& app, const std::string& builtIn,

@@ -20,8 +20,10 @@ struct Note {
 constexpr std::array kNotes{
     // The bar.
     Note{"file", "Open a model or a recording, save the picture, quit"},
-    Note{"menu:open", "Open a model (glTF, OBJ, STL, PLY) or a recording (Ctrl+O)"},
+    Note{"menu:open", "Open a model (glTF, OBJ, STL, PLY), a volume or a recording (Ctrl+O)"},
     Note{"menu:recordings", "List the recordings in the panel below"},
+    Note{"histogram", "Voxels by value, on a logarithmic scale; the line is the surface"},
+    Note{"iso", "The value at the surface that is seen and felt; inside are the higher ones"},
     Note{"gallery", "Our scenes and recent files as pictures"},
     Note{"sample:", "Open this scene of ours"},
     Note{"menu:recent:", "Open this file again"},

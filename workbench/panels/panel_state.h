@@ -126,6 +126,7 @@ struct PanelState {
     bool openPressed = false; ///< ask for a file to open
     bool noticeDismissed = false;
     std::optional<ChartFile> chartWanted;
+    std::optional<double> iso;                         ///< of the volume: build this surface
     std::optional<std::filesystem::path> open, forget; ///< forget: remove it from the recent files
 };
 

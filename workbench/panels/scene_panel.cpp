@@ -105,6 +105,7 @@ void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.mark("model", input.scene != nullptr ? input.modelPath : std::string());
     if (!input.modelFacts.empty())
         widgets.wrapped(input.modelFacts, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    drawVolume(input, state, widgets);
     if (input.scene != nullptr && !input.scene->nodes.empty())
         NodeTree(*input.scene, touchedNode(input), state.view.part, widgets).draw();
     if (input.warnings.empty() && input.notice.empty())

@@ -1,5 +1,6 @@
 #include "workbench/touch/live_touch.h"
 
+#include "engine/import/volume_file/volume_edits.h"
 #include "engine/time/seconds_now.h"
 #include "session/device_port.h"
 
@@ -41,13 +42,13 @@ void LiveTouch::change(const MadeMaterials& made) {
     if (made.scene != nullptr)
         shown_.model.scene = whole_.scene = made.scene;
     whole_.haptic = made.haptic;
-    wholeEdits_ = made.edits;
+    wholeEdits_ = withIso(made.edits, *shown_.model.scene);
     if (swap == SceneSwap::Anew) // also for a part of the geometry before, which may be on its way
         toWhole_ = toPart_ = swap;
     if (!shown_.model.part.whole())
         return; // a part of it follows (showPart)
     felt_ = made.haptic;
-    shown_.identity.edits = made.edits;
+    shown_.identity.edits = wholeEdits_;
     shown_.model.haptic = made.haptic;
     shown_.identity.feltHash = made.feltHash;
     offerScene(swap);

@@ -2,9 +2,13 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace touchstone {
+
+class Volume; // engine/volume/volume.h
 
 /// The images to decode: of these, only those that a material of a placed mesh needs.
 struct ImageUse {
@@ -20,6 +24,10 @@ struct LoadOptions {
     std::function<void(double fraction, const char* what)> progress;
     /// MaterialPatches as text (engine/save/material_patch.h) that are applied to the file; empty: none.
     std::string edits;
+    /// Of a volume: the value at its surface; none: that of the edits, else Volume::defaultIso.
+    std::optional<double> iso;
+    /// The volume of the file, where it has been read before: it is not read again. May be null.
+    std::shared_ptr<const Volume> volume;
     /// Set it to stop: loadScene then throws Error with problem "cancelled". May be null.
     const std::atomic<bool>* cancel = nullptr;
 };

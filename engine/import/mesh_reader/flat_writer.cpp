@@ -1,13 +1,12 @@
 #include "engine/import/mesh_reader/flat_writer.h"
 
 #include "engine/import/mesh_file/flat_format.h"
+#include "engine/import/reader_child/standard_streams.h"
 
 #include <assimp/material.h>
 #include <assimp/scene.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -20,7 +19,7 @@ namespace {
 
 class FlatOutput {
   public:
-    explicit FlatOutput(int file) : file_(file) { block_.reserve(kBlock); }
+    FlatOutput() { block_.reserve(kBlock); }
 
     template <class Number>
     void put(Number number) {
@@ -40,18 +39,12 @@ class FlatOutput {
         }
     }
     void flush() {
-        for (size_t at = 0; at < block_.size();) {
-            const ssize_t written = write(file_, block_.data() + at, block_.size() - at);
-            if (written < 0 && errno != EINTR)
-                throw std::runtime_error("the answer cannot be written");
-            at += static_cast<size_t>(std::max<ssize_t>(written, 0));
-        }
+        writeOutput(block_.data(), block_.size());
         block_.clear();
     }
 
   private:
     static constexpr size_t kBlock = size_t{1} << 16;
-    int file_;
     std::vector<char> block_;
 };
 
@@ -102,7 +95,7 @@ std::string materialName(const aiScene& scene, unsigned index) {
 
 } // namespace
 
-void writeFlat(const aiScene& scene, int file) {
+void writeFlat(const aiScene& scene) {
     std::vector<const aiMesh*> meshes;
     for (unsigned i = 0; i < scene.mNumMeshes; ++i)
         if (trianglesOf(*scene.mMeshes[i]) > 0)
@@ -116,7 +109,7 @@ void writeFlat(const aiScene& scene, int file) {
     for (const aiMesh* mesh : meshes)
         if (std::ranges::find(materials, mesh->mMaterialIndex) == materials.end())
             materials.push_back(mesh->mMaterialIndex);
-    FlatOutput output(file);
+    FlatOutput output;
     output.put(kFlatMagic);
     output.put(static_cast<uint32_t>(materials.size()));
     output.put(static_cast<uint32_t>(meshes.size()));

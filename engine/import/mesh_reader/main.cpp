@@ -7,14 +7,13 @@
 
 #include "engine/import/mesh_reader/flat_writer.h"
 #include "engine/import/mesh_reader/one_file.h"
-#include "engine/import/mesh_reader/sandbox.h"
+#include "engine/import/reader_child/sandbox.h"
+#include "engine/import/reader_child/standard_streams.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -26,17 +25,6 @@
 
 namespace touchstone {
 namespace {
-
-std::span<const uint8_t> standardInput() {
-    struct stat facts {};
-    if (fstat(STDIN_FILENO, &facts) != 0 || facts.st_size <= 0)
-        throw std::runtime_error("there is nothing to read");
-    const auto size = static_cast<size_t>(facts.st_size);
-    void* bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, STDIN_FILENO, 0);
-    if (bytes == MAP_FAILED)
-        throw std::runtime_error("the input cannot be mapped");
-    return {static_cast<const uint8_t*>(bytes), size};
-}
 
 void read(const std::string& ending) {
     const std::span<const uint8_t> bytes = standardInput();
@@ -60,13 +48,8 @@ void read(const std::string& ending) {
     const std::string problem = importer.GetErrorString();
     if (scene == nullptr) // points and lines alone: the library's words for it would help nobody
         throw std::runtime_error(problem == "No meshes remaining" ? "it holds no triangles" : problem);
-    writeFlat(*scene, STDOUT_FILENO);
+    writeFlat(*scene);
     _exit(0); // memory is the system's to tidy
-}
-
-[[noreturn]] void refuse(const std::string& why) {
-    [[maybe_unused]] const ssize_t written = write(STDOUT_FILENO, why.data(), why.size());
-    _exit(1);
 }
 
 } // namespace
@@ -76,10 +59,10 @@ int main(int argc, char** argv) {
     try {
         if (argc == 2)
             touchstone::read(argv[1]);
-        touchstone::refuse("usage: touchstone_mesh_reader obj|stl|ply <MODEL");
+        touchstone::endWith(1, "usage: touchstone_mesh_reader obj|stl|ply <MODEL");
     } catch (const std::bad_alloc&) {
-        touchstone::refuse("it needs more memory than it may have");
+        touchstone::endWith(1, "it needs more memory than it may have");
     } catch (const std::exception& error) {
-        touchstone::refuse(error.what());
+        touchstone::endWith(1, error.what());
     }
 }

@@ -1,4 +1,4 @@
-#include "engine/import/mesh_reader/sandbox.h"
+#include "engine/import/reader_child/sandbox.h"
 
 #include <linux/audit.h>
 #include <linux/filter.h>

@@ -1,0 +1,18 @@
+#pragma once
+// The value at a volume's surface beside the edits of materials, in recordings.
+
+#include "engine/scene/scene.h"
+
+#include <optional>
+#include <string>
+
+namespace touchstone {
+
+/// `edits` (MaterialPatches as text) with the value at the surface of the scene's volume as its member
+/// "iso"; the same where the scene has no volume.
+[[nodiscard]] std::string withIso(const std::string& edits, const Scene& scene);
+
+/// Removes the member. Throws Error where the text is no JSON object.
+[[nodiscard]] std::optional<double> takeIso(std::string& edits);
+
+} // namespace touchstone

@@ -1,0 +1,160 @@
+#include "engine/volume/volume_mesh.h"
+
+#include "engine/core/error.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+constexpr const char* kMeshing = "meshing the surface";
+constexpr int kLeaf = 8;
+constexpr int kMostStride = 4; // a volume has at most 2^30 voxels
+
+/// Every `stride`-th voxel, and one layer of outside about them; coordinates from 0 on.
+class Samples {
+  public:
+    Samples(const Volume& volume, double iso, int stride)
+        : volume_(volume), stride_(stride), iso_(static_cast<float>(iso)),
+          far_(static_cast<float>(volume.high() - volume.low())), size_((volume.size() - 1) / stride + 1) {}
+
+    [[nodiscard]] const glm::ivec3& size() const { return size_; }
+    [[nodiscard]] float far() const { return far_; }
+    /// Whether the surface may pass between the samples low..high, inclusive; outside of the volume is
+    /// outside.
+    [[nodiscard]] bool crosses(const glm::ivec3& low, const glm::ivec3& high) const {
+        const ValueRange range = rangeOf(low, high);
+        return range.low < iso_ && range.high >= iso_;
+    }
+    /// Of a sample where the surface is far; also of places beyond the volume.
+    [[nodiscard]] bool inside(const glm::ivec3& at) const { return rangeOf(at, at).low >= iso_; }
+
+    /// Positive outside; of the samples from `first` on along a row, of which at most kLeaf are asked for.
+    void fill(const glm::ivec3& first, std::span<float> values) const {
+        std::ranges::fill(values, far_);
+        const auto off = [&](int axis) { return first[axis] < 0 || first[axis] >= size_[axis]; };
+        const int begin = std::max(first.x, 0);
+        const int end = std::min(first.x + static_cast<int>(values.size()), size_.x);
+        if (off(1) || off(2) || begin >= end)
+            return;
+        std::array<float, kLeaf * kMostStride> stored{};
+        volume_.row(stride_ * glm::ivec3(begin, first.y, first.z),
+                    std::span(stored).first(static_cast<size_t>((end - begin - 1) * stride_ + 1)));
+        const auto border = [&](int at, int axis) { return at == 0 || at == size_[axis] - 1; };
+        for (int x = begin; x < end; ++x) {
+            const float value = iso_ - stored[static_cast<size_t>((x - begin) * stride_)];
+            const bool last = border(x, 0) || border(first.y, 1) || border(first.z, 2);
+            values[static_cast<size_t>(x - first.x)] = last ? std::max(value, kBorder * far_) : value;
+        }
+    }
+
+  private:
+    static constexpr float kBorder = 1e-3f;
+
+    [[nodiscard]] ValueRange rangeOf(const glm::ivec3& low, const glm::ivec3& high) const {
+        const glm::ivec3 last = size_ - 1;
+        ValueRange range{INFINITY, -INFINITY};
+        if (glm::any(glm::lessThan(low, glm::ivec3(1))) || glm::any(glm::greaterThanEqual(high, last)))
+            range.low = -INFINITY;
+        const glm::ivec3 a = glm::clamp(low, glm::ivec3(0), last) * stride_ / Volume::kBlock;
+        const glm::ivec3 b = glm::clamp(high, glm::ivec3(0), last) * stride_ / Volume::kBlock;
+        for (int z = a.z; z <= b.z; ++z)
+            for (int y = a.y; y <= b.y; ++y)
+                for (int x = a.x; x <= b.x; ++x) {
+                    range.low = std::min(range.low, volume_.range({x, y, z}).low);
+                    range.high = std::max(range.high, volume_.range({x, y, z}).high);
+                }
+        return range;
+    }
+
+    const Volume& volume_;
+    int stride_;
+    float iso_, far_;
+    glm::ivec3 size_;
+};
+
+/// Leaves of 8^3 where the surface passes and next to them; elsewhere tiles that tell the side.
+openvdb::FloatGrid::Ptr gridOf(const Samples& samples, const Progress& progress) {
+    auto grid = openvdb::FloatGrid::create(samples.far());
+    openvdb::FloatGrid::Accessor accessor = grid->getAccessor();
+    const glm::ivec3 leaves = samples.size() / kLeaf + 1; // the first begins one leaf before
+    std::array<float, kLeaf> values{};
+    const auto fill = [&](const glm::ivec3& first) {
+        const openvdb::Coord at(first.x, first.y, first.z);
+        if (!samples.crosses(first - 1, first + kLeaf)) {
+            if (samples.inside(first))
+                accessor.addTile(1, at, -samples.far(), false);
+            return;
+        }
+        auto* const leaf = accessor.touchLeaf(at);
+        for (int k = 0; k < kLeaf; ++k)
+            for (int j = 0; j < kLeaf; ++j) {
+                samples.fill(first + glm::ivec3(0, j, k), values);
+                for (int i = 0; i < kLeaf; ++i)
+                    leaf->setValueOn(openvdb::Coord(i, j, k), values[static_cast<size_t>(i)]);
+            }
+    };
+    for (int z = -1; z <= leaves.z; ++z) {
+        progress.step(share(static_cast<size_t>(z + 1), static_cast<size_t>(leaves.z + 1)), kMeshing);
+        for (int y = -1; y <= leaves.y; ++y)
+            for (int x = -1; x <= leaves.x; ++x)
+                fill(kLeaf * glm::ivec3(x, y, z));
+    }
+    return grid;
+}
+
+} // namespace
+
+SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& shownAs,
+                         const Progress& progress) {
+    volume.checkIso(iso, shownAs);
+    int stride = 1;
+    while (volume.voxels() / (uint64_t(stride) * uint64_t(stride) * uint64_t(stride)) > kMostDrawnVoxels)
+        ++stride;
+    const Samples samples(volume, iso, stride);
+    const openvdb::FloatGrid::Ptr grid = gridOf(samples, progress.part(0.0, 0.4));
+    progress.step(0.4, kMeshing);
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3I> triangles;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(*grid, points, triangles, quads, 0.0, 0.0);
+    progress.step(0.8, kMeshing);
+    if (quads.empty() && triangles.empty())
+        throw Error(shownAs, "", "has no surface with this value", "give another --iso");
+    SurfaceMesh mesh;
+    mesh.positions.reserve(points.size());
+    for (const openvdb::Vec3s& point : points)
+        mesh.positions.emplace_back(volume.scenePoint(
+            glm::clamp(static_cast<double>(stride) * glm::dvec3(point.x(), point.y(), point.z()),
+                       glm::dvec3(0.0), glm::dvec3(volume.size() - 1))));
+    mesh.corners.reserve(6 * quads.size() + 3 * triangles.size());
+    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+        mesh.corners.insert(mesh.corners.end(), {a, b, c});
+    };
+    for (const openvdb::Vec4I& quad : quads) {
+        add(quad[0], quad[1], quad[2]);
+        add(quad[0], quad[2], quad[3]);
+    }
+    for (const openvdb::Vec3I& triangle : triangles)
+        add(triangle[0], triangle[1], triangle[2]);
+    mesh.normals.assign(points.size(), glm::vec3(0.0f));
+    for (size_t at = 0; at < mesh.corners.size(); at += 3) {
+        const uint32_t* const corner = &mesh.corners[at];
+        const glm::vec3 area = glm::cross(mesh.positions[corner[1]] - mesh.positions[corner[0]],
+                                          mesh.positions[corner[2]] - mesh.positions[corner[0]]);
+        for (int k = 0; k < 3; ++k)
+            mesh.normals[corner[k]] += area;
+    }
+    for (glm::vec3& normal : mesh.normals)
+        normal = glm::dot(normal, normal) > 0.0f ? glm::normalize(normal) : glm::vec3(0.0f, 1.0f, 0.0f);
+    return mesh;
+}
+
+} // namespace touchstone

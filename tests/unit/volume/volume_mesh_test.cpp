@@ -1,0 +1,51 @@
+// What the eye sees of a volume.
+#include "engine/load/scene_loader.h"
+#include "engine/volume/volume_mesh.h"
+#include "tests/unit/volume/made_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace touchstone {
+namespace {
+
+TEST(VolumeMesh, LiesOnTheSphereAndFacesOutwards) {
+    const auto volume = test::madeVolume("ball", glm::ivec3(48), "float");
+    const SurfaceMesh mesh = meshOfVolume(*volume, 50.0, "ball");
+    const double radius = 0.2 * assets::kBallRadius, voxel = 0.2 / 48;
+    double enclosed = 0.0;
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_NEAR(glm::length(glm::dvec3(mesh.positions[i])), radius, 0.1 * voxel);
+        EXPECT_GT(glm::dot(glm::normalize(mesh.positions[i]), mesh.normals[i]), 0.98f);
+    }
+    for (size_t i = 0; i < mesh.corners.size(); i += 3)
+        enclosed += glm::dot(glm::dvec3(mesh.positions[mesh.corners[i]]),
+                             glm::cross(glm::dvec3(mesh.positions[mesh.corners[i + 1]]),
+                                        glm::dvec3(mesh.positions[mesh.corners[i + 2]]))) /
+                    6.0;
+    EXPECT_NEAR(enclosed, 4.0 / 3.0 * 3.14159265 * radius * radius * radius, 0.01 * enclosed);
+}
+
+TEST(VolumeMesh, IsClosedWhereTheVolumeEnds) {
+    const auto volume = test::madeVolume("gyroid", {32, 40, 24}, "uint8");
+    const SurfaceMesh mesh = meshOfVolume(*volume, 100.0, "gyroid");
+    std::map<std::pair<uint32_t, uint32_t>, int> edges;
+    for (size_t i = 0; i < mesh.corners.size(); i += 3)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = mesh.corners[i + k], b = mesh.corners[i + (k + 1) % 3];
+            edges[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+    int open = 0;
+    for (const auto& [edge, balance] : edges)
+        open += balance != 0 ? 1 : 0;
+    EXPECT_EQ(open, 0);
+    const Bounds box = volume->bounds();
+    for (const glm::vec3& p : mesh.positions) {
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(glm::dvec3(p), box.low - 1e-7)));
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::dvec3(p), box.high + 1e-7)));
+    }
+}
+
+} // namespace
+} // namespace touchstone
