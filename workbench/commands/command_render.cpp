@@ -39,9 +39,9 @@ int renderCommand(const RenderOptions& options) {
     LoadOptions loading;
     loading.iso = options.iso;
     // The plan belongs to the haptic scene.
-    Model model = mode == ViewMode::Effects ? loadModel(options.scene, Fit::Workspace, loading)
-                                                  : loadModelToSee(options.scene, Fit::Workspace,
-                                                                   mode != ViewMode::Shaded, options.iso);
+    Model model = mode == ViewMode::Effects
+                      ? loadModel(options.scene, Fit::Workspace, loading)
+                      : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
