@@ -52,6 +52,16 @@ int beyondStreams(int descriptor, int otherwise) {
     return fcntl(descriptor < 0 ? otherwise : descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
 }
 
+/// The standard streams; before RLIMIT_NOFILE, since the caller's descriptors take the low numbers until
+/// exec.
+bool takeStreams(const ProcessStreams& streams) {
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    const int input = beyondStreams(streams.input, nothing), output = beyondStreams(streams.output, nothing),
+              error = beyondStreams(-1, nothing);
+    return dup2(input, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 &&
+           dup2(error, STDERR_FILENO) >= 0;
+}
+
 /// In the child, which shares our memory until exec: system calls only.
 [[noreturn]] void become(const Start& start) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -60,19 +70,15 @@ int beyondStreams(int descriptor, int otherwise) {
     limit(RLIMIT_CPU, start.limits.processorSeconds, 1); // SIGXCPU, then SIGKILL
     limit(RLIMIT_DATA, start.limits.memory);
     limit(RLIMIT_FSIZE, start.limits.fileSize);
-    limit(RLIMIT_NOFILE, start.limits.openFiles);
     limit(RLIMIT_CORE, 0);
     constexpr std::string_view kFirst = "1000";
     if (const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC); score >= 0) {
         [[maybe_unused]] const ssize_t written = write(score, kFirst.data(), kFirst.size());
         close(score);
     }
-    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    const int input = beyondStreams(start.streams.input, nothing),
-              output = beyondStreams(start.streams.output, nothing), error = beyondStreams(-1, nothing);
-    dup2(input, STDIN_FILENO);
-    dup2(output, STDOUT_FILENO);
-    dup2(error, STDERR_FILENO);
+    if (!takeStreams(start.streams))
+        _exit(kCannotStart);
+    limit(RLIMIT_NOFILE, start.limits.openFiles);
     dropHandlers();
     sigprocmask(SIG_SETMASK, &start.signals, nullptr);
     execv(start.program, start.arguments);

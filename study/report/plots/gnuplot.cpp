@@ -19,7 +19,7 @@ namespace {
 /// gnuplot that waits for ever (a terminal that asks) is ended: nobody's end of work waits for a figure.
 ProcessAnswer run(std::vector<std::string> words, const std::filesystem::path& folder) {
     std::vector<std::string> arguments{"sh", "-c", "cd -- \"$1\" && shift && exec \"$@\" 2>&1", "sh",
-                                       folder.string()};
+                                       std::filesystem::absolute(folder).string()};
     std::ranges::move(words, std::back_inserter(arguments));
     constexpr uint64_t kMostSaid = uint64_t{1} << 20;
     return askProcess("/bin/sh", arguments, {.processorSeconds = 60, .seconds = 60}, FileDescriptor(),

@@ -2,6 +2,7 @@
 
 #include "engine/process/process_answer.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -105,6 +106,17 @@ TEST(ProcessAnswer, ItsFilesAreLimited) {
     EXPECT_FALSE(answer.end == End::Exited && answer.status == 0) << "a file of one byte is larger than 0";
     EXPECT_EQ(textOf(answer), "x\n") << "a pipe is no file";
     EXPECT_NE(shell("echo more >&0", "constant").status, 0) << "nobody writes into the input";
+}
+
+/// A window has more of them open than a reader may have.
+TEST(ProcessAnswer, TheLimitOfFilesDoesNotCountTheCallersOwn) {
+    std::vector<FileDescriptor> open;
+    for (int i = 0; i < 40; ++i)
+        open.emplace_back(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0));
+    const ProcessAnswer answer = shell("cat", "words\n", 100, {.openFiles = 16});
+    EXPECT_EQ(answer.end, End::Exited);
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_EQ(textOf(answer), "words\n");
 }
 
 } // namespace
