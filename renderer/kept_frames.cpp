@@ -28,9 +28,15 @@ void setViewport(const vk::raii::CommandBuffer& commands, vk::Extent2D extent) {
 
 PictureState SceneRenderer::Impl::renderKept(const View& view, const Overlay& overlay,
                                              const glm::ivec2& coarse, const glm::ivec2& full) {
+    if (view.wireframe) { // edges are drawn over all of a frame
+        render(view, overlay, full.x, full.y, Eye::Main);
+        return PictureState::Coarse;
+    }
     const vk::Extent2D extent = allowedExtent(full.x, full.y);
     PictureKey key =
         pictureKey(view, {static_cast<int>(extent.width), static_cast<int>(extent.height)}, content_);
+    if (key.content != kept_.key().content)
+        moving_.forget();
     const bool begins = moving_.update(poses);
     if (begins || key != kept_.key()) {
         moving_.begin();

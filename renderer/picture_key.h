@@ -32,6 +32,8 @@ class MovingInstances {
     [[nodiscard]] bool update(std::span<const glm::dmat4> poses);
     /// The picture is begun: what did not move into this frame rests.
     void begin() { moves_ = movesNow_; }
+    /// The poses are those of another scene: all rest.
+    void forget() { last_.clear(); }
     [[nodiscard]] bool moves(size_t instance) const { return instance < moves_.size() && moves_[instance]; }
 
   private:

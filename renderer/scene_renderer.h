@@ -78,7 +78,8 @@ class SceneRenderer {
     /// changed since the last frame, so are steps of about 10 ms of the picture of all opaque objects that
     /// rest, with the full mesh (not View::allowedError); and when it is complete, frames of `full` pixels
     /// copy it and draw only the probe's shadow, moving and blended objects and the overlay. An object that
-    /// has moved is drawn in each frame until the picture is begun anew. Sizes and errors as in `render`.
+    /// has moved is drawn in each frame until the picture is begun anew. With View::wireframe nothing is
+    /// kept: `full` pixels are drawn in each frame. Sizes and errors as in `render`.
     [[nodiscard]] PictureState renderKept(const View& view, const Overlay& overlay, const glm::ivec2& coarse,
                                           const glm::ivec2& full);
 

@@ -47,6 +47,9 @@ layout(location = 0) out vec4 outColor;
 layout(location = 1) out vec4 keptFirst;
 layout(location = 2) out vec4 keptAround;
 layout(location = 3) out vec4 keptTotal;
+
+// White in any case; an infinity of the half floats would become NaN, which is black.
+vec4 kept(vec3 light, float normal) { return vec4(clamp(light, vec3(0.0), vec3(60000.0)), normal); }
 #endif
 
 bool has(uint feature) { return (kFeatures & feature) != 0u; }
@@ -200,9 +203,9 @@ void main() {
     const vec3 color = lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, left);
 #ifdef KEPT
     // The light is linear in what is left of each.
-    keptFirst = vec4(color - lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, vec2(0.0, 1.0)), n.x);
-    keptAround = vec4(color - lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, vec2(1.0, 0.0)), n.y);
-    keptTotal = vec4(color, n.z);
+    keptFirst = kept(color - lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, vec2(0.0, 1.0)), n.x);
+    keptAround = kept(color - lit(s, specular, n, smoothNormal, v, nv, occlusion, scattered, vec2(1.0, 0.0)), n.y);
+    keptTotal = kept(color, n.z);
 #endif
     if (has(kIsTransmissive)) writeOver(color, through, alpha);
     else outColor = vec4(toneMapped(color), alpha);

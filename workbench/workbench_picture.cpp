@@ -237,7 +237,7 @@ PixelRect WorkbenchWindow::pixelsOf(const WidgetRect& rect) {
 }
 
 glm::ivec2 WorkbenchWindow::keptSize(const glm::ivec2& area) const {
-    if (!screen_.gpu().isSoftware() || state_.view.wireframe) // edges are drawn over all of a frame
+    if (!screen_.gpu().isSoftware() || state_.view.wireframe) // nothing is kept of edges
         return glm::ivec2(0);
     // Pixel for pixel where it can be: sceneSize is in multiples of eight.
     const glm::ivec2 size = keptQuality_.sceneSize(area);

@@ -120,6 +120,55 @@ TEST_F(KeptPictureTest, IsTheWholeDrawingWithEveryKindOfMaterial) {
     }
 }
 
+TEST_F(KeptPictureTest, IsTheWholeDrawingOfWhatIsCut) {
+    const auto scene = torusScene();
+    renderer_->setScene(scene);
+    for (const ViewMode mode : {ViewMode::Shaded, ViewMode::Height}) {
+        View view = shadowed(viewFor(*scene), {0.0, 0.0, 0.05}, 0.006);
+        view.mode = mode;
+        view.part.clip = clipPlane({0.2, 0.1, 1.0}, 0.0);
+        finish(view, touchOverlay(), kSize);
+        EXPECT_LE(differenceFromWhole(view, touchOverlay()), 1) << viewModeName(mode);
+    }
+}
+
+/// Half floats end at 65,504.
+TEST_F(KeptPictureTest, LightBeyondHalfFloatsStaysWhiteInTheShadow) {
+    const auto scene = torusScene();
+    scene->materials[0].emissive = glm::vec3(1e9f);
+    renderer_->setScene(scene);
+    const View view = shadowed(viewFor(*scene), {0.06, 0.03, 0.0});
+    finish(view, {}, kSize);
+    EXPECT_LE(differenceFromWhole(view, {}), 1);
+}
+
+/// The poses of the scene before say nothing about this one.
+TEST_F(KeptPictureTest, AnotherSceneOfAsManyObjectsIsKeptWhole) {
+    const auto scene = torusScene(), elsewhere = torusScene();
+    elsewhere->instances[0].sceneFromMesh = glm::translate(glm::dmat4(1.0), {0.0, 0.01, 0.0});
+    renderer_->setScene(scene);
+    const View view = viewFor(*scene);
+    finish(view, {}, kSize);
+    renderer_->setScene(elsewhere);
+    finish(view, {}, kSize);
+    const uint64_t before = renderer_->statistics().drawnTriangles;
+    ASSERT_EQ(renderer_->renderKept(view, {}, kCoarse, kSize), PictureState::Kept);
+    EXPECT_EQ(renderer_->statistics().drawnTriangles, before) << "nothing is drawn over it";
+    EXPECT_EQ(differenceFromWhole(view, {}), 0);
+}
+
+TEST_F(KeptPictureTest, TheEdgesOfTrianglesAreInEveryFrame) {
+    const auto scene = torusScene(48, 24);
+    renderer_->setScene(scene);
+    View view = viewFor(*scene);
+    view.wireframe = true;
+    for (int frame = 0; frame < 20; ++frame) {
+        EXPECT_EQ(renderer_->renderKept(view, {}, kCoarse, kSize), PictureState::Coarse);
+        gpu_->waitIdle();
+    }
+    EXPECT_EQ(differenceFromWhole(view, {}), 0);
+}
+
 TEST_F(KeptPictureTest, PointsAndLinesAreKeptButForTheirShadow) {
     const auto board = layerBoard(true);
     renderer_->setScene(board);
@@ -226,6 +275,16 @@ TEST_F(KeptPictureTest, BeginsAgainWithEverythingThatItShows) {
          [&] {
              renderer_->setMaterialColors({{0.9f, 0.1f, 0.1f}});
          }},
+        {"clipping plane", true,
+         [&] {
+             view.part.clip = clipPlane({0.3, 0.2, 1.0}, 0.0);
+         }},
+        {"a plane elsewhere", true, [&] { view.part.clip->offset = 0.002; }},
+        {"no plane", true, [&] { view.part.clip.reset(); }},
+        {"hidden", true, [&] { view.part.hidden = {0}; }},
+        {"seen again", true, [&] { view.part.hidden.clear(); }},
+        {"orthographic", true,
+         [&] { view.clipFromView = glm::orthoRH_ZO(-0.16, 0.16, -0.09, 0.09, -1.0, 1.0); }},
         {"another scene", true, [&] { renderer_->setScene(other); }},
         {"no scene", true, [&] { renderer_->setScene(nullptr); }},
         {"a scene again", true, [&] { renderer_->setScene(scene); }},

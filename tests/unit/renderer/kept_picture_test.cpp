@@ -47,6 +47,11 @@ TEST(MovingInstances, TellsWhenOneThatRestedMoves) {
     std::vector<glm::dmat4> poses(2, glm::dmat4(1.0));
     EXPECT_TRUE(moving.update(poses)) << "another number of them";
     moving.begin();
+    moving.forget();
+    poses[0][3].y = 5.0;
+    EXPECT_TRUE(moving.update(poses)) << "another scene, elsewhere";
+    moving.begin();
+    EXPECT_FALSE(moving.moves(0)) << "which rests";
     EXPECT_FALSE(moving.update(poses));
     poses[1][3].x = 1.0;
     EXPECT_TRUE(moving.update(poses));
