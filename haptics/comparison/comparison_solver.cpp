@@ -19,6 +19,8 @@ bool handles(const HapticScene& scene, ContactMethod method) noexcept {
     if (method == ContactMethod::Sweep)
         return true;
     return std::ranges::all_of(scene.objects, [&](const auto& object) {
+        if (object->empty())
+            return true; // hidden
         return isOfFields(method) ? object->shape != nullptr && object->shape->potential() != nullptr
                                   : object->shape == nullptr;
     });

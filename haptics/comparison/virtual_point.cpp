@@ -49,6 +49,8 @@ VirtualPoint::VirtualPoint(const HapticScene& scene, ObjectMotions motions, Cont
 }
 
 bool VirtualPoint::begin() noexcept {
+    if (!state_.watch.touching)
+        state_.friction = FrictionState::Free; // what the sweep left sticks at the centre of a ball
     if (state_.placed)
         return true;
     placeAt(motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.inversePoint(state_.hip));
@@ -70,8 +72,12 @@ void VirtualPoint::moveTowards(const glm::dvec3& goal) noexcept {
     double deepest = 0.0; // m
     for (size_t k = 0; k < scene_.objects.size(); ++k) {
         const Similarity& workspaceFromObject = motions_[k].workspaceFromObject;
-        const double depth = -workspaceFromObject.scale * scene_.objects[k]->shape->potential()->value(
-                                                              workspaceFromObject.inversePoint(tip));
+        const glm::dvec3 inObject = workspaceFromObject.inversePoint(tip);
+        const double reach = scene_.objects[k]->boundingRadius;
+        if (scene_.objects[k]->empty() || glm::dot(inObject, inObject) > reach * reach)
+            continue;
+        const double depth =
+            -workspaceFromObject.scale * scene_.objects[k]->shape->potential()->value(inObject);
         if (depth > deepest) {
             deepest = depth;
             touched = static_cast<int>(k);
@@ -79,6 +85,7 @@ void VirtualPoint::moveTowards(const glm::dvec3& goal) noexcept {
     }
     if (touched < 0)
         return;
+    state_.watch.touching = true; // also without a direction: the sweep may not start from here
 
     const HapticObject& object = *scene_.objects[static_cast<size_t>(touched)];
     const PotentialField& field = *object.shape->potential();
@@ -121,7 +128,6 @@ void VirtualPoint::report(int object, const glm::dvec3& normal) noexcept {
     rest_.activeSet.active[0] = 0;
     rest_.activeSet.multiplier[0] = glm::length(state_.proxy - tip_);
     rest_.activeSet.count = 1;
-    state_.watch.touching = true;
 }
 
 } // namespace touchstone

@@ -18,13 +18,14 @@ namespace touchstone {
 ///   virtualPoint: where the line from the tip along n first leaves the object, by a bracket and bisection;
 ///   potential:    the tip - f n, whatever lies there.
 /// Neither remembers a side: a tip that passes the medial axis of a thin part is pushed out behind it. Where
-/// the interpolated gradient vanishes there is no direction and no contact. The object in which the tip lies
+/// the interpolated gradient vanishes, as where the field is flat, deeper than a device pushes, there is no
+/// direction and no force. The object in which the tip lies
 /// deepest is the one touched.
 ///
 /// A point method: it has no radius. Bounded: a line makes at most three steps a cell of the grid's diagonal.
 class VirtualPoint {
   public:
-    /// Every object of `scene` has a potential (Shape::potential).
+    /// Every object of `scene` has a potential (Shape::potential), or is empty.
     VirtualPoint(const HapticScene& scene, ObjectMotions motions, ContactMethod method, DeviceState& state,
                  SolveResult& rest) noexcept;
 

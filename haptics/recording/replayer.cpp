@@ -170,7 +170,11 @@ void Replayer::resume(const RecordedTick& tick) {
     scene_ = tick.scene;
     if (!known_ || touched == nullptr)
         return;
-    if (std::ranges::any_of(devices_, [](const DeviceState& device) { return device.watch.touching; }))
+    // A virtual point on a field is watched, too, and walks on no neighbours.
+    if (std::ranges::any_of(devices_, [&](const DeviceState& device) {
+            return device.watch.touching &&
+                   scene->objects[static_cast<size_t>(device.reference)]->shape == nullptr;
+        }))
         scene->buildNeighbourhoods();
     if (goesOn)
         return;

@@ -20,7 +20,7 @@ enum class TickFlag : uint32_t {
     Teleported = 1u << 8,     ///< the HIP jumped farther than a hand can move; swept nevertheless
     ForceRamping = 1u << 9,   ///< safety fades the force in (enabled, scene swapped) or out (input stale)
     NeighbourhoodMissing =
-        1u << 11, ///< the contact method has not its data yet, or does not handle an object: swept
+        1u << 11,             ///< the contact method lacks its data, or does not handle an object: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
     Jammed = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
     EnergyGiven = 1u << 14,  ///< the device gave more energy than it took, by more than kNoticedEnergy

@@ -125,7 +125,8 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
     // After a scene swap it names a facet of the previous scene, which is never used.
     if (fields.shaded && fields.shadedObject != -1 && !isFeature(fields.shadedObject, fields.shadedTriangle))
         return false;
-    return !fields.watch.touching || inObject(fields.reference, triangleOf(fields.watch.side));
+    // A virtual point (comparison/virtual_point.h) has no side.
+    return !fields.watch.touching || isFeature(fields.reference, triangleOf(fields.watch.side));
 }
 
 /// Decodes the bytes into fields. A bool is read as a number: any byte but 0 and 1 would be no bool.

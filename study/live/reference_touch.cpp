@@ -14,21 +14,23 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return 2.0 * std::atan2(glm::length(u - v), glm::length(u + v));
 }
 
+/// Of the surface's own forces: a hand that gives way (DeviceLimits::press) bears the same part of any.
 TickError errorOf(const HapticOutput& felt, const HapticOutput& exact) {
     using Contact = TickError::Contact;
     TickError error;
     const bool touches = felt.contacts > 0, should = exact.contacts > 0;
     if (!touches && !should)
         return error;
-    error.forceDifference = glm::length(felt.force - exact.force);
+    const glm::dvec3 own = felt.force / felt.borne, ownExact = exact.force / exact.borne;
+    error.forceDifference = glm::length(own - ownExact);
     error.contact = !should ? Contact::Invented : touches ? Contact::Both : Contact::Lost;
     if (error.contact != Contact::Both)
         return error;
-    const double force = glm::length(felt.force), right = glm::length(exact.force);
+    const double force = glm::length(own), right = glm::length(ownExact);
     error.position = glm::length(felt.proxy - exact.proxy);
     error.force = std::abs(force - right);
     error.forceShare = right > 0.0 ? error.force / right : 0.0;
-    error.direction = force > 0.0 && right > 0.0 ? angleBetween(felt.force, exact.force) : 0.0;
+    error.direction = force > 0.0 && right > 0.0 ? angleBetween(own, ownExact) : 0.0;
     return error;
 }
 
@@ -115,6 +117,8 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
     StageTracer tracer(state_,
                        trace); // the servo's instantiation: equal configurations give equal bits
     hapticStep(*scene_, referenceOf(settings), input, world_, {&state_, 1}, {&output_, 1}, tracer);
+    if (has(output_.flags, TickFlag::StartedInside) && record.output.contacts > 0)
+        return false; // it has not begun (adopt)
     error = errorOf(record.output, output_);
     return true;
 }

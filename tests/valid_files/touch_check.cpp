@@ -52,6 +52,8 @@ HapticSettings anySettings(Draw& draw) {
     settings.damping = draw.pick(std::vector{-1.0, 0.0, 2.0});
     settings.staticFriction = draw.pick(std::vector{-1.0, 0.0, 0.8});
     settings.dynamicFriction = draw.pick(std::vector{-1.0, 0.0, 0.5});
+    settings.frictionDepth = draw.pick(std::vector{0.0, 100.0, 1000.0});
+    settings.forceThreshold = draw.pick(std::vector{0.0, 0.5, 3.0});
     settings.textureStrength = draw.pick(std::vector{0.0, 0.5, 1.0});
     settings.iterationBudget = draw.pick(std::vector{1, 4, 64});
     return settings;

@@ -22,6 +22,7 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr int kFrame = 33;
 constexpr double kHair = 1e-12; // rounding
+constexpr double kOwn = 1.05;   // what the surface would give, of the press: the hand does not sink in
 
 /// A line of sight.
 struct Picker {
@@ -77,6 +78,8 @@ class StalledWindow {
         const TickRecord& now = servo_.step();
         double& most = press_ > 0.0 ? maxForce : maxHovering;
         most = std::max(most, glm::length(now.output.force) / (press_ > 0.0 ? press_ : 1.0));
+        if (press_ > 0.0)
+            maxOwn = std::max(maxOwn, ownForce() / press_);
         const ObjectMotions motions = moved_.advance(now.time);
         glm::dvec3 way = now.output.hip - before.output.hip;
         if (const int object = before.output.object; object >= 0 && !motions.empty()) {
@@ -98,6 +101,8 @@ class StalledWindow {
             force.takeAway(true);
     }
     [[nodiscard]] double force() const { return glm::length(servo_.record.output.force); }
+    /// N, of the surface, also where the hand gives way.
+    [[nodiscard]] double ownForce() const { return force() / servo_.record.output.borne; }
     [[nodiscard]] bool touching() const { return servo_.record.output.contacts > 0; }
 
     void countEnergy() {
@@ -106,6 +111,7 @@ class StalledWindow {
     }
 
     double maxForce = 0.0;    ///< while it presses, of what was asked for
+    double maxOwn = 0.0;      ///< the same, of the surface's own force
     double maxHovering = 0.0; ///< N, while it does not
     /// J since countEnergy: given to the hand beyond what the objects' own motion did, and more in the
     /// springs than then.
@@ -114,7 +120,7 @@ class StalledWindow {
     std::string faults;
 
   private:
-    [[nodiscard]] double stored() const { return 0.5 * force() * servo_.record.output.penetration; }
+    [[nodiscard]] double stored() const { return 0.5 * ownForce() * servo_.record.output.penetration; }
 
     TouchedScene scene_;
     Picker picker_;
@@ -170,6 +176,7 @@ TEST(MouseStall, NeverPressesHarderThanAsked) {
                     EXPECT_LT(window.maxEnergy, moving ? 3e-6 : 1e-9) << what;
                     window.frames(10, press);
                     EXPECT_LE(window.maxForce, 1.0 + kHair) << what;
+                    EXPECT_LE(window.maxOwn, kOwn) << what;
                     EXPECT_EQ(window.faults, "") << what;
                     if (!moving) {
                         EXPECT_NEAR(window.force(), press, 0.05 * press) << what;
@@ -266,6 +273,7 @@ TEST(MouseStall, SlidAcrossTheBorderToAStifferSurfaceItPressesAsAskedInEveryTick
                 const std::string what = std::to_string(friction) + ", " + std::to_string(speed) + " m/s, " +
                                          std::to_string(stalled) + " ticks";
                 double felt = 0.0, given = 0.0;
+                int yielded = 0;
                 const auto go = [&](double x, double press, int ticks) {
                     const double stiffness = x < 0.0 ? 300.0 : 3000.0;
                     MouseHand hand(glm::dvec3(0.0));
@@ -280,6 +288,7 @@ TEST(MouseStall, SlidAcrossTheBorderToAStifferSurfaceItPressesAsAskedInEveryTick
                         const HapticOutput& now = servo.step().output;
                         felt = std::max(felt, glm::length(now.force));
                         given = std::max(given, glm::length(now.command.force()));
+                        yielded += now.borne < 1.0 / kOwn ? 1 : 0;
                         EXPECT_TRUE(press == 0.0 || now.contacts > 0 || i < 200) << what;
                     }
                 };
@@ -299,6 +308,8 @@ TEST(MouseStall, SlidAcrossTheBorderToAStifferSurfaceItPressesAsAskedInEveryTick
                 EXPECT_NEAR(glm::length(servo.record.output.force), kPress, 0.02) << what;
                 EXPECT_LE(felt, kPress * (1.0 + kHair)) << what;
                 EXPECT_LE(given, kPress * (1.0 + kHair)) << what;
+                EXPECT_GT(yielded, 0) << what << ": the surface offered more";
+                EXPECT_LT(yielded, 3) << what << ": for a tick";
             }
 }
 
@@ -314,6 +325,7 @@ TEST(MouseStall, NorWhenTheWholeProcessStoodStill) {
             window.skip(2000);
             window.ticks(20);
             EXPECT_LE(window.maxForce, 1.0 + kHair) << place.file;
+            EXPECT_LE(window.maxOwn, kOwn) << place.file;
             // What moves is elsewhere, two seconds on: the hand is there too, but for what sticks; and the
             // command fades in from nothing, while what moves goes on.
             EXPECT_LT(window.maxEnergy, std::string(place.file) == "moving.glb" ? 3e-4 : 1e-9) << place.file;
@@ -336,6 +348,7 @@ TEST(MouseStall, AMovingModelIsPressedWithWhatWasAskedForAllTheTime) {
         touching += window.touching() ? 1 : 0;
         window.ticks(2000);
         EXPECT_LE(window.maxForce, 1.0 + kHair) << "from tick " << 300 * start;
+        EXPECT_LE(window.maxOwn, kOwn) << "from tick " << 300 * start;
         EXPECT_LT(window.maxHovering, 0.15) << "what runs into it pushes it aside";
         EXPECT_EQ(window.faults, "");
     }
@@ -357,6 +370,7 @@ TEST(MouseStall, AForceThatIsOffLetsTheHandStayWhereItPresses) {
         window.frames(20, 0.6);
     }
     EXPECT_LE(window.maxForce, 1.0 + kHair);
+    EXPECT_LE(window.maxOwn, kOwn);
     EXPECT_LT(window.maxBalance, 1e-6);
 }
 

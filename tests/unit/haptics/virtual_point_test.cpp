@@ -38,10 +38,11 @@ double box(const glm::dvec3& p) {
     return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0);
 }
 
-std::shared_ptr<const FieldShape> fieldOf(const Distance& distance, int cells) {
+/// `inside`: field units, deeper than that it is flat.
+std::shared_ptr<const FieldShape> fieldOf(const Distance& distance, int cells, double inside = 0.5) {
     const FieldLayout layout{.origin = glm::dvec3(-0.6), .voxel = 1.2 / cells, .cells = glm::ivec3(cells)};
     return std::make_shared<FieldShape>(
-        std::make_shared<FieldGrid>(gridOfDistance(layout, 0.5, 0.1, distance)));
+        std::make_shared<FieldGrid>(gridOfDistance(layout, inside, 0.1, distance)));
 }
 
 /// A field alone in a scene, turned and moved.
@@ -284,6 +285,55 @@ TEST(VirtualPoint, BeginsOutside) {
     EXPECT_GT(glm::length(bench.step(inside).force), 0.1);
     bench.settings.contact = ContactMethod::Potential; // from the sweep's contact straight away
     EXPECT_NEAR(glm::length(bench.step(inside).force), kStiffness * 0.02 * kScale, 0.02);
+}
+
+/// Where the field is flat there is no direction; the sweep, which may not start there either, lets the hand
+/// out first.
+TEST(VirtualPoint, HasNoForceWhereTheFieldIsFlat) {
+    FieldAlone bench(fieldOf(ball, 48, 0.1), ContactMethod::VirtualPoint);
+    const glm::dvec3 out = bench.pose.point({0.0, 0.0, 0.5});
+    bench.step(out);
+    EXPECT_NEAR(glm::length(bench.step(bench.pose.point({0.0, 0.0, 0.34})).force), kStiffness * 0.06 * kScale,
+                0.05);
+    const glm::dvec3 core = bench.pose.point({0.0, 0.0, 0.1});
+    EXPECT_EQ(bench.step(core).force, glm::dvec3(0.0));
+    EXPECT_EQ(bench.output.contacts, 0u);
+    bench.settings.contact = ContactMethod::Sweep;
+    for (int i = 0; i < 10; ++i)
+        EXPECT_EQ(bench.step(core).force, glm::dvec3(0.0));
+    EXPECT_TRUE(has(bench.output.flags, TickFlag::StartedInside));
+    bench.step(out);
+    EXPECT_GT(glm::length(bench.step(bench.pose.point({0.0, 0.0, 0.38})).force), 0.1);
+}
+
+/// What the sweep left sticking, at the centre of a ball above the surface, is no stiction point of a point.
+TEST(VirtualPoint, BeginsWithoutTheFrictionOfTheSweep) {
+    FieldAlone bench(fieldOf(ball, 48), ContactMethod::Sweep);
+    bench.settings.friction = FrictionMode::Zilles;
+    bench.settings.proxyRadius = 0.002;
+    bench.settings.staticFriction = bench.settings.dynamicFriction = 2.0;
+    bench.step(bench.pose.point({0.0, 0.0, 0.5}));
+    const glm::dvec3 inside = bench.pose.point({0.0, 0.0, 0.36});
+    for (int i = 0; i < 3; ++i)
+        bench.step(inside);
+    ASSERT_EQ(bench.output.friction, FrictionState::Sticking);
+    bench.settings.contact = ContactMethod::VirtualPoint;
+    EXPECT_NEAR(glm::length(bench.step(inside).force), kStiffness * 0.04 * kScale, 0.05);
+}
+
+/// A hidden object is empty: nobody need handle it.
+TEST(VirtualPoint, PassesOverWhatIsHidden) {
+    FieldAlone bench(fieldOf(ball, 32), ContactMethod::VirtualPoint);
+    const std::shared_ptr<HapticScene> both = copyOf(*bench.scene);
+    both->objects.push_back(std::make_shared<HapticObject>());
+    both->restMotions.emplace_back();
+    both->restSpheres.emplace_back(0.0);
+    both->boundingRadii.push_back(0.0);
+    bench.scene = both;
+    EXPECT_EQ(refusalOf(*both, bench.settings), "");
+    bench.step(bench.pose.point({0.0, 0.0, 0.5}));
+    EXPECT_GT(glm::length(bench.step(bench.pose.point({0.0, 0.0, 0.38})).force), 0.1);
+    EXPECT_FALSE(has(bench.output.flags, TickFlag::NeighbourhoodMissing));
 }
 
 /// A mesh beside the field: the sweep touches both, the reason is named.

@@ -40,7 +40,15 @@ struct Touch {
 struct Case {
     std::string name, file;
     std::vector<std::pair<std::string, std::string>> settings;
+    bool fields = false; ///< its objects as distance fields
 };
+
+TouchedScene sceneOf(const Case& tested) {
+    const TouchedScene scene = touchedScene(tested.file);
+    if (!tested.fields)
+        return scene;
+    return withChanged(scene, [](HapticMaterial& material) { material.implicit = true; });
+}
 
 HapticSettings settingsOf(const Case& tested) {
     HapticSettings settings;
@@ -78,7 +86,7 @@ class RestlessHand {
 };
 
 TEST_P(Checkpoints, WhoGoesOnFromOneMeetsTheSameBits) {
-    const TouchedScene scene = touchedScene(GetParam().file);
+    const TouchedScene scene = sceneOf(GetParam());
     const HapticSettings settings = settingsOf(GetParam());
     if (settings.contact == ContactMethod::Neighbourhood)
         scene.haptic->buildNeighbourhoods();
@@ -109,7 +117,7 @@ TEST_P(Checkpoints, WhoGoesOnFromOneMeetsTheSameBits) {
 
 /// Nothing of a later state survives in an earlier one that is restored over it, no cache either.
 TEST_P(Checkpoints, AnEarlierStateIsRestoredOverALaterOne) {
-    const TouchedScene scene = touchedScene(GetParam().file);
+    const TouchedScene scene = sceneOf(GetParam());
     const HapticSettings settings = settingsOf(GetParam());
     if (settings.contact == ContactMethod::Neighbourhood)
         scene.haptic->buildNeighbourhoods();
@@ -165,7 +173,13 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"MovingRaysInSingle",
              "moving.glb",
              {{"contact", "rays"}, {"precision", "single"}, {"staticFriction", "0.7"}}},
-        Case{"MovingNeighbourhood", "moving.glb", {{"contact", "neighbourhood"}, {"staticFriction", "0.7"}}}),
+        Case{"MovingNeighbourhood", "moving.glb", {{"contact", "neighbourhood"}, {"staticFriction", "0.7"}}},
+        Case{"Field", "doughnut.glb", {{"staticFriction", "0.7"}}, true},
+        Case{"VirtualPoint",
+             "doughnut.glb",
+             {{"contact", "virtualPoint"}, {"friction", "kim"}, {"staticFriction", "0.7"}},
+             true},
+        Case{"Potential", "doughnut.glb", {{"contact", "potential"}}, true}),
     [](const auto& tested) { return tested.param.name; });
 
 /// A field that outlives the tick and is not in the checkpoint would make replays differ here and there: who

@@ -35,6 +35,7 @@ RecordedTick someTick() {
     tick.sample.age = 2e-3;
     tick.sample.valid = true;
     tick.sample.limits.maxForce = 4.5;
+    tick.sample.limits.press = 0.7;
     tick.poses = 0x1234;
     tick.settings = 7;
     tick.scene = 3;
@@ -214,6 +215,7 @@ TEST(RecordingFormat, EveryItemReadsBackToTheSameBytes) {
     EXPECT_EQ(ticks[0].hashes, someTick().hashes);
     EXPECT_EQ(ticks[0].sample.orientation, someTick().sample.orientation);
     EXPECT_EQ(ticks[0].sample.limits.maxForce, 4.5);
+    EXPECT_EQ(ticks[0].sample.limits.press, 0.7);
     EXPECT_EQ(ticks[1].sample.limits, DeviceLimits{});
     EXPECT_EQ(ticks[0].poses, 0x1234u);
     EXPECT_EQ(std::get<RecordedHandTicks>(decode(8, encode(items[8]))).hand, 2u);
