@@ -231,7 +231,7 @@ TEST_F(PanelLayout, NoTextIsCutCoveredOrTooSmallInAnyStateAtAnySize) {
                 ADD_FAILURE() << size.width << 'x' << size.height << " at scale " << size.scale << ", "
                               << state << ": " << complaint;
         });
-    EXPECT_EQ(states, 126);
+    EXPECT_EQ(states, 132);
 }
 
 /// Containers of others, and what floats over them.

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace touchstone {
@@ -94,7 +95,12 @@ void viewMenu(const PanelInput& input, PanelState& state, Widgets& widgets) {
         ImGui::OpenPopup("view");
     widgets.mark("viewMenu");
     beneath();
-    ImGui::SetNextWindowSize(ImVec2(widgets.units(390.0f), 0.0f));
+    const float width = widgets.units(390.0f),
+                top = ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemSpacing.y;
+    // It scrolls in a window that is less high.
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f),
+                                        ImVec2(width, std::max(1.0f, ImGui::GetIO().DisplaySize.y - top)));
+    ImGui::SetNextWindowSize(ImVec2(width, 0.0f));
     if (!ImGui::BeginPopup("view"))
         return;
     drawViewMenu(state.view, [&](const char* name) { widgets.mark(name); });

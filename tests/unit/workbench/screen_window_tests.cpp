@@ -88,14 +88,17 @@ TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
         return until(std::string("a picture that is ") + wanted,
                      [&](const Json& s) { return s["picture"]["state"] == wanted; });
     };
-    const auto expectWhole = [](const Json& now) {
-        const Json& place = now["widgets"]["picture"];
-        EXPECT_EQ(now["scene_size"][0].get<double>(), place["width"].get<double>());
-        EXPECT_EQ(now["scene_size"][1].get<double>(), place["height"].get<double>());
-        EXPECT_GT(now["picture"]["refined_in_s"], 0.0);
+    // On a machine that has much else to do a kept picture, too, is smaller for some seconds.
+    const auto expectWhole = [this] {
+        until("the window's resolution", [&](const Json& s) {
+            const Json& place = s["widgets"]["picture"];
+            return s["picture"]["state"] == "kept" && s["picture"]["refined_in_s"] > 0.0 &&
+                   s["scene_size"][0].get<double>() == place["width"].get<double>() &&
+                   s["scene_size"][1].get<double>() == place["height"].get<double>();
+        });
     };
     open(kDoughnut, {"--hand", "simulated"});
-    expectWhole(stateIs("kept"));
+    expectWhole();
     EXPECT_TRUE(modelIsSeen());
     display_.key("t"); // the turntable
     stateIs("coarse");
@@ -104,7 +107,7 @@ TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
     stateIs("kept");
     resize(800, 700);
     until("the new size", [](const Json& s) { return s["widgets"]["picture"]["width"] < 500.0; });
-    expectWhole(stateIs("kept"));
+    expectWhole();
     EXPECT_TRUE(modelIsSeen());
     // What moves by itself is drawn over it.
     openByPath(TOUCHSTONE_ASSETS "/moving.glb");
