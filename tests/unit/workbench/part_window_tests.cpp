@@ -11,7 +11,7 @@ namespace touchstone::test {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
-const std::string kSwatches = TOUCHSTONE_ASSETS "/swatches.glb";
+const std::string kEffects = TOUCHSTONE_ASSETS "/effects.glb";
 
 class PartWindowTest : public WindowTest {
   protected:
@@ -56,7 +56,7 @@ TEST_F(PartWindowTest, WhatIsHiddenUnderTheHandLetsGoAndComesBack) {
 }
 
 TEST_F(PartWindowTest, ShiftHIsolatesOneOfMany) {
-    open(kSwatches);
+    open(kEffects);
     until("objects", [](const Json& s) { return s["widgets"].contains("eye:1"); });
     display_.move(inPicture(0.5, 0.5));
     later();
