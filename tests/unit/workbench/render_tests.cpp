@@ -8,6 +8,8 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -93,6 +95,30 @@ class Render : public testing::Test {
         const OIIO::ImageBuf first((scratch_ / "a.png").string()), second((scratch_ / "b.png").string());
         const auto result = OIIO::ImageBufAlgo::compare(first, second, 6.0f / 255.0f, 6.0f / 255.0f);
         return static_cast<double>(result.nfail) / (160.0 * 120.0);
+    }
+    /// Share of pixels of a picture that are in neither of two others.
+    double inNeither(const std::vector<std::string>& whole, const std::vector<std::string>& a,
+                     const std::vector<std::string>& b) {
+        std::array<OIIO::ImageBuf, 3> pictures;
+        for (size_t i = 0; i < 3; ++i) {
+            const std::string name = std::to_string(i) + ".png";
+            EXPECT_EQ(render(i == 0 ? whole : i == 1 ? a : b, name).status, 0);
+            pictures[i].reset((scratch_ / name).string());
+            EXPECT_TRUE(pictures[i].read());
+        }
+        int missed = 0;
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x) {
+                std::array<std::array<float, 4>, 3> at{};
+                for (size_t i = 0; i < 3; ++i)
+                    pictures[i].getpixel(x, y, at[i].data(), 4);
+                const auto same = [&](size_t i) {
+                    return std::ranges::equal(
+                        at[0], at[i], [](float u, float v) { return std::abs(u - v) < 7.0f / 255.0f; });
+                };
+                missed += same(1) || same(2) ? 0 : 1;
+            }
+        return missed / (160.0 * 120.0);
     }
     void expectRefused(const std::vector<std::string>& more, const std::vector<std::string>& words) {
         const ProgramResult result = render(more, "refused.png");
@@ -190,6 +216,11 @@ TEST_F(Render, AnyCameraMayBeOrthographic) {
         return words;
     };
     EXPECT_GT(difference(kPlaced, with(kPlaced, parallel)), 0.02);
+    // The same target from 40 times as far: tan 20 deg / 40 is half the angle's tangent.
+    EXPECT_LT(
+        difference(with(kPlaced, {"--projection", "orthographic", "--fov", "40"}),
+                   {"--camera-position", "60.5,40.5,120", "--look-at", "0.5,0.5,0", "--fov", "1.042669"}),
+        0.005);
     EXPECT_GT(difference({"--from", "right"}, with(parallel, {"--from", "right"})), 0.01);
     EXPECT_EQ(picture({"--projection", "perspective"}), picture({}));
     EXPECT_EQ(render({"--projection", "fisheye"}).status, 2);
@@ -202,6 +233,9 @@ TEST_F(Render, DrawsAPartOfTheModel) {
     EXPECT_NE(picture({"--hide", "node 1"}), whole);
     EXPECT_EQ(picture({"--hide", "node 0", "--hide", "node 2"}), picture({"--isolate", "node 1"}));
     EXPECT_GT(difference({}, {"--clip", "1,0,0,0.5"}), 0.02);
+    // What is seen of the whole lies on one side of the plane or on the other.
+    EXPECT_LT(inNeither({}, {"--clip", "1,0,0,0.5"}, {"--clip", "-1,0,0,-0.5"}), 0.005);
+    EXPECT_GT(inNeither({}, {"--clip", "1,0,0,0.4"}, {"--clip", "-1,0,0,-0.6"}), 0.02);
     EXPECT_EQ(picture({"--clip", "3,0,0,0.5"}), picture({"--clip", "1,0,0,0.5"}))
         << "a direction has no length";
     EXPECT_EQ(picture({"--clip", "1,0,0,5"}), whole) << "beyond the model";
