@@ -1,5 +1,6 @@
 #include "haptics/proxy/place_proxy.h"
 
+#include "haptics/proxy/proxy_solver.h"
 #include "haptics/query/clear_of_model.h"
 
 #include <cmath>
@@ -10,6 +11,8 @@ int nearestObject(const HapticScene& scene, ObjectMotions motions, const glm::dv
     int nearest = 0;
     double least = INFINITY;
     for (size_t k = 0; k < scene.objects.size(); ++k) {
+        if (scene.objects[k]->empty())
+            continue;
         const Similarity& pose = motions[k].workspaceFromObject;
         const double distance =
             glm::length(hip - pose.translation) - pose.scale * scene.objects[k]->boundingRadius;
@@ -36,6 +39,27 @@ bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& stat
         return false;
     state.mustLeave = false;
     return true;
+}
+
+void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
+    const auto gone = [&](int object) {
+        return object >= 0 && scene.objects[static_cast<size_t>(object)]->empty();
+    };
+    // The reference object need not be among them: in a scene at rest it stays the one nearest to where touch
+    // began. The contacts are those of the last solve, also where the hand has not been sampled since.
+    bool touched = state.watch.touching && gone(state.reference);
+    for (uint32_t i = 0; state.placed && i < state.rest.contactCount; ++i)
+        touched = touched || gone(state.rest.contacts[i].object);
+    if (touched) {
+        state.forgetTouch();
+        state.mustLeave = true;
+    } else if (gone(state.reference)) {
+        changeReference(state, motions, nearestObject(scene, motions, state.hip));
+    }
+    if (gone(state.shadedObject)) {
+        state.shaded = false;
+        state.shadedObject = -1;
+    }
 }
 
 } // namespace touchstone

@@ -8,7 +8,8 @@
 
 namespace touchstone {
 
-/// The object whose bounding sphere is nearest to `hip` (workspace); the first reference object.
+/// The object whose bounding sphere is nearest to `hip` (workspace); the first reference object. One that is
+/// hidden or cut away only where nothing else is left.
 [[nodiscard]] int nearestObject(const HapticScene& scene, ObjectMotions motions,
                                 const glm::dvec3& hip) noexcept;
 
@@ -19,5 +20,11 @@ namespace touchstone {
 /// True where touch may begin at state.hip: outside every closed object and, where the hand must first leave
 /// the model, clear of it (clear_of_model.h); the hand then counts as having left.
 [[nodiscard]] bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
+
+/// Between two ticks, after objects of the scene have lost all their triangles (SceneSwap::SameGeometry).
+/// `motions`: of the preceding tick. A hand that touched one of them begins again, once it is clear of what
+/// is left: what stood behind it would push at full depth. Any other touch goes on, in the frame of an object
+/// that is left.
+void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
 } // namespace touchstone

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "engine/core/realtime_guard.h"
+#include "haptics/proxy/place_proxy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,21 +26,6 @@ int32_t saturated(long long nanoseconds) {
 /// model.
 void refuseStale(DeviceSample& sample) noexcept {
     sample.valid = sample.valid && sample.age <= sample.limits.staleAge; // a NaN age is not fresh
-}
-
-/// A touch that holds on to an object of which nothing is left begins again, clear of what is left around the
-/// hand.
-void forgetEmptied(const HapticScene& scene, DeviceState& device) noexcept {
-    const auto gone = [&](int object) {
-        return object >= 0 && scene.objects[static_cast<size_t>(object)]->empty();
-    };
-    if (gone(device.reference)) {
-        device.forgetTouch();
-        device.mustLeave = true;
-    } else if (gone(device.shadedObject)) {
-        device.shaded = false;
-        device.shadedObject = -1;
-    }
 }
 
 } // namespace
@@ -181,11 +167,13 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     if (offer != nullptr)
         offer->world.forget();
     if (goesOn) {
-        for (DeviceState& device : touch.devices)
-            forgetEmptied(*offer->scene, device);
         // As in a replay that resumes here: the objects have their previous poses.
         if (std::isfinite(touch.previousTime))
             offer->world.advance(touch.previousTime);
+        const ObjectMotions moved = offer->world.poses();
+        const ObjectMotions motions = moved.empty() ? ObjectMotions(offer->scene->restMotions) : moved;
+        for (DeviceState& device : touch.devices)
+            letGoOfEmptied(*offer->scene, motions, device);
         return;
     }
     // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.

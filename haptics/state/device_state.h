@@ -36,8 +36,8 @@ struct DeviceState {
     glm::dvec3 velocity{0.0}; ///< m/s, workspace, filtered
     double unsampled = 0.0;   ///< s since the last usable sample, kForceRampOutTime at most
 
-    // Stages 2 and 3. The proxy is stored in the frame of the reference object: the object touched last. When
-    // the reference object moves the proxy moves with it.
+    // Stages 2 and 3. The proxy is stored in the frame of the reference object and moves with it: where
+    // objects move the object touched last, in a scene at rest the one nearest to where touch began.
     bool placed = false; ///< the proxy is in free space or on a surface; false: not yet outside
     /// The model appeared where the hand was (a scene swap, a device that is taken up or returns): nothing is
     /// felt before the hand is clear of it (proxy/clear_of_model.h).

@@ -2,6 +2,7 @@
 // open at the cut.
 
 #include "engine/scene/clip_mesh.h"
+#include "haptics/proxy/place_proxy.h"
 #include "haptics/query/clear_of_model.h"
 #include "haptics/query/surface_pick.h"
 #include "haptics/scene/scene_parts.h"
@@ -84,6 +85,28 @@ TEST(SceneParts, SharesWhatThePlaneDoesNotCut) {
     const auto half = partOf(*whole, scene, clipped({1, 0, 0}, 0.01))->objects[0];
     EXPECT_FALSE(half->closed);
     EXPECT_LT(half->triangleCount(), whole->objects[0]->triangleCount());
+}
+
+/// In free space the proxy would otherwise go along with an object that is hidden and moves.
+TEST(SceneParts, AProxyBesideAHiddenObjectMovesToTheFrameOfOneThatIsLeft) {
+    Scene scene = sceneOf(assets::box({0.1, 0.1, 0.1}));
+    addShape(scene, assets::box({0.05, 0.05, 0.05}), glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0, 0)));
+    PartBench bench(scene, {}, plainSettings());
+    bench.moveTo({0.0, 0.06, 0.0}, 0.2);
+    DeviceState& state = bench.state[0];
+    ASSERT_EQ(state.reference, 0);
+    const auto proxy = [&] {
+        return bench.scene->restMotions[static_cast<size_t>(state.reference)].workspaceFromObject.point(
+            state.proxy);
+    };
+    const glm::dvec3 before = proxy();
+    bench.show({.hidden = {0}, .clip = {}});
+    EXPECT_EQ(nearestObject(*bench.scene, bench.scene->restMotions, glm::dvec3(0.0)), 1);
+    letGoOfEmptied(*bench.scene, bench.scene->restMotions, state);
+    EXPECT_EQ(state.reference, 1);
+    EXPECT_TRUE(state.placed);
+    EXPECT_FALSE(state.mustLeave);
+    EXPECT_LT(glm::distance(proxy(), before), 1e-15);
 }
 
 /// A floor in y = 0 whose part beyond a line is cut away, by planes through vertices, along edges and at any

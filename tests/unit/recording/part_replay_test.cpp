@@ -13,17 +13,16 @@
 namespace touchstone::test {
 namespace {
 
-/// Two floors of 0.1 m in y = 0, side by side along x: nodes 0 and 1, objects 0 and 1.
-TouchedScene twoFloors() {
+/// Floors of 0.1 m around these places: node k and object k are the floor at the k-th.
+TouchedScene floorsAt(const std::vector<glm::vec3>& places) {
     auto source = std::make_shared<Scene>();
     source->path = "floors";
     source->materials.emplace_back();
-    for (const float x : {0.0f, 0.2f}) {
+    for (const glm::vec3& place : places) {
         Mesh mesh;
-        mesh.positions = {{x - 0.05f, 0.0f, -0.05f},
-                          {x - 0.05f, 0.0f, 0.05f},
-                          {x + 0.05f, 0.0f, 0.05f},
-                          {x + 0.05f, 0.0f, -0.05f}};
+        for (const glm::vec3& corner :
+             {glm::vec3(-1, 0, -1), glm::vec3(-1, 0, 1), glm::vec3(1, 0, 1), glm::vec3(1, 0, -1)})
+            mesh.positions.push_back(place + 0.05f * corner);
         mesh.normals.assign(4, {0.0f, 1.0f, 0.0f});
         mesh.indices = {0, 1, 2, 0, 2, 3};
         const int next = static_cast<int>(source->meshes.size());
@@ -36,6 +35,11 @@ TouchedScene twoFloors() {
     scene.source = std::move(source);
     scene.identity = identify(*scene.haptic, *scene.source, Fit::None);
     return scene;
+}
+
+/// Two floors in y = 0, side by side along x.
+TouchedScene twoFloors() {
+    return floorsAt({{0.0f, 0.0f, 0.0f}, {0.2f, 0.0f, 0.0f}});
 }
 
 TouchedScene partOfFloors(const TouchedScene& whole, std::vector<int> hidden) {
@@ -91,6 +95,83 @@ TEST(PartReplay, WhatIsHiddenLetsGoWhatIsBesideItDoesNot) {
     rig.finish();
     rig.expectWithinLimits();
     expectEqualReplay(replayOf(file, rig.scenes));
+}
+
+/// A hand that begins 10 mm over `begin` and then presses 4 mm deep at `pressed`.
+struct PressingHand {
+    std::atomic<double> x, height{0.01};
+    RecordedServo rig;
+    ScratchFolder scratch;
+    std::filesystem::path file = scratch / "pressed.tsrec";
+
+    PressingHand(const TouchedScene& scene, double begin, double pressed)
+        : x(begin), rig([this](double) {
+              return at({x.load(), height.load(), 0.02});
+          }) {
+        rig.recorder.start(file, "test");
+        rig.offer(scene);
+        rig.ticks(500);
+        x = pressed;
+        rig.ticks(500);
+        height = -0.004;
+        rig.ticks(1000);
+    }
+    [[nodiscard]] double force() const { return glm::length(rig.records.back().output.force); }
+    /// Every tick from here touches, and the force stays.
+    void expectHeldOn(const TouchedScene& offered) {
+        const double before = force();
+        ASSERT_GT(before, 1.0);
+        const size_t first = rig.records.size();
+        rig.offer(offered, SceneSwap::SameGeometry);
+        rig.ticks(500);
+        for (size_t i = first; i < rig.records.size(); ++i)
+            ASSERT_GT(rig.records[i].output.contacts, 0u) << i - first;
+        EXPECT_NEAR(force(), before, 1e-9 * before);
+    }
+    void expectReplay() {
+        rig.finish();
+        rig.expectWithinLimits();
+        expectEqualReplay(replayOf(file, rig.scenes));
+    }
+};
+
+/// In a scene at rest the reference object stays the one nearest to where touch began. Failed: hiding it
+/// ended the touch of another one.
+TEST(PartReplay, HidingWhatIsNotTouchedLetsGoOfNothing) {
+    const TouchedScene whole = twoFloors();
+    PressingHand hand(whole, 0.12, 0.01); // nearer to floor 1, on floor 0
+    hand.expectHeldOn(partOfFloors(whole, {1}));
+    hand.expectReplay();
+}
+
+/// Failed: with the reference object still there, the floor 3 mm behind pushed at 1 mm depth at once.
+TEST(PartReplay, WhatStoodBehindTheHiddenPushesOnlyAfterTheHandHasLeft) {
+    const TouchedScene whole = floorsAt({{0.0f, 0.0f, 0.0f}, {0.2f, 0.0f, 0.0f}, {0.0f, -0.003f, 0.0f}});
+    PressingHand hand(whole, 0.12, 0.01);
+    ASSERT_GT(hand.force(), 1.0);
+    const size_t first = hand.rig.records.size();
+    hand.rig.offer(partOfFloors(whole, {0}), SceneSwap::SameGeometry);
+    hand.rig.ticks(1000);
+    for (size_t i = first; i < hand.rig.records.size(); ++i)
+        ASSERT_TRUE(hand.rig.records[i].scene == 1 || hand.rig.records[i].output.contacts == 0) << i - first;
+    EXPECT_EQ(hand.force(), 0.0);
+    hand.height = 0.01;
+    hand.rig.ticks(500);
+    hand.height = -0.004;
+    hand.rig.ticks(2000);
+    EXPECT_GT(hand.force(), 0.1) << "it has left, and comes back to the floor behind";
+    hand.expectReplay();
+}
+
+/// Failed: an object that was hidden before touch began was the reference object, and every other material
+/// ended the touch.
+TEST(PartReplay, MaterialsAreEditedBesideAHiddenObject) {
+    const TouchedScene whole = twoFloors();
+    const TouchedScene part = partOfFloors(whole, {0});
+    PressingHand hand(part, 0.01, 0.19); // over the hidden floor
+    hand.expectHeldOn(
+        withChanged(part, [](HapticMaterial& material) { material.dynamicFriction.value = 0.9f; }));
+    hand.expectReplay();
 }
 
 /// The whole way of the window's flight recorder: hash, part and back.
