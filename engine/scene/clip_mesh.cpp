@@ -42,6 +42,7 @@ class Clipping {
             kept = kept || distances_[corner[k]] < 0.0;
             cut = cut || distances_[corner[k]] > 0.0;
         }
+        cuts_ = cuts_ || cut;
         if (cut && !kept)
             return;
         for (size_t k = 0; k < 3; ++k) {
@@ -57,7 +58,9 @@ class Clipping {
             for (const uint32_t v : {polygon[0], polygon[k], polygon[k + 1]})
                 made_.indices.push_back(v);
     }
-    [[nodiscard]] Mesh take() { return std::move(made_); }
+    [[nodiscard]] std::optional<Mesh> take() {
+        return cuts_ ? std::optional(std::move(made_)) : std::nullopt;
+    }
 
   private:
     [[nodiscard]] double length(uint32_t a, uint32_t b) const {
@@ -128,11 +131,12 @@ class Clipping {
     std::vector<uint32_t> taken_; // of each vertex: its number in the new mesh
     std::unordered_map<uint64_t, uint32_t> crossings_;
     Mesh made_;
+    bool cuts_ = false; // something off a triangle
 };
 
 } // namespace
 
-Mesh clippedMesh(const Mesh& mesh, const glm::dvec4& plane, double tolerance) {
+std::optional<Mesh> clippedMesh(const Mesh& mesh, const glm::dvec4& plane, double tolerance) {
     Clipping clipping(mesh, plane, tolerance);
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         clipping.add(&mesh.indices[i]);

@@ -152,9 +152,12 @@ ScenePtr sceneOf(const ScenePtr& whole, const ScenePart& part) {
         Instance& kept = scene->instances.emplace_back(whole->instances[i]);
         const Mesh& mesh = whole->meshes[static_cast<size_t>(kept.mesh)];
         const int next = static_cast<int>(scene->meshes.size());
-        if (part.clip && isClipped(*whole, kept)) {
-            scene->meshes.push_back(clippedMesh(mesh, planeInMesh(*part.clip, kept.sceneFromMesh),
-                                                clipTolerance(mesh, kept.sceneFromMesh)));
+        std::optional<Mesh> cut;
+        if (part.clip && isClipped(*whole, kept))
+            cut = clippedMesh(mesh, planeInMesh(*part.clip, kept.sceneFromMesh),
+                              clipTolerance(mesh, kept.sceneFromMesh));
+        if (cut) {
+            scene->meshes.push_back(*std::move(cut));
             kept.mesh = next;
             continue;
         }

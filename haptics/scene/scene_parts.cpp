@@ -2,6 +2,7 @@
 
 #include "engine/scene/clip_mesh.h"
 
+#include <optional>
 #include <utility>
 
 namespace touchstone {
@@ -45,13 +46,13 @@ class ObjectCutter {
         Instance& instance = cut_.instances[i];
         const Mesh& mesh = source_.meshes[static_cast<size_t>(source_.instances[i].mesh)];
         instance.mesh = 0;
-        cut_.meshes[0] = clippedMesh(mesh, planeInMesh(plane_, instance.sceneFromMesh),
-                                     clipTolerance(mesh, instance.sceneFromMesh));
-        if (cut_.meshes[0].indices.empty())
-            return emptied(*object);
-        if (cut_.meshes[0].positions.size() == mesh.positions.size() &&
-            cut_.meshes[0].indices.size() == mesh.indices.size())
+        std::optional<Mesh> left = clippedMesh(mesh, planeInMesh(plane_, instance.sceneFromMesh),
+                                               clipTolerance(mesh, instance.sceneFromMesh));
+        if (!left)
             return object; // its sphere crosses the plane, but no triangle does
+        if (left->indices.empty())
+            return emptied(*object);
+        cut_.meshes[0] = *std::move(left);
         const auto& material = whole_.materials[static_cast<size_t>(object->material)];
         return buildHapticObject(cut_, object->instance, whole_.workspaceFromScene,
                                  meshUse(material, object->oneSided), progress);

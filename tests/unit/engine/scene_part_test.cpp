@@ -129,7 +129,8 @@ TEST(ClippedMesh, HasTheAreaOfTheZoneAndIsOpenAtThePlaneOnly) {
                       : glm::normalize(glm::dvec3(number(random), number(random), number(random)));
         const double offset = trial < 6 ? 0.0 : number(random);
         const glm::dvec4 plane(normal, -offset);
-        const Mesh below = clippedMesh(whole, plane, 1e-6), above = clippedMesh(whole, -plane, 1e-6);
+        const Mesh below = clippedMesh(whole, plane, 1e-6).value(),
+                   above = clippedMesh(whole, -plane, 1e-6).value();
         EXPECT_NEAR(areaOf(below), 2.0 * glm::pi<double>() * (1.0 + offset), 0.02) << trial;
         // Triangles in the plane belong to both sides; no face of this sphere lies in one.
         EXPECT_NEAR(areaOf(below) + areaOf(above), areaOf(whole), 2e-5) << trial;
@@ -152,7 +153,7 @@ TEST(ClippedMesh, InterpolatesWhatItsVerticesHave) {
     mesh.stiffness = {100, 500, 100};
     mesh.heights = {0.0f, -0.004f, 0.0f};
     mesh.indices = {0, 1, 2};
-    const Mesh cut = clippedMesh(mesh, {1, 0, 0, -1}, 1e-9); // x <= 1
+    const Mesh cut = clippedMesh(mesh, {1, 0, 0, -1}, 1e-9).value(); // x <= 1
     ASSERT_EQ(cut.indices.size(), 6u);
     EXPECT_NEAR(areaOf(cut), 8.0 - 4.5, 1e-6);
     size_t made = 0;
@@ -167,9 +168,26 @@ TEST(ClippedMesh, InterpolatesWhatItsVerticesHave) {
             EXPECT_EQ(cut.tangents[v].w, -1.0f);
         }
     EXPECT_EQ(made, 2u);
-    EXPECT_TRUE(clippedMesh(mesh, {1, 0, 0, 1}, 1e-9).indices.empty());
-    EXPECT_EQ(clippedMesh(mesh, {1, 0, 0, -9}, 1e-9).indices, mesh.indices);
-    EXPECT_EQ(clippedMesh(mesh, {0, 0, 1, 0}, 1e-9).indices, mesh.indices) << "in the plane";
+    EXPECT_TRUE(clippedMesh(mesh, {1, 0, 0, 1}, 1e-9).value().indices.empty());
+    EXPECT_FALSE(clippedMesh(mesh, {1, 0, 0, -9}, 1e-9));
+    EXPECT_FALSE(clippedMesh(mesh, {0, 0, 1, 0}, 1e-9)) << "in the plane";
+}
+
+/// A strip of four triangles over 2 x 1.
+Mesh strip() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+    mesh.indices = {0, 1, 2, 1, 2, 3, 2, 3, 4, 3, 4, 5};
+    return mesh;
+}
+
+/// The cut leaves this strip as many vertices and triangles as it had.
+TEST(ClippedMesh, KnowsThatItCutWhateverIsLeft) {
+    const ClipPlane plane = clipPlane({1, 0.5, 0}, 1.0733).value();
+    const Mesh cut = clippedMesh(strip(), planeInMesh(plane, glm::dmat4(1.0)), 1e-9).value();
+    EXPECT_EQ(cut.positions.size(), 6u);
+    EXPECT_EQ(cut.indices.size(), 12u);
+    EXPECT_LT(areaOf(cut), 1.5);
 }
 
 TEST(ScenePart, LaysStrokesOnWhatIsLeft) {

@@ -109,6 +109,20 @@ TEST(SceneParts, AProxyBesideAHiddenObjectMovesToTheFrameOfOneThatIsLeft) {
     EXPECT_LT(glm::distance(proxy(), before), 1e-15);
 }
 
+/// The plane leaves this strip as many vertices and triangles as it had. Failed: it was felt whole.
+TEST(SceneParts, CutsAStripThatKeepsItsNumberOfTriangles) {
+    assets::Shape strip;
+    strip.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+    strip.normals.assign(6, {0, 0, 1});
+    strip.indices = {0, 1, 2, 1, 2, 3, 2, 3, 4, 3, 4, 5};
+    const Scene scene = sceneOf(strip);
+    const auto whole = compileHapticScene(scene, Similarity{});
+    const auto part = partOf(*whole, scene, clipped({1, 0.5, 0}, 1.0733));
+    EXPECT_NE(part->objects[0], whole->objects[0]);
+    EXPECT_TRUE(pickSurface(*part, {}, {0.3, 0.3, 1}, {0, 0, -1}));
+    EXPECT_FALSE(pickSurface(*part, {}, {1.7, 0.5, 1}, {0, 0, -1}));
+}
+
 /// A floor in y = 0 whose part beyond a line is cut away, by planes through vertices, along edges and at any
 /// angle. Over the kept part the force is that of the whole floor in closed form; beyond the line, farther
 /// than the ball reaches, there is none; in between it never exceeds the whole floor's.
