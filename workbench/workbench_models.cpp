@@ -52,7 +52,8 @@ void WorkbenchWindow::takeModel() {
 
 void WorkbenchWindow::show(LoadedModel loaded) {
     const ScenePtr scene = loaded.model.scene;
-    // Another surface of the volume that is shown: it is looked at from the same side.
+    // Another surface of the volume that is shown: it is looked at from the same side, and what is hidden or
+    // cut stays so.
     const bool sameVolume =
         hasModel() && scene->volume != nullptr && scene->volume == touch_.shown().model.scene->volume;
     notice_.clear();     // of the previous model
@@ -63,9 +64,10 @@ void WorkbenchWindow::show(LoadedModel loaded) {
     unsavedChanges_.begin();
     materials_.open(touch_.shown().model,
                     !isSample(scene->path) && !meshFormatNamed(scene->path) && scene->volume == nullptr);
-    if (!sameVolume)
-        view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
     nameAfter(scene->path);
+    if (sameVolume)
+        return;
+    view_.lookAt(workspaceBounds(touch_.shown().model), aspect());
     state_.view.part = {};
     try {
         state_.view.part = partNamed(*scene, std::exchange(firstPart_, {}));

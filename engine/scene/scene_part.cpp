@@ -131,7 +131,8 @@ glm::dvec4 planeInMesh(const ClipPlane& plane, const glm::dmat4& sceneFromMesh) 
 
 bool isClipped(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    return !scene.materials[static_cast<size_t>(mesh.material)].haptic.implicit;
+    return scene.volume == nullptr && // which is felt itself, whatever the material of its mesh states
+           !scene.materials[static_cast<size_t>(mesh.material)].haptic.implicit;
 }
 
 ScenePtr sceneOf(const ScenePtr& whole, const ScenePart& part) {

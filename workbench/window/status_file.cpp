@@ -2,6 +2,7 @@
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "engine/scene/scene.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/panels/error_panel.h"
 #include "workbench/panels/panels.h"
@@ -177,6 +178,9 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"clipped", input.part.clip.has_value()},
           {"clip_offset",
            input.part.clip ? nlohmann::ordered_json(input.part.clip->offset) : nlohmann::ordered_json()},
+          {"iso", input.scene != nullptr && input.scene->volume != nullptr
+                      ? nlohmann::ordered_json(input.scene->iso)
+                      : nlohmann::ordered_json()},
           {"wireframe", state.view.wireframe},
           {"grid", state.view.grid},
           {"orthographic", state.view.orthographic},

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/scene/clip_mesh.h"
 #include "engine/scene/scene_part.h"
+#include "engine/volume/volume.h"
 #include "tests/support/test_shapes.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +11,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <random>
 #include <tuple>
+#include <vector>
 
 namespace touchstone::test {
 namespace {
@@ -202,6 +205,25 @@ TEST(ScenePart, LaysStrokesOnWhatIsLeft) {
     EXPECT_EQ(left->bounds.high, scene->bounds.high);
     part.clip = ClipPlane{{0, 1, 0}, -1.0};
     EXPECT_FALSE(sceneOf(scene, part)->touchable());
+}
+
+/// Failed: a volume was cut for the eye, and felt whole.
+TEST(ScenePart, WhatIsFeltAsAFieldIsNotCut) {
+    Scene scene = threeObjects();
+    EXPECT_TRUE(isClipped(scene, scene.instances[0]));
+    scene.materials[0].haptic.implicit = true;
+    EXPECT_FALSE(isClipped(scene, scene.instances[0]));
+    scene.materials[0].haptic.implicit = false;
+    const auto values =
+        std::make_shared<const std::vector<uint8_t>>(std::vector<uint8_t>{0, 9, 0, 9, 0, 9, 0, 9});
+    VolumeFacts facts;
+    facts.size = glm::ivec3(2);
+    scene.volume = std::make_shared<const Volume>(facts, *values, values, "volume");
+    EXPECT_FALSE(isClipped(scene, scene.instances[0]));
+    const auto whole = std::make_shared<const Scene>(scene);
+    ScenePart part;
+    part.clip = ClipPlane{{0, 1, 0}, 0.0};
+    EXPECT_EQ(sceneOf(whole, part)->triangleCount(), whole->triangleCount());
 }
 
 } // namespace
