@@ -182,7 +182,8 @@ void WorkbenchWindow::showMaterials() {
     if (opening_.uploading())
         return drawn_.interrupt();
     try {
-        drawn_.update(screen_.renderer(), touch_.shown().model.scene, state_.view.mode != ViewMode::Shaded);
+        const Model& model = touch_.shown().model;
+        drawn_.update(screen_.renderer(), model.scene, showsHaptics(state_.view.mode, model.part));
     } catch (const DeviceLost&) {
         throw;
     } catch (const std::exception& error) {

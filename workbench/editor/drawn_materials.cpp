@@ -12,8 +12,8 @@ void DrawnMaterials::shown(ScenePtr scene) {
     redrawn_.reset();
 }
 
-void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool showsWhatIsFelt) {
-    const bool stale = drawn_ != scene && (drawn_ == nullptr || showsWhatIsFelt);
+void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool needed) {
+    const bool stale = drawn_ != scene && (drawn_ == nullptr || needed);
     if (stale && !preparing_.valid() && redrawn_ == nullptr)
         preparing_ = std::async(std::launch::async, [scene] { return prepareScene(scene); });
     try {

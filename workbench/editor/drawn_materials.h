@@ -7,7 +7,13 @@
 
 namespace touchstone {
 
-/// Updates the rendered scene after material edits. Rendering needs them only in views of haptic quantities;
+/// True where a picture depends on Material::haptic: in views of haptic quantities, and where a plane cuts,
+/// since what is felt as a field stays whole, and what is felt from outside only shows no inside.
+[[nodiscard]] inline bool showsHaptics(ViewMode mode, const ScenePart& part) {
+    return mode != ViewMode::Shaded || part.clip.has_value();
+}
+
+/// Updates the rendered scene after material edits. Rendering needs them only where it `showsHaptics`;
 /// a worker prepares them, and the renderer uploads them in slices as for a new model. Main thread.
 class DrawnMaterials {
   public:
@@ -22,8 +28,9 @@ class DrawnMaterials {
     }
     /// Another model is being uploaded.
     void interrupt() { redrawn_.reset(); }
-    /// Every frame in which no other model is uploaded. Throws a failure once per change.
-    void update(SceneRenderer& renderer, const ScenePtr& scene, bool showsWhatIsFelt);
+    /// Every frame in which no other model is uploaded. `needed`: showsHaptics. Throws a failure once per
+    /// change.
+    void update(SceneRenderer& renderer, const ScenePtr& scene, bool needed);
 
   private:
     ScenePtr drawn_;                                              // the scene in the renderer
