@@ -1,5 +1,7 @@
 #include "engine/scene/clip_mesh.h"
 
+#include "engine/scene/mesh_vertices.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,20 +78,10 @@ class Clipping {
     template <class Make>
     uint32_t append(const Make& make) {
         const auto vertex = static_cast<uint32_t>(made_.positions.size());
-        made_.positions.push_back(make(mesh_.positions));
-        const auto follow = [&](const auto& from, auto& to) {
+        forEachVertexArray(mesh_, made_, [&](const auto& from, auto& to) {
             if (!from.empty())
                 to.push_back(make(from));
-        };
-        follow(mesh_.normals, made_.normals);
-        follow(mesh_.tangents, made_.tangents);
-        follow(mesh_.uv0, made_.uv0);
-        follow(mesh_.uv1, made_.uv1);
-        follow(mesh_.colors, made_.colors);
-        follow(mesh_.stiffness, made_.stiffness);
-        follow(mesh_.damping, made_.damping);
-        follow(mesh_.friction, made_.friction);
-        follow(mesh_.heights, made_.heights);
+        });
         return vertex;
     }
 

@@ -10,39 +10,61 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
 namespace touchstone {
 
-/// Calls f(name, array) for every vertex array of a Mesh or const Mesh, `positions` first. Each of them is
-/// empty or has one entry per vertex. Does not compile while a member of Mesh is neither listed as a vertex
-/// array nor as something else.
-template <class AnyMesh, class F>
+/// A vertex array of a mesh and its name.
+template <class Array>
+struct VertexArray {
+    const char* name;
+    Array& values;
+};
+
+/// The VertexArrays of a Mesh or const Mesh as a tuple, `positions` first. Each of them is empty or has one
+/// entry per vertex. Does not compile while a member of Mesh is neither listed as a vertex array nor as
+/// something else.
+template <class AnyMesh>
 requires std::is_same_v<std::remove_const_t<AnyMesh>, Mesh>
-void forEachVertexArray(AnyMesh& mesh, F&& f) {
-    // The binding fails to compile if Mesh gains or loses a member, the count if one is bound and not
-    // visited.
+auto vertexArrays(AnyMesh& mesh) {
+    // The binding fails to compile if Mesh gains or loses a member, the count if one is bound and not listed.
     auto& [name, positions, normals, tangents, uv0, uv1, colors, stiffness, damping, friction, heights,
            indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile] = mesh;
-    const auto visit = [&f](auto&&... named) {
-        (f(named.first, named.second), ...);
-        return std::integral_constant<size_t, sizeof...(named)>{};
-    };
     const auto array = [](const char* label, auto& values) {
-        return std::pair<const char*, decltype(values)>(label, values);
+        return VertexArray<std::remove_reference_t<decltype(values)>>{label, values};
     };
     const auto other = [](const auto&... members) {
         return std::integral_constant<size_t, sizeof...(members)>{};
     };
-    const auto visited =
-        visit(array("positions", positions), array("normals", normals), array("tangents", tangents),
-              array("uv0", uv0), array("uv1", uv1), array("colors", colors), array("stiffness", stiffness),
-              array("damping", damping), array("friction", friction), array("heights", heights));
+    const auto arrays = std::tuple(
+        array("positions", positions), array("normals", normals), array("tangents", tangents),
+        array("uv0", uv0), array("uv1", uv1), array("colors", colors), array("stiffness", stiffness),
+        array("damping", damping), array("friction", friction), array("heights", heights));
     const auto others =
         other(name, indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile);
-    static_assert(decltype(visited)::value + decltype(others)::value == memberCount<Mesh>(),
+    static_assert(std::tuple_size_v<std::remove_const_t<decltype(arrays)>> + decltype(others)::value ==
+                      memberCount<Mesh>(),
                   "list every member of Mesh here: as a vertex array, or as something else");
+    return arrays;
+}
+
+/// Calls f(name, array) for every vertex array of a Mesh or const Mesh.
+template <class AnyMesh, class F>
+void forEachVertexArray(AnyMesh& mesh, F&& f) {
+    std::apply([&f](const auto&... arrays) { (f(arrays.name, arrays.values), ...); }, vertexArrays(mesh));
+}
+
+/// Calls f(from's array, to's array) for every vertex array of two meshes.
+template <class F>
+void forEachVertexArray(const Mesh& from, Mesh& to, F&& f) {
+    const auto sources = vertexArrays(from);
+    const auto targets = vertexArrays(to);
+    [&]<size_t... I>(std::index_sequence<I...>) {
+        (f(std::get<I>(sources).values, std::get<I>(targets).values), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<std::remove_const_t<decltype(sources)>>>());
 }
 
 /// Appends a copy of vertex `v` to every vertex array and returns its index. `v` is in range.

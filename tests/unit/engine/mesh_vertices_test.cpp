@@ -1,6 +1,7 @@
 // The list of vertex arrays, what is built on it, and the code that once had a list of its own.
 #include "engine/core/error.h"
 #include "engine/load/scene_loader.h"
+#include "engine/scene/clip_mesh.h"
 #include "engine/scene/mesh_vertices.h"
 #include "engine/scene/tangent_space.h"
 #include "tests/support/gltf_maker.h"
@@ -52,6 +53,19 @@ TEST(MeshVertices, AVertexIsDuplicatedInEveryArray) {
     });
     EXPECT_EQ(arrays, 10u);
     EXPECT_EQ(meshFault(mesh), std::nullopt);
+}
+
+/// The clipping of meshes had a list of its own.
+TEST(MeshVertices, ACutMeshHasEveryArray) {
+    Mesh mesh = mirroredSquares();
+    mesh.tangents.assign(6, {1, 0, 0, 1});
+    Mesh cut = clippedMesh(mesh, {1, 0, 0, -0.5}, 1e-9).value(); // x <= 0.5
+    EXPECT_EQ(meshFault(cut), std::nullopt);
+    size_t arrays = 0;
+    forEachVertexArray(mesh, cut, [&](const auto& from, const auto& to) {
+        arrays += !from.empty() && to.size() == cut.positions.size();
+    });
+    EXPECT_EQ(arrays, 10u);
 }
 
 TEST(MeshVertices, EmptyArraysStayEmpty) {
