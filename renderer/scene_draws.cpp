@@ -74,16 +74,10 @@ std::optional<glm::vec4> clipInEye(const ClipPlane& plane, const glm::dmat4& atR
     return glm::vec4(glm::dvec4(normal, inScene.w + glm::dot(normal, eye - workspaceFromScene.translation)));
 }
 
-} // namespace
-
 /// Each side is sorted by its own depth, so that the contents of a glass are drawn between its far and its
 /// near side.
-void SceneRenderer::Impl::addBlended(DrawItem item, double distance, double halfDepth,
-                                     std::vector<DrawItem>& draws) const {
-    const Scene& scene = scene_->scene();
-    const Mesh& mesh =
-        scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(item.instance)].mesh)];
-    if (scene.materials[static_cast<size_t>(mesh.material)].doubleSided && !mesh.indices.empty()) {
+void addBlended(DrawItem item, double distance, double halfDepth, std::vector<DrawItem>& draws) {
+    if (item.bothSides) {
         item.sides = DrawItem::Sides::Far;
         item.distance = distance + halfDepth;
         draws.push_back(item);
@@ -92,6 +86,8 @@ void SceneRenderer::Impl::addBlended(DrawItem item, double distance, double half
     item.distance = distance - halfDepth;
     draws.push_back(item);
 }
+
+} // namespace
 
 void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent,
                                        Part part, std::vector<DrawItem>& draws) const {
@@ -124,6 +120,9 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         DrawItem item;
         item.instance = static_cast<int>(i);
         item.features = drawn.features | light;
+        const Material& material = scene.materials[static_cast<size_t>(
+            scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)];
+        item.bothSides = material.doubleSided && !strokes;
         if (!setConstants(linear, origin, item))
             continue;
         if (view.part.clip && isClipped(scene, scene.instances[i])) {
@@ -133,6 +132,8 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
                 continue;
             item.constants.clip = *clip;
             item.features |= shared::kIsClipped;
+            // A cut shows the insides, which are felt unless the material is felt from outside only.
+            item.bothSides = !strokes && (material.doubleSided || material.haptic.sides != SideChoice::Front);
         }
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));
@@ -188,10 +189,6 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, layout, 1,
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
-    // A cut shows the insides, which are felt unless the material is felt from outside only.
-    const Material& material = scene.materials[static_cast<size_t>(materialIndex)];
-    const bool bothSides = material.doubleSided || ((item.features & shared::kIsClipped) != 0 &&
-                                                    material.haptic.sides != SideChoice::Front);
     commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     commands.pushConstants<shared::ObjectConstants>(layout, kObjectStages, 0, item.constants);
     ++statistics.drawCalls;
@@ -204,7 +201,7 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
         commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
         return;
     }
-    const bool all = item.sides == DrawItem::Sides::All && bothSides;
+    const bool all = item.sides == DrawItem::Sides::All && item.bothSides;
     commands.setCullMode(all ? Cull::eNone : item.sides == DrawItem::Sides::Far ? Cull::eFront : Cull::eBack);
     commands.drawIndexed(item.indexCount, 1, item.firstIndex, mesh.firstVertex, 0);
     statistics.drawnTriangles += item.indexCount / 3;

@@ -25,7 +25,8 @@ struct DrawItem {
     int instance = 0;
     uint32_t firstIndex = 0, indexCount = 0; ///< of triangles; or lines or points of the mesh's strokes
     uint32_t features = 0;
-    /// Of transmissive items: side to draw. All: as in the material.
+    bool bothSides = false; ///< of its triangles are drawn
+    /// Of transmissive items: side to draw. All: one or both, in one draw.
     enum class Sides : uint8_t { All, Far, Near } sides = Sides::All;
     double distance = 0.0;
     glm::dvec3 centre{0.0}; ///< of a ball around it, eye frame
@@ -93,7 +94,6 @@ struct SceneRenderer::Impl {
     void castShadow(const FrameSlot& slot, const View& view, const KeptPicture& kept);
     void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent, Part part,
                       std::vector<DrawItem>& draws) const;
-    void addBlended(DrawItem item, double distance, double halfDepth, std::vector<DrawItem>& draws) const;
     void writeUniforms(FrameSlot& slot, const View& view, const glm::dvec3& eye, const Overlay& overlay,
                        vk::Extent2D extent);
     void writeOverlay(FrameSlot& slot, const OverlayDraw& draw);
@@ -118,8 +118,8 @@ struct SceneRenderer::Impl {
     GpuEnvironment environment_;
     GpuBuffer shapeVertices_, shapeIndices_;
     ShapeMeshes shapes_;
-    std::array<FrameRing, 2> rings_;         ///< of each Eye
-    FrameRing rest_;                         ///< of the main one over the kept picture, in that's size
+    std::array<FrameRing, 2> rings_; ///< of each Eye
+    FrameRing rest_;                 ///< of the main one over the kept picture, in the size of that picture
     std::array<const FrameSlot*, 2> last_{}; ///< drawn for each Eye
     FrameSlot warm_;                         ///< for frames that compile pipelines and are not shown
     KeptPicture kept_, warmKept_;
