@@ -19,14 +19,38 @@ FeltPart feltPart(const Model& whole, const ScenePart& part) {
     return felt;
 }
 
-void FeltPartBuild::start(const Model& whole, const ScenePart& part) {
-    job_ = std::async(std::launch::async, [whole, part] { return feltPart(whole, part); });
+void FeltPartBuild::wholeIsFelt() {
+    dropped_ = job_.valid();
+    failed_.reset();
+    toWhole_ = SceneSwap::SameGeometry;
+}
+
+bool FeltPartBuild::start(const Model& whole, const ScenePart& part) {
+    Asked asked{whole.haptic, part};
+    if (job_.valid() || failed_ == asked)
+        return false;
+    asked_ = std::move(asked);
+    failed_.reset();
+    toPart_ = std::exchange(toWhole_, SceneSwap::SameGeometry);
+    job_ = std::async(std::launch::async, make_, whole, part);
+    return true;
 }
 
 std::optional<FeltPart> FeltPartBuild::take() {
     if (!job_.valid() || job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return std::nullopt;
-    return job_.get();
+    const bool dropped = std::exchange(dropped_, false);
+    try {
+        FeltPart made = job_.get();
+        return dropped ? std::nullopt : std::optional(std::move(made));
+    } catch (...) {
+        if (dropped)
+            return std::nullopt;
+        failed_ = std::move(asked_);
+        if (toPart_ == SceneSwap::Anew) // it was not taken up
+            toWhole_ = SceneSwap::Anew;
+        throw;
+    }
 }
 
 } // namespace touchstone

@@ -28,9 +28,8 @@ void LiveTouch::show(LoadedModel loaded, bool generated) {
     shown_.identity.generated = generated;
     whole_ = shown_.model;
     felt_ = whole_.haptic;
-    toWhole_ = SceneSwap::SameGeometry;
+    partBuild_.wholeIsFelt();
     wholeEdits_ = shown_.identity.edits;
-    ++model_;
     offerScene();
     hand_.offerPath(shown_.path);
     strokes_.show(shown_.model.scene, shown_.model.workspaceFromScene, shown_.path);
@@ -43,9 +42,12 @@ void LiveTouch::change(const MadeMaterials& made) {
         shown_.model.scene = whole_.scene = made.scene;
     whole_.haptic = made.haptic;
     wholeEdits_ = withIso(made.edits, *shown_.model.scene);
-    if (swap == SceneSwap::Anew) // also for a part of the geometry before, which may be on its way
-        toWhole_ = toPart_ = swap;
-    if (!shown_.model.part.whole())
+    const bool whole = shown_.model.part.whole();
+    if (swap == SceneSwap::Anew && whole)
+        partBuild_.wholeIsFelt();
+    else if (swap == SceneSwap::Anew)
+        partBuild_.geometryChanged();
+    if (!whole)
         return; // a part of it follows (showPart)
     felt_ = made.haptic;
     shown_.identity.edits = wholeEdits_;
@@ -57,21 +59,18 @@ void LiveTouch::change(const MadeMaterials& made) {
 void LiveTouch::showPart(const ScenePart& part) {
     if (!hasModel())
         return;
-    if (const std::optional<FeltPart> made = partBuild_.take(); made && partModel_ == model_)
+    if (const std::optional<FeltPart> made = partBuild_.take())
         takePart(*made);
-    if (partBuild_.busy() || (part == shown_.model.part && felt_ == whole_.haptic))
-        return;
-    partModel_ = model_;
-    toPart_ = std::exchange(toWhole_, SceneSwap::SameGeometry);
-    partEdits_ = wholeEdits_;
-    partBuild_.start(whole_, part);
+    const bool missing = part != shown_.model.part || felt_ != whole_.haptic;
+    if (missing && partBuild_.start(whole_, part))
+        partEdits_ = wholeEdits_;
 }
 
 void LiveTouch::takePart(const FeltPart& made) {
     const ScenePart& before = shown_.model.part;
     const bool onlyLess =
         made.part.clip == before.clip && std::ranges::includes(made.part.hidden, before.hidden);
-    const SceneSwap swap = onlyLess ? toPart_ : SceneSwap::Anew;
+    const SceneSwap swap = onlyLess ? partBuild_.swap() : SceneSwap::Anew;
     const bool same = made.part == before;
     felt_ = made.whole;
     shown_.model.part = shown_.identity.part = made.part;

@@ -102,10 +102,7 @@ class LiveTouch {
     LoadedModel shown_;
     Model whole_;
     std::shared_ptr<const HapticScene> felt_; // what the felt scene is a part of
-    // From what is felt to a part of whole_, and of the part that is being compiled:
-    SceneSwap toWhole_ = SceneSwap::SameGeometry, toPart_ = SceneSwap::SameGeometry;
     FeltPartBuild partBuild_;
-    uint64_t model_ = 0, partModel_ = 0; // models shown so far; at the start of partBuild_
     std::string wholeEdits_, partEdits_; // of whole_, and of the part that is being compiled
     bool builtAgain_ = false;
     BackgroundBuild build_;
