@@ -57,7 +57,8 @@ void get(ByteReader& bytes, ScenePart& part) {
     ClipPlane plane;
     bytes.get(plane.normal);
     bytes.get(plane.offset);
-    if (!clipPlane(plane.normal, plane.offset))
+    // Distances from it are measured by its normal, whose length the writer makes 1 up to rounding.
+    if (!clipPlane(plane.normal, plane.offset) || !(std::abs(glm::length(plane.normal) - 1.0) <= 1e-9))
         throw Error("", "clipping plane", "has no direction or place", "");
     part.clip = plane;
 }

@@ -193,6 +193,10 @@ TEST(PartReplay, TheRecordingKnowsThePart) {
     scene.identity.part = {};
     scene.identity.part.clip = ClipPlane{glm::dvec3(0.0), 1.0};
     EXPECT_THROW((void)decode(1, encode(scene)), Error);
+    for (const double length : {1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e-200, 1e200}) {
+        scene.identity.part.clip = ClipPlane{glm::dvec3(0, length, 0), 1.0};
+        EXPECT_THROW((void)decode(1, encode(scene)), Error) << length;
+    }
     scene.identity.part.clip = ClipPlane{glm::dvec3(1, 0, 0), std::nan("")};
     EXPECT_THROW((void)decode(1, encode(scene)), Error);
 }
