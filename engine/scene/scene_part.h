@@ -58,7 +58,7 @@ void isolateNodes(const Scene& scene, std::span<const int> nodes, ScenePart& par
 
 /// One entry for each of Scene::instances: true where its node is hidden.
 [[nodiscard]] std::vector<bool> hiddenInstances(const Scene& scene, const ScenePart& part);
-/// The plane in a mesh's frame, whose poses in the scene is `sceneFromMesh`: dot(plane, (p, 1)) is the
+/// The plane in the frame of a mesh whose pose in the scene is `sceneFromMesh`: dot(plane, (p, 1)) is the
 /// distance in the scene, m.
 [[nodiscard]] glm::dvec4 planeInMesh(const ClipPlane& plane, const glm::dmat4& sceneFromMesh);
 /// False for an instance that is felt as a distance field, which the plane leaves whole.
