@@ -9,8 +9,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kCells = 10.0;   // about so many along the model's longest side
-constexpr double kBeyond = 0.5;   // of that side, on every side of the model
+constexpr double kCells = 10.0; // about so many along the model's longest side
+// Of that side, on every side of the model: with a spacing more it stays within the model's diagonal, which
+// the near plane of a perspective leaves room for (OrbitCamera::nearPlane).
+constexpr double kBeyond = 0.28;
 constexpr double kBeneath = 1e-3; // of that side: below what lies on the ground
 
 /// The largest of 1, 2 and 5 times a power of ten up to `size`.
