@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <span>
 #include <utility>
 
 namespace touchstone {
@@ -16,7 +18,7 @@ namespace {
 
 constexpr const char* kMeshing = "meshing the surface";
 constexpr int kLeaf = 8;
-constexpr int kMostStride = 4; // a volume has at most 2^30 voxels
+constexpr int kMostStride = 4;
 
 /// Every `stride`-th voxel, and one layer of outside about them; coordinates from 0 on.
 class Samples {
@@ -36,7 +38,8 @@ class Samples {
     /// Of a sample where the surface is far; also of places beyond the volume.
     [[nodiscard]] bool inside(const glm::ivec3& at) const { return rangeOf(at, at).low >= iso_; }
 
-    /// Positive outside; of the samples from `first` on along a row, of which at most kLeaf are asked for.
+    /// Positive outside; of the samples from `first` on along a row, of which at most kLeaf + 1 are asked
+    /// for.
     void fill(const glm::ivec3& first, std::span<float> values) const {
         std::ranges::fill(values, far_);
         const auto off = [&](int axis) { return first[axis] < 0 || first[axis] >= size_[axis]; };
@@ -44,7 +47,7 @@ class Samples {
         const int end = std::min(first.x + static_cast<int>(values.size()), size_.x);
         if (off(1) || off(2) || begin >= end)
             return;
-        std::array<float, kLeaf * kMostStride> stored{};
+        std::array<float, kLeaf * kMostStride + 1> stored{};
         volume_.row(stride_ * glm::ivec3(begin, first.y, first.z),
                     std::span(stored).first(static_cast<size_t>((end - begin - 1) * stride_ + 1)));
         const auto border = [&](int at, int axis) { return at == 0 || at == size_[axis] - 1; };
@@ -80,12 +83,46 @@ class Samples {
     glm::ivec3 size_;
 };
 
-/// Leaves of 8^3 where the surface passes and next to them; elsewhere tiles that tell the side.
-openvdb::FloatGrid::Ptr gridOf(const Samples& samples, const Progress& progress) {
+/// A leaf's samples and their next ones along each axis, the first axis fastest.
+class LeafValues {
+  public:
+    void fill(const Samples& samples, const glm::ivec3& first) {
+        for (int z = 0; z < kSide; ++z)
+            for (int y = 0; y < kSide; ++y)
+                samples.fill(first + glm::ivec3(0, y, z),
+                             std::span(values_).subspan(index({0, y, z}), static_cast<size_t>(kSide)));
+    }
+    [[nodiscard]] float at(const glm::ivec3& place) const { return values_[index(place)]; }
+    /// Edges that the surface crosses, of those that begin at the leaf's samples.
+    [[nodiscard]] uint64_t crossed() const {
+        uint64_t edges = 0;
+        for (int z = 0; z < kLeaf; ++z)
+            for (int y = 0; y < kLeaf; ++y)
+                for (int x = 0; x < kLeaf; ++x) {
+                    const bool inside = at({x, y, z}) < 0.0f;
+                    edges += uint64_t{(at({x + 1, y, z}) < 0.0f) != inside} +
+                             uint64_t{(at({x, y + 1, z}) < 0.0f) != inside} +
+                             uint64_t{(at({x, y, z + 1}) < 0.0f) != inside};
+                }
+        return edges;
+    }
+
+  private:
+    static constexpr int kSide = kLeaf + 1;
+    [[nodiscard]] static size_t index(const glm::ivec3& at) {
+        return static_cast<size_t>(at.x + kSide * (at.y + kSide * at.z));
+    }
+    std::array<float, static_cast<size_t>(kSide* kSide* kSide)> values_{};
+};
+
+/// Leaves of 8^3 where the surface passes and next to them; elsewhere tiles that tell the side. Null where
+/// the surface would have more than `mostFaces`: dual contouring makes one of each edge that it crosses.
+openvdb::FloatGrid::Ptr gridOf(const Samples& samples, uint64_t mostFaces, const Progress& progress) {
     auto grid = openvdb::FloatGrid::create(samples.far());
     openvdb::FloatGrid::Accessor accessor = grid->getAccessor();
     const glm::ivec3 leaves = samples.size() / kLeaf + 1; // the first begins one leaf before
-    std::array<float, kLeaf> values{};
+    LeafValues values;
+    uint64_t faces = 0;
     const auto fill = [&](const glm::ivec3& first) {
         const openvdb::Coord at(first.x, first.y, first.z);
         if (!samples.crosses(first - 1, first + kLeaf)) {
@@ -93,33 +130,50 @@ openvdb::FloatGrid::Ptr gridOf(const Samples& samples, const Progress& progress)
                 accessor.addTile(1, at, -samples.far(), false);
             return;
         }
+        values.fill(samples, first);
+        faces += values.crossed();
         auto* const leaf = accessor.touchLeaf(at);
         for (int k = 0; k < kLeaf; ++k)
-            for (int j = 0; j < kLeaf; ++j) {
-                samples.fill(first + glm::ivec3(0, j, k), values);
+            for (int j = 0; j < kLeaf; ++j)
                 for (int i = 0; i < kLeaf; ++i)
-                    leaf->setValueOn(openvdb::Coord(i, j, k), values[static_cast<size_t>(i)]);
-            }
+                    leaf->setValueOn(openvdb::Coord(i, j, k), values.at({i, j, k}));
     };
     for (int z = -1; z <= leaves.z; ++z) {
         progress.step(share(static_cast<size_t>(z + 1), static_cast<size_t>(leaves.z + 1)), kMeshing);
         for (int y = -1; y <= leaves.y; ++y)
             for (int x = -1; x <= leaves.x; ++x)
                 fill(kLeaf * glm::ivec3(x, y, z));
+        if (faces > mostFaces)
+            return nullptr;
     }
     return grid;
+}
+
+/// The samples of the smallest stride from `stride` on, which it becomes, whose surface has few enough faces.
+openvdb::FloatGrid::Ptr smallEnoughGrid(const Volume& volume, double iso, int& stride, uint64_t mostFaces,
+                                        const std::string& shownAs, const Progress& progress) {
+    for (; stride <= kMostStride; ++stride)
+        if (auto grid = gridOf(Samples(volume, iso, stride), mostFaces, progress))
+            return grid;
+    char value[32];
+    std::snprintf(value, sizeof value, "%.6g", iso);
+    throw Error(shownAs, "",
+                std::string("its surface with the value ") + value + " has more than " +
+                    std::to_string(mostFaces) + " faces, even from every " + std::to_string(kMostStride) +
+                    "th voxel: it is noise",
+                "give another --iso, or smooth the volume");
 }
 
 } // namespace
 
 SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& shownAs,
-                         const Progress& progress) {
+                         const Progress& progress, uint64_t mostFaces) {
     volume.checkIso(iso, shownAs);
     int stride = 1;
     while (volume.voxels() / (uint64_t(stride) * uint64_t(stride) * uint64_t(stride)) > kMostDrawnVoxels)
         ++stride;
-    const Samples samples(volume, iso, stride);
-    const openvdb::FloatGrid::Ptr grid = gridOf(samples, progress.part(0.0, 0.4));
+    const openvdb::FloatGrid::Ptr grid =
+        smallEnoughGrid(volume, iso, stride, mostFaces, shownAs, progress.part(0.0, 0.4));
     progress.step(0.4, kMeshing);
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
@@ -129,6 +183,7 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
     if (quads.empty() && triangles.empty())
         throw Error(shownAs, "", "has no surface with this value", "give another --iso");
     SurfaceMesh mesh;
+    mesh.stride = stride;
     mesh.positions.reserve(points.size());
     for (const openvdb::Vec3s& point : points)
         mesh.positions.emplace_back(volume.scenePoint(

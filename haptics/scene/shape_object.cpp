@@ -107,8 +107,7 @@ std::shared_ptr<const HapticObject> volumeObject(const Scene& scene, int instanc
     if (field.coarser > 1.0)
         warnings.push_back({"volume", "is felt with voxels " + std::to_string(field.coarser) +
                                           " times as large as its own: a field has at most " +
-                                          std::to_string(static_cast<uint64_t>(kMostVolumeNodes)) +
-                                          " nodes"});
+                                          std::to_string(static_cast<uint64_t>(field.mostNodes)) + " nodes"});
     const auto object = objectOf(mesh.name, std::make_shared<FieldShape>(field.grid), mesh.material,
                                  workspaceFromScene * field.sceneFromObject);
     object->instance = instance;

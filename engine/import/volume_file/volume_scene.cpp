@@ -8,7 +8,7 @@
 
 namespace touchstone {
 
-std::vector<uint8_t> glbOfVolume(const ImportContext& context, const Volume& volume, double iso) {
+std::vector<uint8_t> glbOfVolume(ImportContext& context, const Volume& volume, double iso) {
     std::vector<uint8_t> arrays;
     FlatMeshes meshes;
     FlatMesh& mesh = meshes.meshes.emplace_back();
@@ -17,6 +17,12 @@ std::vector<uint8_t> glbOfVolume(const ImportContext& context, const Volume& vol
     {
         const SurfaceMesh surface =
             meshOfVolume(volume, iso, context.file(), context.progress().part(0.5, 0.8));
+        if (surface.stride > 1)
+            context.warn("volume", "is drawn from every " + std::to_string(surface.stride) +
+                                       (surface.stride == 2   ? "nd"
+                                        : surface.stride == 3 ? "rd"
+                                                              : "th") +
+                                       " voxel: the hand feels more than the eye sees");
         mesh.counts.vertices = static_cast<uint32_t>(surface.positions.size());
         mesh.counts.triangles = static_cast<uint32_t>(surface.corners.size() / 3);
         arrays.resize(surface.positions.size() * 2 * sizeof(glm::vec3) +

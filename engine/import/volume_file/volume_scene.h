@@ -10,7 +10,6 @@ namespace touchstone {
 
 /// A GLB with the surface of a volume at `iso`, for the eye: one node, mesh and material, as a mesh file
 /// becomes (flat_glb.h). Throws Error and Cancelled.
-[[nodiscard]] std::vector<uint8_t> glbOfVolume(const ImportContext& context, const Volume& volume,
-                                               double iso);
+[[nodiscard]] std::vector<uint8_t> glbOfVolume(ImportContext& context, const Volume& volume, double iso);
 
 } // namespace touchstone

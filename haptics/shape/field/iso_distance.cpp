@@ -3,6 +3,7 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -271,15 +272,22 @@ bool atBorder(const glm::ivec3& at, const glm::ivec3& nodes) {
 
 } // namespace
 
-void toDistances(NodeValues& grid, double inside, double outside, const Progress& progress) {
+bool toDistances(NodeValues& grid, double inside, double outside, uint64_t mostNear,
+                 const Progress& progress) {
     const glm::ivec3 n = grid.nodes;
     const ptrdiff_t sy = n.x, sz = static_cast<ptrdiff_t>(n.x) * n.y;
     std::vector<std::vector<NearNode>> near(static_cast<size_t>(n.z));
     const NearSurface surface(grid);
+    std::atomic<uint64_t> nearNodes{0};
     eachLayer(n.z, progress.part(0.0, 0.3), [&](int z) {
-        if (z > 0 && z + 1 < n.z)
-            near[static_cast<size_t>(z)] = surface.layer(z);
+        if (z == 0 || z + 1 == n.z || nearNodes.load(std::memory_order_relaxed) > mostNear)
+            return;
+        std::vector<NearNode>& found = near[static_cast<size_t>(z)];
+        found = surface.layer(z);
+        nearNodes.fetch_add(found.size(), std::memory_order_relaxed);
     });
+    if (nearNodes.load(std::memory_order_relaxed) > mostNear)
+        return false;
     NodeBits negative(n), frozen(n);
     eachLayer(n.z, progress.part(0.3, 0.4), [&](int z) {
         for (int y = 0; y < n.y; ++y) {
@@ -315,6 +323,7 @@ void toDistances(NodeValues& grid, double inside, double outside, const Progress
                 grid.value[static_cast<size_t>(x + y * sy + z * sz)] =
                     grid.value[static_cast<size_t>(next.x + next.y * sy + next.z * sz)];
             }
+    return true;
 }
 
 } // namespace touchstone

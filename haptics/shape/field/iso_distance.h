@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace touchstone {
@@ -20,8 +21,11 @@ struct NodeValues {
 /// passes tell the distance along their gradient, or along the shortest of the 26 ways to a node of the other
 /// side where that is less; the others solve |grad f| = 1 by its first-order upwind scheme (H. Zhao, A fast
 /// sweeping method for Eikonal equations, 2005) in one round of eight sweeps over bricks. The layer of nodes
-/// at the border repeats the next one. Two threads; the same result with one. Throws Cancelled.
-void toDistances(NodeValues& grid, double inside, double outside, const Progress& progress = {});
+/// at the border repeats the next one. False, and the values as they were, where more than `mostNear` nodes
+/// are next to the surface, of each of which it keeps a note. Two threads; the same result with one. Throws
+/// Cancelled.
+[[nodiscard]] bool toDistances(NodeValues& grid, double inside, double outside, uint64_t mostNear,
+                               const Progress& progress = {});
 
 inline constexpr float kFarNode = 1e6f;
 

@@ -30,7 +30,7 @@ glm::dmat3 rightAngled(const glm::dmat3& axes) {
     return {x, y, glm::cross(x, y)};
 }
 
-NodePlan planFor(const Volume& volume) {
+NodePlan planFor(const Volume& volume, double mostNodes) {
     constexpr double kEqual = 1e-5;
     const glm::dmat3& steps = volume.facts().axes;
     NodePlan plan;
@@ -54,8 +54,8 @@ NodePlan planFor(const Volume& volume) {
         const glm::dvec3 n = count(voxel);
         return n.x * n.y * n.z;
     };
-    while (all(plan.voxel) > kMostVolumeNodes) {
-        plan.voxel *= std::max(1.001, std::cbrt(all(plan.voxel) / kMostVolumeNodes));
+    while (all(plan.voxel) > mostNodes) {
+        plan.voxel *= std::max(1.001, std::cbrt(all(plan.voxel) / mostNodes));
         plan.onVoxels = false;
     }
     plan.coarser = plan.voxel / finest;
@@ -164,18 +164,28 @@ class BorderDistance {
 } // namespace
 
 VolumeField fieldOfVolume(const Volume& volume, double iso, const FieldReach& reach,
-                          const std::string& shownAs, const Progress& progress) {
+                          const std::string& shownAs, const Progress& progress, uint64_t mostNear) {
     volume.checkIso(iso, shownAs);
-    const NodePlan plan = planFor(volume);
-    const double inside = std::clamp(reach.inside / plan.voxel, 2.0, kDeepestVoxels);
-    const double outside = std::max(reach.outside / plan.voxel, 2.0);
-    NodeValues grid = valuesAt(volume, iso, plan, progress.part(0.0, 0.1));
-    toDistances(grid, inside, outside, progress.part(0.1, 0.8));
+    VolumeField field;
+    NodePlan plan;
+    NodeValues grid;
+    double inside = 0.0, outside = 0.0;
+    field.mostNodes = kMostVolumeNodes;
+    for (bool done = false; !done;) {
+        grid = {};
+        plan = planFor(volume, field.mostNodes);
+        inside = std::clamp(reach.inside / plan.voxel, 2.0, kDeepestVoxels);
+        outside = std::max(reach.outside / plan.voxel, 2.0);
+        grid = valuesAt(volume, iso, plan, progress.part(0.0, 0.1));
+        // A field of no more nodes cannot have more of them near the surface: there are two rounds at most.
+        done = toDistances(grid, inside, outside, mostNear, progress.part(0.1, 0.8));
+        if (!done)
+            field.mostNodes = static_cast<double>(mostNear);
+    }
     // Object frame: the box's middle, and its longest side.
     const glm::dvec3 size = plan.voxel * glm::dvec3(plan.nodes - 1);
     const double unit = std::max({size.x, size.y, size.z});
     const double voxel = plan.voxel / unit;
-    VolumeField field;
     field.coarser = plan.coarser;
     field.sceneFromObject = {unit, glm::quat_cast(plan.axes), plan.first + plan.axes * (0.5 * size)};
     const BorderDistance border(volume, plan);

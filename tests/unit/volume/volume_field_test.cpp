@@ -134,6 +134,18 @@ TEST(VolumeField, EndsAtTheVolumesBorder) {
     EXPECT_GT(lids, 300);
 }
 
+TEST(VolumeField, NoiseIsFeltAtFewerNodes) {
+    const auto volume = test::noise(glm::ivec3(40));
+    const VolumeField all = fieldOfVolume(*volume, 128.0, kReach, "noise");
+    EXPECT_EQ(all.coarser, 1.0);
+    EXPECT_EQ(all.grid->layout().cells, glm::ivec3(43));
+    const VolumeField few = fieldOfVolume(*volume, 128.0, kReach, "noise", {}, 20'000);
+    EXPECT_EQ(few.mostNodes, 20'000.0);
+    EXPECT_GT(few.coarser, 1.0);
+    const glm::ivec3 nodes = few.grid->layout().cells + 1;
+    EXPECT_LE(nodes.x * nodes.y * nodes.z, 20'000);
+}
+
 TEST(VolumeField, EyeAndHandMeetTheSameSurface) {
     for (const char* name : {"head", "gyroid"}) {
         const auto volume = test::madeVolume(name, {64, 64, 48}, "int16");

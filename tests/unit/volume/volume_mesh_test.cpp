@@ -47,5 +47,28 @@ TEST(VolumeMesh, IsClosedWhereTheVolumeEnds) {
     }
 }
 
+TEST(VolumeMesh, NoiseIsDrawnFromFewerVoxelsOrRefused) {
+    const auto volume = test::noise({60, 52, 44});
+    const auto faces = [](const SurfaceMesh& mesh) { return mesh.corners.size() / 6; };
+    const SurfaceMesh all = meshOfVolume(*volume, 128.0, "noise");
+    EXPECT_EQ(all.stride, 1);
+    EXPECT_GT(faces(all), volume->voxels()) << "half of three edges a voxel";
+    for (const uint64_t most : {volume->voxels(), volume->voxels() / 4, volume->voxels() / 20}) {
+        const SurfaceMesh mesh = meshOfVolume(*volume, 128.0, "noise", {}, most);
+        std::printf("at most %llu faces: %zu from every voxel number %d\n",
+                    static_cast<unsigned long long>(most), faces(mesh), mesh.stride);
+        EXPECT_GT(mesh.stride, 1);
+        EXPECT_LE(faces(mesh), most);
+        EXPECT_GT(faces(mesh), 0u);
+    }
+    try {
+        (void)meshOfVolume(*volume, 128.0, "noise", {}, 1000);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(error.problem().find("the value 128 has more than 1000 faces"), std::string::npos)
+            << error.what();
+    }
+}
+
 } // namespace
 } // namespace touchstone
