@@ -140,6 +140,11 @@ Bounds Volume::bounds() const {
     return bounds;
 }
 
+float highestOutside(double iso) {
+    const auto rounded = static_cast<float>(iso);
+    return static_cast<double>(rounded) < iso ? rounded : std::nextafter(rounded, -INFINITY);
+}
+
 double otsuThreshold(const Volume::Histogram& histogram, double low, double high) {
     double all = 0.0, sum = 0.0;
     for (size_t bin = 0; bin < histogram.size(); ++bin) {

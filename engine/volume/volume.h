@@ -99,6 +99,11 @@ class Volume {
     std::vector<ValueRange> ranges_;
 };
 
+/// The largest float below `iso`. A voxel is inside of the surface at `iso` where its value is at least that,
+/// so where it is above this one: the surface of zero of highestOutside(iso) - value divides the voxels in
+/// the same way for the eye and for the hand, also where many have the value itself, as in a mask.
+[[nodiscard]] float highestOutside(double iso);
+
 /// Otsu's threshold of a histogram whose bins divide low..high: a border between two bins.
 [[nodiscard]] double otsuThreshold(const Volume::Histogram& histogram, double low, double high);
 

@@ -24,7 +24,7 @@ constexpr int kMostStride = 4;
 class Samples {
   public:
     Samples(const Volume& volume, double iso, int stride)
-        : volume_(volume), stride_(stride), iso_(static_cast<float>(iso)),
+        : volume_(volume), stride_(stride), outside_(highestOutside(iso)),
           far_(static_cast<float>(volume.high() - volume.low())), size_((volume.size() - 1) / stride + 1) {}
 
     [[nodiscard]] const glm::ivec3& size() const { return size_; }
@@ -33,10 +33,10 @@ class Samples {
     /// outside.
     [[nodiscard]] bool crosses(const glm::ivec3& low, const glm::ivec3& high) const {
         const ValueRange range = rangeOf(low, high);
-        return range.low < iso_ && range.high >= iso_;
+        return range.low <= outside_ && range.high > outside_;
     }
     /// Of a sample where the surface is far; also of places beyond the volume.
-    [[nodiscard]] bool inside(const glm::ivec3& at) const { return rangeOf(at, at).low >= iso_; }
+    [[nodiscard]] bool inside(const glm::ivec3& at) const { return rangeOf(at, at).low > outside_; }
 
     /// Positive outside; of the samples from `first` on along a row, of which at most kLeaf + 1 are asked
     /// for.
@@ -52,7 +52,7 @@ class Samples {
                     std::span(stored).first(static_cast<size_t>((end - begin - 1) * stride_ + 1)));
         const auto border = [&](int at, int axis) { return at == 0 || at == size_[axis] - 1; };
         for (int x = begin; x < end; ++x) {
-            const float value = iso_ - stored[static_cast<size_t>((x - begin) * stride_)];
+            const float value = outside_ - stored[static_cast<size_t>((x - begin) * stride_)];
             const bool last = border(x, 0) || border(first.y, 1) || border(first.z, 2);
             values[static_cast<size_t>(x - first.x)] = last ? std::max(value, kBorder * far_) : value;
         }
@@ -79,7 +79,7 @@ class Samples {
 
     const Volume& volume_;
     int stride_;
-    float iso_, far_;
+    float outside_, far_;
     glm::ivec3 size_;
 };
 

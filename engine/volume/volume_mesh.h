@@ -21,12 +21,12 @@ inline constexpr uint64_t kMostDrawnVoxels = uint64_t{1} << 26;
 /// Quadrilaterals: two triangles each.
 inline constexpr uint64_t kMostSurfaceFaces = uint64_t{1} << 22;
 
-/// The surface where the values are `iso`, closed at the volume's border, by OpenVDB's dual contouring
-/// (volumeToMesh). A volume of more than kMostDrawnVoxels is meshed from every second, third ... voxel, and
-/// so is a surface of more than `mostFaces` (noise has more faces than voxels: it would fill the memory of
-/// the process that moves the hand): such a mesh lies off by up to that many voxels where the surface is
-/// curved; the hand feels all of them. Throws Error, also where every fourth voxel gives too many faces, and
-/// Cancelled.
+/// The surface where the values are `iso` (highestOutside), closed at the volume's border, by OpenVDB's dual
+/// contouring (volumeToMesh). A volume of more than kMostDrawnVoxels is meshed from every second, third ...
+/// voxel, and so is a surface of more than `mostFaces` (noise has more faces than voxels: it would fill the
+/// memory of the process that moves the hand): such a mesh lies off by up to that many voxels where the
+/// surface is curved; the hand feels all of them. Throws Error, also where every fourth voxel gives too many
+/// faces, and Cancelled.
 [[nodiscard]] SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& shownAs,
                                        const Progress& progress = {}, uint64_t mostFaces = kMostSurfaceFaces);
 

@@ -78,10 +78,10 @@ VoxelFromNode voxelFromNode(const Volume& volume, const NodePlan& plan) {
     return {voxelFromScene * (plan.voxel * plan.axes), voxelFromScene * (plan.first - volume.facts().origin)};
 }
 
-/// iso - value, interpolated between voxels; beyond the volume that of its border.
+/// highestOutside - value, interpolated between voxels; beyond the volume that of its border.
 class Sampler {
   public:
-    Sampler(const Volume& volume, double iso) : volume_(volume), iso_(static_cast<float>(iso)) {}
+    Sampler(const Volume& volume, double iso) : volume_(volume), outside_(highestOutside(iso)) {}
 
     [[nodiscard]] float at(const glm::dvec3& place) const {
         const glm::dvec3 inside = glm::clamp(place, glm::dvec3(0.0), glm::dvec3(volume_.size() - 1));
@@ -95,7 +95,7 @@ class Sampler {
         }
         const double near = (1.0 - u.y) * rows[0] + u.y * rows[1],
                      far = (1.0 - u.y) * rows[2] + u.y * rows[3];
-        return static_cast<float>(static_cast<double>(iso_) - ((1.0 - u.z) * near + u.z * far));
+        return static_cast<float>(static_cast<double>(outside_) - ((1.0 - u.z) * near + u.z * far));
     }
 
     /// A row of nodes that are voxels, with the margin.
@@ -104,14 +104,14 @@ class Sampler {
         const std::span<float> own = values.subspan(kMargin, static_cast<size_t>(n.x));
         volume_.row({0, std::clamp(y - kMargin, 0, n.y - 1), std::clamp(z - kMargin, 0, n.z - 1)}, own);
         for (float& value : own)
-            value = iso_ - value;
+            value = outside_ - value;
         std::ranges::fill(values.first(kMargin), own.front());
         std::ranges::fill(values.last(kMargin), own.back());
     }
 
   private:
     const Volume& volume_;
-    float iso_;
+    float outside_;
 };
 
 NodeValues valuesAt(const Volume& volume, double iso, const NodePlan& plan, const Progress& progress) {

@@ -28,7 +28,7 @@ inline constexpr double kMostVolumeNodes = 1.5e8; ///< of 512^3 voxels and a mar
 inline constexpr uint64_t kMostNearNodes = 40'000'000;
 inline constexpr double kDeepestVoxels = 40.0;
 
-/// Distances from the surface where the volume's values are `iso`, negative where they are higher; the
+/// Distances from the surface where the volume's values are `iso`, negative where they are at least that; the
 /// volume's border closes it. Nodes are the volume's voxels where its axes are at right angles and equally
 /// spaced; else it is interpolated at voxels of the finest spacing, at the volume's axes as far as these are
 /// at right angles, and at larger ones where there would be more than kMostVolumeNodes, or more than

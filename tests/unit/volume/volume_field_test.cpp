@@ -165,6 +165,39 @@ TEST(VolumeField, EyeAndHandMeetTheSameSurface) {
     }
 }
 
+/// Voxels between the mesh and the field: on average over the mesh's vertices.
+double meanGap(const Volume& volume, double iso) {
+    const SurfaceMesh mesh = meshOfVolume(volume, iso, "volume");
+    const VolumeField field = fieldOfVolume(volume, iso, kReach, "volume");
+    const FieldShape shape(field.grid);
+    double sum = 0.0;
+    for (const glm::vec3& p : mesh.positions)
+        sum += std::abs(shape.value(field.sceneFromObject.inversePoint(glm::dvec3(p)))) /
+               field.grid->layout().voxel;
+    return sum / static_cast<double>(mesh.positions.size());
+}
+
+TEST(VolumeField, VoxelsAtTheValueItselfAreInsideForEyeAndHand) {
+    // A mask, and a plateau of half of the head's voxels.
+    std::vector<float> mask;
+    for (int i = 0; i < 40 * 40 * 40; ++i)
+        mask.push_back(glm::length(glm::dvec3(i % 40, i / 40 % 40, i / 1600) - 19.5) < 15.0 ? 1.0f : 0.0f);
+    const auto ball = test::volumeOf(glm::ivec3(40), mask);
+    const auto head = test::madeVolume("head", glm::ivec3(64), "int16");
+    const double ofMask = meanGap(*ball, 1.0), ofHead = meanGap(*head, 40.0);
+    std::printf("the mesh lies off the field by %.4f voxels of a mask, %.4f of a plateau\n", ofMask, ofHead);
+    EXPECT_LT(ofMask, 0.15);
+    EXPECT_LT(ofHead, 0.15);
+    // The mask's ball, not the cubes of blocks of voxels.
+    for (const glm::vec3& p : meshOfVolume(*ball, 1.0, "mask").positions) {
+        const double radius = 1e3 * glm::length(glm::dvec3(p) - 0.0195);
+        ASSERT_GT(radius, 13.0);
+        ASSERT_LT(radius, 15.0);
+    }
+    const FieldShape shape(fieldOfVolume(*ball, 1.0, kReach, "mask").grid);
+    EXPECT_LT(shape.value({0.0, 0.0, 0.0}), -0.2) << "solid for the hand";
+}
+
 /// The phantom as a compiled scene.
 struct Head {
     Head() : path(std::filesystem::temp_directory_path() / ("head_" + std::to_string(::getpid()) + ".nrrd")) {
