@@ -48,23 +48,31 @@ void drawVolume(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const glm::ivec3 size = volume.size();
     widgets.wrapped(volume.facts().format + ", " + std::to_string(size.x) + " x " + std::to_string(size.y) +
                     " x " + std::to_string(size.z) + " of " + volume.facts().fileType);
-    // While it is dragged the value is here: the surface is built for it as often as the worker is done.
+    // While it is dragged the value is here: the surface is built for it as often as the worker is done. What
+    // was asked for last counts until nothing is loading any more, or else going back to the value that is
+    // shown would leave the worker at another one.
     ImGuiStorage& storage = *ImGui::GetStateStorage();
-    const ImGuiID dragged = ImGui::GetID("isoDragged"), held = ImGui::GetID("isoHeld");
+    const ImGuiID dragged = ImGui::GetID("isoDragged"), held = ImGui::GetID("isoHeld"),
+                  asked = ImGui::GetID("isoAsked");
     const bool holding = storage.GetBool(held);
-    auto iso = holding ? storage.GetFloat(dragged) : static_cast<float>(input.scene->iso);
+    if (!holding && !input.loading)
+        storage.SetFloat(asked, NAN);
+    const float pending = storage.GetFloat(asked, NAN);
+    const float current = std::isnan(pending) ? static_cast<float>(input.scene->iso) : pending;
+    float iso = holding ? storage.GetFloat(dragged) : current;
     histogram(volume, static_cast<double>(iso), widgets);
     ImGui::PushItemWidth(-1.0f);
-    const bool changed = widgets.slider(
-        "iso", "surface at", iso,
-        {.low = static_cast<float>(volume.low()), .high = static_cast<float>(volume.high()), .clamp = true},
-        number(static_cast<double>(iso)));
+    const auto low = static_cast<float>(volume.low()), high = static_cast<float>(volume.high());
+    if (widgets.slider("iso", "surface at", iso, {.low = low, .high = high, .clamp = true},
+                       number(static_cast<double>(iso))))
+        iso = std::clamp(iso, std::nextafter(low, high), high); // at the lowest value there is no surface
     ImGui::PopItemWidth();
-    const bool released = ImGui::IsItemDeactivatedAfterEdit();
-    if ((changed && !input.loading) || released)
-        if (static_cast<double>(iso) > volume.low() && static_cast<double>(iso) != input.scene->iso)
-            state.iso = static_cast<double>(iso);
-    storage.SetBool(held, ImGui::IsItemActive());
+    const bool released = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
+    if (iso != current && (released || (active && !input.loading && !input.typing))) {
+        state.iso = static_cast<double>(iso);
+        storage.SetFloat(asked, iso);
+    }
+    storage.SetBool(held, active);
     storage.SetFloat(dragged, iso);
 }
 

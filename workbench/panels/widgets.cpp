@@ -46,6 +46,17 @@ float fractionOf(float value, const SliderRange& range) {
     return std::clamp((value - range.low) / (range.high - range.low), 0.0f, 1.0f);
 }
 
+/// As many digits as a value needs to be set within a thousandth of the range: ImGui rounds to what it shows.
+std::string formatFor(const SliderRange& range) {
+    constexpr int kDigits = 4, kMostDigits = 9; // which tell a float from the next
+    const float largest = std::max(std::abs(range.low), std::abs(range.high));
+    const float more = std::ceil(std::log10(largest / (range.high - range.low)));
+    return "%." +
+           std::to_string(
+               std::clamp(kDigits + static_cast<int>(std::max(more, 0.0f)), kDigits, kMostDigits)) +
+           "g";
+}
+
 } // namespace
 
 std::string brokenLines(std::string_view text, float width) {
@@ -216,9 +227,10 @@ bool Widgets::slider(const char* name, const char* label, float& value, const Sl
             ImGui::PushStyleColor(hidden, IM_COL32(0, 0, 0, 0));
     }
     ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, units(2.0f)); // the pointer is at the fill's edge
-    const bool changed = ImGui::SliderFloat("##slider", &value, range.low, range.high, "%.4g",
-                                            (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
-                                                (range.clamp ? ImGuiSliderFlags_AlwaysClamp : 0));
+    const bool changed =
+        ImGui::SliderFloat("##slider", &value, range.low, range.high, formatFor(range).c_str(),
+                           (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
+                               (range.clamp ? ImGuiSliderFlags_AlwaysClamp : 0));
     ImGui::PopStyleVar();
     if (!typing) {
         ImGui::PopStyleColor(6);
