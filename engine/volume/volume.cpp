@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace touchstone {
@@ -112,17 +113,28 @@ void Volume::measure(const std::string& shownAs) {
     if (!(low_ < high_))
         throw Error(shownAs, "", "every voxel has the value " + shown(low_) + ": there is no surface",
                     "check the file, or how it was exported");
+    // Differences of values are floats, also of the lowest and the highest, a thousandth of theirs, and 256
+    // equal steps between them.
+    constexpr double kNarrowest = 1e-30,
+                     kSteps = 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+    const double range = high_ - low_;
+    if (range > static_cast<double>(std::numeric_limits<float>::max()) || range < kNarrowest ||
+        range < kSteps * std::max(std::abs(low_), std::abs(high_)))
+        throw Error(shownAs, "",
+                    "its values go from " + shown(low_) + " to " + shown(high_) +
+                        ": numbers of 32 bits cannot divide that",
+                    "store them with another scale or offset");
 }
 
 void Volume::count() {
     std::vector<float> values(static_cast<size_t>(facts_.size.x));
-    const auto low = static_cast<float>(low_), factor = static_cast<float>(kBins / (high_ - low_));
+    const double factor = kBins / (high_ - low_);
     for (int z = 0; z < facts_.size.z; ++z)
         for (int y = 0; y < facts_.size.y; ++y) {
             row({0, y, z}, values);
             for (const float value : values)
                 ++histogram_[static_cast<size_t>(
-                    std::clamp(static_cast<int>((value - low) * factor), 0, kBins - 1))];
+                    std::clamp((static_cast<double>(value) - low_) * factor, 0.0, kBins - 1.0))];
         }
 }
 

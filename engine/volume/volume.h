@@ -42,8 +42,8 @@ class Volume {
     using Histogram = std::array<uint64_t, kBins>;
 
     /// `stored`: the values as facts.type, the first axis fastest, at least as many as there are voxels; kept
-    /// alive by `owner`. Throws Error, naming `shownAs`, where a value is not a finite number and where all
-    /// are equal.
+    /// alive by `owner`. Throws Error, naming `shownAs`, where a value is not a finite number, where all are
+    /// equal, and where floats cannot divide their range: wider than the largest, or some of its last bits.
     Volume(VolumeFacts facts, std::span<const uint8_t> stored, std::shared_ptr<const void> owner,
            const std::string& shownAs);
 

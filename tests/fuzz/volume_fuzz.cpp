@@ -35,6 +35,7 @@ std::vector<Seed> seeds(const fs::path& folder) {
     std::ifstream file(vdb, std::ios::binary);
     const VolumeBytes grid{std::istreambuf_iterator<char>(file), {}};
     return {{"v.nrrd", test::nrrdFile(ball)},
+            {"float.nrrd", test::nrrdFile(assets::makeVolume("ball", glm::ivec3(12), "float"))},
             {"v.mha", test::metaFile(ball)},
             {"v.mhd", test::metaFile(ball, "seed.raw")},
             {"v.nii", test::niftiFile(ball)},
@@ -130,7 +131,7 @@ TEST_P(VolumeFuzz, MutantsAreRefusedOrGiveAVolume) {
     EXPECT_GT(refused, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, VolumeFuzz, testing::Range(size_t{0}, size_t{6}));
+INSTANTIATE_TEST_SUITE_P(Formats, VolumeFuzz, testing::Range(size_t{0}, size_t{7}));
 
 } // namespace
 } // namespace touchstone

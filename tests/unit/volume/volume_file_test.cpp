@@ -253,6 +253,25 @@ TEST_F(VolumeFiles, WhatLiesIsRefusedWithItsReason) {
     }
 }
 
+TEST_F(VolumeFiles, RangesThatFloatsCannotDivideAreRefused) {
+    const auto problem = [&](float low, float high) {
+        VolumeBytes data;
+        for (int i = 0; i < 27; ++i) {
+            const auto bits = std::bit_cast<std::array<uint8_t, 4>>(i < 13 ? low : high);
+            data.insert(data.end(), bits.begin(), bits.end());
+        }
+        return refusal(
+            "v.nrrd", nrrd("type: float\ndimension: 3\nsizes: 3 3 3\nendian: little\nencoding: raw\n", data));
+    };
+    const char* const reason = "numbers of 32 bits cannot divide that";
+    for (const auto& [low, high] :
+         {std::pair{-3e38f, 3e38f}, {0.0f, 1e-45f}, {1e9f, std::nextafter(1e9f, 2e9f)}, {-2e-38f, 3e-38f}})
+        EXPECT_NE(problem(low, high).find(reason), std::string::npos)
+            << low << " " << high << problem(low, high);
+    for (const auto& [low, high] : {std::pair{-1.5e38f, 1.5e38f}, {0.0f, 1e-20f}, {1e9f, 1.0001e9f}})
+        EXPECT_EQ(problem(low, high), "not refused") << low << " " << high;
+}
+
 TEST_F(VolumeFiles, ABrokenReaderIsAnErrorOfItsFile) {
     const fs::path volume =
         file("v.nrrd", test::nrrdFile(assets::makeVolume("ball", glm::ivec3(8), "uint8")));
