@@ -20,13 +20,19 @@ constexpr const char* kMeshing = "meshing the surface";
 constexpr int kLeaf = 8;
 constexpr int kMostStride = 4;
 
-/// Every `stride`-th voxel, and one layer of outside about them; coordinates from 0 on.
+/// Every `stride`-th voxel, at least the first and the last of an axis; coordinates from 0 on. The layer
+/// about them is outside, so that the surface ends at the border: its points are moved there.
 class Samples {
   public:
     Samples(const Volume& volume, double iso, int stride)
-        : volume_(volume), stride_(stride), outside_(highestOutside(iso)),
-          far_(static_cast<float>(volume.high() - volume.low())), size_((volume.size() - 1) / stride + 1) {}
+        : volume_(volume), strides_(glm::min(glm::ivec3(stride), volume.size() - 1)),
+          outside_(highestOutside(iso)), far_(static_cast<float>(volume.high() - volume.low())),
+          size_((volume.size() - 1) / strides_ + 1) {}
 
+    [[nodiscard]] uint64_t count() const { return uint64_t(size_.x) * uint64_t(size_.y) * uint64_t(size_.z); }
+    [[nodiscard]] glm::dvec3 voxel(const glm::dvec3& sample) const {
+        return glm::clamp(glm::dvec3(strides_) * sample, glm::dvec3(0.0), glm::dvec3(volume_.size() - 1));
+    }
     [[nodiscard]] const glm::ivec3& size() const { return size_; }
     [[nodiscard]] float far() const { return far_; }
     /// Whether the surface may pass between the samples low..high, inclusive; outside of the volume is
@@ -41,33 +47,31 @@ class Samples {
     /// Positive outside; of the samples from `first` on along a row, of which at most kLeaf + 1 are asked
     /// for.
     void fill(const glm::ivec3& first, std::span<float> values) const {
-        std::ranges::fill(values, far_);
+        std::ranges::fill(values, kBeyond * far_);
         const auto off = [&](int axis) { return first[axis] < 0 || first[axis] >= size_[axis]; };
         const int begin = std::max(first.x, 0);
         const int end = std::min(first.x + static_cast<int>(values.size()), size_.x);
         if (off(1) || off(2) || begin >= end)
             return;
         std::array<float, kLeaf * kMostStride + 1> stored{};
-        volume_.row(stride_ * glm::ivec3(begin, first.y, first.z),
-                    std::span(stored).first(static_cast<size_t>((end - begin - 1) * stride_ + 1)));
-        const auto border = [&](int at, int axis) { return at == 0 || at == size_[axis] - 1; };
-        for (int x = begin; x < end; ++x) {
-            const float value = outside_ - stored[static_cast<size_t>((x - begin) * stride_)];
-            const bool last = border(x, 0) || border(first.y, 1) || border(first.z, 2);
-            values[static_cast<size_t>(x - first.x)] = last ? std::max(value, kBorder * far_) : value;
-        }
+        volume_.row(strides_ * glm::ivec3(begin, first.y, first.z),
+                    std::span(stored).first(static_cast<size_t>((end - begin - 1) * strides_.x + 1)));
+        for (int x = begin; x < end; ++x)
+            values[static_cast<size_t>(x - first.x)] =
+                outside_ - stored[static_cast<size_t>((x - begin) * strides_.x)];
     }
 
   private:
-    static constexpr float kBorder = 1e-3f;
+    static constexpr float kBeyond =
+        1e-3f; // near zero: the surface is nearer to that layer than to the border
 
     [[nodiscard]] ValueRange rangeOf(const glm::ivec3& low, const glm::ivec3& high) const {
         const glm::ivec3 last = size_ - 1;
         ValueRange range{INFINITY, -INFINITY};
-        if (glm::any(glm::lessThan(low, glm::ivec3(1))) || glm::any(glm::greaterThanEqual(high, last)))
+        if (glm::any(glm::lessThan(low, glm::ivec3(0))) || glm::any(glm::greaterThan(high, last)))
             range.low = -INFINITY;
-        const glm::ivec3 a = glm::clamp(low, glm::ivec3(0), last) * stride_ / Volume::kBlock;
-        const glm::ivec3 b = glm::clamp(high, glm::ivec3(0), last) * stride_ / Volume::kBlock;
+        const glm::ivec3 a = glm::clamp(low, glm::ivec3(0), last) * strides_ / Volume::kBlock;
+        const glm::ivec3 b = glm::clamp(high, glm::ivec3(0), last) * strides_ / Volume::kBlock;
         for (int z = a.z; z <= b.z; ++z)
             for (int y = a.y; y <= b.y; ++y)
                 for (int x = a.x; x <= b.x; ++x) {
@@ -78,7 +82,7 @@ class Samples {
     }
 
     const Volume& volume_;
-    int stride_;
+    glm::ivec3 strides_;
     float outside_, far_;
     glm::ivec3 size_;
 };
@@ -170,7 +174,7 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
                          const Progress& progress, uint64_t mostFaces) {
     volume.checkIso(iso, shownAs);
     int stride = 1;
-    while (volume.voxels() / (uint64_t(stride) * uint64_t(stride) * uint64_t(stride)) > kMostDrawnVoxels)
+    while (Samples(volume, iso, stride).count() > kMostDrawnVoxels)
         ++stride;
     const openvdb::FloatGrid::Ptr grid =
         smallEnoughGrid(volume, iso, stride, mostFaces, shownAs, progress.part(0.0, 0.4));
@@ -184,11 +188,11 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
         throw Error(shownAs, "", "has no surface with this value", "give another --iso");
     SurfaceMesh mesh;
     mesh.stride = stride;
+    const Samples samples(volume, iso, stride);
     mesh.positions.reserve(points.size());
     for (const openvdb::Vec3s& point : points)
-        mesh.positions.emplace_back(volume.scenePoint(
-            glm::clamp(static_cast<double>(stride) * glm::dvec3(point.x(), point.y(), point.z()),
-                       glm::dvec3(0.0), glm::dvec3(volume.size() - 1))));
+        mesh.positions.emplace_back(
+            volume.scenePoint(samples.voxel(glm::dvec3(point.x(), point.y(), point.z()))));
     mesh.corners.reserve(6 * quads.size() + 3 * triangles.size());
     const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
         mesh.corners.insert(mesh.corners.end(), {a, b, c});

@@ -14,7 +14,7 @@ namespace touchstone {
 struct SurfaceMesh {
     std::vector<glm::vec3> positions, normals; ///< m, scene frame; unit, outwards
     std::vector<uint32_t> corners;             ///< 3 a triangle, counter-clockwise from outside
-    int stride = 1;                            ///< voxels from a sample to the next
+    int stride = 1;                            ///< voxels from a sample to the next; less on thin axes
 };
 
 inline constexpr uint64_t kMostDrawnVoxels = uint64_t{1} << 26;

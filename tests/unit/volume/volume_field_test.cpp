@@ -198,6 +198,16 @@ TEST(VolumeField, VoxelsAtTheValueItselfAreInsideForEyeAndHand) {
     EXPECT_LT(shape.value({0.0, 0.0, 0.0}), -0.2) << "solid for the hand";
 }
 
+TEST(VolumeField, TwoSlicesAreFeltWhereTheyAreSeen) {
+    std::vector<float> values;
+    for (int i = 0; i < 50 * 50 * 2; ++i)
+        values.push_back(static_cast<float>(20.0 - glm::length(glm::dvec2(i % 50, i / 50 % 50) - 24.5)));
+    const auto slab = test::volumeOf({50, 50, 2}, values);
+    EXPECT_LT(meanGap(*slab, 0.0), 0.1);
+    const FieldShape shape(fieldOfVolume(*slab, 0.0, kReach, "slab").grid);
+    EXPECT_LE(shape.value({0.0, 0.0, 0.0}), 0.0);
+}
+
 /// The phantom as a compiled scene.
 struct Head {
     Head() : path(std::filesystem::temp_directory_path() / ("head_" + std::to_string(::getpid()) + ".nrrd")) {

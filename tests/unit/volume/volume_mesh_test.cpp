@@ -10,26 +10,19 @@
 namespace touchstone {
 namespace {
 
-TEST(VolumeMesh, LiesOnTheSphereAndFacesOutwards) {
-    const auto volume = test::madeVolume("ball", glm::ivec3(48), "float");
-    const SurfaceMesh mesh = meshOfVolume(*volume, 50.0, "ball");
-    const double radius = 0.2 * assets::kBallRadius, voxel = 0.2 / 48;
-    double enclosed = 0.0;
-    for (size_t i = 0; i < mesh.positions.size(); ++i) {
-        EXPECT_NEAR(glm::length(glm::dvec3(mesh.positions[i])), radius, 0.1 * voxel);
-        EXPECT_GT(glm::dot(glm::normalize(mesh.positions[i]), mesh.normals[i]), 0.98f);
-    }
+/// m^3.
+double enclosed(const SurfaceMesh& mesh) {
+    double volume = 0.0;
     for (size_t i = 0; i < mesh.corners.size(); i += 3)
-        enclosed += glm::dot(glm::dvec3(mesh.positions[mesh.corners[i]]),
-                             glm::cross(glm::dvec3(mesh.positions[mesh.corners[i + 1]]),
-                                        glm::dvec3(mesh.positions[mesh.corners[i + 2]]))) /
-                    6.0;
-    EXPECT_NEAR(enclosed, 4.0 / 3.0 * 3.14159265 * radius * radius * radius, 0.01 * enclosed);
+        volume += glm::dot(glm::dvec3(mesh.positions[mesh.corners[i]]),
+                           glm::cross(glm::dvec3(mesh.positions[mesh.corners[i + 1]]),
+                                      glm::dvec3(mesh.positions[mesh.corners[i + 2]]))) /
+                  6.0;
+    return volume;
 }
 
-TEST(VolumeMesh, IsClosedWhereTheVolumeEnds) {
-    const auto volume = test::madeVolume("gyroid", {32, 40, 24}, "uint8");
-    const SurfaceMesh mesh = meshOfVolume(*volume, 100.0, "gyroid");
+/// That are not passed as often in one direction as in the other.
+int openEdges(const SurfaceMesh& mesh) {
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     for (size_t i = 0; i < mesh.corners.size(); i += 3)
         for (size_t k = 0; k < 3; ++k) {
@@ -39,7 +32,25 @@ TEST(VolumeMesh, IsClosedWhereTheVolumeEnds) {
     int open = 0;
     for (const auto& [edge, balance] : edges)
         open += balance != 0 ? 1 : 0;
-    EXPECT_EQ(open, 0);
+    return open;
+}
+
+TEST(VolumeMesh, LiesOnTheSphereAndFacesOutwards) {
+    const auto volume = test::madeVolume("ball", glm::ivec3(48), "float");
+    const SurfaceMesh mesh = meshOfVolume(*volume, 50.0, "ball");
+    const double radius = 0.2 * assets::kBallRadius, voxel = 0.2 / 48;
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_NEAR(glm::length(glm::dvec3(mesh.positions[i])), radius, 0.1 * voxel);
+        EXPECT_GT(glm::dot(glm::normalize(mesh.positions[i]), mesh.normals[i]), 0.98f);
+    }
+    const double ball = 4.0 / 3.0 * 3.14159265 * radius * radius * radius;
+    EXPECT_NEAR(enclosed(mesh), ball, 0.01 * ball);
+}
+
+TEST(VolumeMesh, IsClosedWhereTheVolumeEnds) {
+    const auto volume = test::madeVolume("gyroid", {32, 40, 24}, "uint8");
+    const SurfaceMesh mesh = meshOfVolume(*volume, 100.0, "gyroid");
+    EXPECT_EQ(openEdges(mesh), 0);
     const Bounds box = volume->bounds();
     for (const glm::vec3& p : mesh.positions) {
         EXPECT_TRUE(glm::all(glm::greaterThanEqual(glm::dvec3(p), box.low - 1e-7)));
@@ -68,6 +79,29 @@ TEST(VolumeMesh, NoiseIsDrawnFromFewerVoxelsOrRefused) {
         EXPECT_NE(error.problem().find("the value 128 has more than 1000 faces"), std::string::npos)
             << error.what();
     }
+}
+
+TEST(VolumeMesh, TwoSlicesAreASlab) {
+    // A disc of 20 mm in two, three and four slices of 1 mm, across each axis, from every voxel and from
+    // fewer.
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int slices : {2, 3, 4})
+            for (const uint64_t most : {kMostSurfaceFaces, uint64_t{2000}}) {
+                glm::ivec3 size(50);
+                size[axis] = slices;
+                std::vector<float> values;
+                for (int i = 0; i < size.x * size.y * size.z; ++i) {
+                    glm::dvec3 at(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+                    at[axis] = 24.5;
+                    values.push_back(static_cast<float>(20.0 - glm::length(at - 24.5)));
+                }
+                const SurfaceMesh mesh = meshOfVolume(*test::volumeOf(size, values), 0.0, "slab", {}, most);
+                EXPECT_EQ(mesh.stride > 1, most < kMostSurfaceFaces);
+                EXPECT_EQ(openEdges(mesh), 0);
+                const double full = 3.14159265 * 400.0 * (slices - 1);
+                EXPECT_NEAR(1e9 * enclosed(mesh), full, 0.03 * full)
+                    << axis << " " << slices << " " << mesh.stride;
+            }
 }
 
 } // namespace
