@@ -1,3 +1,4 @@
+#include "engine/import/volume_file/flat_volume_format.h"
 #include "engine/import/volume_reader/raw_volume.h"
 
 #include <algorithm>
@@ -60,8 +61,15 @@ std::vector<double> numbersIn(std::string_view text, const char* field, size_t c
     return numbers;
 }
 
-std::string_view nextLine(std::string_view& rest) {
+std::string_view headerText(std::span<const uint8_t> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), kMostVolumeHeader)};
+}
+
+std::string_view nextLine(std::string_view& rest, std::string_view all) {
     const size_t end = rest.find('\n');
+    if (end == std::string_view::npos && all.size() == kMostVolumeHeader)
+        throw BadVolume("its header is longer than " + std::to_string(kMostVolumeHeader >> 10) +
+                        " KiB, or has no end");
     const std::string_view line = rest.substr(0, end);
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
     return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;

@@ -25,8 +25,8 @@ using Fields = std::map<std::string, std::string>;
 Fields fieldsOf(std::string_view all, uint64_t& bytes) {
     std::string_view rest = all;
     Fields fields;
-    while (!rest.empty()) {
-        const std::string_view line = nextLine(rest);
+    while (!rest.empty() || all.size() == kMostVolumeHeader) {
+        const std::string_view line = nextLine(rest, all);
         const size_t equals = line.find('=');
         if (equals == std::string_view::npos) {
             if (trimmed(line).empty())
@@ -59,9 +59,7 @@ bool isTrue(const Fields& fields, std::initializer_list<const char*> names) {
 
 RawVolume readMetaHeader(std::span<const uint8_t> bytes) {
     RawVolume volume;
-    const std::string_view all(reinterpret_cast<const char*>(bytes.data()),
-                               std::min<size_t>(bytes.size(), kMostVolumeHeader));
-    const Fields fields = fieldsOf(all, volume.headerBytes);
+    const Fields fields = fieldsOf(headerText(bytes), volume.headerBytes);
     const std::string file = text(fields, {"elementdatafile"});
     if (file.empty())
         throw BadVolume("its header has no ElementDataFile");

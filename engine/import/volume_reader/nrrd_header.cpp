@@ -77,11 +77,12 @@ using Fields = std::map<std::string, std::string>;
 /// Up to the empty line, or the end of a detached header.
 Fields fieldsOf(std::string_view all, uint64_t& bytes) {
     std::string_view rest = all;
-    if (!nextLine(rest).starts_with("NRRD000"))
+    if (!all.starts_with("NRRD000"))
         throw BadVolume("it does not begin with NRRD000");
+    (void)nextLine(rest, all);
     Fields fields;
-    while (!rest.empty()) {
-        const std::string_view line = nextLine(rest);
+    while (!rest.empty() || all.size() == kMostVolumeHeader) {
+        const std::string_view line = nextLine(rest, all);
         if (line.empty())
             break;
         if (line.front() == '#' || line.find(":=") != std::string_view::npos)
@@ -205,9 +206,7 @@ void encode(const Fields& fields, RawVolume& volume) {
 
 RawVolume readNrrdHeader(std::span<const uint8_t> bytes) {
     RawVolume volume;
-    const std::string_view all(reinterpret_cast<const char*>(bytes.data()),
-                               std::min<size_t>(bytes.size(), kMostVolumeHeader));
-    const Fields fields = fieldsOf(all, volume.headerBytes);
+    const Fields fields = fieldsOf(headerText(bytes), volume.headerBytes);
     const auto type = types().find(lowered(text(fields, "type")));
     if (type == types().end())
         throw BadVolume("its type is '" + text(fields, "type").substr(0, 30) + "', which is no number's");

@@ -59,8 +59,10 @@ struct RawVolume {
 /// Numbers separated by blanks, commas and brackets. Throws BadVolume naming `field` where one is no finite
 /// number, and where there are not `count` of them (0: any number).
 [[nodiscard]] std::vector<double> numbersIn(std::string_view text, const char* field, size_t count = 0);
-/// The next line and the rest of the text.
-[[nodiscard]] std::string_view nextLine(std::string_view& rest);
+/// The text that a header can be in: the first kMostVolumeHeader bytes.
+[[nodiscard]] std::string_view headerText(std::span<const uint8_t> bytes);
+/// The next line of `all`, and what is left of it. Throws BadVolume where headerText has cut it off.
+[[nodiscard]] std::string_view nextLine(std::string_view& rest, std::string_view all);
 /// A whole number in 0..2^53 out of `value`.
 [[nodiscard]] uint64_t wholeNumber(double value, const char* field);
 

@@ -206,6 +206,16 @@ TEST_F(VolumeFiles, WhatLiesIsRefusedWithItsReason) {
     const float none = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(nan.data() + nan.size() - 40, &none, 4);
     const std::string head = "type: short\ndimension: 3\nendian: little\nencoding: raw\n";
+    std::string comments;
+    while (comments.size() < 70'000)
+        comments += "# a line of a header that goes on\n";
+    const auto after = [](const std::string& first, VolumeBytes file) { // behind its first line
+        file.insert(std::find(file.begin(), file.end(), uint8_t{'\n'}) + 1, first.begin(), first.end());
+        return file;
+    };
+    const std::string line = "# " + std::string(70'000, 'x') + "\n", named = "Comment = " + line;
+    const auto firstLine =
+        static_cast<size_t>(std::find(good.begin(), good.end(), uint8_t{'\n'}) + 1 - good.begin());
     struct Case {
         const char* name;
         VolumeBytes bytes;
@@ -238,6 +248,13 @@ TEST_F(VolumeFiles, WhatLiesIsRefusedWithItsReason) {
          nrrd("type: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nspacings: 0 1 1\n",
               {1, 2, 3, 4, 5, 6, 7, 8}),
          "no usable number"},
+        {"comments.nrrd", after(comments, good), "its header is longer than 64 KiB, or has no end"},
+        {"line.nrrd", after(line, good), "its header is longer than 64 KiB, or has no end"},
+        {"line.mha", after(named, test::metaFile(ball)), "its header is longer than 64 KiB, or has no end"},
+        {"end.nrrd", nrrd(head + "sizes: 4 4 4\n" + comments, VolumeBytes(128)),
+         "its header is longer than 64 KiB, or has no end"},
+        {"edge.nrrd", after(std::string(size_t{65535} - firstLine, '#') + "\n", good),
+         "its header is longer than 64 KiB, or has no end"},
         {"other.nrrd", test::bytesOfText("glTF"), "NRRD000"},
         {"other.vdb", test::bytesOfText("no grid at all, but text"), "cannot be read as OpenVDB"},
         {"other.nii", VolumeBytes(400), "size of 0 instead of 348"},
