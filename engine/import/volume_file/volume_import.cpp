@@ -1,7 +1,6 @@
 #include "engine/import/volume_file/volume_import.h"
 
 #include "engine/core/input_file.h"
-#include "engine/import/file/gltf_uri.h"
 #include "engine/import/volume_file/flat_volume_format.h"
 #include "engine/process/mapped_file.h"
 #include "engine/process/process_answer.h"
@@ -34,6 +33,31 @@ std::string lineOf(std::span<const uint8_t> bytes) {
     std::ranges::replace_if(
         text, [](char c) { return c < ' ' || c > '~'; }, ' ');
     return text;
+}
+
+/// The file that a header names: its bytes as they are, since the name is no URI and need not be text.
+std::filesystem::path dataFileIn(const ImportContext& context, const std::filesystem::path& folder,
+                                 std::span<const uint8_t> answer) {
+    constexpr size_t kLongest = 1024;
+    const auto end = std::find(answer.begin(), answer.end(), uint8_t{'\n'});
+    const std::string name(answer.begin(), end);
+    const auto refuse = [&](const char* why) {
+        context.fail("data file",
+                     "the name '" + lineOf(answer.first(std::min<size_t>(name.size(), 60))) + "' " + why,
+                     "put the file into the header's folder and name it by a relative path");
+    };
+    if (name.empty() || name.size() > kLongest)
+        refuse("is empty or longer than 1024 bytes");
+    if (std::ranges::any_of(name, [](unsigned char c) { return c < ' ' || c == 0x7f; }))
+        refuse("holds a control character");
+    if (name.find('\\') != std::string::npos)
+        refuse("has backslashes: folders are divided by /");
+    const std::filesystem::path path(name);
+    if (path.is_absolute())
+        refuse("is absolute");
+    if (std::ranges::find(path, "..") != path.end())
+        refuse("leaves the header's folder");
+    return folder / path;
 }
 
 [[noreturn]] void failOf(const ImportContext& context, const ProcessAnswer& answer, const std::string& line,
@@ -213,8 +237,7 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
     };
     const FileStamp stamp = stampOf(file);
     if (exited(kDetachedData)) {
-        const std::string dataName = lineOf(answer.output.bytes());
-        const std::filesystem::path data = resolveUri(context, "data file", path.parent_path(), dataName);
+        const std::filesystem::path data = dataFileIn(context, path.parent_path(), answer.output.bytes());
         std::string header(kMostVolumeHeader, ' ');
         header.resize(
             static_cast<size_t>(std::max<ssize_t>(pread(file.get(), header.data(), header.size(), 0), 0)));

@@ -75,6 +75,17 @@ std::string_view nextLine(std::string_view& rest, std::string_view all) {
     return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
 }
 
+void refuseSeveralFiles(std::string_view name) {
+    const std::string first = lowered(name.substr(0, name.find(' ')));
+    bool several = first == "list";
+    for (size_t at = name.find('%'); at != std::string_view::npos; at = name.find('%', at + 1)) {
+        const size_t end = name.find_first_not_of("0123456789", at + 1);
+        several = several || (end != std::string_view::npos && name[end] == 'd');
+    }
+    if (several)
+        throw BadVolume("its slices are in files of their own: convert it to one file");
+}
+
 uint64_t wholeNumber(double value, const char* field) {
     constexpr double kMost = 9007199254740992.0;
     if (!(value >= 0.0) || value > kMost || value != std::floor(value))

@@ -106,10 +106,8 @@ RawVolume readMetaHeader(std::span<const uint8_t> bytes) {
         if (!volume.atEnd)
             volume.skipBytes = wholeNumber(size, "HeaderSize");
     }
-    const std::string lower = lowered(file);
-    if (lower == "list" || file.find('%') != std::string::npos)
-        throw BadVolume("its slices are in files of their own: convert it to one file");
-    if (lower != "local")
+    refuseSeveralFiles(file);
+    if (lowered(file) != "local")
         volume.dataFile = file;
     return volume;
 }

@@ -228,6 +228,7 @@ RawVolume readNrrdHeader(std::span<const uint8_t> bytes) {
     place(fields, first, volume);
     encode(fields, volume);
     volume.dataFile = text(fields, "data file", "datafile");
+    refuseSeveralFiles(volume.dataFile);
     return volume;
 }
 

@@ -63,6 +63,8 @@ struct RawVolume {
 [[nodiscard]] std::string_view headerText(std::span<const uint8_t> bytes);
 /// The next line of `all`, and what is left of it. Throws BadVolume where headerText has cut it off.
 [[nodiscard]] std::string_view nextLine(std::string_view& rest, std::string_view all);
+/// Throws BadVolume where the name of a data file stands for several: LIST, or slice%03d.raw.
+void refuseSeveralFiles(std::string_view name);
 /// A whole number in 0..2^53 out of `value`.
 [[nodiscard]] uint64_t wholeNumber(double value, const char* field);
 

@@ -259,7 +259,16 @@ TEST_F(VolumeFiles, WhatLiesIsRefusedWithItsReason) {
         {"other.vdb", test::bytesOfText("no grid at all, but text"), "cannot be read as OpenVDB"},
         {"other.nii", VolumeBytes(400), "size of 0 instead of 348"},
         {"nan.nrrd", nan, "1 voxels are not finite numbers, the first at (6, 15, 15)"},
-        {"outside.mhd", test::metaFile(ball, "../secret.raw"), ".."},
+        {"outside.mhd", test::metaFile(ball, "../secret.raw"), "'../secret.raw' leaves the header's folder"},
+        {"within.mhd", test::metaFile(ball, "a/../../secret.raw"), "leaves the header's folder"},
+        {"windows.mhd", test::metaFile(ball, "a\\b.raw"), "has backslashes"},
+        {"bell.mhd", test::metaFile(ball, "a\ab.raw"), "'a b.raw' holds a control character"},
+        {"zero.mhd", test::metaFile(ball, std::string("a\0b.raw", 7)), "holds a control character"},
+        {"long.mhd", test::metaFile(ball, std::string(2000, 'a')), "longer than 1024 bytes"},
+        {"list2.mhd", test::metaFile(ball, "LIST 2"), "slices are in files of their own"},
+        {"pattern.mhd", test::metaFile(ball, "slice%03d.raw"), "slices are in files of their own"},
+        {"pattern.nrrd", nrrd(head + "sizes: 4 4 4\ndata file: slice%d.raw 1 4 1\n", {}),
+         "slices are in files of their own"},
         {"absolute.mhd", test::metaFile(ball, "/etc/passwd"), "/etc/passwd"},
         {"missing.mhd", test::metaFile(ball, "missing.raw"), "there is no such file"},
         {"list.mhd", test::metaFile(ball, "LIST"), "slices are in files of their own"},
@@ -268,6 +277,27 @@ TEST_F(VolumeFiles, WhatLiesIsRefusedWithItsReason) {
         const std::string problem = refusal(each.name, each.bytes);
         EXPECT_NE(problem.find(each.reason), std::string::npos) << each.name << ": " << problem;
     }
+}
+
+TEST_F(VolumeFiles, DataFilesAreFoundByTheirNamesAsTheyAre) {
+    const assets::VolumeData head = assets::makeVolume("head", {24, 32, 18}, "int16");
+    VolumeBytes data;
+    test::append(data, assets::valuesOf(head));
+    fs::create_directory(folder_ / "Daten");
+    for (const std::string& name : {std::string("Sch\xc3\xa4"
+                                                "del.raw"),
+                                    std::string("Sch\xe4"
+                                                "del.raw"),
+                                    std::string("a%20b.raw"), std::string("CT:1.raw"), std::string("50%.raw"),
+                                    std::string("100%25 d.raw"), std::string("two words.raw"),
+                                    std::string("Daten/k..o.raw"), std::string(200, 'n') + ".raw"}) {
+        file(name, data);
+        expectHead(*read(file("head.mhd", test::metaFile(head, name))), head, name);
+    }
+    fs::create_directories(folder_ / std::string(200, 'f') / std::string(200, 'g'));
+    const std::string far = std::string(200, 'f') + "/" + std::string(200, 'g') + "/h.raw";
+    file(far, data);
+    expectHead(*read(file("head.mhd", test::metaFile(head, far))), head, "a long name");
 }
 
 TEST_F(VolumeFiles, RangesThatFloatsCannotDivideAreRefused) {
