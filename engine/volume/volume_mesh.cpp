@@ -4,6 +4,7 @@
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -176,13 +177,17 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
     int stride = 1;
     while (Samples(volume, iso, stride).count() > kMostDrawnVoxels)
         ++stride;
-    const openvdb::FloatGrid::Ptr grid =
-        smallEnoughGrid(volume, iso, stride, mostFaces, shownAs, progress.part(0.0, 0.4));
-    progress.step(0.4, kMeshing);
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     std::vector<openvdb::Vec4I> quads;
-    openvdb::tools::volumeToMesh(*grid, points, triangles, quads, 0.0, 0.0);
+    // Two cores and no more (engine/core/parallel.h): the default arena would take all of them from the
+    // servo, also to free a grid.
+    tbb::task_arena(2).execute([&] {
+        const openvdb::FloatGrid::Ptr grid =
+            smallEnoughGrid(volume, iso, stride, mostFaces, shownAs, progress.part(0.0, 0.4));
+        progress.step(0.4, kMeshing);
+        openvdb::tools::volumeToMesh(*grid, points, triangles, quads, 0.0, 0.0);
+    });
     progress.step(0.8, kMeshing);
     if (quads.empty() && triangles.empty())
         throw Error(shownAs, "", "has no surface with this value", "give another --iso");

@@ -4,7 +4,10 @@
 #include "tests/unit/volume/made_volume.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_scheduler_observer.h>
 
+#include <atomic>
 #include <map>
 
 namespace touchstone {
@@ -102,6 +105,27 @@ TEST(VolumeMesh, TwoSlicesAreASlab) {
                 EXPECT_NEAR(1e9 * enclosed(mesh), full, 0.03 * full)
                     << axis << " " << slices << " " << mesh.stride;
             }
+}
+
+/// Threads that came to help in the arena of the thread that made it.
+class Helpers : public tbb::task_scheduler_observer {
+  public:
+    Helpers() { observe(true); }
+    ~Helpers() override { observe(false); }
+    void on_scheduler_entry(bool worker) override { count_ += worker ? 1 : 0; }
+    [[nodiscard]] int count() const { return count_.load(); }
+
+  private:
+    std::atomic<int> count_{0};
+};
+
+TEST(VolumeMesh, LeavesTheCoresOfTheDefaultArenaAlone) {
+    const auto volume = test::madeVolume("gyroid", glm::ivec3(96), "float");
+    const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
+    const Helpers helpers;
+    const SurfaceMesh mesh = meshOfVolume(*volume, 100.0, "gyroid");
+    EXPECT_EQ(helpers.count(), 0);
+    EXPECT_GT(mesh.corners.size(), 10'000u);
 }
 
 } // namespace
