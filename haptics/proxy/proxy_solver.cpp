@@ -4,6 +4,7 @@
 #include "haptics/contact/sweep.h"
 #include "haptics/proxy/moving_obstacles.h"
 #include "haptics/proxy/place_proxy.h"
+#include "haptics/proxy/rising_slide.h"
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
@@ -37,6 +38,11 @@ constexpr double kLasting = 2.0;
 /// A sweep ends at this gap, below the resting gap: a surface that the proxy rests on at kContactGap and
 /// slides along is then not hit again at once by the rounding of its gradient.
 constexpr double kStrikeGap = 0.5 * kContactGap;
+
+/// Moves after which the proxy may be circling at the bottom of a shape's hollow.
+constexpr uint32_t kCircling = 10;
+/// Lifts (rising_slide.h) that cost as much as a move.
+constexpr int kLiftsPerMove = 3;
 
 } // namespace
 
@@ -293,6 +299,42 @@ bool ProxySolver::rollAround(const glm::dvec3& goal) noexcept {
     return false;
 }
 
+/// A slide that a shape, or something beside it, has stopped after `share`. Out of line: meshes alone need
+/// none of it.
+[[gnu::noinline]] void ProxySolver::slideUp(const glm::dvec3& goal, const glm::dvec3& move, double share,
+                                            double covered) noexcept {
+    const StoppedSlide slide{
+        .start = state_.proxy,
+        .goal = goal,
+        .planes = {rest_.planes.data(), rest_.contactCount},
+        .move = move,
+        .share = share,
+        .covered = covered,
+        .radius = radius_,
+        .strikeGap = kStrikeGap,
+        .lifts = std::clamp(budget_ - static_cast<int>(rest_.iterations), 1, static_cast<int>(kMostLifts))};
+    const SlideUp up = alongRisingSurface(state_.candidates, slide, slide_);
+    state_.proxy += up.displacement;
+    lastMove_ = glm::length(up.displacement);
+    rest_.iterations += static_cast<uint32_t>(up.lifts / kLiftsPerMove);
+}
+
+/// In a hollow that is sharper than the goal is deep under it each slide overshoots the bottom, up to where
+/// the surface has risen by the contact gap: the proxy would circle there until the budget ends. True where a
+/// slide on a shape is no shorter than the one before, and gains no more than a gap does.
+[[gnu::noinline]] bool ProxySolver::circles(const glm::dvec3& goal, double length) noexcept {
+    if (rest_.activeSet.count == 0 || state_.candidates.shapes().empty())
+        return false;
+    const double before = std::exchange(lastSlide_, length);
+    if (length < before || length * length > 2.0 * kContactGap * glm::length(goal - state_.proxy))
+        return false;
+    const std::span<const int> active(rest_.activeSet.active.data(),
+                                      static_cast<size_t>(rest_.activeSet.count));
+    return std::any_of(active.begin(), active.end(), [&](int i) {
+        return rest_.contacts[static_cast<size_t>(i)].candidate == Contact::kNoCandidate;
+    });
+}
+
 /// One move. False when the proxy rests, or may not or cannot move on; contacts and active set are then up to
 /// date.
 bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
@@ -303,7 +345,8 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
     const glm::dvec3 move = rest_.activeSet.point;
     const double length = glm::length(move);
-    if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves) {
+    if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves ||
+        (rest_.iterations >= kCircling && circles(goal, length))) {
         withoutProgress_ = 0;
         return false;
     }
@@ -324,13 +367,16 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     const double known = cover(direction, length);
     if (known < 0.0)
         return false;
-    const double share = timeOfImpact(state_.candidates, state_.proxy, move, radius_ + kStrikeGap,
-                                      std::min(1.0, known / length));
-    state_.proxy += share * move;
-    state_.candidates.moved();
+    const double limit = std::min(1.0, known / length);
+    const double share = timeOfImpact(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, limit);
     lastMove_ = share * length;
+    if (share < limit && !state_.candidates.shapes().empty() && rest_.activeSet.count > 0)
+        slideUp(goal, move, share, known);
+    else
+        state_.proxy += share * move;
+    state_.candidates.moved();
     ++rest_.iterations;
-    withoutProgress_ = share * length <= kRestLength ? withoutProgress_ + 1 : 0;
+    withoutProgress_ = lastMove_ <= kRestLength ? withoutProgress_ + 1 : 0;
     return true;
 }
 

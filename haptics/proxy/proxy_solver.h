@@ -4,6 +4,7 @@
 // haptics/contact supply them.
 
 #include "engine/math/object_motion.h"
+#include "haptics/proxy/rising_slide.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/solve/solve_result.h"
@@ -111,6 +112,8 @@ class ProxySolver {
     void findContacts(double within = kContactReach) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
+    [[nodiscard]] bool circles(const glm::dvec3& goal, double length) noexcept;
+    void slideUp(const glm::dvec3& goal, const glm::dvec3& move, double share, double covered) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
     bool gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept;
     void buildPlanes() noexcept;
@@ -120,10 +123,12 @@ class ProxySolver {
     double workspaceRadius_;
     double radius_ = 0.0;
     int withoutProgress_ = 0;
-    double lastMove_ = 0.0; ///< object units, of this tick
-    double travel_ = 0.0;   ///< of the HIP in this tick
+    double lastMove_ = 0.0;       ///< object units, of this tick
+    double lastSlide_ = INFINITY; ///< towards its goal, of this tick; only where shapes are near
+    double travel_ = 0.0;         ///< of the HIP in this tick
     glm::dvec3 heading_{0.0};
     int budget_;
+    SlideMemory slide_;
     DeviceState& state_;
     SolveResult& rest_;
 };

@@ -38,6 +38,17 @@ double NearShapes::sweep(const glm::dvec3& p, const glm::dvec3& move, double rea
     return limit;
 }
 
+bool NearShapes::seen(int object, FeatureId feature, const glm::dvec3& p,
+                      FeatureDistance& found) const noexcept {
+    for (size_t i = 0; i < count_; ++i)
+        if (const Placed& placed = placed_[i]; placed.object == object) {
+            found =
+                inReference(placed, placed.shape->distanceFrom(feature, placed.objectFromReference.point(p)));
+            return true;
+        }
+    return false;
+}
+
 double NearShapes::nearest(const glm::dvec3& p, double reach) const noexcept {
     double least = INFINITY;
     (void)eachNear(p, reach, [&](int, const FeatureDistance& d) { least = std::min(least, d.distance); });

@@ -34,6 +34,10 @@ class NearShapes {
     /// The distance of the nearest feature within `reach` of p; INFINITY where there is none.
     [[nodiscard]] double nearest(const glm::dvec3& p, double reach) const noexcept;
 
+    /// A feature of one of the shapes, seen from p. False where the shape is not near.
+    [[nodiscard]] bool seen(int object, FeatureId feature, const glm::dvec3& p,
+                            FeatureDistance& found) const noexcept;
+
     /// Calls visit(object, feature distance in the reference object frame) for every feature within `reach`
     /// of p. False where a shape has more features than fit.
     template <class Visit>
