@@ -41,7 +41,8 @@ constexpr double kStrikeGap = 0.5 * kContactGap;
 
 /// Moves after which the proxy may be circling at the bottom of a shape's hollow.
 constexpr uint32_t kCircling = 10;
-/// Lifts (rising_slide.h) that cost as much as a move.
+/// Lifts (rising_slide.h) that count as a move. With their sweeps they cost more, so that a tick of lifts
+/// alone takes three times as long as one of moves; with fewer, a groove's steps use up the budget.
 constexpr int kLiftsPerMove = 3;
 
 } // namespace

@@ -48,7 +48,7 @@ struct SlideMemory {
 
 struct SlideUp {
     glm::dvec3 displacement{0.0};
-    int lifts = 0; ///< each costs about as much as a move
+    int lifts = 0; ///< that were made
 };
 
 /// The displacement that replaces share * move: a free way to a place nearer to the goal, or share * move.
