@@ -56,7 +56,9 @@ void WorkbenchWindow::draw() {
     (void)chartPictures_.update(screen_.target());
     chartSaver_.update();
     status_.update(secondsNow(), input, state_, widgets,
-                   {.drawn = picture_.drawn(), .validationMessages = screen_.validationMessages()});
+                   {.drawn = picture_.drawn(),
+                    .validationMessages = screen_.validationMessages(),
+                    .otherMaterials = drawn_.redraws()});
 }
 
 void WorkbenchWindow::showPart(const PixelRect& area, double points,

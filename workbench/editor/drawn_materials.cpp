@@ -24,8 +24,10 @@ void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool
                 renderer.beginScene(prepared);
             }
         }
-        if (redrawn_ != nullptr && renderer.continueScene(kUploadTime))
+        if (redrawn_ != nullptr && renderer.continueScene(kUploadTime)) {
             drawn_ = std::exchange(redrawn_, nullptr);
+            ++redraws_;
+        }
     } catch (const DeviceLost&) {
         throw;
     } catch (...) {

@@ -2,6 +2,7 @@
 
 #include "renderer/scene_renderer.h"
 
+#include <cstdint>
 #include <future>
 #include <memory>
 
@@ -31,8 +32,11 @@ class DrawnMaterials {
     /// Every frame in which no other model is uploaded. `needed`: showsHaptics. Throws a failure once per
     /// change.
     void update(SceneRenderer& renderer, const ScenePtr& scene, bool needed);
+    /// How often a scene of other materials has come into the picture.
+    [[nodiscard]] uint64_t redraws() const { return redraws_; }
 
   private:
+    uint64_t redraws_ = 0;
     ScenePtr drawn_;                                              // the scene in the renderer
     std::future<std::shared_ptr<const PreparedScene>> preparing_; // of the edited materials
     ScenePtr redrawn_;                                            // being uploaded for them

@@ -200,7 +200,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
         {"gpu", input.gpuName},
         {"picture",
          {{"state", kPictureStates[static_cast<size_t>(screen.drawn.state)]},
-          {"refined_in_s", screen.drawn.refinedIn}}},
+          {"refined_in_s", screen.drawn.refinedIn},
+          {"other_materials", screen.otherMaterials}}},
         {"validation_messages", screen.validationMessages},
         {"widgets", rects},
     };

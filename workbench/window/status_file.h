@@ -16,6 +16,7 @@ class StatusFile {
     struct Screen {
         ModelPicture::Drawn drawn;
         size_t validationMessages = 0;
+        uint64_t otherMaterials = 0; ///< DrawnMaterials::redraws
     };
     /// At most twice a second; does nothing without a target. `now`: s. `widgets` in window coordinates.
     void update(double now, const PanelInput& input, const PanelState& state,
