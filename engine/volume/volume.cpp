@@ -32,11 +32,11 @@ std::string shown(double number) {
 } // namespace
 
 Volume::Volume(VolumeFacts facts, std::span<const uint8_t> stored, std::shared_ptr<const void> owner,
-               const std::string& shownAs)
+               const std::string& shownAs, const Progress& progress)
     : facts_(std::move(facts)), stored_(stored), owner_(std::move(owner)) {
     blocks_ = (facts_.size + (kBlock - 1)) / kBlock;
-    measure(shownAs);
-    count();
+    measure(shownAs, progress);
+    count(progress);
     defaultIso_ = facts_.statedIso.value_or(otsuThreshold(histogram_, low_, high_));
 }
 
@@ -60,7 +60,7 @@ void Volume::row(const glm::ivec3& first, std::span<float> values) const noexcep
     }
 }
 
-void Volume::measure(const std::string& shownAs) {
+void Volume::measure(const std::string& shownAs, const Progress& progress) {
     const glm::ivec3& n = facts_.size;
     ranges_.assign(static_cast<size_t>(blocks_.x) * static_cast<size_t>(blocks_.y) *
                        static_cast<size_t>(blocks_.z),
@@ -71,6 +71,7 @@ void Volume::measure(const std::string& shownAs) {
     std::vector<ValueRange> parts(static_cast<size_t>(blocks_.x));
     for (int z = 0; z < n.z; ++z)
         for (int y = 0; y < n.y; ++y) {
+            progress.stopIfCancelled();
             row({0, y, z}, values);
             float sum = 0.0f;
             for (const float value : values)
@@ -126,11 +127,12 @@ void Volume::measure(const std::string& shownAs) {
                     "store them with another scale or offset");
 }
 
-void Volume::count() {
+void Volume::count(const Progress& progress) {
     std::vector<float> values(static_cast<size_t>(facts_.size.x));
     const double factor = kBins / (high_ - low_);
     for (int z = 0; z < facts_.size.z; ++z)
         for (int y = 0; y < facts_.size.y; ++y) {
+            progress.stopIfCancelled();
             row({0, y, z}, values);
             for (const float value : values)
                 ++histogram_[static_cast<size_t>(

@@ -2,6 +2,7 @@
 // Scalar data on a grid of voxels: a scan. Immutable; any thread.
 
 #include "engine/core/checksum.h"
+#include "engine/core/progress.h"
 #include "engine/math/similarity.h"
 #include "engine/volume/volume_type.h"
 
@@ -44,8 +45,9 @@ class Volume {
     /// `stored`: the values as facts.type, the first axis fastest, at least as many as there are voxels; kept
     /// alive by `owner`. Throws Error, naming `shownAs`, where a value is not a finite number, where all are
     /// equal, and where floats cannot divide their range: wider than the largest, or some of its last bits.
+    /// Throws Cancelled; reports nothing.
     Volume(VolumeFacts facts, std::span<const uint8_t> stored, std::shared_ptr<const void> owner,
-           const std::string& shownAs);
+           const std::string& shownAs, const Progress& progress = {});
 
     [[nodiscard]] const VolumeFacts& facts() const noexcept { return facts_; }
     [[nodiscard]] const glm::ivec3& size() const noexcept { return facts_.size; }
@@ -87,8 +89,8 @@ class Volume {
                    (static_cast<size_t>(block.y) +
                     static_cast<size_t>(blocks_.y) * static_cast<size_t>(block.z));
     }
-    void measure(const std::string& shownAs);
-    void count();
+    void measure(const std::string& shownAs, const Progress& progress);
+    void count(const Progress& progress);
 
     VolumeFacts facts_;
     std::span<const uint8_t> stored_;

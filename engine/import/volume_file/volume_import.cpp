@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -130,12 +131,28 @@ FileDescriptor opened(const std::filesystem::path& path, const std::string& show
     return file;
 }
 
+/// Values of 1 to 8 bytes, or of text some 25 characters for a float, become 1 to 4 bytes: a file of many
+/// more is not read, nor waited for.
+void checkFileSize(const ImportContext& context, const FileDescriptor& file, const VolumeReader& reader) {
+    constexpr uint64_t kHeader = uint64_t{1} << 20;
+    const uint64_t most = 8 * reader.mostBytes + kHeader;
+    struct stat facts {};
+    if (fstat(file.get(), &facts) != 0 || static_cast<uint64_t>(facts.st_size) <= most)
+        return;
+    context.fail("",
+                 "its file has " + std::to_string(facts.st_size >> 20) + " MiB, and at most " +
+                     std::to_string(most >> 20) + " MiB are read",
+                 "crop or resample the volume: its values may take " +
+                     std::to_string(reader.mostBytes >> 20) + " MiB");
+}
+
 /// Size, and a hash that is not the one of other files: theirs are in memory as a whole.
-FileStamp stampOf(const FileDescriptor& file) {
+FileStamp stampOf(const FileDescriptor& file, const Progress& progress) {
     std::vector<std::byte> block(size_t{1} << 20);
     FileStamp stamp;
     Hash64 hash;
     while (true) {
+        progress.stopIfCancelled();
         const ssize_t got = pread(file.get(), block.data(), block.size(), static_cast<off_t>(stamp.size));
         if (got <= 0)
             break;
@@ -229,13 +246,13 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
                                          VolumeFormat format, const VolumeReader& reader) {
     const std::string name = nameOf(format);
     const FileDescriptor file = opened(path, context.file());
+    checkFileSize(context, file, reader);
     const std::vector<std::string> arguments{wordOf(format), std::to_string(reader.mostBytes)};
     const EstimatedProgress estimate(context.progress().part(0.0, 0.5), "reading the volume", 0.5);
     Answer answer = ask(context, reader, arguments, file);
     const auto exited = [&](int status) {
         return answer.process.end == ProcessAnswer::End::Exited && answer.process.status == status;
     };
-    const FileStamp stamp = stampOf(file);
     if (exited(kDetachedData)) {
         const std::filesystem::path data = dataFileIn(context, path.parent_path(), answer.output.bytes());
         std::string header(kMostVolumeHeader, ' ');
@@ -245,7 +262,9 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
             context.fail("", "its header holds a zero byte", kOther);
         std::vector<std::string> again = arguments;
         again.emplace_back(header);
-        answer = ask(context, reader, again, opened(data, data.string()));
+        const FileDescriptor values = opened(data, data.string());
+        checkFileSize(context, values, reader);
+        answer = ask(context, reader, again, values);
     }
     if (!exited(0))
         failOf(context, answer.process, lineOf(answer.output.bytes()), name, reader);
@@ -253,9 +272,9 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
     const FlatVolumeHead head = headOf(context, owner->bytes());
     VolumeFacts facts = factsOf(head, format);
     checkPlace(context, facts);
-    facts.file = stamp;
+    facts.file = stampOf(file, context.progress());
     return std::make_shared<const Volume>(std::move(facts), owner->bytes().subspan(sizeof head), owner,
-                                          context.file());
+                                          context.file(), context.progress());
 }
 
 } // namespace touchstone

@@ -28,7 +28,7 @@ struct VolumeReader {
 [[nodiscard]] VolumeReader installedVolumeReader(uint64_t bytes);
 
 /// Values in a file of their own are read where it lies in the folder of `path` or below. Throws Error, and
-/// Cancelled within 20 ms. Any thread.
+/// Cancelled, of which it looks every 20 ms or more often. Any thread.
 [[nodiscard]] std::shared_ptr<const Volume> readVolume(const ImportContext& context,
                                                        const std::filesystem::path& path, VolumeFormat format,
                                                        const VolumeReader& reader);

@@ -7,12 +7,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
 #include <random>
+#include <thread>
 
 namespace touchstone {
 namespace {
@@ -342,6 +346,37 @@ TEST_F(VolumeFiles, ABrokenReaderIsAnErrorOfItsFile) {
     EXPECT_NE(problem("exec head -c 900000 /dev/zero").find("more than"), std::string::npos);
     EXPECT_NE(problem("printf 'a\\033[31m\\nrest'; exit 1").find("cannot be read as NRRD: a [31m"),
               std::string::npos);
+}
+
+TEST_F(VolumeFiles, HugeFilesAreRefusedUnreadAndReadingIsCancelled) {
+    const fs::path path = file("v.nrrd", test::nrrdFile(assets::makeVolume("ball", glm::ivec3(16), "int16")));
+    fs::resize_file(path, uint64_t{1} << 40); // sparse
+    try {
+        (void)read(path);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(error.problem().find("its file has 1048576 MiB, and at most"), std::string::npos)
+            << error.what();
+    }
+    // The reader is done at once; what takes long is to know the file again.
+    fs::resize_file(path, uint64_t{8} << 30);
+    std::atomic<bool> cancel{false};
+    LoadOptions options;
+    options.cancel = &cancel;
+    const ImportContext context(path.string(), options);
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point at;
+    std::thread user([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        at = Clock::now();
+        cancel = true;
+    });
+    EXPECT_THROW((void)readVolume(context, path, VolumeFormat::Nrrd, installedVolumeReader(0)), Cancelled);
+    const Clock::time_point end = Clock::now();
+    user.join();
+    const double seconds = std::chrono::duration<double>(end - at).count();
+    std::printf("cancelled after %.3f s\n", seconds);
+    EXPECT_LT(seconds, 0.5);
 }
 
 TEST_F(VolumeFiles, AVolumeIsASceneWithItsSurface) {
