@@ -1,6 +1,8 @@
 #include "workbench/timeline/timeline_controller.h"
 
+#include "engine/import/volume_file/volume_edits.h"
 #include "haptics/world/world_state.h"
+#include "workbench/figures/quantity.h"
 #include "workbench/timeline/recording_files.h"
 
 #include <nlohmann/json.hpp>
@@ -209,10 +211,10 @@ void TimelineController::fitModel(const Surroundings& around) {
     }
     if (modelWanted_ && around.open != nullptr && *modelWanted_ == around.open->absolutePath)
         modelWanted_.reset();
-    describe(recorded);
+    describe(recorded, around.model);
 }
 
-void TimelineController::describe(const RecordedScene* scene) {
+void TimelineController::describe(const RecordedScene* scene, const Model* open) {
     notes_.clear();
     if (scene != nullptr) {
         const std::string name = std::filesystem::path(scene->identity.path).filename().string();
@@ -224,8 +226,13 @@ void TimelineController::describe(const RecordedScene* scene) {
             notes_.push_back(name + " was touched and is not open: only the curves are shown");
         else if (fit_ == ModelFit::Changed)
             notes_.push_back(name + " has changed since it was touched");
-        if (fit_ != ModelFit::Missing && !scene->identity.edits.empty())
+        std::string materials = scene->identity.edits;
+        const std::optional<double> iso = takeIso(materials);
+        if (fit_ != ModelFit::Missing && !materials.empty())
             notes_.emplace_back("its materials had been edited and not saved");
+        if (iso && modelIsOpen() && open != nullptr && open->scene != nullptr &&
+            open->scene->volume != nullptr && open->scene->iso != *iso)
+            notes_.push_back("it was touched with the surface at " + figure(*iso, 6));
         if (fit_ != ModelFit::Missing && !scene->identity.part.whole())
             notes_.emplace_back("a part of it was hidden or clipped");
     }

@@ -113,7 +113,7 @@ class TimelineController {
     void look(Opened opened);
     void fitModel(const Surroundings& around);
     [[nodiscard]] ModelFit fitOf(const RecordedScene& scene, const SceneIdentity* open) const;
-    void describe(const RecordedScene* scene);
+    void describe(const RecordedScene* scene, const Model* open);
     void showTick();
     void retire();
     void demandUnused(const std::filesystem::path& file) const;

@@ -10,11 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json objectIn(const std::string& edits) {
-    Json object = edits.empty() ? Json::object() : Json::parse(edits, nullptr, false);
-    if (!object.is_object())
-        throw Error("edits", "", "are no JSON object", "record again");
-    return object;
+/// Discarded where the text is no JSON.
+Json parsed(const std::string& edits) {
+    return edits.empty() ? Json::object() : Json::parse(edits, nullptr, false);
 }
 
 } // namespace
@@ -22,13 +20,17 @@ Json objectIn(const std::string& edits) {
 std::string withIso(const std::string& edits, const Scene& scene) {
     if (scene.volume == nullptr)
         return edits;
-    Json object = objectIn(edits);
+    Json object = parsed(edits);
+    if (!object.is_object())
+        throw Error("edits", "", "are no JSON object", "record again");
     object["iso"] = scene.iso;
     return object.dump();
 }
 
 std::optional<double> takeIso(std::string& edits) {
-    Json object = objectIn(edits);
+    Json object = parsed(edits);
+    if (!object.is_object())
+        return std::nullopt;
     const auto found = object.find("iso");
     if (found == object.end() || !found->is_number())
         return std::nullopt;

@@ -12,7 +12,7 @@ namespace touchstone {
 /// "iso"; the same where the scene has no volume.
 [[nodiscard]] std::string withIso(const std::string& edits, const Scene& scene);
 
-/// Removes the member. Throws Error where the text is no JSON object.
+/// Removes the member; none, and the text as it is, where it has none or is no JSON object.
 [[nodiscard]] std::optional<double> takeIso(std::string& edits);
 
 } // namespace touchstone

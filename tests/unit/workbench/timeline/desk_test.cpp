@@ -1,5 +1,6 @@
 // What somebody who looks at a recording is shown, whatever has become of its model.
 
+#include "assets/volumes.h"
 #include "devices/mouse/mouse_device.h"
 #include "engine/load/scene_loader.h"
 #include "tests/unit/workbench/timeline/recordings.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <thread>
 
@@ -115,6 +117,39 @@ TEST_F(ControllerTest, AModelThatIsFittedOtherwiseIsTouchedWhereItWasTouched) {
     EXPECT_LT(glm::distance(shown, openFromRecorded.point(recorded)), 1e-12);
     EXPECT_GT(glm::distance(shown, recorded), 1e-3) << "the two are not the same place";
     EXPECT_LT(glm::distance(shown, overTheDoughnut(lived_[3000].time)), 3e-3) << "on the glaze";
+}
+
+TEST_F(ControllerTest, AVolumeSaysAtWhichValueItWasTouched) {
+    const std::filesystem::path path = scratch_ / "ball.nrrd";
+    {
+        const std::vector<std::byte> bytes =
+            assets::nrrdOf(assets::makeVolume("ball", glm::ivec3(24), "int16"));
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+    LoadOptions options;
+    options.iso = 60.0;
+    const Model touched = loadModel(path, Fit::Workspace, options);
+    const SceneIdentity identity = identify(*touched.haptic, *touched.scene, Fit::Workspace);
+    RecordedServo rig([](double time) { return at({0.0, 0.05 - 0.01 * time, 0.0}); });
+    rig.recorder.start(file_, "test");
+    rig.offer({touched.scene, touched.haptic, identity});
+    rig.ticks(1000);
+    rig.finish();
+    opened_ = touched;
+    identity_ = identity;
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
+    turn();
+    EXPECT_TRUE(controller_.modelIsOpen());
+    EXPECT_TRUE(controller_.notes().empty()) << controller_.notes()[0];
+    options.iso = 150.0;
+    opened_ = loadModel(path, Fit::Workspace, options);
+    identity_ = identify(*opened_.haptic, *opened_.scene, Fit::Workspace);
+    turn();
+    EXPECT_TRUE(controller_.modelIsOpen());
+    EXPECT_TRUE(notes("it was touched with the surface at 60"));
+    EXPECT_FALSE(notes("materials"));
 }
 
 TEST_F(ControllerTest, AModelThatIsGoneOrOtherwiseSaysSo) {
