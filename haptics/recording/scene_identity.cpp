@@ -143,7 +143,12 @@ SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit) {
     const std::filesystem::path absolute = std::filesystem::weakly_canonical(source.path, error);
     if (!error && std::filesystem::exists(absolute, error))
         identity.absolutePath = absolute.string();
-    readBytes(source.path, identity);
+    if (source.volume != nullptr) { // a step of its surface must not wait for the disk
+        identity.fileSize = source.file.size;
+        identity.fileHash = source.file.hash;
+    } else {
+        readBytes(source.path, identity);
+    }
     identity.feltHash = feltHash(scene, source);
     identity.fit = fit;
     identity.edits = withIso({}, source);

@@ -33,7 +33,8 @@ struct SceneIdentity {
 /// for the servo thread: reads every vertex and texel (0.1 s for a million triangles).
 [[nodiscard]] uint64_t feltHash(const HapticScene& scene, const Scene& source);
 
-/// Reads the file again. A file that no longer exists has size and hash 0.
+/// Reads the file again, but for a volume, which is known as it was when it was read: a file may have a
+/// gigabyte, and every value at the surface is a scene. A file that no longer exists has size and hash 0.
 [[nodiscard]] SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit);
 
 } // namespace touchstone

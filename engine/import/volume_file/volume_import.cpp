@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -146,18 +147,28 @@ void checkFileSize(const ImportContext& context, const FileDescriptor& file, con
                      std::to_string(reader.mostBytes >> 20) + " MiB");
 }
 
-/// Size, and a hash that is not the one of other files: theirs are in memory as a whole.
+/// Size, and the hash by which recordings know a file (haptics/recording/scene_identity.cpp): of blocks of 1
+/// MiB, as many of them full as there are, in however many pieces the system gives them.
 FileStamp stampOf(const FileDescriptor& file, const Progress& progress) {
     std::vector<std::byte> block(size_t{1} << 20);
     FileStamp stamp;
     Hash64 hash;
-    while (true) {
-        progress.stopIfCancelled();
-        const ssize_t got = pread(file.get(), block.data(), block.size(), static_cast<off_t>(stamp.size));
-        if (got <= 0)
-            break;
-        hash.addBytes(std::span(block).first(static_cast<size_t>(got)));
-        stamp.size += static_cast<uint64_t>(got);
+    for (bool more = true; more;) {
+        size_t filled = 0;
+        while (filled < block.size()) {
+            progress.stopIfCancelled();
+            const ssize_t got = pread(file.get(), block.data() + filled, block.size() - filled,
+                                      static_cast<off_t>(stamp.size + filled));
+            if (got < 0 && errno == EINTR)
+                continue;
+            if (got <= 0)
+                break;
+            filled += static_cast<size_t>(got);
+        }
+        more = filled == block.size();
+        if (filled > 0)
+            hash.addBytes(std::span(block).first(filled));
+        stamp.size += filled;
     }
     stamp.hash = hash.value();
     return stamp;

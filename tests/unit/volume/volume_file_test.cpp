@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/import/volume_file/volume_import.h"
 #include "engine/load/scene_loader.h"
+#include "haptics/recording/scene_identity.h"
 #include "tests/support/volume_files.h"
 
 #include <gtest/gtest.h>
@@ -403,6 +404,28 @@ TEST_F(VolumeFiles, AVolumeIsASceneWithItsSurface) {
     } catch (const Error& error) {
         EXPECT_NE(error.remedy().find("its values go from 0 to 200"), std::string::npos) << error.what();
     }
+}
+
+TEST_F(VolumeFiles, ARecordingKnowsAVolumeWithoutReadingItAgain) {
+    const fs::path path =
+        file("ball.nrrd", test::nrrdFile(assets::makeVolume("ball", {96, 96, 80}, "int16")));
+    const ScenePtr scene = loadScene(path);
+    const auto haptic = compileHapticScene(*scene, workspaceFromScene(*scene, Fit::Workspace));
+    // As every file is known: the hash of its blocks.
+    std::ifstream bytes(path, std::ios::binary);
+    std::vector<std::byte> block(size_t{1} << 20);
+    Hash64 hash;
+    uint64_t size = 0;
+    while (bytes.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size())) ||
+           bytes.gcount() > 0) {
+        hash.addBytes(std::span(block).first(static_cast<size_t>(bytes.gcount())));
+        size += static_cast<uint64_t>(bytes.gcount());
+    }
+    EXPECT_GT(size, block.size()) << "more than a block";
+    fs::remove(path);
+    const SceneIdentity identity = identify(*haptic, *scene, Fit::Workspace);
+    EXPECT_EQ(identity.fileSize, size);
+    EXPECT_EQ(identity.fileHash, hash.value());
 }
 
 TEST(Otsu, TheThresholdLiesBetweenTwoPeaks) {
