@@ -20,8 +20,12 @@ class NiftiFields {
     NiftiFields(std::span<const uint8_t> bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
 
     [[nodiscard]] int16_t word(size_t at) const { return static_cast<int16_t>(bits<uint16_t>(at)); }
+    /// As it is; `real`: a finite one.
+    [[nodiscard]] double any(size_t at) const {
+        return static_cast<double>(std::bit_cast<float>(bits<uint32_t>(at)));
+    }
     [[nodiscard]] double real(size_t at) const {
-        const auto value = static_cast<double>(std::bit_cast<float>(bits<uint32_t>(at)));
+        const double value = any(at);
         if (!std::isfinite(value))
             throw BadVolume("its header has a number that is not finite");
         return value;
@@ -75,7 +79,9 @@ void place(const NiftiFields& fields, RawVolume& volume) {
     const double metre = unit == 1 ? 1.0 : unit == 3 ? 1e-6 : 1e-3;
     if (unit == 0)
         volume.notes |= kNoUnit;
-    const glm::dvec3 step(fields.real(kPixdim + 4), fields.real(kPixdim + 8), fields.real(kPixdim + 12));
+    const auto steps = [&] {
+        return glm::dvec3(fields.real(kPixdim + 4), fields.real(kPixdim + 8), fields.real(kPixdim + 12));
+    };
     glm::dmat3 axes(1.0);
     glm::dvec3 origin(0.0);
     if (fields.word(kSform) > 0) {
@@ -91,12 +97,14 @@ void place(const NiftiFields& fields, RawVolume& volume) {
         axes = {{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
                 {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)},
                 {2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b}};
+        const glm::dvec3 step = steps();
         axes[0] *= step.x;
         axes[1] *= step.y;
         axes[2] *= fields.real(kPixdim) < 0.0 ? -step.z : step.z; // qfac
         origin = {fields.real(kOffset), fields.real(kOffset + 4), fields.real(kOffset + 8)};
     } else {
         volume.notes |= kNoOrientation;
+        const glm::dvec3 step = steps();
         axes = {{step.x, 0, 0}, {0, step.y, 0}, {0, 0, step.z}};
     }
     const glm::dmat3 lpsFromRas({-1, 0, 0}, {0, -1, 0}, {0, 0, 1});
@@ -135,8 +143,9 @@ RawVolume readNiftiHeader(std::span<const uint8_t> header) {
     volume.skipBytes = wholeNumber(fields.real(108), "vox_offset");
     if (volume.skipBytes < kHeader)
         throw BadVolume("its values begin inside of its header");
-    if (const double slope = fields.real(112); slope != 0.0) {
-        volume.scale = slope;
+    // Writers state "none" by 0, and some by NaN.
+    if (const double slope = fields.any(112); slope != 0.0 && !std::isnan(slope)) {
+        volume.scale = fields.real(112);
         volume.offset = fields.real(116);
     }
     place(fields, volume);

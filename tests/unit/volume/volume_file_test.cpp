@@ -197,6 +197,21 @@ TEST_F(VolumeFiles, NiftiScalesItsValues) {
     EXPECT_EQ(volume->high(), 0.5 * 200.0 - 3.0);
 }
 
+TEST_F(VolumeFiles, NiftiNumbersThatCountForNothingMayBeMissing) {
+    const assets::VolumeData head = assets::makeVolume("head", {24, 32, 18}, "int16");
+    VolumeBytes bytes = test::niftiFile(head, test::NiftiPlace::Sform);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(bytes.data() + 112, &none, 4); // no scaling
+    std::memcpy(bytes.data() + 80, &none, 4);  // the sform has the spacing
+    expectHead(*read(file("v.nii", bytes)), head, "nan");
+    const float endless = std::numeric_limits<float>::infinity();
+    std::memcpy(bytes.data() + 112, &endless, 4);
+    EXPECT_NE(refusal("v.nii", bytes).find("not finite"), std::string::npos);
+    VolumeBytes qform = test::niftiFile(head, test::NiftiPlace::Qform);
+    std::memcpy(qform.data() + 80, &none, 4);
+    EXPECT_NE(refusal("v.nii", qform).find("not finite"), std::string::npos);
+}
+
 TEST_F(VolumeFiles, WhatLiesIsRefusedWithItsReason) {
     const assets::VolumeData ball = assets::makeVolume("ball", glm::ivec3(16), "int16");
     const VolumeBytes good = test::nrrdFile(ball);
