@@ -22,8 +22,7 @@ void checkLayout(const FieldLayout& layout) {
         refuse("has no cell", "give it at least one cell on each axis");
     const uint64_t cells =
         static_cast<uint64_t>(n.x) * static_cast<uint64_t>(n.y) * static_cast<uint64_t>(n.z);
-    constexpr int kMostOnAxis = 1 << 16;
-    if (std::max({n.x, n.y, n.z}) > kMostOnAxis || cells >= FieldGrid::kMostCells)
+    if (std::max({n.x, n.y, n.z}) > FieldGrid::kMostOnAxis || cells >= FieldGrid::kMostCells)
         refuse("has " + std::to_string(cells) + " cells, of which 4294967295 fit", "use larger voxels");
     if (!(layout.voxel > 0.0) || !std::isfinite(layout.voxel) ||
         !std::isfinite(layout.origin.x + layout.origin.y + layout.origin.z))

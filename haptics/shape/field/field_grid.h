@@ -34,6 +34,7 @@ class FieldGrid {
     static constexpr int kNodes =
         kBrick + 1; ///< nodes a side: the last ones are also those of the next brick
     static constexpr size_t kBrickNodes = size_t{kNodes} * kNodes * kNodes;
+    static constexpr int kMostOnAxis = 1 << 16;               ///< cells
     static constexpr uint64_t kMostCells = uint64_t{1} << 32; ///< a cell's number has 32 bits
 
     /// `nodes` (x fastest, kNodes a side) of the brick whose first node is `first`. Nodes beyond the grid may

@@ -54,7 +54,11 @@ NodePlan planFor(const Volume& volume, double mostNodes) {
         const glm::dvec3 n = count(voxel);
         return n.x * n.y * n.z;
     };
-    while (all(plan.voxel) > mostNodes) {
+    const auto longest = [&](double voxel) {
+        const glm::dvec3 n = count(voxel);
+        return std::max({n.x, n.y, n.z}) - 1.0;
+    };
+    while (all(plan.voxel) > mostNodes || longest(plan.voxel) > FieldGrid::kMostOnAxis) {
         plan.voxel *= std::max(1.001, std::cbrt(all(plan.voxel) / mostNodes));
         plan.onVoxels = false;
     }

@@ -198,6 +198,15 @@ TEST(VolumeField, VoxelsAtTheValueItselfAreInsideForEyeAndHand) {
     EXPECT_LT(shape.value({0.0, 0.0, 0.0}), -0.2) << "solid for the hand";
 }
 
+TEST(VolumeField, TheLongestAxisHasNodesEnough) {
+    const glm::ivec3 size(1 << 16, 3, 3); // and a margin
+    std::vector<float> values(static_cast<size_t>(size.x) * 9, 0.0f);
+    values[values.size() / 2] = 1.0f;
+    const VolumeField field = fieldOfVolume(*test::volumeOf(size, values), 0.5, kReach, "needle");
+    EXPECT_LE(field.grid->layout().cells.x, FieldGrid::kMostOnAxis);
+    EXPECT_GT(field.coarser, 1.0);
+}
+
 TEST(VolumeField, TwoSlicesAreFeltWhereTheyAreSeen) {
     std::vector<float> values;
     for (int i = 0; i < 50 * 50 * 2; ++i)
