@@ -1,7 +1,6 @@
 #pragma once
 // Loads glTF and GLB: read, validate, build; OBJ, STL and PLY, which become a GLB first; and volumes, whose
-// surface does. Any thread;
-// throws touchstone::Error.
+// surface does. Any thread; throws touchstone::Error.
 
 #include "engine/import/file/load_options.h"
 #include "engine/scene/scene.h"

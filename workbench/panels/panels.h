@@ -19,9 +19,9 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets);
 void nextStroke(PanelState& state, int step);
 /// "clutch", "force comes back", "zoom 2.0x", both or empty.
 [[nodiscard]] std::string workspaceText(const DeviceMapping& mapping);
-/// The model's nodes with the touched one, and the file's warnings.
 /// The histogram and the value of the surface; nothing where the model is no volume.
 void drawVolume(const PanelInput& input, PanelState& state, Widgets& widgets);
+/// The model's nodes with the touched one, and the file's warnings.
 void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Effective properties of the touched material, and its effects with reasons.
 void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);

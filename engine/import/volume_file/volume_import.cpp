@@ -118,7 +118,8 @@ Answer ask(const ImportContext& context, const VolumeReader& reader, std::vector
     answer.process = askProcessInto(output, reader.program.string(), arguments, limits, input,
                                     [&] { return context.progress().cancelled(); });
     // Nobody can change it from here on.
-    fcntl(output.get(), F_ADD_SEALS, F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE);
+    if (fcntl(output.get(), F_ADD_SEALS, F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) != 0)
+        context.fail("", "its values can still be changed by another process", "open it again");
     answer.output = MappedFile(output);
     return answer;
 }
@@ -259,7 +260,7 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
     const FileDescriptor file = opened(path, context.file());
     checkFileSize(context, file, reader);
     const std::vector<std::string> arguments{wordOf(format), std::to_string(reader.mostBytes)};
-    const EstimatedProgress estimate(context.progress().part(0.0, 0.5), "reading the volume", 0.5);
+    const EstimatedProgress estimate(context.progress().part(0.0, 0.13), "reading the volume", 0.5);
     Answer answer = ask(context, reader, arguments, file);
     const auto exited = [&](int status) {
         return answer.process.end == ProcessAnswer::End::Exited && answer.process.status == status;

@@ -16,7 +16,7 @@ std::vector<uint8_t> glbOfVolume(ImportContext& context, const Volume& volume, d
     mesh.name = std::filesystem::path(context.file()).stem().string();
     {
         const SurfaceMesh surface =
-            meshOfVolume(volume, iso, context.file(), context.progress().part(0.5, 0.8));
+            meshOfVolume(volume, iso, context.file(), context.progress().part(0.13, 0.2));
         if (surface.stride > 1)
             context.warn("volume", "is drawn from every " + std::to_string(surface.stride) +
                                        (surface.stride == 2   ? "nd"

@@ -31,9 +31,9 @@ inline constexpr double kDeepestVoxels = 40.0;
 /// Distances from the surface where the volume's values are `iso`, negative where they are at least that; the
 /// volume's border closes it. Nodes are the volume's voxels where its axes are at right angles and equally
 /// spaced; else it is interpolated at voxels of the finest spacing, at the volume's axes as far as these are
-/// at right angles, and at larger ones where there would be more than kMostVolumeNodes, or more than
-/// `mostNear` next to the surface, as in noise: then there are no more than these (a thousand at least).
-/// Throws Error, naming `shownAs`, and Cancelled.
+/// at right angles, and at larger ones where there would be more than kMostVolumeNodes or
+/// FieldGrid::kMostOnAxis, or more than `mostNear` next to the surface, as in noise: then there are no more
+/// than these (a thousand at least). Throws Error, naming `shownAs`, and Cancelled.
 [[nodiscard]] VolumeField fieldOfVolume(const Volume& volume, double iso, const FieldReach& reach,
                                         const std::string& shownAs, const Progress& progress = {},
                                         uint64_t mostNear = kMostNearNodes);

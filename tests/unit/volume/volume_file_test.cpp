@@ -398,7 +398,14 @@ TEST_F(VolumeFiles, HugeFilesAreRefusedUnreadAndReadingIsCancelled) {
 TEST_F(VolumeFiles, AVolumeIsASceneWithItsSurface) {
     const fs::path path =
         file("ball.nrrd", test::nrrdFile(assets::makeVolume("ball", glm::ivec3(32), "int16")));
-    const ScenePtr scene = loadScene(path);
+    LoadOptions watched;
+    double reached = 0.0;
+    watched.progress = [&](double fraction, const char* what) {
+        EXPECT_GE(fraction, reached) << what;
+        reached = fraction;
+    };
+    const ScenePtr scene = loadScene(path, watched);
+    EXPECT_EQ(reached, 1.0);
     ASSERT_NE(scene->volume, nullptr);
     EXPECT_GT(scene->triangleCount(), 1000u);
     EXPECT_EQ(scene->iso, scene->volume->defaultIso());
