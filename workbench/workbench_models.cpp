@@ -107,10 +107,11 @@ void WorkbenchWindow::leave() {
         unsavedChanges_.update(materials_, state_, problem_);
     if (!answer)
         return;
-    const bool arriving = opening_.arriving() && answer->target == opening_.path();
-    if (arriving && !answer->go)
+    // What is on its way is not opened again: a volume would come with another iso value than the one chosen.
+    const bool onItsWay = opening_.busy() && answer->target == opening_.path();
+    if (onItsWay && !answer->go)
         opening_.cancel(screen_.renderer());
-    if (arriving || !answer->go)
+    if (onItsWay || !answer->go)
         return;
     if (!answer->target.empty())
         return open(answer->target);
