@@ -142,7 +142,8 @@ TEST_F(PartWindowTest, AnotherSurfaceOfAVolumeKeepsThePart) {
     expectCleanEnd();
 }
 
-/// The answer comes while another value of the surface loads, or is there: it is not replaced by the file's own.
+/// The answer comes while another value of the surface loads, or is there: it is not replaced by the file's
+/// own.
 TEST_F(PartWindowTest, DiscardedMaterialsLeaveTheChosenSurface) {
     open(ballVolume(scratch_ / ""));
     const double first = later()["view"]["iso"];
