@@ -99,9 +99,9 @@ struct Item {
     double distance;
 };
 
-class Layout {
+class ShapeLayout {
   public:
-    explicit Layout(const glm::dvec3& eye) : eye_(eye) {}
+    explicit ShapeLayout(const glm::dvec3& eye) : eye_(eye) {}
 
     /// Columns x, y, z of the map and its origin, workspace.
     void add(Shape shape, const glm::dmat3& axes, const glm::dvec3& origin, const glm::vec4& color) {
@@ -144,7 +144,7 @@ glm::dmat3 frameAlong(const glm::dvec3& axis) {
     return {glm::cross(axis, z), axis, z};
 }
 
-void addArrow(Layout& layout, const Overlay::Arrow& arrow) {
+void addArrow(ShapeLayout& layout, const Overlay::Arrow& arrow) {
     const glm::dvec3 along = arrow.to - arrow.from;
     const double length = glm::length(along);
     if (!finite(arrow.from) || !finite(arrow.to) || !(arrow.radius > 0.0) || !(length > 0.0))
@@ -190,7 +190,7 @@ ShapeMeshes makeShapeMeshes() {
 }
 
 OverlayDraw layOut(const Overlay& overlay, const glm::dvec3& eye) {
-    Layout layout(eye);
+    ShapeLayout layout(eye);
     for (const Overlay::Sphere& sphere : overlay.spheres)
         if (finite(sphere.centre) && sphere.radius > 0.0)
             layout.add(Shape::Sphere, glm::dmat3(sphere.radius), sphere.centre, sphere.color);

@@ -16,19 +16,19 @@ namespace touchstone {
 
 namespace {
 
-struct Format {
+struct PictureFormat {
     std::string_view ending, writer; ///< of OpenImageIO
     bool opaque;                     ///< 8 bit without alpha
 };
-constexpr std::array kFormats{Format{".png", "png", false}, Format{".jpg", "jpeg", true},
-                              Format{".jpeg", "jpeg", true}};
+constexpr std::array kFormats{PictureFormat{".png", "png", false}, PictureFormat{".jpg", "jpeg", true},
+                              PictureFormat{".jpeg", "jpeg", true}};
 constexpr const char* kRemedy = "end its name in .png, .jpg or .jpeg";
 
-const Format* formatOf(const std::filesystem::path& file) {
+const PictureFormat* formatOf(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     std::ranges::transform(ending, ending.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto* found = std::ranges::find(kFormats, ending, &Format::ending);
+    const auto* found = std::ranges::find(kFormats, ending, &PictureFormat::ending);
     return found != kFormats.end() ? found : nullptr;
 }
 
@@ -43,7 +43,7 @@ std::vector<std::byte> withoutAlpha(const PixelData& pixels) {
 }
 
 /// The bytes of the file. In memory, so that one place writes files and cleans up behind itself.
-std::vector<unsigned char> encoded(const std::filesystem::path& file, const Format& format,
+std::vector<unsigned char> encoded(const std::filesystem::path& file, const PictureFormat& format,
                                    const PixelData& pixels) {
     const bool bytes = pixels.type == ComponentType::U8;
     const OIIO::TypeDesc type = bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
@@ -77,7 +77,7 @@ std::string pictureNameProblem(const std::filesystem::path& file) {
 }
 
 void writePicture(const std::filesystem::path& file, const PixelData& pixels) {
-    const Format* format = formatOf(file);
+    const PictureFormat* format = formatOf(file);
     if (format == nullptr)
         throw Error(file.string(), "", "its ending names no picture", kRemedy);
     if (pixels.width <= 0 || pixels.height <= 0 || pixels.type == ComponentType::F32 ||

@@ -8,12 +8,12 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kSearchInterval = 0.5;     // s between two searches for a missing device
-constexpr int kPollMs = 1;                  // of a driven device: maximum time that an order waits for a
-                                            // report
-constexpr int kRestingPollMs = 8;           // of the others
-constexpr int64_t kKeepAliveNs = 5'000'000; // maximum interval between commands
-constexpr int kMaxQueued = 64;              // queue length of hidraw
+constexpr double kSearchInterval = 0.5;        // s between two searches for a missing device
+constexpr int kHidPollMs = 1;                  // of a driven device: maximum time that an order waits for a
+                                               // report
+constexpr int kRestingPollMs = 8;              // of the others
+constexpr int64_t kHidKeepAliveNs = 5'000'000; // maximum interval between commands
+constexpr int kMaxQueued = 64;                 // queue length of hidraw
 constexpr int kFailedSendsToGiveUp = 20;
 constexpr int kTriesOfTheLastWord = 5;
 constexpr double kSpaceMouseStaleAge = 0.1; // s; some report every 16 ms
@@ -166,7 +166,7 @@ void HidDevice::exchange() {
     int64_t arrivedNs = emptyNs_;
     if (length == 0) {
         emptyNs_ = steadyNs();
-        length = port_.read(buffer, driven ? kPollMs : kRestingPollMs);
+        length = port_.read(buffer, driven ? kHidPollMs : kRestingPollMs);
         arrivedNs = steadyNs();
     }
     if (length > 0) {
@@ -222,7 +222,7 @@ void HidDevice::takeReport(std::span<const uint8_t> report, int64_t arrivedNs) {
 }
 
 void HidDevice::send(int64_t nowNs) {
-    if (!mailbox_.updateOrder() && nowNs - sentNs_ < kKeepAliveNs)
+    if (!mailbox_.updateOrder() && nowNs - sentNs_ < kHidKeepAliveNs)
         return;
     std::array<uint8_t, kMaxReportSize> report{};
     const size_t length = recipe_.protocol->command(mailbox_.order(nowNs), report);

@@ -6,7 +6,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr uint8_t kTranslation = 1, kRotation = 2, kButtons = 3;
+constexpr uint8_t kTranslationReport = 1, kRotationReport = 2, kButtonsReport = 3;
 constexpr size_t kThreeAxes = 1 + 3 * 2, kSixAxes = 1 + 6 * 2;
 
 void readAxes(std::span<const uint8_t> report, std::span<int16_t> axes) {
@@ -26,7 +26,7 @@ ReportVerdict parseSpaceMouseReport(std::span<const uint8_t> report, SpaceMouseS
         return ReportVerdict::Malformed;
     const std::span<int16_t> axes(state.axes);
     switch (report[0]) {
-    case kTranslation:
+    case kTranslationReport:
         if (report.size() >= kSixAxes)
             readAxes(report, axes);
         else if (report.size() == kThreeAxes)
@@ -34,12 +34,12 @@ ReportVerdict parseSpaceMouseReport(std::span<const uint8_t> report, SpaceMouseS
         else
             return ReportVerdict::Malformed;
         return ReportVerdict::Reading;
-    case kRotation:
+    case kRotationReport:
         if (report.size() < kThreeAxes)
             return ReportVerdict::Malformed;
         readAxes(report, axes.last(3));
         return ReportVerdict::Reading;
-    case kButtons: {
+    case kButtonsReport: {
         if (report.size() < 2)
             return ReportVerdict::Malformed;
         state.buttons = 0;

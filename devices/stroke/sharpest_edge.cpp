@@ -17,7 +17,7 @@ constexpr double kWeld = 1e-6; ///< of the diagonal: corners this near are welde
 constexpr double kFlat = 0.2 * std::numbers::pi / 180.0;
 constexpr double kFolded = 175.0 * std::numbers::pi / 180.0; ///< a sheet with two sides, not an edge
 constexpr double kAsSharp = 1.0 * std::numbers::pi / 180.0;  ///< edges that differ by less are equally sharp
-constexpr double kApart = 0.005;                             ///< m
+constexpr double kEdgesApart = 0.005;                        ///< m
 constexpr double kShortest = 0.01;                           ///< of the diagonal: shorter edges are ignored
 
 /// One side of a triangle.
@@ -121,7 +121,9 @@ std::vector<EdgeSite> sharpestEdges(const TriangleSource& source, const Bounds& 
     std::vector<EdgeSite> sites;
     for (const Edge& edge : edges) {
         const glm::dvec3 middle = 0.5 * (edge.from + edge.to);
-        const auto isNear = [&](const EdgeSite& site) { return glm::distance(site.point, middle) < kApart; };
+        const auto isNear = [&](const EdgeSite& site) {
+            return glm::distance(site.point, middle) < kEdgesApart;
+        };
         if (sites.size() < kMaxEdges && std::ranges::none_of(sites, isNear))
             sites.push_back({middle, edge.normal, edge.inward});
     }

@@ -23,11 +23,11 @@ using Curve = std::vector<glm::dvec2>; ///< m in the site's view
 
 /// m over the surface, before and after; smaller where another part of the model is above.
 constexpr std::array kHovers{0.008, 0.002, 0.0005};
-constexpr double kLanding = 0.08;   ///< m/s at most, from there onto the surface and back, in the air
-constexpr double kSpacing = 2.5e-4; ///< m between the points that are laid
-constexpr double kDeepest = 0.1;    ///< of the model's diagonal: a small model is not pierced
-constexpr double kOfModel = 0.25;   ///< of the diagonal: no curve reaches farther from its middle
-constexpr double kSoftTime = 0.01;  ///< s over which a hand turns to another direction, at least
+constexpr double kLanding = 0.08;       ///< m/s at most, from there onto the surface and back, in the air
+constexpr double kSpacing = 2.5e-4;     ///< m between the points that are laid
+constexpr double kDeepestOfModel = 0.1; ///< of the model's diagonal: a small model is not pierced
+constexpr double kReachOfModel = 0.25;  ///< of the diagonal: no curve reaches farther from its middle
+constexpr double kSoftTime = 0.01;      ///< s over which a hand turns to another direction, at least
 constexpr std::array kSizes{1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05}; ///< of its full size, tried in order
 constexpr std::array kEdgeSizes{1.0, 0.5, 0.25, 0.15};
 constexpr double kFewest = 16; ///< minimum number of points of a curve
@@ -267,7 +267,7 @@ std::optional<StrokePath> laidOnPoint(const Ground& ground, const StrokeKind& ki
 std::optional<StrokePath> laid(const Ground& ground, const StrokeKind& kind, const StrokeRequest& request,
                                const Told& told) {
     const auto& [triangles, bounds, keepOut] = ground;
-    const double reach = std::min(kind.reach, kOfModel * bounds.diagonal());
+    const double reach = std::min(kind.reach, kReachOfModel * bounds.diagonal());
     if (kind.move == cross)
         if (auto path = laidAcrossEdge(ground, kind, request.front, reach, told))
             return path;
@@ -306,7 +306,7 @@ StrokePath layKind(const TriangleSource& triangles, std::span<const Bounds> keep
         return strokeOver(triangles, {.speed = told.speed, .depth = told.depth, .front = request.front},
                           keepOut);
     const Ground ground{triangles, boundsOf(triangles), keepOut};
-    const Told allowed{told.speed, std::min(told.depth, kDeepest * ground.bounds.diagonal())};
+    const Told allowed{told.speed, std::min(told.depth, kDeepestOfModel * ground.bounds.diagonal())};
     if (auto path = laid(ground, kind, request, allowed))
         return *std::move(path);
     throw noPlaceToPress(triangles);

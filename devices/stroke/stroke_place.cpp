@@ -17,12 +17,12 @@ constexpr double kNear = 0.005;    ///< m: maximum distance of the touched point
 constexpr double kCeiling = 0.005; ///< m over the place: higher surface belongs to another part
 constexpr double kAround =
     0.003; ///< m: radius over which the surface's direction is averaged; smaller on small models
-constexpr double kOfModel = 0.02; ///< of the diagonal: that radius on small models
+constexpr double kAroundOfModel = 0.02; ///< of the diagonal: that radius on small models
 constexpr int kCandidates = 400;
 constexpr size_t kMaxSites = 8;
-constexpr double kApart = 0.06; ///< of the diagonal
-constexpr double kSteep = 2.0;  ///< distance from the centre, in half extents, that a surface seen edge-on
-                                ///< counts as
+constexpr double kSpotsApart = 0.06; ///< of the diagonal
+constexpr double kSteep = 2.0; ///< distance from the centre, in half extents, that a surface seen edge-on
+                               ///< counts as
 
 /// Sunflower pattern: evenly over the unit disc, the first point at its centre.
 glm::dvec2 seed(int i, int count) {
@@ -35,7 +35,7 @@ StrokeSite siteAt(const TriangleSource& triangles, const Bounds& bounds, const S
     Bounds point;
     point.include(hit.point);
     const View flat = viewOf(point, hit.normal);
-    const double around = std::min(kAround, kOfModel * bounds.diagonal());
+    const double around = std::min(kAround, kAroundOfModel * bounds.diagonal());
     constexpr int kRing = 24;
     std::vector<glm::dvec2> ring;
     for (int i = 0; i < kRing; ++i)
@@ -58,7 +58,7 @@ std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds
     for (int i = 0; i < kCandidates; ++i)
         points.push_back(seed(i, kCandidates) * glm::dvec2(view.half));
     const auto hits = probe(triangles, view, points);
-    const double reach = std::min(0.002, kOfModel * bounds.diagonal());
+    const double reach = std::min(0.002, kAroundOfModel * bounds.diagonal());
     const auto walls = wallsBeside(triangles, view, points, hits, reach);
     std::vector<std::pair<double, SurfaceHit>> found;
     for (size_t i = 0; i < points.size(); ++i)
@@ -70,7 +70,7 @@ std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds
     std::vector<SurfaceHit> best;
     for (const auto& [score, hit] : found) {
         const auto isNear = [&](const SurfaceHit& other) {
-            return glm::distance(other.point, hit.point) < kApart * bounds.diagonal();
+            return glm::distance(other.point, hit.point) < kSpotsApart * bounds.diagonal();
         };
         if (best.size() < kMaxSites && std::ranges::none_of(best, isNear))
             best.push_back(hit);

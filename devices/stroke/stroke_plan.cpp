@@ -32,7 +32,7 @@ constexpr double kWorthwhile = 0.3; ///< fraction of the ellipse over the model 
 constexpr double kHardlyAnything = 0.05; ///< fraction below which single triangles are pressed instead
 constexpr double kStep = 0.2;            ///< of the spacing: tolerance of neighbours' heights to their planes
 constexpr double kHop = 0.003;           ///< m above the higher side of a step or gap
-constexpr double kDeepest = 0.1;         ///< of the model's diagonal: limit for small models
+constexpr double kDeepestPlanned = 0.1;  ///< of the model's diagonal: limit for small models
 constexpr int kRepairs = 16;             ///< repairs of a tour before another side is tried
 
 struct Stroke {
@@ -304,7 +304,7 @@ std::optional<StrokePath> pressSomewhere(const TriangleSource& triangles, std::s
 
 std::optional<StrokePath> pathOver(const TriangleSource& triangles, std::span<const Bounds> keepOut,
                                    const Bounds& bounds, const StrokeOptions& options) {
-    const double depth = std::min(options.depth, kDeepest * bounds.diagonal());
+    const double depth = std::min(options.depth, kDeepestPlanned * bounds.diagonal());
     const auto [best, side] = bestStroke(triangles, bounds, options, depth);
     if (best.share() >= kHardlyAnything) {
         if (auto path = heldTour(triangles, keepOut, best, depth, options))

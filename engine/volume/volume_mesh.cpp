@@ -23,9 +23,9 @@ constexpr int kMostStride = 4;
 
 /// Every `stride`-th voxel, at least the first and the last of an axis; coordinates from 0 on. The layer
 /// about them is outside, so that the surface ends at the border: its points are moved there.
-class Samples {
+class CoarseSamples {
   public:
-    Samples(const Volume& volume, double iso, int stride)
+    CoarseSamples(const Volume& volume, double iso, int stride)
         : volume_(volume), strides_(glm::min(glm::ivec3(stride), volume.size() - 1)),
           outside_(highestOutside(iso)), far_(static_cast<float>(volume.high() - volume.low())),
           size_((volume.size() - 1) / strides_ + 1) {}
@@ -91,7 +91,7 @@ class Samples {
 /// A leaf's samples and their next ones along each axis, the first axis fastest.
 class LeafValues {
   public:
-    void fill(const Samples& samples, const glm::ivec3& first) {
+    void fill(const CoarseSamples& samples, const glm::ivec3& first) {
         for (int z = 0; z < kSide; ++z)
             for (int y = 0; y < kSide; ++y)
                 samples.fill(first + glm::ivec3(0, y, z),
@@ -122,7 +122,7 @@ class LeafValues {
 
 /// Leaves of 8^3 where the surface passes and next to them; elsewhere tiles that tell the side. Null where
 /// the surface would have more than `mostFaces`: dual contouring makes one of each edge that it crosses.
-openvdb::FloatGrid::Ptr gridOf(const Samples& samples, uint64_t mostFaces, const Progress& progress) {
+openvdb::FloatGrid::Ptr gridOf(const CoarseSamples& samples, uint64_t mostFaces, const Progress& progress) {
     auto grid = openvdb::FloatGrid::create(samples.far());
     openvdb::FloatGrid::Accessor accessor = grid->getAccessor();
     const glm::ivec3 leaves = samples.size() / kLeaf + 1; // the first begins one leaf before
@@ -158,7 +158,7 @@ openvdb::FloatGrid::Ptr gridOf(const Samples& samples, uint64_t mostFaces, const
 openvdb::FloatGrid::Ptr smallEnoughGrid(const Volume& volume, double iso, int& stride, uint64_t mostFaces,
                                         const std::string& shownAs, const Progress& progress) {
     for (; stride <= kMostStride; ++stride)
-        if (auto grid = gridOf(Samples(volume, iso, stride), mostFaces, progress))
+        if (auto grid = gridOf(CoarseSamples(volume, iso, stride), mostFaces, progress))
             return grid;
     char value[32];
     std::snprintf(value, sizeof value, "%.6g", iso);
@@ -175,7 +175,7 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
                          const Progress& progress, uint64_t mostFaces) {
     volume.checkIso(iso, shownAs);
     int stride = 1;
-    while (Samples(volume, iso, stride).count() > kMostDrawnVoxels)
+    while (CoarseSamples(volume, iso, stride).count() > kMostDrawnVoxels)
         ++stride;
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
@@ -193,7 +193,7 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
         throw Error(shownAs, "", "has no surface with this value", "give another --iso");
     SurfaceMesh mesh;
     mesh.stride = stride;
-    const Samples samples(volume, iso, stride);
+    const CoarseSamples samples(volume, iso, stride);
     mesh.positions.reserve(points.size());
     for (const openvdb::Vec3s& point : points)
         mesh.positions.emplace_back(

@@ -9,7 +9,7 @@ namespace touchstone::study {
 namespace {
 
 /// Exactly zero between equal vectors, which a cross product is not; neither vector is zero.
-double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+double exactAngle(const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 u = a / glm::length(a), v = b / glm::length(b);
     return 2.0 * std::atan2(glm::length(u - v), glm::length(u + v));
 }
@@ -30,7 +30,7 @@ TickError errorOf(const HapticOutput& felt, const HapticOutput& exact) {
     error.position = glm::length(felt.proxy - exact.proxy);
     error.force = std::abs(force - right);
     error.forceShare = right > 0.0 ? error.force / right : 0.0;
-    error.direction = force > 0.0 && right > 0.0 ? angleBetween(own, ownExact) : 0.0;
+    error.direction = force > 0.0 && right > 0.0 ? exactAngle(own, ownExact) : 0.0;
     return error;
 }
 

@@ -54,9 +54,9 @@ std::string grouped(size_t value) {
     return text;
 }
 
-class Progress {
+class PercentLine {
   public:
-    explicit Progress(const char* what) : what_(what), shown_(isatty(STDERR_FILENO) != 0) {}
+    explicit PercentLine(const char* what) : what_(what), shown_(isatty(STDERR_FILENO) != 0) {}
     void operator()(double fraction) const {
         if (shown_)
             std::fprintf(stderr, fraction < 1.0 ? "\r%s %3.0f %%" : "\r\033[K", what_, 100.0 * fraction);
@@ -191,7 +191,7 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
         configurations.push_back({"all effects", &scenes.back(), all, 0.1});
     }
     const std::vector<ConfigurationTimes> times = timeConfigurations(
-        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("fast"));
+        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, PercentLine("fast"));
     std::printf("| stroke 1 mm deep | step, median / p99, µs | ray, ns | in rays | p99 / median | CHAI3D "
                 "3.3.0, µs |\n"
                 "|---|---|---|---|---|---|\n");
@@ -280,7 +280,7 @@ Json benchGrowth(const BenchOptions& options) {
         for (const Ablation& method : ablation)
             configurations.push_back({method.name, &column.scene, method.settings, 0.1});
     const std::vector<ConfigurationTimes> times = timeConfigurations(
-        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("growth"));
+        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, PercentLine("growth"));
 
     const auto row = [&](const std::string& title, const auto& cell) {
         std::printf("| %s |", title.c_str());
@@ -334,7 +334,7 @@ Json benchMoving(const BenchOptions& options) {
             configurations.push_back(
                 {scene.name, &scene, bare(radius), scene.haptic->objects.size() == 2 ? 0.01 : 0.1});
     const std::vector<ConfigurationTimes> times = timeConfigurations(
-        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, Progress("moving"));
+        configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, PercentLine("moving"));
     std::printf("| objects that move | step, median / p99 / worst, µs | their poses, median, µs | ray, ns | "
                 "in rays | pinched ticks |\n|---|---|---|---|---|---|\n");
     Json json = Json::array();

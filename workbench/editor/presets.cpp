@@ -31,7 +31,7 @@ constexpr std::array kPresets{
                    "textbooks give 0.1 and 0.03 for ice on ice; the film of water drags with speed; no "
                    "bump height"}};
 
-std::optional<float> unless(float value, float unset) {
+std::optional<float> unlessDefault(float value, float unset) {
     return value == unset ? std::nullopt : std::optional(value);
 }
 
@@ -49,11 +49,11 @@ const MaterialPreset* findPreset(std::string_view name) {
 
 HapticStatement withPreset(HapticStatement statement, const MaterialPreset& preset) {
     statement.stiffness = preset.stiffness;
-    statement.damping = unless(preset.damping, 0.0f);
+    statement.damping = unlessDefault(preset.damping, 0.0f);
     statement.staticFriction = preset.staticFriction;
     statement.dynamicFriction = preset.dynamicFriction;
-    statement.viscousFriction = unless(preset.viscousFriction, 0.0f);
-    statement.normalTextureInfluence = unless(preset.normalTextureInfluence, 1.0f);
+    statement.viscousFriction = unlessDefault(preset.viscousFriction, 0.0f);
+    statement.normalTextureInfluence = unlessDefault(preset.normalTextureInfluence, 1.0f);
     return statement;
 }
 

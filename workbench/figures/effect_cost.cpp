@@ -12,7 +12,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kTick = 1e-3;                 // s
+constexpr double kServoTick = 1e-3;            // s
 constexpr double kStep = 1e-4;                 // m, 0.1 m/s
 constexpr double kAbove = 2e-3, kBelow = 1e-3; // m
 constexpr size_t kSpots = 16;                  // number of stroked triangles
@@ -80,7 +80,7 @@ struct Touch {
         const DeviceSample sample = sampleAt(position);
         NoStopwatch none;
         const long long begin = monotonicNs();
-        (void)hand.step(HapticSettings{}, sample, kTick, none);
+        (void)hand.step(HapticSettings{}, sample, kServoTick, none);
         nanoseconds = monotonicNs() - begin;
     }
 };

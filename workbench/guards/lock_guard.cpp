@@ -14,9 +14,9 @@
 
 namespace {
 
-struct Announce {
-    Announce() { touchstone::realtime::announceLockInterposer(); }
-} const announce;
+struct AnnounceLocks {
+    AnnounceLocks() { touchstone::realtime::announceLockInterposer(); }
+} const announceLocks;
 
 /// The next function of that name. Resolved at its first use, which may precede any constructor here.
 template <class... Arguments>

@@ -27,8 +27,8 @@ constexpr std::array<ImU32, kStageCount> kColors{
     IM_COL32(215, 130, 190, 255)  // safety
 };
 constexpr ImU32 kEmpty = IM_COL32(38, 42, 47, 255);
-constexpr ImU32 kLabel = IM_COL32(150, 157, 165, 255);
-constexpr ImU32 kText = IM_COL32(228, 231, 234, 255);
+constexpr ImU32 kTableLabel = IM_COL32(150, 157, 165, 255);
+constexpr ImU32 kTableText = IM_COL32(228, 231, 234, 255);
 
 double sum(const std::array<double, kStageCount>& stages) {
     return std::accumulate(stages.begin(), stages.end(), 0.0);
@@ -59,7 +59,7 @@ class Strips {
 
   private:
     void strip(const char* title, const std::array<double, kStageCount>& stages, float line, float height) {
-        draw_.AddText(ImVec2(corner_.x, y_), kLabel, title);
+        draw_.AddText(ImVec2(corner_.x, y_), kTableLabel, title);
         y_ += line + widgets_.units(2.0f);
         draw_.AddRectFilled(ImVec2(corner_.x, y_), ImVec2(corner_.x + width_, y_ + height), kEmpty, 2.0f);
         double from = 0.0;
@@ -76,7 +76,7 @@ class Strips {
             const std::string text = figure(share * top_) + (share > 0.0 ? " µs" : "");
             const float width = ImGui::CalcTextSize(text.c_str()).x;
             const float x = at(share * top_) - static_cast<float>(share) * width;
-            draw_.AddText(ImVec2(x, y_), kLabel, text.c_str());
+            draw_.AddText(ImVec2(x, y_), kTableLabel, text.c_str());
         }
         y_ += line + widgets_.units(5.0f);
     }
@@ -88,11 +88,12 @@ class Strips {
         draw_.AddRectFilled(ImVec2(corner_.x, y_), ImVec2(corner_.x + width_, y_ + height), kEmpty, 2.0f);
         const auto share = static_cast<float>(std::min(1.0, servo_.contactP99Us / period));
         draw_.AddRectFilled(ImVec2(corner_.x, y_),
-                            ImVec2(corner_.x + std::max(1.0f, width_ * share), y_ + height), kText, 2.0f);
+                            ImVec2(corner_.x + std::max(1.0f, width_ * share), y_ + height), kTableText,
+                            2.0f);
         y_ += height + widgets_.units(2.0f);
         char text[96];
         std::snprintf(text, sizeof text, "p99 is %.1f %% of the tick's ", 100.0 * static_cast<double>(share));
-        draw_.AddText(ImVec2(corner_.x, y_), kLabel, (text + quantity(1e-6 * period, "s")).c_str());
+        draw_.AddText(ImVec2(corner_.x, y_), kTableLabel, (text + quantity(1e-6 * period, "s")).c_str());
         y_ += line;
     }
 
@@ -120,22 +121,22 @@ void drawLegend(const ServoView& servo, Widgets& widgets) {
                      text.c_str());
     };
     constexpr float kMedian = 0.68f, kP99 = 1.0f; // right edges of the columns
-    draw.AddText(corner, kLabel, "stage");
-    rightAt(kMedian, corner.y, kLabel, "median, µs");
-    rightAt(kP99, corner.y, kLabel, "p99, µs");
+    draw.AddText(corner, kTableLabel, "stage");
+    rightAt(kMedian, corner.y, kTableLabel, "median, µs");
+    rightAt(kP99, corner.y, kTableLabel, "p99, µs");
     for (size_t i = 0; i < kStageCount; ++i) {
         const ImVec2 at(corner.x, corner.y + static_cast<float>(i + 1) * pitch);
         const float low = 0.5f * (line - side);
         draw.AddRectFilled(ImVec2(at.x, at.y + low), ImVec2(at.x + side, at.y + low + side), kColors[i],
                            2.0f);
-        draw.AddText(ImVec2(at.x + widgets.units(14.0f), at.y), kText, kStageNames[i].data());
+        draw.AddText(ImVec2(at.x + widgets.units(14.0f), at.y), kTableText, kStageNames[i].data());
         const auto tenths = [](double us) {
             char text[32];
             std::snprintf(text, sizeof text, "%.1f", us);
             return std::string(text);
         };
-        rightAt(kMedian, at.y, kText, tenths(servo.stageP50Us[i]));
-        rightAt(kP99, at.y, kText, tenths(servo.stageP99Us[i]));
+        rightAt(kMedian, at.y, kTableText, tenths(servo.stageP50Us[i]));
+        rightAt(kP99, at.y, kTableText, tenths(servo.stageP99Us[i]));
     }
     ImGui::Dummy(ImVec2(width, static_cast<float>(kStageCount + 1) * pitch));
     widgets.mark("budgetLegend");

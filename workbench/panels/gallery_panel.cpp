@@ -15,8 +15,8 @@ namespace {
 
 // Layout units. A picture has its native size, so that no filter blurs it.
 constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 50.0f, kGap = 14.0f, kInset = 4.0f,
-                kMargin = 24.0f;
-constexpr ImU32 kGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255);
+                kGalleryMargin = 24.0f;
+constexpr ImU32 kCardGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255);
 
 /// Layout of the entries: our own first; the recent ones start a new row.
 struct Grid {
@@ -96,7 +96,7 @@ void drawCell(const PanelInput& input, size_t index, bool chosen, bool hovered, 
     const ImVec2 end(to.x + inset, to.y + widgets.units(kLines));
     if (hovered)
         draw.AddRectFilled(at, end, kHovered, widgets.units(6.0f));
-    draw.AddRectFilled(from, to, kGround);
+    draw.AddRectFilled(from, to, kCardGround);
     if (entry.state == GalleryState::Shown)
         input.showPicture(index, {from.x, from.y}, {to.x, to.y});
     const char* sign = signOf(entry);
@@ -157,7 +157,7 @@ void drawGallery(const PanelInput& input, PanelState& state, const WidgetRect& p
     if (!state.gallery)
         return;
     const float cellWidth = widgets.units(kPictureWidth + 2.0f * kInset + kGap),
-                margin = widgets.units(kMargin);
+                margin = widgets.units(kGalleryMargin);
     const float frame = 2.0f * ImGui::GetStyle().WindowPadding.x + ImGui::GetStyle().ScrollbarSize;
     Grid grid{.count = input.gallery.size()};
     grid.columns = static_cast<size_t>(std::max(1.0f, (place.width - 2.0f * margin - frame) / cellWidth));

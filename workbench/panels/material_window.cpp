@@ -35,8 +35,8 @@ void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& pictu
     materialKeys(controller, state);
     if (!open)
         return;
-    constexpr float kWidth = 320.0f, kHeight = 610.0f, kMargin = 8.0f; // units
-    const float margin = widgets.units(kMargin);
+    constexpr float kWidth = 320.0f, kHeight = 610.0f, kWindowMargin = 8.0f; // units
+    const float margin = widgets.units(kWindowMargin);
     const ImVec2 room(std::max(1.0f, picture.width - 2.0f * margin),
                       std::max(1.0f, picture.height - 2.0f * margin));
     ImGui::SetNextWindowPos(ImVec2(picture.x + margin, picture.y + margin), ImGuiCond_FirstUseEver);

@@ -19,7 +19,7 @@ namespace touchstone {
 namespace {
 
 constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52, 58, 255),
-                kLabel = IM_COL32(140, 147, 155, 255), kText = IM_COL32(228, 231, 234, 255),
+                kCurveLabel = IM_COL32(140, 147, 155, 255), kCurveText = IM_COL32(228, 231, 234, 255),
                 kCursor = IM_COL32(235, 238, 240, 255), kForce = IM_COL32(245, 190, 70, 255),
                 kAgain = IM_COL32(97, 173, 255, 255), kContact = IM_COL32(245, 190, 70, 26),
                 kLoop = IM_COL32(97, 173, 255, 34), kLoopEdge = IM_COL32(97, 173, 255, 200),
@@ -66,11 +66,11 @@ class Strip {
         draw_.PopClipRect();
         char text[24];
         std::snprintf(text, sizeof text, "%g N", most_);
-        draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), top()), kLabel, text);
+        draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), top()), kCurveLabel, text);
         std::snprintf(text, sizeof text, "%g", least_);
         if (least_ > 0.0)
-            draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), bottom() - ImGui::GetTextLineHeight()), kLabel,
-                          text);
+            draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), bottom() - ImGui::GetTextLineHeight()),
+                          kCurveLabel, text);
         return scrub(name);
     }
     /// A line of the left column, from the top.
@@ -282,9 +282,9 @@ void drawOverview(TimelineController& controller, float height, Widgets& widgets
     (void)strip.draw("timeline");
     char text[48];
     std::snprintf(text, sizeof text, "%.3f s", controller.playback().seconds());
-    strip.label(0, kText, text);
+    strip.label(0, kCurveText, text);
     std::snprintf(text, sizeof text, "of %.1f s", controller.timeline().length());
-    strip.label(1, kLabel, text);
+    strip.label(1, kCurveLabel, text);
     ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + height));
 }
 

@@ -8,11 +8,12 @@ namespace touchstone {
 
 namespace {
 
-struct Names {
+struct FormatNames {
     const char* name;
     const char* word;
 };
-constexpr Names kNames[] = {{"NRRD", "nrrd"}, {"MetaImage", "meta"}, {"NIfTI", "nifti"}, {"OpenVDB", "vdb"}};
+constexpr FormatNames kFormatNames[] = {
+    {"NRRD", "nrrd"}, {"MetaImage", "meta"}, {"NIfTI", "nifti"}, {"OpenVDB", "vdb"}};
 
 struct Ending {
     std::string_view ending;
@@ -26,11 +27,11 @@ constexpr Ending kEndings[] = {{".nrrd", VolumeFormat::Nrrd}, {".nhdr", VolumeFo
 } // namespace
 
 const char* nameOf(VolumeFormat format) {
-    return kNames[static_cast<size_t>(format)].name;
+    return kFormatNames[static_cast<size_t>(format)].name;
 }
 
 const char* wordOf(VolumeFormat format) {
-    return kNames[static_cast<size_t>(format)].word;
+    return kFormatNames[static_cast<size_t>(format)].word;
 }
 
 std::optional<VolumeFormat> volumeFormatNamed(const std::filesystem::path& file) {

@@ -23,7 +23,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr const char* kOther = "export the volume again, as .nrrd for example";
+constexpr const char* kExportVolumeAgain = "export the volume again, as .nrrd for example";
 constexpr const char* kNoMemory = "close other programs, or resample the volume";
 
 /// The reader's line of text, which may hold anything.
@@ -71,24 +71,26 @@ std::filesystem::path dataFileIn(const ImportContext& context, const std::filesy
     switch (answer.end) {
     case Exited:
         if (answer.status == 1 && !line.empty())
-            fail("cannot be read as " + name + ": " + line, kOther);
-        fail("the reader of volumes ended with status " + std::to_string(answer.status), kOther);
+            fail("cannot be read as " + name + ": " + line, kExportVolumeAgain);
+        fail("the reader of volumes ended with status " + std::to_string(answer.status), kExportVolumeAgain);
         break;
     case Killed:
         if (answer.status == SIGXCPU)
             fail("reading it took more than " + std::to_string(reader.limits.processorSeconds) +
                      " s of processor time",
-                 kOther);
+                 kExportVolumeAgain);
         if (answer.status == SIGKILL)
             fail("the system ended the reader of volumes, probably for want of memory", kNoMemory);
-        fail("the reader of volumes crashed on it (signal " + std::to_string(answer.status) + ")", kOther);
+        fail("the reader of volumes crashed on it (signal " + std::to_string(answer.status) + ")",
+             kExportVolumeAgain);
         break;
     case TooSlow:
-        fail("reading it took longer than " + std::to_string(reader.limits.seconds) + " s", kOther);
+        fail("reading it took longer than " + std::to_string(reader.limits.seconds) + " s",
+             kExportVolumeAgain);
         break;
     case TooLong:
         fail("its values take more than the " + std::to_string(reader.mostBytes >> 20) + " MiB that fit",
-             kOther);
+             kExportVolumeAgain);
         break;
     case Stopped:
         throw Cancelled();
@@ -177,7 +179,8 @@ FileStamp stampOf(const FileDescriptor& file, const Progress& progress) {
 
 FlatVolumeHead headOf(const ImportContext& context, std::span<const uint8_t> answer) {
     const auto fail = [&](const char* problem) {
-        context.fail("", std::string("the reader of volumes gave a damaged answer: ") + problem, kOther);
+        context.fail("", std::string("the reader of volumes gave a damaged answer: ") + problem,
+                     kExportVolumeAgain);
     };
     FlatVolumeHead head;
     if (answer.size() < sizeof head)
@@ -210,9 +213,9 @@ void checkPlace(const ImportContext& context, const VolumeFacts& facts) {
     constexpr double kFlat = 1e-3; // of a right angle's volume
     if (!finite)
         context.fail("", "its voxels have a size, a place or a scale of values that is no usable number",
-                     kOther);
+                     kExportVolumeAgain);
     if (!(glm::determinant(facts.axes) > kFlat * sizes))
-        context.fail("", "its axes are not three directions: they lie in a plane", kOther);
+        context.fail("", "its axes are not three directions: they lie in a plane", kExportVolumeAgain);
 }
 
 VolumeFacts factsOf(const FlatVolumeHead& head, VolumeFormat format) {
@@ -271,7 +274,7 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
         header.resize(
             static_cast<size_t>(std::max<ssize_t>(pread(file.get(), header.data(), header.size(), 0), 0)));
         if (header.find('\0') != std::string_view::npos)
-            context.fail("", "its header holds a zero byte", kOther);
+            context.fail("", "its header holds a zero byte", kExportVolumeAgain);
         std::vector<std::string> again = arguments;
         again.emplace_back(header);
         const FileDescriptor values = opened(data, data.string());

@@ -10,7 +10,7 @@ namespace touchstone {
 
 namespace {
 
-const std::map<std::string, SampleType>& types() {
+const std::map<std::string, SampleType>& metaTypes() {
     using enum SampleType;
     static const std::map<std::string, SampleType> names = {
         {"met_uchar", U8},  {"met_char", I8},    {"met_ushort", U16},     {"met_short", I16},
@@ -19,12 +19,12 @@ const std::map<std::string, SampleType>& types() {
     return names;
 }
 
-using Fields = std::map<std::string, std::string>;
+using MetaFields = std::map<std::string, std::string>;
 
 /// Up to ElementDataFile, which is the last field.
-Fields fieldsOf(std::string_view all, uint64_t& bytes) {
+MetaFields metaFields(std::string_view all, uint64_t& bytes) {
     std::string_view rest = all;
-    Fields fields;
+    MetaFields fields;
     while (!rest.empty() || all.size() == kMostVolumeHeader) {
         const std::string_view line = nextLine(rest, all);
         const size_t equals = line.find('=');
@@ -43,14 +43,14 @@ Fields fieldsOf(std::string_view all, uint64_t& bytes) {
     return fields;
 }
 
-std::string text(const Fields& fields, std::initializer_list<const char*> names) {
+std::string text(const MetaFields& fields, std::initializer_list<const char*> names) {
     for (const char* name : names)
         if (const auto found = fields.find(name); found != fields.end())
             return found->second;
     return {};
 }
 
-bool isTrue(const Fields& fields, std::initializer_list<const char*> names) {
+bool isTrue(const MetaFields& fields, std::initializer_list<const char*> names) {
     const std::string value = lowered(text(fields, names));
     return value == "true" || value == "1";
 }
@@ -59,7 +59,7 @@ bool isTrue(const Fields& fields, std::initializer_list<const char*> names) {
 
 RawVolume readMetaHeader(std::span<const uint8_t> bytes) {
     RawVolume volume;
-    const Fields fields = fieldsOf(headerText(bytes), volume.headerBytes);
+    const MetaFields fields = metaFields(headerText(bytes), volume.headerBytes);
     const std::string file = text(fields, {"elementdatafile"});
     if (file.empty())
         throw BadVolume("its header has no ElementDataFile");
@@ -68,8 +68,8 @@ RawVolume readMetaHeader(std::span<const uint8_t> bytes) {
     if (const std::string channels = text(fields, {"elementnumberofchannels"});
         !channels.empty() && numbersIn(channels, "ElementNumberOfChannels", 1)[0] != 1.0)
         throw BadVolume("it has several values a voxel (ElementNumberOfChannels)");
-    const auto type = types().find(lowered(text(fields, {"elementtype"})));
-    if (type == types().end())
+    const auto type = metaTypes().find(lowered(text(fields, {"elementtype"})));
+    if (type == metaTypes().end())
         throw BadVolume("ElementType is '" + text(fields, {"elementtype"}).substr(0, 30) +
                         "', which is no number's");
     volume.type = type->second;

@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-const std::map<std::string, SampleType>& types() {
+const std::map<std::string, SampleType>& nrrdTypes() {
     using enum SampleType;
     static const std::map<std::string, SampleType> names = {{"uchar", U8},
                                                             {"unsigned char", U8},
@@ -72,15 +72,15 @@ std::optional<double> metres(std::string_view unit) {
     return std::nullopt;
 }
 
-using Fields = std::map<std::string, std::string>;
+using NrrdFields = std::map<std::string, std::string>;
 
 /// Up to the empty line, or the end of a detached header.
-Fields fieldsOf(std::string_view all, uint64_t& bytes) {
+NrrdFields nrrdFields(std::string_view all, uint64_t& bytes) {
     std::string_view rest = all;
     if (!all.starts_with("NRRD000"))
         throw BadVolume("it does not begin with NRRD000");
     (void)nextLine(rest, all);
-    Fields fields;
+    NrrdFields fields;
     while (!rest.empty() || all.size() == kMostVolumeHeader) {
         const std::string_view line = nextLine(rest, all);
         if (line.empty())
@@ -97,7 +97,7 @@ Fields fieldsOf(std::string_view all, uint64_t& bytes) {
     return fields;
 }
 
-std::string text(const Fields& fields, const char* name, const char* otherName = nullptr) {
+std::string text(const NrrdFields& fields, const char* name, const char* otherName = nullptr) {
     const auto found = fields.find(name);
     if (found != fields.end())
         return found->second;
@@ -146,7 +146,7 @@ std::optional<double> unitOf(std::string_view line) {
     return metres(line.substr(first + 1, second - first - 1));
 }
 
-void place(const Fields& fields, size_t firstAxis, RawVolume& volume) {
+void place(const NrrdFields& fields, size_t firstAxis, RawVolume& volume) {
     constexpr double kMillimetre = 1e-3;
     const auto unit =
         unitOf(text(fields, "space units").empty() ? text(fields, "units") : text(fields, "space units"));
@@ -178,7 +178,7 @@ void place(const Fields& fields, size_t firstAxis, RawVolume& volume) {
     }
 }
 
-void encode(const Fields& fields, RawVolume& volume) {
+void encode(const NrrdFields& fields, RawVolume& volume) {
     const std::string encoding = lowered(text(fields, "encoding"));
     if (encoding == "gz" || encoding == "gzip")
         volume.encoding = VolumeEncoding::Deflated;
@@ -206,9 +206,9 @@ void encode(const Fields& fields, RawVolume& volume) {
 
 RawVolume readNrrdHeader(std::span<const uint8_t> bytes) {
     RawVolume volume;
-    const Fields fields = fieldsOf(headerText(bytes), volume.headerBytes);
-    const auto type = types().find(lowered(text(fields, "type")));
-    if (type == types().end())
+    const NrrdFields fields = nrrdFields(headerText(bytes), volume.headerBytes);
+    const auto type = nrrdTypes().find(lowered(text(fields, "type")));
+    if (type == nrrdTypes().end())
         throw BadVolume("its type is '" + text(fields, "type").substr(0, 30) + "', which is no number's");
     volume.type = type->second;
     const auto sizes = numbersIn(text(fields, "sizes"), "'sizes'");
