@@ -257,5 +257,31 @@ TEST(Texture, ANormalMapThatPointsIntoTheSurfaceTiltsByTheSteepestSlope) {
     }
 }
 
+/// (0.5, 0.5, 0) is the direction (0, 0, -1), of which nothing is left above the surface.
+TEST(Texture, ATexelStraightIntoTheSurfaceLeavesThePlainForce) {
+    Scene scene = sceneOf(assets::plane(0.2, 0.2, 2, 2));
+    Image image;
+    image.decoded = true;
+    image.pixels.width = image.pixels.height = 1;
+    image.pixels.channels = 3;
+    image.pixels.type = ComponentType::F32;
+    const glm::vec3 stored(0.5f, 0.5f, 0.0f);
+    image.pixels.bytes.resize(sizeof stored);
+    std::memcpy(image.pixels.bytes.data(), &stored, sizeof stored);
+    scene.images.push_back(image);
+    scene.materials[0].normalTexture.image = 0;
+    for (const double limit : {0.25 * kPi, 0.5 * kPi}) {
+        HapticSettings s = bare();
+        s.texture = TextureMode::Law;
+        s.textureTiltLimit = limit;
+        TouchBench bench(scene, s);
+        bench.step({0.01, 0.01, 0.0});
+        bench.moveTo({0.01, -1e-3, 0.0}, 0.05);
+        const glm::dvec3& f = bench.output.force;
+        EXPECT_NEAR(f.y, -1000.0 * bench.output.hip.y, 2e-4) << "up to the proxy's gap";
+        EXPECT_LT(std::hypot(f.x, f.z), 1e-9) << limit;
+    }
+}
+
 } // namespace
 } // namespace touchstone::test
