@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"haptics", {"engine"}},
     {"renderer", {"engine", "shaders"}},
     {"devices", {"engine"}},
+    {"experiment", {"engine"}},
     {"sound", {"engine"}},
     {"assets", {}},
     {"shaders", {}},
