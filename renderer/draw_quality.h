@@ -7,7 +7,9 @@ namespace touchstone {
 
 /// Chooses the size of the scene image and the error of simplified meshes together, from the frame times.
 /// Quality falls at once when frames are late, rises slowly when there is time left, and does not oscillate:
-/// a failed rise is reverted, and repeated only after a wait that doubles each time.
+/// a failed rise is reverted, and repeated only after a wait that doubles each time. Where frames stay late
+/// at the lowest quality, the highest is tried: if it costs little more, it is kept, since the time goes
+/// elsewhere.
 class DrawQuality {
   public:
     struct Limits {
@@ -32,19 +34,32 @@ class DrawQuality {
     [[nodiscard]] double scale() const { return scaleAt(quality_); }
 
   private:
+    static constexpr int kFirstWait = 30; ///< frames at constant quality before a rise: one second at 30 Hz
+    static constexpr int kFirstTolerance = 240; ///< late frames at the highest quality before it falls again
+
     [[nodiscard]] double scaleAt(double quality) const {
         return limits_.smallestScale + (1.0 - limits_.smallestScale) * quality;
     }
     void fall(double excess);
     void rise(double allowed);
+    void tryHighest();
+    void judgeHighest();
+    [[nodiscard]] bool toleratesLateFrames() const;
+    void setQuality(double quality);
 
     Limits limits_;
     double quality_ = 1.0;
     double beforeRise_ = 1.0; ///< quality before the last rise
     double smoothed_ = 0.0;
     int framesAtQuality_ = 0;
-    int framesToWait_ = 30;
+    int framesToWait_ = kFirstWait;
     bool lastChangeWasRise_ = false;
+    // The highest quality against the lowest, where both are late.
+    bool tryingHighest_ = false;
+    double timeAtLowest_ = 0.0; ///< s, smoothed, when the trial began
+    double tolerated_ = 0.0; ///< s, smoothed, at the highest quality, where the lowest saves little; 0: never
+    int framesToTrial_ = kFirstWait;
+    int framesTolerated_ = kFirstTolerance;
 };
 
 } // namespace touchstone

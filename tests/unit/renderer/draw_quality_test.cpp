@@ -107,6 +107,58 @@ TEST(DrawQuality, ARiseThatFailsIsTakenBack) {
     }
 }
 
+/// The last of `frames`, in fractions of them, that were drawn at the highest quality.
+double shareAtHighest(DrawQuality& quality, int frames,
+                      const std::function<double(const DrawQuality&)>& cost) {
+    int highest = 0;
+    for (int i = 0; i < frames; ++i) {
+        quality.frameDone(cost(quality));
+        highest += quality.quality() == 1.0;
+    }
+    return static_cast<double>(highest) / frames;
+}
+
+DrawQuality::Limits ofKeptPictures() {
+    return {.smallestScale = 0.55, .finestError = 0.5};
+}
+
+TEST(DrawQuality, AFallThatBuysNothingIsTakenBack) {
+    // Panels alone take longer than a frame may: 36 ms at the whole resolution, 33.4 ms at a third of it.
+    DrawQuality quality(ofKeptPictures());
+    const auto cost = fill(0.032, 0.004);
+    changesWhileDrawing(quality, 120, cost);
+    EXPECT_EQ(quality.quality(), 1.0) << "within four seconds";
+    EXPECT_GT(shareAtHighest(quality, 20'000, cost), 0.9);
+    EXPECT_LE(changesWhileDrawing(quality, 20'000, cost), 30);
+}
+
+TEST(DrawQuality, AFallThatHelpsIsKeptThoughFramesStayLate) {
+    // 92 ms at the whole resolution, 54 ms at the smallest.
+    DrawQuality quality(ofKeptPictures());
+    const auto cost = fill(0.037, 0.055);
+    changesWhileDrawing(quality, 60, cost);
+    EXPECT_LT(shareAtHighest(quality, 20'000, cost), 0.02) << "trials alone";
+}
+
+TEST(DrawQuality, WhatAShortLoadTookComesBackThoughMostOfTheTimeIsFixed) {
+    // A shader that compiles, then 24 ms of panels and 2 ms of pixels: the whole resolution holds the budget.
+    DrawQuality quality(ofKeptPictures());
+    changesWhileDrawing(quality, 20, [](const DrawQuality&) { return 0.2; });
+    ASSERT_EQ(quality.quality(), 0.0);
+    changesWhileDrawing(quality, 1500, fill(0.024, 0.002));
+    EXPECT_EQ(quality.quality(), 1.0);
+}
+
+TEST(DrawQuality, AToleratedResolutionFallsAtOnceWhenTheLoadGrows) {
+    DrawQuality quality(ofKeptPictures());
+    changesWhileDrawing(quality, 200, fill(0.032, 0.004));
+    ASSERT_EQ(quality.quality(), 1.0);
+    changesWhileDrawing(quality, 40, fill(0.010, 0.060)); // another model
+    EXPECT_LT(quality.quality(), 0.5);
+    changesWhileDrawing(quality, 200, fill(0.010, 0.060));
+    EXPECT_LT(fill(0.010, 0.060)(quality), kBudget);
+}
+
 TEST(DrawQuality, PanelsInEveryThirdFrameAreNoReasonToSwing) {
     DrawQuality quality({.finestError = 0.25});
     int frame = 0;
