@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,11 +23,16 @@ pid_t start(const std::vector<std::string>& arguments, const Environment& enviro
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    const pid_t pid = fork();
+    const pid_t test = getpid(), pid = fork();
     if (pid < 0)
         throw std::runtime_error("fork failed");
     if (pid > 0)
         return pid;
+    // A test that crashes runs no destructor: its Xvfb and its windows end with it (with the thread that
+    // started them, which here is the test's own).
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != test)
+        _exit(127); // it died before
     for (const std::string& variable : environment) {
         const size_t equals = variable.find('=');
         if (equals + 1 == variable.size())

@@ -24,7 +24,8 @@ using Environment = std::vector<std::string>;
                                        const Environment& environment = {},
                                        std::chrono::seconds limit = std::chrono::seconds(120));
 
-/// A program that runs beside the test; terminated and awaited at the end of its life.
+/// A program that runs beside the test; terminated and awaited at the end of its life, terminated also where
+/// the test crashes or the thread that started it ends.
 class BackgroundProgram {
   public:
     BackgroundProgram(const std::vector<std::string>& arguments, const Environment& environment,

@@ -2,6 +2,7 @@
 // A display that nobody sees, for tests of the window.
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +22,7 @@ class VirtualDisplay {
             throw std::runtime_error("no pipe");
         process_ = ::fork();
         if (process_ == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGTERM); // it ends with a test that crashes, too
             ::close(ready[0]);
             const int quiet = ::open("/dev/null", O_WRONLY);
             ::dup2(quiet, 2);

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -90,7 +89,7 @@ TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
                      [&](const Json& s) { return s["picture"]["state"] == wanted; });
     };
     // On a machine that has much else to do a kept picture, too, is smaller for some seconds.
-    const auto isWhole = [this] {
+    const auto waitForTheWhole = [this] {
         until("the window's resolution", [&](const Json& s) {
             const Json& place = s["widgets"]["picture"];
             return s["picture"]["state"] == "kept" && s["picture"]["refined_in_s"] > 0.0 &&
@@ -99,7 +98,7 @@ TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
         });
     };
     open(kDoughnut, {"--hand", "simulated"});
-    isWhole();
+    waitForTheWhole();
     EXPECT_TRUE(modelIsSeen());
     display_.key("t"); // the turntable
     stateIs("coarse");
@@ -108,7 +107,7 @@ TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
     stateIs("kept");
     resize(800, 700);
     until("the new size", [](const Json& s) { return s["widgets"]["picture"]["width"] < 500.0; });
-    isWhole();
+    waitForTheWhole();
     EXPECT_TRUE(modelIsSeen());
     // What moves by itself is drawn over it.
     openByPath(TOUCHSTONE_ASSETS "/moving.glb");
