@@ -165,6 +165,7 @@ void WorkbenchWindow::lookBack(double now) {
                       .open = hasModel() ? &touch_.shown().identity : nullptr,
                       .live = &touch_.forces(),
                       .servoTime = touch_.tick().time,
+                      .settings = &state_.settings,
                       .listed = state_.timeline.shown,
                       .recorded = recorder.recording() ? recorder.file() : std::filesystem::path()});
     // Switching off and on clears a latch, which must not happen unintentionally: the force then stays off.

@@ -54,7 +54,7 @@ void Replayer::take(const RecordedScene& scene) {
 }
 
 void Replayer::take(const RecordedSettings& settings) {
-    settings_[settings.number] = settings.settings;
+    settings_[settings.number] = change_ ? change_(settings.settings) : settings.settings;
 }
 
 void Replayer::take(const TouchCheckpoint& checkpoint) {
@@ -87,7 +87,9 @@ void Replayer::take(const RecordedTicks& ticks) {
         const bool whole = gather(tick);
         // Where a hand's checkpoint is missing, a replay that knows the state continues.
         const bool states = checkpoint_ && otherStates_.size() + 1 == ticks_.size();
-        if (whole && states && checkpoint_->tick == tick.tick && checkpoint_->scene == tick.scene)
+        const bool begins = states && checkpoint_->tick == tick.tick && checkpoint_->scene == tick.scene;
+        const bool ownState = change_ && known_ && tick.scene == scene_;
+        if (whole && begins && !ownState)
             resume(tick);
         else if (!whole || tick.scene != scene_)
             lose();
@@ -159,7 +161,7 @@ void Replayer::resume(const RecordedTick& tick) {
             known_ = false;
             continue;
         }
-        if (goesOn) {
+        if (goesOn && !change_) {
             TouchCheckpoint own;
             takeCheckpoint(devices_[hand], own);
             if (!std::ranges::equal(own.state(), state->second.state()))
@@ -198,7 +200,7 @@ void Replayer::step(const RecordedTick& tick) {
     if (Touched* const touched = this->touched(tick.scene)) {
         const HapticScene& scene = *touched->scene.haptic;
         // Data for the neighbourhood watch and rays became available when built, in the middle of the run.
-        if (!has(tick.flags, TickFlag::NeighbourhoodMissing)) {
+        if (change_ || !has(tick.flags, TickFlag::NeighbourhoodMissing)) {
             if (settings->second.contact == ContactMethod::Neighbourhood)
                 scene.buildNeighbourhoods();
             if (settings->second.contact == ContactMethod::Rays)
@@ -222,6 +224,11 @@ void Replayer::step(const RecordedTick& tick) {
     }
     previousTime_ = tick.time;
     ++report_.replayed;
+    if (change_) {
+        if (each_ != nullptr && *each_)
+            (*each_)(tick, outputs_[0], stepNs, false);
+        return;
+    }
     const bool posesEqual = tick.poses.value_or(poses) == poses;
     if (!posesEqual)
         differs({.tick = tick.tick, .time = tick.time, .stage = "poses"});

@@ -62,7 +62,14 @@ class Replayer {
     /// Called for every replayed tick of hand 0, with its output; `equal`: all of this hand's stages.
     using Each = std::function<void(const RecordedTick&, const HapticOutput&, int64_t stepNs, bool equal)>;
 
+    /// Other settings in place of the recorded ones.
+    using Change = std::function<HapticSettings(const HapticSettings&)>;
+
     explicit Replayer(Load load) : load_(std::move(load)) {}
+    /// What other settings make of the recorded path: nothing is compared (`equal` is false, the report has
+    /// no difference). The recorded state is taken where there is none of its own: at the start, after a gap
+    /// and where the scene changes.
+    Replayer(Load load, Change change) : load_(std::move(load)), change_(std::move(change)) {}
 
     /// Replays to the end of the file. After a gap it resumes at the next checkpoint. Where the replay
     /// differs from the recording it takes the recorded state at the next checkpoint, so that one rounding
@@ -101,6 +108,7 @@ class Replayer {
     [[nodiscard]] Touched* touched(uint32_t number);
 
     Load load_;
+    Change change_; ///< empty: the recorded settings
     const Each* each_ = nullptr;
     ReplayReport report_;
     std::map<uint32_t, RecordedScene> scenes_;

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "haptics/recording/replayer.h"
+#include "workbench/commands/replay_comparison.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/options/commands.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -178,7 +180,13 @@ int replayCommand(const ReplayOptions& options) {
     SceneFinder finder(options);
     TickStatistics statistics;
     std::string rows;
-    Replayer replayer([&](const RecordedScene& scene) { return finder.load(scene); });
+    std::map<uint32_t, ReplayScene> scenes; // shared with the comparison
+    const Replayer::Load load = [&](const RecordedScene& scene) {
+        const auto found = scenes.find(scene.number);
+        return found != scenes.end() ? found->second
+                                     : scenes.emplace(scene.number, finder.load(scene)).first->second;
+    };
+    Replayer replayer(load);
     const ReplayReport report = replayer.replay(
         reader, [&](const RecordedTick& tick, const HapticOutput& output, int64_t stepNs, bool) {
             statistics.add(output, stepNs);
@@ -197,12 +205,16 @@ int replayCommand(const ReplayOptions& options) {
         csv->write(rows);
         csv->commit();
     }
+    const std::vector<ReplayComparison> compared = compareReplay(options, load);
     if (json) {
-        const nlohmann::ordered_json figures = reportJson(options, report, finder.scenes(), statistics);
+        nlohmann::ordered_json figures = reportJson(options, report, finder.scenes(), statistics);
+        if (!compared.empty())
+            figures["compared"] = comparisonsJson(compared);
         json->write(figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
         json->commit();
     }
     printResult(report);
+    printComparisons(compared);
     return report.first || report.replayed == 0 || !report.damage.empty() ? 1 : 0;
 }
 

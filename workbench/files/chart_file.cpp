@@ -5,6 +5,7 @@
 #include "engine/time/seconds_now.h"
 #include "study/report/plots/gnuplot.h"
 #include "study/result/provenance.h"
+#include "workbench/files/stacked_figure.h"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +17,6 @@
 namespace touchstone {
 
 namespace {
-
-constexpr double kPanelHeight = 180.0, kPanelGap = 52.0; // pixels of the page
-constexpr double kHead = 90.0, kFoot = 92.0;
 
 /// Quantities that share a panel, by index.
 using Panel = std::vector<size_t>;
@@ -72,21 +70,28 @@ size_t columnOf(size_t quantity, const ShownQuantities& shown) {
 }
 
 /// Where all values are of one sign the axis begins at zero; a flat curve gets some height.
-std::string rangeOf(const Panel& panel, const ForceHistory& history) {
-    double low = 0.0, high = 0.0;
-    for (const size_t i : panel) {
+StackedPanel panelOf(const Panel& quantities, const ForceHistory& history, const ShownQuantities& shown) {
+    const ChartQuantity& first = chartQuantities()[quantities.front()];
+    const bool several = quantities.size() > 1;
+    StackedPanel panel{.axis = std::string(several ? "force" : first.words) + ", " + first.symbol,
+                       .low = 0.0,
+                       .high = 0.0,
+                       .curves = {}};
+    for (const size_t i : quantities) {
         const ChartQuantity& quantity = chartQuantities()[i];
-        high = std::max(high, quantity.minEnd);
-        low = quantity.positive ? low : std::min(low, -quantity.minEnd);
+        panel.high = std::max(panel.high, quantity.minEnd);
+        panel.low = quantity.positive ? panel.low : std::min(panel.low, -quantity.minEnd);
         for (size_t t = 0; t < history.size(); ++t) {
             const double value = static_cast<double>(history.at(t).*quantity.value) / quantity.unit;
-            low = std::min(low, value);
-            high = std::max(high, value);
+            panel.low = std::min(panel.low, value);
+            panel.high = std::max(panel.high, value);
         }
+        panel.curves.push_back(
+            {.title = several ? quantity.name : quantity.words, .column = columnOf(i, shown), .mark = i});
     }
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "set yrange [%.6g:%.6g]\n", 1.05 * low, 1.08 * high);
-    return text.data();
+    panel.low *= 1.05;
+    panel.high *= 1.08;
+    return panel;
 }
 
 std::string conditionsText(const ChartConditions& conditions) {
@@ -120,47 +125,17 @@ study::Figure chartFigure(const std::string& name, const ForceHistory& history, 
     if (panels.empty() || history.size() < 2)
         throw Error("charts", "", panels.empty() ? "no quantity is shown" : "there are no ticks yet",
                     panels.empty() ? "choose one under Strips" : "wait until the servo runs");
-    study::Paper paper;
-    paper.width = 960.0;
-    paper.height = kHead + kFoot + static_cast<double>(panels.size()) * (kPanelHeight + kPanelGap);
-    paper.area = {90.0, paper.width - 30.0, 0.0, 0.0};
-    paper.title = "What is felt, over time";
-    paper.subtitle = conditionsText(conditions);
-    study::Figure figure{.name = name, .script = {}, .data = dataOf(history, shown)};
-    std::array<char, 256> line{};
-    for (size_t p = 0; p < panels.size(); ++p) {
-        const bool last = p + 1 == panels.size();
-        paper.area.top = paper.height - kHead - static_cast<double>(p) * (kPanelHeight + kPanelGap) - 24.0;
-        paper.area.bottom = paper.area.top - kPanelHeight;
-        if (p == 0)
-            figure.script = study::openPaper(name, paper, where) + "set multiplot\n";
-        else
-            figure.script += "unset label\n";
-        const double length = history.at(history.size() - 1).time - history.at(0).time;
-        std::snprintf(line.data(), line.size(),
-                      "set tmargin at screen %.6f\nset bmargin at screen %.6f\nset xrange [%.4f:0]\n"
-                      "set key at graph 1,1.03 right bottom horizontal maxrows 1 samplen 2 spacing 1.2\n",
-                      paper.area.top / paper.height, paper.area.bottom / paper.height, -length);
-        const ChartQuantity& first = chartQuantities()[panels[p].front()];
-        const std::string axis = panels[p].size() > 1 ? "force" : first.words;
-        figure.script +=
-            line.data() + rangeOf(panels[p], history) + "set ylabel " +
-            study::inQuotes(axis + ", " + first.symbol) + " offset 0.5,0\n" +
-            (last ? "set format x '%g'\nset xlabel 'time before the last tick, s'\n" : "set format x ''\n") +
-            "plot ";
-        for (size_t i = 0; i < panels[p].size(); ++i) {
-            std::snprintf(line.data(), line.size(),
-                          "%s'%s.dat' using 1:%zu with lines lw 1.2 lc rgb '%s' title ", i > 0 ? ", " : "",
-                          name.c_str(), columnOf(panels[p][i], shown),
-                          std::string(study::markOf(panels[p][i]).colour).c_str());
-            figure.script +=
-                line.data() + study::inQuotes(panels[p].size() > 1 ? chartQuantities()[panels[p][i]].name
-                                                                   : chartQuantities()[panels[p][i]].words);
-        }
-        figure.script += "\n";
-    }
-    figure.script += "unset multiplot\n";
-    return figure;
+    StackedFigure figure{.name = name,
+                         .title = "What is felt, over time",
+                         .subtitle = conditionsText(conditions),
+                         .timeAxis = "time before the last tick, s",
+                         .begin = history.at(0).time - history.at(history.size() - 1).time,
+                         .end = 0.0,
+                         .panels = {},
+                         .data = dataOf(history, shown)};
+    for (const Panel& panel : panels)
+        figure.panels.push_back(panelOf(panel, history, shown));
+    return stacked(std::move(figure), where);
 }
 
 void ChartSaver::saveCsv(const ForceHistory& history) {

@@ -34,6 +34,28 @@ void parseShard(const std::string& text, StudyCommandOptions& options) {
     options.shards = shards;
 }
 
+/// "friction=off texture=off", with blanks or commas between.
+ComparedSettings comparedSettings(const std::string& text) {
+    constexpr const char* kBetween = " ,\t\n";
+    ComparedSettings compared{.text = text, .settings = {}};
+    HapticSettings tried;
+    for (size_t at = text.find_first_not_of(kBetween); at != std::string::npos;) {
+        const size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+        const std::string assignment = text.substr(at, end - at);
+        const size_t equals = assignment.find('=');
+        if (equals == std::string::npos)
+            throw CLI::ValidationError("--compare", "'" + assignment + "' is not of the form NAME=VALUE");
+        const std::string name = assignment.substr(0, equals), value = assignment.substr(equals + 1);
+        if (const std::string problem = setSetting(tried, name, value); !problem.empty())
+            throw CLI::ValidationError("--compare", problem);
+        compared.settings.emplace_back(name, value);
+        at = text.find_first_not_of(kBetween, end);
+    }
+    if (compared.settings.empty())
+        throw CLI::ValidationError("--compare", "no setting is named: 'NAME=VALUE ...'");
+    return compared;
+}
+
 } // namespace
 
 void defineDevices(CLI::App& app, DevicesOptions& options) {
@@ -212,6 +234,30 @@ void defineReplay(CLI::App& app, ReplayOptions& options) {
         ->required();
     app.add_option("--out", options.out, "Every tick as it came out now: CSV")->type_name("TICKS.csv");
     app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
+    CLI::Option* const compare =
+        app.add_option_function<std::vector<std::string>>(
+               "--compare",
+               [&options](const std::vector<std::string>& texts) {
+                   for (const std::string& text : texts)
+                       options.compare.push_back(comparedSettings(text));
+               },
+               "Also touch it again with these settings changed (listed at the end of --help), and tell what "
+               "differs; may be given again, each is compared with the recorded ones")
+            ->type_name("'NAME=VALUE ...'")
+            ->expected(1)
+            ->take_all();
+    app.add_option("--compare-out", options.compareOut,
+                   "Forces and proxies of every tick, as recorded and with each --compare: CSV")
+        ->type_name("FILE.csv")
+        ->needs(compare);
+    app.add_option("--plot", options.plot,
+                   "The force over time as a figure, as recorded and with each --compare: SVG, or PNG")
+        ->type_name("FILE")
+        ->check([](const std::string& text) {
+            const std::string ending = std::filesystem::path(text).extension().string();
+            return ending == ".svg" || ending == ".png" ? std::string()
+                                                        : "'" + text + "' ends neither in .svg nor in .png";
+        });
     app.add_option("--scene", options.scenes,
                    "Touch this model in place of the recorded one; may be given again for the next one")
         ->type_name("SCENE")

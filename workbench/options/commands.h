@@ -94,9 +94,17 @@ struct TouchOptions {
 int touchCommand(const TouchOptions& options);
 
 /// touchstone replay FILE
+/// Settings to compare a recording with: names and values, in order.
+struct ComparedSettings {
+    std::string text; ///< as typed
+    std::vector<std::pair<std::string, std::string>> settings;
+};
 struct ReplayOptions {
     std::filesystem::path recording;
     std::filesystem::path out, json;           ///< empty: not requested
+    std::vector<ComparedSettings> compare;     ///< each beside the recorded ones
+    std::filesystem::path compareOut;          ///< CSV of forces and proxies; empty: not requested
+    std::filesystem::path plot;                ///< figure, .svg or .png; empty: not requested
     std::vector<std::filesystem::path> scenes; ///< instead of the recorded ones, in their order
 };
 /// Status 1 where a tick differs or the file is damaged.

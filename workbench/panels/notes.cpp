@@ -148,6 +148,8 @@ constexpr std::array kNotes{
     Note{"markEnd", "The loop ends at the cursor (B)"},
     Note{"clearMarks", "No loop (Shift+A)"},
     Note{"verify", "Replay all ticks as fast as possible and compare every bit"},
+    Note{"compare", "Touch the whole recording again with the settings of now, without a hand: the green "
+                    "curve beside the recorded one"},
     Note{"touchAgain", "The recorded hand touches again, with the settings and materials of now"},
     Note{"openModel", "Open the model of the recording"},
     Note{"backToLive", "Leave the recording (Escape)"},

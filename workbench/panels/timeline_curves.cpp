@@ -21,10 +21,11 @@ namespace {
 constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52, 58, 255),
                 kCurveLabel = IM_COL32(140, 147, 155, 255), kCurveText = IM_COL32(228, 231, 234, 255),
                 kCursor = IM_COL32(235, 238, 240, 255), kForce = IM_COL32(245, 190, 70, 255),
-                kAgain = IM_COL32(97, 173, 255, 255), kContact = IM_COL32(245, 190, 70, 26),
-                kLoop = IM_COL32(97, 173, 255, 34), kLoopEdge = IM_COL32(97, 173, 255, 200),
-                kGap = IM_COL32(235, 75, 65, 220), kScene = IM_COL32(120, 205, 130, 220),
-                kSettings = IM_COL32(190, 150, 240, 230), kNote = IM_COL32(228, 231, 234, 220);
+                kAgain = IM_COL32(97, 173, 255, 255), kCompared = IM_COL32(105, 205, 135, 255),
+                kContact = IM_COL32(245, 190, 70, 26), kLoop = IM_COL32(97, 173, 255, 34),
+                kLoopEdge = IM_COL32(97, 173, 255, 200), kGap = IM_COL32(235, 75, 65, 220),
+                kScene = IM_COL32(120, 205, 130, 220), kSettings = IM_COL32(190, 150, 240, 230),
+                kNote = IM_COL32(228, 231, 234, 220);
 
 constexpr double kMinTop = 0.5;       // N, so that noise in the air does not fill the strip
 constexpr float kLabelWidth = 108.0f; // units, the same as in the charts
@@ -60,7 +61,8 @@ class Strip {
         findScale();
         loop();
         curve();
-        again();
+        line(compared_, kCompared);
+        line(again_, kAgain);
         marks();
         cursor();
         draw_.PopClipRect();
@@ -84,6 +86,8 @@ class Strip {
     }
 
   private:
+    using Columns = std::vector<std::optional<MinMax>>;
+
     [[nodiscard]] float top() const { return corner_.y; }
     [[nodiscard]] float bottom() const { return corner_.y + height_; }
     [[nodiscard]] float width() const { return std::max(2.0f, right_ - left_); }
@@ -113,9 +117,11 @@ class Strip {
     void findScale() {
         MinMax all = line_.force().over(line_.indexAt(begin_), line_.indexAt(end_) + 1);
         feltAgain();
-        for (const std::optional<MinMax>& column : again_)
-            if (column)
-                all = {std::min(all.least, column->least), std::max(all.most, column->most)};
+        compared();
+        for (const Columns* columns : {&again_, &compared_})
+            for (const std::optional<MinMax>& column : *columns)
+                if (column)
+                    all = {std::min(all.least, column->least), std::max(all.most, column->most)};
         most_ = niceCeiling(std::max(kMinTop, static_cast<double>(all.most)));
         least_ = 0.0;
         // Forces that are never near zero: the scale shows their differences.
@@ -151,6 +157,16 @@ class Strip {
         }
     }
 
+    /// The force with the settings of now, by column.
+    void compared() {
+        compared_.assign(static_cast<size_t>(columns()), std::nullopt);
+        const ComparedTouch* const touch = controller_.comparison().result();
+        for (int c = 0; touch != nullptr && c < columns(); ++c)
+            if (const auto [from, to] = ticksOf(c); from < std::min(to, touch->force.size()))
+                compared_[static_cast<size_t>(c)] =
+                    touch->force.over(from, std::min(to, touch->force.size()));
+    }
+
     void loop() {
         const Playback& at = controller_.playback();
         if (!at.beginMark() && !at.endMark())
@@ -183,20 +199,20 @@ class Strip {
     }
 
     /// A line through the middles, which joins columns without a tick.
-    void again() {
+    void line(const Columns& of, ImU32 color) {
         std::optional<ImVec2> before;
         constexpr float kFarthest = 40.0f; // pixels between two ticks of a near view
         for (int c = 0; c < columns(); ++c) {
-            const std::optional<MinMax>& column = again_[static_cast<size_t>(c)];
+            const std::optional<MinMax>& column = of[static_cast<size_t>(c)];
             if (!column)
                 continue;
             const float x = left_ + static_cast<float>(c), low = yOf(static_cast<double>(column->least)),
                         high = yOf(static_cast<double>(column->most));
             const ImVec2 middle(x, 0.5f * (low + high));
             if (low - high > 1.5f)
-                draw_.AddLine(ImVec2(x, low), ImVec2(x, high), kAgain);
+                draw_.AddLine(ImVec2(x, low), ImVec2(x, high), color);
             if (before && x - before->x < kFarthest)
-                draw_.AddLine(*before, middle, kAgain, 1.5f);
+                draw_.AddLine(*before, middle, color, 1.5f);
             before = middle;
         }
     }
@@ -269,7 +285,7 @@ class Strip {
     ImVec2 corner_;
     float left_, right_, height_;
     double begin_, end_;
-    std::vector<std::optional<MinMax>> again_;
+    Columns again_, compared_;
     bool near_;                       // the scale fits the visible range
     double least_ = 0.0, most_ = 1.0; // N, at its lower and its upper edge
 };
@@ -323,6 +339,12 @@ void drawNear(TimelineController& controller, TimelinePanelState& state, float h
                       static_cast<double>(again.force()[cursor - again.first()]));
         strip.label(1, kAgain, "again");
         strip.labelRight(1, kAgain, text);
+    }
+    if (const ComparedTouch* const compared = controller.comparison().result();
+        compared != nullptr && cursor < compared->force.size()) {
+        std::snprintf(text, sizeof text, "%.3f N", static_cast<double>(compared->force[cursor]));
+        strip.label(2, kCompared, "now");
+        strip.labelRight(2, kCompared, text);
     }
     ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + height));
 }

@@ -89,6 +89,14 @@ void examination(TimelineController& controller, Widgets& widgets) {
     }
 }
 
+/// The settings of now beside those of then, over the whole recording.
+void comparison(TimelineController& controller, Widgets& widgets) {
+    const bool on = controller.comparison().wanted();
+    widgets.besideArrow(widgets.lampWidth("Compare"));
+    if (widgets.lampButton("compare", "Compare", on, kGreen))
+        controller.compare(!on);
+}
+
 /// Last on its line: it comes and goes.
 void openModel(TimelineController& controller, Widgets& widgets) {
     if (!controller.modelIsOpen() && controller.modelFile() && button("Open its model", "openModel", widgets))
@@ -108,6 +116,16 @@ News newsOf(const TimelineController& controller) {
         std::snprintf(text, sizeof text, "then %.3f N, again %.3f N, on average in contact", means.recorded,
                       means.now);
         return {text, kBlue};
+    }
+    const SettingsComparison& comparison = controller.comparison();
+    if (comparison.result() != nullptr)
+        return {comparison.result()->text(), kGreen};
+    if (!comparison.problem().empty())
+        return {comparison.problem(), kRed};
+    if (comparison.busy()) {
+        std::snprintf(text, sizeof text, "touching it again with the settings of now: %.0f %%",
+                      100.0 * comparison.fraction());
+        return {text, kGreen};
     }
     if (controller.again().running())
         return {"the hand is on its way to where the recording begins", kBlue};
@@ -140,6 +158,8 @@ void tell(const News& news, const TimelineController& controller, Widgets& widge
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(widgets.units(600.0f));
     ImGui::TextUnformatted(controller.timeline().file().c_str());
+    if (controller.comparison().result() != nullptr)
+        ImGui::TextUnformatted(controller.comparison().result()->text().c_str());
     if (!controller.verdict().empty())
         ImGui::TextUnformatted(controller.verdict().c_str());
     for (const std::string& note : controller.notes())
@@ -173,6 +193,7 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
                         ImVec2(widgets.units(4.0f), ImGui::GetStyle().ItemSpacing.y));
     transport(controller, widgets);
     examination(controller, widgets);
+    comparison(controller, widgets);
     widgets.besideArrow(widgets.lampWidth("List"));
     if (widgets.lampButton("recordings", "List", false, kBlue))
         state.list = true;

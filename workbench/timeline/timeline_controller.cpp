@@ -84,6 +84,7 @@ void TimelineController::takeOpened() {
 void TimelineController::retire() {
     again_.stop();
     again_.clear();
+    comparison_.want(false);
     verifying_.abandon();
     verifyWanted_ = false;
     if (replayCache_ != nullptr)
@@ -151,6 +152,8 @@ void TimelineController::update(const Surroundings& around) {
             return touchstone::verify(*timeline, *shelf, progress);
         });
     }
+    if (around.settings != nullptr)
+        comparison_.update(timeline_, shelf_, *around.settings);
     try {
         again_.update(*around.live, around.servoTime);
     } catch (const std::exception& error) {
@@ -298,6 +301,13 @@ nlohmann::ordered_json TimelineController::json() const {
     json["verified"] = verdictText_.empty()
                            ? nlohmann::ordered_json(nullptr)
                            : nlohmann::ordered_json{{"equal", verdictEqual_}, {"text", verdictText_}};
+    const ComparedTouch* const compared = comparison_.result();
+    json["comparison"] = {
+        {"wanted", comparison_.wanted()}, {"busy", comparison_.busy()}, {"problem", comparison_.problem()}};
+    if (compared != nullptr) {
+        json["comparison"]["change"] = compared->change;
+        json["comparison"]["figures"] = compared->figures.json();
+    }
     const TouchAgain::Means means = again_.means();
     json["again"] = {{"running", again_.running()},
                      {"ticks", means.ticks},

@@ -7,6 +7,7 @@
 #include "workbench/timeline/playback.h"
 #include "workbench/timeline/recording_list.h"
 #include "workbench/timeline/replay_cache.h"
+#include "workbench/timeline/settings_comparison.h"
 #include "workbench/timeline/touch_again.h"
 #include "workbench/timeline/verification.h"
 
@@ -41,9 +42,10 @@ class TimelineController {
         const Model* model = nullptr;        ///< the open model; null: none
         const SceneIdentity* open = nullptr; ///< of the open model
         const ForceHistory* live = nullptr;
-        double servoTime = 0.0;              ///< s, of the latest tick
-        bool listed = false;                 ///< the list of recordings is shown
-        std::filesystem::path recorded = {}; ///< being recorded; empty: none
+        double servoTime = 0.0;                   ///< s, of the latest tick
+        const HapticSettings* settings = nullptr; ///< the chosen ones, to compare with; null: none
+        bool listed = false;                      ///< the list of recordings is shown
+        std::filesystem::path recorded = {};      ///< being recorded; empty: none
     };
     void update(const Surroundings& around);
 
@@ -91,6 +93,10 @@ class TimelineController {
     void touchAgain();
     void stopTouchingAgain() { again_.stop(); }
     [[nodiscard]] const TouchAgain& again() const { return again_; }
+
+    /// Whether the recording is compared with the chosen settings.
+    void compare(bool wanted) { comparison_.want(wanted); }
+    [[nodiscard]] const SettingsComparison& comparison() const { return comparison_; }
 
     [[nodiscard]] const RecordingList& list() const { return list_; }
     /// Of a file of the list, as renameRecording and deleteRecording. Throws Error, also where it is looked
@@ -141,6 +147,7 @@ class TimelineController {
     bool verifyWanted_ = false;
     std::string verdictText_;
     bool verdictEqual_ = false;
+    SettingsComparison comparison_;
     TouchAgain again_;
     std::string againProblem_;
     double last_ = -1.0; // s, of the last update

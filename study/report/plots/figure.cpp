@@ -125,9 +125,12 @@ std::string openPaper(const std::string& name, const Paper& paper, const Provena
     std::string script = "# gnuplot " + name +
                          ".gp draws this again.\n"
                          "if (!exists('out')) out = '" +
-                         name + ".svg'\n" + "set terminal svg size " + number(paper.width) + "," +
-                         number(paper.height) +
-                         " dynamic noenhanced font 'Inter,13' background '#ffffff' linewidth 1\n"
+                         name + ".svg'\n" + "if (exists('png')) {\n  set terminal pngcairo size " +
+                         number(paper.width) + "*png," + number(paper.height) +
+                         "*png noenhanced font 'Inter,13' fontscale png linewidth png pointscale png "
+                         "background '#ffffff'\n} else {\n  set terminal svg size " +
+                         number(paper.width) + "," + number(paper.height) +
+                         " dynamic noenhanced font 'Inter,13' background '#ffffff' linewidth 1\n}\n"
                          "set output out\n"
                          "set encoding utf8\n"
                          "set lmargin at screen " +

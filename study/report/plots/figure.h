@@ -11,7 +11,7 @@
 namespace touchstone::study {
 
 /// A plot as input to gnuplot. `script` reads `name`.dat and writes the file in its variable `out`, by
-/// default `name`.svg.
+/// default `name`.svg: SVG, or PNG with `png` pixels for each one of the paper, if that variable exists.
 struct Figure {
     std::string name, script, data;
 };

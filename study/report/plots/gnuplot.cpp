@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 namespace touchstone::study {
@@ -37,30 +38,34 @@ std::string withFallback(std::string svg) {
 
 } // namespace
 
-std::string draw(const Figure& figure, const std::filesystem::path& folder, const std::string& program) {
+std::string draw(const Figure& figure, const std::filesystem::path& folder, const std::string& program,
+                 PlotFormat format) {
+    const bool png = format == PlotFormat::Png;
     writeFile(folder / (figure.name + ".gp"), figure.script);
     writeFile(folder / (figure.name + ".dat"), figure.data);
     const std::string part = figure.name + ".part" + std::to_string(getpid());
-    const ProcessAnswer answer =
-        run({program, "--default-settings", "-e", "out = '" + part + "'", figure.name + ".gp"},
-            folder.empty() ? "." : folder);
+    const ProcessAnswer answer = run({program, "--default-settings", "-e",
+                                      "out = '" + part + (png ? "'; png = 3" : "'"), figure.name + ".gp"},
+                                     folder.empty() ? "." : folder);
     using enum ProcessAnswer::End;
     const std::string said(answer.output.begin(), answer.output.end());
-    std::ostringstream svg;
-    svg << std::ifstream(folder / part, std::ios::binary).rdbuf();
+    std::ostringstream drawn;
+    drawn << std::ifstream(folder / part, std::ios::binary).rdbuf();
     std::error_code ignored;
     std::filesystem::remove(folder / part, ignored);
-    const std::string file = (folder / (figure.name + ".svg")).string();
+    const std::string file = (folder / (figure.name + (png ? ".png" : ".svg"))).string();
     if (answer.end == NotStarted)
         return file + ": not drawn, gnuplot does not start: " + said +
                "\n  remedy: apt-get install gnuplot-nox, then gnuplot " + figure.name + ".gp in that folder";
     if (answer.end == TooSlow)
         return file + ": not drawn, gnuplot did not end within a minute\n  remedy: look at " + figure.name +
                ".gp beside it";
-    if (answer.end != Exited || answer.status != 0 || svg.str().find("</svg>") == std::string::npos)
+    constexpr std::string_view kPngEnd = "IEND"; // of the last chunk, before its sum
+    const bool whole = drawn.str().find(png ? kPngEnd : "</svg>") != std::string::npos;
+    if (answer.end != Exited || answer.status != 0 || !whole)
         return file + ": not drawn, gnuplot said: " + said + "\n  remedy: look at " + figure.name +
                ".gp beside it";
-    writeFile(file, withFallback(svg.str()));
+    writeFile(file, png ? drawn.str() : withFallback(drawn.str()));
     return "";
 }
 

@@ -190,6 +190,100 @@ TEST_F(Replay, WhatIsNoRecordingSaysSo) {
     EXPECT_EQ(runProgram({kProgram, "replay"}).status, 2);
 }
 
+/// The oracle of a comparison: the same path touched with those settings.
+TEST_F(Replay, AComparisonIsATouchWithTheOtherSettings) {
+    const std::string changed = (scratch_ / "changed.csv").string(),
+                      sides = (scratch_ / "sides.csv").string();
+    for (const char* asset : {"doughnut.glb", "moving.glb"}) {
+        record(asset);
+        ASSERT_EQ(runProgram({kProgram, "touch", scene_.string(), "--path", (scratch_ / "hip.csv").string(),
+                              "--out", changed, "--fit", "workspace", "--set", "friction=off", "--set",
+                              "stiffness=300", "--set", "contact=neighbourhood"})
+                      .status,
+                  0);
+        const ProgramResult result = replay(
+            {"--compare", "friction=off, stiffness=300 contact=neighbourhood", "--compare-out", sides});
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_TRUE(says(result.out, "replayed, all equal")) << result.out;
+        const Table then = readTable(scratch_ / "touched.csv"), now = readTable(changed),
+                    both = readTable(sides);
+        ASSERT_EQ(both.rows, then.rows);
+        for (const char* name :
+             {"proxy_x", "proxy_y", "proxy_z", "force_x", "force_y", "force_z", "contacts"}) {
+            EXPECT_EQ(both[name], then[name]) << asset << name;
+            EXPECT_EQ(both[std::string(name) + "_1"], now[name]) << asset << name;
+        }
+        const nlohmann::json first = figures()["compared"][0];
+        EXPECT_EQ(first["settings"], "friction=off, stiffness=300 contact=neighbourhood");
+        EXPECT_GT(first["max_difference_n"], 0.1) << first;
+        EXPECT_GT(first["recorded"]["contact_ticks"], 10);
+        EXPECT_LT(first["changed"]["mean_n"], first["recorded"]["mean_n"]) << "it is softer";
+        EXPECT_TRUE(says(result.out, "contact=neighbourhood, over ")) << result.out;
+    }
+}
+
+TEST_F(Replay, AComparisonWithTheSameSettingsFindsNoDifference) {
+    record("doughnut.glb");
+    ASSERT_EQ(replay({"--compare", "forceEnabled=on"}).status, 0);
+    const nlohmann::json same = figures()["compared"][0];
+    EXPECT_GT(same["ticks"], 10);
+    EXPECT_EQ(same["max_difference_n"], 0.0);
+    EXPECT_EQ(same["max_proxy_distance_m"], 0.0);
+    EXPECT_EQ(same["recorded"], same["changed"]);
+}
+
+TEST_F(Replay, AComparisonBehindAGapLeavesOutWhatCannotBeTouched) {
+    record("doughnut.glb");
+    std::string bytes = readFile(file_);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    writeTextFile(file_, bytes);
+    const std::string sides = (scratch_ / "sides.csv").string();
+    const ProgramResult result = replay({"--compare", "friction=off", "--compare-out", sides});
+    EXPECT_EQ(result.status, 1) << "it is damaged";
+    EXPECT_EQ(readTable(sides).rows, figures()["replayed"]);
+}
+
+TEST_F(Replay, WrongComparisonsAreWrongUsage) {
+    record("doughnut.glb");
+    const std::string csv = (scratch_ / "sides.csv").string();
+    for (const std::vector<std::string>& wrong :
+         std::vector<std::vector<std::string>>{{"--compare", "friction"},
+                                               {"--compare", ""},
+                                               {"--compare", " , "},
+                                               {"--compare", "nosuch=1"},
+                                               {"--compare", "friction=sandpaper"},
+                                               {"--compare", "stiffness=-3"},
+                                               {"--compare"},
+                                               {"--compare-out", csv},
+                                               {"--plot", "figure.pdf"}}) {
+        const ProgramResult result = replay(wrong);
+        EXPECT_EQ(result.status, 2) << wrong.back() << result.out << result.err;
+        EXPECT_FALSE(std::filesystem::exists(csv));
+    }
+    const ProgramResult nowhere =
+        replay({"--compare", "friction=off", "--compare-out", "/nowhere/sides.csv"});
+    EXPECT_EQ(nowhere.status, 1);
+    EXPECT_TRUE(says(nowhere.err, "/nowhere/sides.csv")) << nowhere.err;
+    const ProgramResult undrawn = replay({"--plot", "/nowhere/figure.svg"});
+    EXPECT_EQ(undrawn.status, 1);
+    EXPECT_TRUE(says(undrawn.err, "/nowhere/figure")) << undrawn.err;
+}
+
+TEST_F(Replay, TheForceIsDrawnAsAFigure) {
+    record("doughnut.glb");
+    const std::filesystem::path svg = scratch_ / "figure.svg", png = scratch_ / "figure.png";
+    ASSERT_EQ(replay({"--plot", svg.string(), "--compare", "friction=off"}).status, 0);
+    const std::string drawn = readFile(svg);
+    for (const char* text : {"as recorded", "friction=off", "force, N", "depth, mm", "time, s"})
+        EXPECT_TRUE(says(drawn, text)) << text;
+    ASSERT_EQ(replay({"--plot", png.string()}).status, 0);
+    const std::string bytes = readFile(png);
+    ASSERT_GT(bytes.size(), 10'000u);
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    const auto width = static_cast<unsigned char>(bytes[18]) * 256 + static_cast<unsigned char>(bytes[19]);
+    EXPECT_EQ(width, 3 * 960) << "for print";
+}
+
 TEST_F(Replay, TouchSaysWhereItCannotRecord) {
     file_ = "/dev/full";
     writeTextFile(scratch_ / "hip.csv", straightPath({-0.05, 0.0, 0.09}, {0.05, 0.02, 0.0}, 1500));

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <thread>
 
 namespace touchstone::test {
@@ -42,7 +43,8 @@ class ControllerTest : public testing::Test {
         controller_.update({.now = now_,
                             .model = opened_.scene != nullptr ? &opened_ : nullptr,
                             .open = opened_.scene != nullptr ? &identity_ : nullptr,
-                            .live = &live_});
+                            .live = &live_,
+                            .settings = settings_ ? &*settings_ : nullptr});
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     void turnUntil(const std::function<bool()>& holds) {
@@ -65,6 +67,7 @@ class ControllerTest : public testing::Test {
     TimelineController controller_{again_, {scratch_.path()}};
     Model opened_;
     SceneIdentity identity_;
+    std::optional<HapticSettings> settings_;
     ForceHistory live_{100};
     double now_ = 0.0;
 };
@@ -199,12 +202,61 @@ TEST_F(ControllerTest, WhatCannotBeOpenedLeavesWhatIsLookedAt) {
     EXPECT_EQ(controller_.playback().cursor(), 1234u) << "it was given up";
 }
 
+TEST_F(ControllerTest, ComparesTheRecordingWithTheChosenSettings) {
+    record(Fit::Workspace);
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
+    const Timeline& then = controller_.timeline();
+    settings_ = then.settingsOf(0);
+    settings_->forceEnabled = false; // the key changes no contact
+    turn();
+    EXPECT_EQ(controller_.comparison().result(), nullptr) << "nobody asked";
+    controller_.compare(true);
+    turnUntil([&] { return controller_.comparison().result() != nullptr; });
+    const ComparedTouch* compared = controller_.comparison().result();
+    EXPECT_EQ(compared->change, "");
+    EXPECT_GT(compared->figures.ticks(), 100u);
+    EXPECT_EQ(compared->figures.maxDifference(), 0.0);
+    ASSERT_EQ(compared->force.size(), then.size());
+    for (size_t i = 0; i < then.size(); ++i)
+        ASSERT_EQ(compared->force[i], then.force()[i]) << i;
+    settings_->stiffness = 200.0;
+    turnUntil([&] { return controller_.comparison().result()->change != ""; });
+    compared = controller_.comparison().result();
+    EXPECT_EQ(compared->change, settingsDifference(then.settingsOf(0), compared->settings));
+    EXPECT_LT(compared->figures.other().mean, 0.9 * compared->figures.recorded().mean);
+    EXPECT_NE(compared->text().find("with " + compared->change), std::string::npos) << compared->text();
+    controller_.compare(false);
+    EXPECT_EQ(controller_.comparison().result(), nullptr);
+    controller_.compare(true);
+    std::filesystem::remove(model_);
+    controller_.leave();
+    EXPECT_FALSE(controller_.comparison().wanted());
+}
+
+TEST_F(ControllerTest, AComparisonWithoutItsModelSaysWhy) {
+    record(Fit::Workspace);
+    std::filesystem::remove(model_);
+    controller_.open(file_);
+    turnUntil([&] { return controller_.looking(); });
+    settings_.emplace();
+    controller_.compare(true);
+    turnUntil([&] { return !controller_.comparison().problem().empty(); });
+    EXPECT_NE(controller_.comparison().problem().find("is not there"), std::string::npos)
+        << controller_.comparison().problem();
+    for (int i = 0; i < 20; ++i)
+        turn();
+    EXPECT_FALSE(controller_.comparison().busy()) << "it is not tried for ever";
+}
+
 TEST_F(ControllerTest, MayBeLeftAtAnyMoment) {
     record(Fit::Workspace);
     for (int turns = 0; turns < 40; turns += 3) {
         controller_.open(file_);
         turnUntil([&] { return controller_.looking(); });
         controller_.verify();
+        settings_ = HapticSettings{};
+        controller_.compare(true);
         controller_.touchAgain();
         controller_.playback().play(true);
         for (int i = 0; i < turns; ++i)
