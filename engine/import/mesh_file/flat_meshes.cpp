@@ -2,6 +2,8 @@
 
 #include "engine/core/error.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,6 +93,11 @@ bool allOf(std::span<const uint8_t> bytes, const Check& check) {
     return true;
 }
 
+/// A name of any bytes as text for people: what is no UTF-8 is replaced, control characters are escaped.
+std::string shownName(const std::string& name) {
+    return nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 } // namespace
 
 FlatMeshes readFlatMeshes(std::span<const uint8_t> bytes, const std::string& shownAs) {
@@ -132,7 +139,8 @@ FlatMeshes readFlatMeshes(std::span<const uint8_t> bytes, const std::string& sho
             return result.arrays.subspan(range.offset, range.bytes);
         };
         if (!allOf<float>(bytesOf(mesh.positions), [](float value) { return std::isfinite(value); }))
-            throw Error(shownAs, mesh.name, "has a vertex whose position is not a finite number",
+            throw Error(shownAs, mesh.name.empty() ? "" : "mesh " + shownName(mesh.name),
+                        "has a vertex whose position is not a finite number",
                         "remove the broken vertex, or re-export the model");
         if (!allOf<uint32_t>(bytesOf(mesh.corners), [&](uint32_t corner) { return corner < vertices; }))
             reader.fail("a triangle with a vertex that does not exist");

@@ -21,6 +21,8 @@ struct Answer {
              has = kFlatAll;
     float coordinate = 1.0f;
     uint32_t corner = 2, nameLength = 5;
+    std::string meshName{};         ///< of the second
+    float positionsOfSecond = 1.0f; ///< its first coordinate
 
     [[nodiscard]] Bytes bytes() const {
         Bytes all;
@@ -33,15 +35,18 @@ struct Answer {
         for (const char c : {'c', 'o', 'r', 'k', '\xff', '\0', '\0', '\0'})
             all.push_back(static_cast<uint8_t>(c));
         words({0, 0, 3, 1, 0});
-        words({0, material, vertices, triangles, has});
-        const auto floats = [&](int count) {
+        words({static_cast<uint32_t>(meshName.size())});
+        for (size_t i = 0; i < (meshName.size() + 3) / 4 * 4; ++i)
+            all.push_back(i < meshName.size() ? static_cast<uint8_t>(meshName[i]) : uint8_t{0});
+        words({material, vertices, triangles, has});
+        const auto floats = [&](int count, float first) {
             for (int i = 0; i < count; ++i)
-                append(all, i == 0 ? coordinate : static_cast<float>(i % 7));
+                append(all, i == 0 ? first : static_cast<float>(i % 7));
         };
-        floats(9);
+        floats(9, coordinate);
         words({0, 1, 2});
-        floats(9);
-        floats(9 + 6 + 12);
+        floats(9, std::isfinite(coordinate) ? positionsOfSecond : coordinate);
+        floats(9 + 6 + 12, coordinate);
         words({0, 1, corner});
         return all;
     }
@@ -93,6 +98,15 @@ TEST(FlatMeshes, EveryLieIsFound) {
     for (const auto& [answer, says] : lies)
         EXPECT_TRUE(contains(errorOf(answer.bytes()).problem(), says))
             << errorOf(answer.bytes()).what() << says;
+}
+
+TEST(FlatMeshes, AnErrorNamesTheMeshInTextThatMayBeShown) {
+    const Error error = errorOf(
+        Answer{.coordinate = std::nanf(""), .meshName = std::string("a\x1b[31m\xff\n\0b", 10)}.bytes());
+    EXPECT_EQ(error.place(), "") << "the first mesh, without a name, is broken, too";
+    Answer answer{.meshName = std::string("a\x1b[31m\xff\n\0b", 10)};
+    answer.positionsOfSecond = std::nanf("");
+    EXPECT_EQ(errorOf(answer.bytes()).place(), "mesh \"a\\u001b[31m\xEF\xBF\xBD\\n\\u0000b\"");
 }
 
 TEST(FlatMeshes, EveryLengthButTheRightOneIsRefused) {
