@@ -64,6 +64,15 @@ void simplify(const Mesh& mesh, const PrepareOptions& options, const Progress& p
     }
 }
 
+double meanEdge(const Mesh& mesh) {
+    double sum = 0.0;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        for (size_t corner = 0; corner < 3; ++corner)
+            sum += static_cast<double>(glm::distance(mesh.positions[mesh.indices[i + corner]],
+                                                     mesh.positions[mesh.indices[i + (corner + 1) % 3]]));
+    return mesh.indices.empty() ? 0.0 : sum / static_cast<double>(mesh.indices.size());
+}
+
 void prepareMesh(const Mesh& mesh, const PrepareOptions& options, const Progress& progress,
                  PreparedScene& out) {
     progress.report(0.0, "packing what is drawn");
@@ -85,6 +94,7 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, const Progress
     prepared.levels.push_back(
         {static_cast<uint32_t>(out.indices.size()), static_cast<uint32_t>(mesh.indices.size()), 0.0});
     out.indices.insert(out.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    prepared.meanEdge = meanEdge(mesh);
     if (!mesh.indices.empty())
         simplify(mesh, options, progress.part(0.1, 1.0), out.indices, prepared);
     out.meshes.push_back(std::move(prepared));

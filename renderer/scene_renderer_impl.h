@@ -31,6 +31,7 @@ struct DrawItem {
     double distance = 0.0;
     glm::dvec3 centre{0.0}; ///< of a ball around it, eye frame
     double radius = -1.0;   ///< < 0: unknown, as of lines and points, whose width is one of pixels
+    double edge = 0.0;      ///< mean length of its triangles' edges at its distance, pixels
     bool mirrored = false;
     shared::ObjectConstants constants;
 };

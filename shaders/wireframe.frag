@@ -11,5 +11,5 @@ layout(location = 0) out vec4 outColor;
 
 void main() {
     if ((kFeatures & kIsClipped) != 0u && dot(object.clip, vec4(eyePosition, 1.0)) > 0.0) discard;
-    outColor = vec4(0.01, 0.012, 0.015, 0.75);
+    outColor = vec4(0.01, 0.012, 0.015, object.normalFromMesh[2].w); // the lines' opacity
 }

@@ -109,6 +109,24 @@ TEST_F(Parts, WireframeShowsTheTrianglesOfWhatIsSeen) {
     EXPECT_GT(failingShare(draw(scene, view), draw(scene, plain)), 0.02);
 }
 
+/// Failed: edges of a fixed opacity painted 64,800 triangles nearly black.
+TEST_F(Parts, WireframeOfSmallTrianglesLeavesTheSurfaceVisible) {
+    const auto scene = torusScene(360, 90);
+    View view = viewFor(*scene);
+    const PixelData plain = draw(scene, view);
+    view.wireframe = true;
+    const PixelData edges = draw(scene, view);
+    double before = 0.0, after = 0.0; // of the pixels that the edges change
+    for (size_t i = 0; i < plain.bytes.size(); i += 4)
+        for (size_t channel = i; channel < i + 3 && plain.bytes[i] != edges.bytes[i]; ++channel) {
+            before += std::to_integer<int>(plain.bytes[channel]);
+            after += std::to_integer<int>(edges.bytes[channel]);
+        }
+    EXPECT_GT(before, 1e6) << "they are seen";
+    EXPECT_GT(after, 0.6 * before) << "and not alone";
+    EXPECT_LT(after, 0.95 * before);
+}
+
 TEST_F(Parts, GridLinesAreHiddenByTheModel) {
     const auto scene = ringAndBall();
     const View view = viewFor(*scene);
