@@ -14,7 +14,7 @@ namespace touchstone {
 namespace {
 
 // Layout units. A picture has its native size, so that no filter blurs it.
-constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 50.0f, kGap = 14.0f, kInset = 4.0f,
+constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 68.0f, kGap = 14.0f, kInset = 4.0f,
                 kGalleryMargin = 24.0f;
 constexpr ImU32 kCardGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255);
 
@@ -81,6 +81,17 @@ const char* signOf(const GalleryEntry& entry) {
     return "";
 }
 
+/// Broken between words into two lines at most; what goes on ends with an ellipsis.
+std::string inTwoLines(const std::string& text, float width) {
+    constexpr const char* kMore = " …";
+    std::string lines = brokenLines(text, width);
+    const size_t first = lines.find('\n');
+    if (first == std::string::npos || lines.find('\n', first + 1) == std::string::npos)
+        return lines;
+    lines = brokenLines(text, width - ImGui::CalcTextSize(kMore).x);
+    return lines.substr(0, lines.find('\n', lines.find('\n') + 1)) + kMore;
+}
+
 /// Its note or its location.
 std::string lineOf(const GalleryEntry& entry) {
     return !entry.note.empty() ? entry.note : entry.sample ? "" : entry.file.parent_path().string();
@@ -114,7 +125,7 @@ void drawCell(const PanelInput& input, size_t index, bool chosen, bool hovered, 
     draw.AddText(font, line, name,
                  entry.state == GalleryState::Missing ? grey : ImGui::GetColorU32(ImGuiCol_Text),
                  title.c_str(), nullptr, 0.0f, &clip);
-    const std::string note = lineOf(entry);
+    const std::string note = inTwoLines(lineOf(entry), to.x - name.x);
     draw.AddText(font, line, ImVec2(name.x, name.y + line + widgets.units(3.0f)), grey, note.c_str(), nullptr,
                  0.0f, &clip);
 }

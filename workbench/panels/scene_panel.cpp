@@ -13,6 +13,7 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kMaxNodes = 300; // in the tree; the rest is counted
+constexpr float kIndent = 12.0f;  // layout units, of a level
 
 /// The Scene node that is touched, or -1.
 int touchedNode(const PanelInput& input) {
@@ -35,9 +36,11 @@ class NodeTree {
     }
 
     void draw() {
+        ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, widgets_.units(kIndent));
         for (size_t i = 0; i < scene_.nodes.size(); ++i)
             if (scene_.nodes[i].parent < 0)
                 draw(i);
+        ImGui::PopStyleVar();
         if (scene_.nodes.size() > kMaxNodes)
             ImGui::TextDisabled("and %zu more", scene_.nodes.size() - kMaxNodes);
     }
@@ -50,8 +53,10 @@ class NodeTree {
         const std::string name = nodeLabel(scene_, static_cast<int>(node));
         ImGui::PushID(static_cast<int>(node));
         const bool hidden = isHidden(part_, static_cast<int>(node));
+        // Close together, but for the menu, which is a popup of its own.
+        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(widgets_.units(1.0f), 0.0f));
         eye(static_cast<int>(node), hidden);
-        ImGui::SameLine();
+        ImGui::SameLine(0.0f, widgets_.units(2.0f));
         const bool colored = touched || hidden;
         if (colored)
             ImGui::PushStyleColor(ImGuiCol_Text, hidden ? ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)
@@ -60,6 +65,7 @@ class NodeTree {
                                                               ImGuiTreeNodeFlags_SpanAvailWidth |
                                                               (leaf ? ImGuiTreeNodeFlags_Leaf : 0));
         widgets_.mark(("node:" + std::to_string(node)).c_str());
+        ImGui::PopStyleVar();
         if (colored)
             ImGui::PopStyleColor();
         if (ImGui::BeginPopupContextItem("object")) {
