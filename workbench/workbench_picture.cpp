@@ -36,6 +36,7 @@ void WorkbenchWindow::draw() {
     const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{
         .model = touch_.shown().model,
+        .name = hasModel() ? materials_.path().stem().string() : "", // that of the file it was saved as
         .tick = shownTick(),
         .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
         .settings = settings,

@@ -190,7 +190,7 @@ void browserKeys(FileDialog& dialog, bool& moved) {
         browser.moveChoice(step);
 }
 
-void drawBrowser(FileDialog& dialog, const WidgetRect& place, Widgets& widgets) {
+void drawBrowser(FileDialog& dialog, const WidgetRect& place, bool covered, Widgets& widgets) {
     const float margin = widgets.units(kMargin);
     ImGui::SetNextWindowPos(ImVec2(place.x + 0.5f * place.width, place.y + margin), ImGuiCond_Always,
                             ImVec2(0.5f, 0.0f));
@@ -198,7 +198,8 @@ void drawBrowser(FileDialog& dialog, const WidgetRect& place, Widgets& widgets) 
                                     std::min(widgets.units(kHeight), place.height - 2.0f * margin)));
     if (beginCardWindow("file browser", widgets, kAnsweredCard & ~ImGuiWindowFlags_AlwaysAutoResize)) {
         bool moved = false;
-        browserKeys(dialog, moved);
+        if (!covered)
+            browserKeys(dialog, moved);
         header(dialog, widgets);
         const float height = ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing();
         places(dialog.browser(), height, widgets);
@@ -211,7 +212,7 @@ void drawBrowser(FileDialog& dialog, const WidgetRect& place, Widgets& widgets) 
     ImGui::End();
 }
 
-void drawReplace(FileDialog& dialog, const WidgetRect& picture, Widgets& widgets) {
+void drawReplace(FileDialog& dialog, const WidgetRect& picture, bool covered, Widgets& widgets) {
     ImGui::SetNextWindowPos(ImVec2(picture.x + 0.5f * picture.width, picture.y + 0.4f * picture.height),
                             ImGuiCond_Always, ImVec2(0.5f, 0.5f));
     if (beginCardWindow("replace", widgets, kAnsweredCard)) {
@@ -220,7 +221,7 @@ void drawReplace(FileDialog& dialog, const WidgetRect& picture, Widgets& widgets
         const bool yes = ImGui::Button("Replace");
         widgets.mark("fileReplace");
         ImGui::SameLine();
-        const bool no = ImGui::Button("Another name (Escape)") || pressed(GLFW_KEY_ESCAPE);
+        const bool no = ImGui::Button("Another name (Escape)") || (!covered && pressed(GLFW_KEY_ESCAPE));
         widgets.mark("fileKeep");
         if (yes || no)
             dialog.replace(yes);
@@ -246,7 +247,7 @@ void drawWaiting(FileDialog& dialog, const WidgetRect& picture, Widgets& widgets
 
 } // namespace
 
-void drawFileDialog(FileDialog& dialog, const WidgetRect& place, const WidgetRect& picture,
+void drawFileDialog(FileDialog& dialog, const WidgetRect& place, const WidgetRect& picture, bool covered,
                     Widgets& widgets) {
     switch (dialog.stage()) {
     case FileDialog::Stage::Closed:
@@ -254,9 +255,9 @@ void drawFileDialog(FileDialog& dialog, const WidgetRect& place, const WidgetRec
     case FileDialog::Stage::Desktop:
         return drawWaiting(dialog, picture, widgets);
     case FileDialog::Stage::Browser:
-        return drawBrowser(dialog, place, widgets);
+        return drawBrowser(dialog, place, covered, widgets);
     case FileDialog::Stage::Replace:
-        return drawReplace(dialog, picture, widgets);
+        return drawReplace(dialog, picture, covered, widgets);
     }
 }
 

@@ -187,14 +187,11 @@ PixelData ModelPicture::drawAnew(const Frame& frame, const glm::ivec2& size, Sce
 
 bool ModelPicture::save(const Frame& frame, SceneRenderer& renderer) {
     if (std::exchange(frame.options.savePicture, false)) {
-        const std::string name = frame.model.scene != nullptr
-                                     ? std::filesystem::path(frame.model.scene->path).stem().string()
-                                     : "";
         const std::string view(frame.options.mode == ViewMode::Shaded ? ""
                                                                       : viewModeName(frame.options.mode));
         const glm::ivec2 chosen = frame.options.pictureSize,
                          size = chosen.x > 0 ? chosen : glm::ivec2(frame.place.width, frame.place.height);
-        controller_.save(view.empty() ? name : name + "-" + view,
+        controller_.save(view.empty() ? frame.name : frame.name + "-" + view,
                          [&] { return drawAnew(frame, size, renderer); });
     }
     return controller_.update();

@@ -6,6 +6,8 @@
 #include "workbench/screen/picture_controller.h"
 #include "workbench/screen/view_legend.h"
 
+#include <string>
+
 namespace touchstone {
 
 /// The picture of the model with the overlays of the latest tick, legend and magnifier. Main thread.
@@ -16,6 +18,7 @@ class ModelPicture {
 
     struct Frame {
         const Model& model; ///< its scene may be null
+        std::string name;   ///< of a saved picture, without its ending
         const TickRecord& tick;
         bool tickBelongs = true; ///< to the model; otherwise nothing of it is drawn
         const HapticSettings& settings;

@@ -121,14 +121,17 @@ void closeTopPopup(const PanelState& state) {
 
 /// Escape closes the topmost item.
 void escape(const PanelInput& input, PanelState& state) {
+    // Help lies over the browser, whose text field has the keyboard.
+    if (state.help && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !ImGui::IsPopupOpen("", kAnyPopup)) {
+        state.help = false;
+        return;
+    }
     if (!keyPressed(GLFW_KEY_ESCAPE))
         return;
     if (ImGui::IsPopupOpen("", kAnyPopup))
         closeTopPopup(state);
     else if (input.dialog->covers())
         return; // it reads its keys itself
-    else if (state.help)
-        state.help = false;
     else if (state.leaving)
         state.leave = PanelState::Leave::Stay;
     else if (input.dialog->stage() == FileDialog::Stage::Desktop)
@@ -326,6 +329,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     Widgets widgets(input.scale, &state.hovered);
     if (state.hovered.frame + 1 < ImGui::GetFrameCount())
         state.hovered.shown.clear();
+    const bool helped = state.help; // before Escape puts it away
     effectKeys(state);
     escape(input, state);
     answerKeys(input, state);
@@ -365,7 +369,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawGallery(input, state, {0.0f, picture.y, display.x, display.y - picture.y}, widgets);
     drawFileDialog(*input.dialog, {0.0f, picture.y, display.x, display.y - picture.y},
-                   {picture.x, picture.y, picture.width, picture.height}, widgets);
+                   {picture.x, picture.y, picture.width, picture.height}, helped, widgets);
     drawHelp(input, state, widgets);
     return widgets.take();
 }

@@ -58,6 +58,19 @@ TEST_F(DialogWindow, AMeshIsChosenInTheBrowserAndAProblemLeavesItThere) {
     expectCleanEnd();
 }
 
+TEST_F(DialogWindow, EscapePutsAwayTheHelpOverTheBrowserFirst) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    browse();
+    display_.key("F1");
+    until("the help", [](const Json& s) { return s["help"] == true; });
+    display_.key("Escape");
+    until("no help", [](const Json& s) { return s["help"] == false; });
+    EXPECT_TRUE(later()["widgets"].contains("openPath")) << "the browser lay below it";
+    display_.key("Escape");
+    until("no browser", [](const Json& s) { return !s["widgets"].contains("openPath"); });
+    expectCleanEnd();
+}
+
 TEST_F(DialogWindow, AMeshIsDroppedAndSavedAsAGlb) {
     open(TOUCHSTONE_ASSETS "/box.glb");
     display_.drop("Touchstone", scratch_ / "Ring.STL");
@@ -69,10 +82,16 @@ TEST_F(DialogWindow, AMeshIsDroppedAndSavedAsAGlb) {
     display_.key("ctrl+s"); // an STL has no place for it
     until("the name to be asked for", [](const Json& s) { return s["widgets"].contains("openPath"); });
     later();
+    display_.key("ctrl+a");
+    display_.xdotool({"type", "--delay", "20", "Bell.glb"});
+    later();
     display_.key("Return");
-    until("the new name", [](const Json& s) { return s["model"] == "Ring.glb"; });
-    EXPECT_TRUE(readFile(scratch_ / "Ring.glb").starts_with("glTF"));
-    EXPECT_TRUE(readFile(scratch_ / "Ring.glb").find("TOUCHSTONE_materials_haptic") != std::string::npos);
+    until("the new name", [](const Json& s) { return s["model"] == "Bell.glb"; });
+    display_.key("F12");
+    until("a picture of the new name",
+          [&](const Json& s) { return s["view"]["picture"].get<std::string>().ends_with("/Bell-1.png"); });
+    EXPECT_TRUE(readFile(scratch_ / "Bell.glb").starts_with("glTF"));
+    EXPECT_TRUE(readFile(scratch_ / "Bell.glb").find("TOUCHSTONE_materials_haptic") != std::string::npos);
     expectCleanEnd();
 }
 
