@@ -1,5 +1,6 @@
 // Pictures by the command line: sizes, formats and cameras.
 
+#include "tests/screenshot/golden.h"
 #include "tests/support/gltf_maker.h"
 #include "tests/support/program.h"
 #include "tests/unit/workbench/picture_size.h"
@@ -119,6 +120,21 @@ class Render : public testing::Test {
             }
         return missed / (160.0 * 120.0);
     }
+    /// Four pictures a row, one for each choice of options.
+    PixelData sheet(const std::vector<std::vector<std::string>>& choices) {
+        constexpr int kColumns = 4, kWidth = 160, kHeight = 120;
+        const int rows = (static_cast<int>(choices.size()) + kColumns - 1) / kColumns;
+        PixelData all{.width = kColumns * kWidth, .height = rows * kHeight, .channels = 4, .bytes = {}};
+        all.bytes.assign(static_cast<size_t>(4 * all.width * all.height), std::byte{255});
+        for (size_t i = 0; i < choices.size(); ++i) {
+            const OIIO::ImageBuf one = pixelsOf(choices[i]);
+            const auto column = static_cast<int>(i) % kColumns, row = static_cast<int>(i) / kColumns;
+            std::byte* const corner = all.bytes.data() + 4 * (row * kHeight * all.width + column * kWidth);
+            EXPECT_TRUE(one.get_pixels({0, kWidth, 0, kHeight, 0, 1, 0, 4}, OIIO::TypeDesc::UINT8, corner, 4,
+                                       4 * all.width));
+        }
+        return all;
+    }
     void expectRefused(const std::vector<std::string>& more, const std::vector<std::string>& words) {
         const ProgramResult result = render(more, "refused.png");
         EXPECT_EQ(result.status, 1) << result.err;
@@ -133,6 +149,13 @@ class Render : public testing::Test {
 };
 
 const std::vector<std::string> kPlaced{"--camera-position", "2,1.5,3", "--look-at", "0.5,0.5,0"};
+
+/// kPlaced and further options.
+std::vector<std::string> placedWith(const std::vector<std::string>& more) {
+    std::vector<std::string> words = kPlaced;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
 
 TEST_F(Render, WritesThePictureInTheSizeAskedFor) {
     const std::string shaded = (scratch_ / "a.png").string(), height = (scratch_ / "b.png").string();
@@ -194,6 +217,29 @@ TEST_F(Render, EveryOptionOfACameraChangesThePicture) {
     // Without a target the model's centre: from (0, 0, 0) to (1, 1, 0.7) here.
     EXPECT_EQ(picture({"--camera-position", "3,4,5"}),
               picture({"--camera-position", "3,4,5", "--look-at", "0.5,0.5,0.35"}));
+}
+
+/// Every way to choose a camera, as we looked at it.
+TEST_F(Render, CamerasAgainstTheirGoldenPictures) {
+    std::vector<std::vector<std::string>> choices{{"--camera", "lens"},
+                                                  {"--camera", "1"},
+                                                  kPlaced,
+                                                  placedWith({"--up", "1,0.3,0"}),
+                                                  placedWith({"--fov", "60"})};
+    for (const char* side : {"default", "front", "back", "right", "left", "top", "bottom"})
+        choices.push_back({"--from", side});
+    expectMatchesGolden("render_cameras", sheet(choices));
+    const std::pair<size_t, std::vector<std::string>> mistakes[]{
+        {0, {"--camera", "1"}},
+        {3, placedWith({"--up", "1,0.2,0"})},
+        {4, placedWith({"--fov", "57"})},
+        {8, {"--from", "left"}},
+    };
+    for (const auto& [place, other] : mistakes) {
+        std::vector<std::vector<std::string>> wrong = choices;
+        wrong[place] = other;
+        expectMutationIsSeen("render_cameras", other.back(), sheet(wrong));
+    }
 }
 
 TEST_F(Render, SeesTheModelFromEverySide) {
