@@ -81,7 +81,8 @@ void ForceFigure::draw(const std::filesystem::path& file, const std::string& sub
             StackedPanel& panel = figure.panels[p];
             const double most = static_cast<double>(std::ranges::max(values));
             panel.high = std::max({i == 0 ? 0.1 : panel.high, 1.08 * most});
-            panel.curves.push_back({.title = touches_[i].title, .column = 2 + 2 * i + p, .mark = i});
+            panel.curves.push_back(
+                {.title = p == 0 ? touches_[i].title : "", .column = 2 + 2 * i + p, .mark = i});
         }
     const std::string problem = // "FILE: why"
         study::draw(stacked(std::move(figure), study::provenanceOf("replay")), file.parent_path(), "gnuplot",

@@ -11,10 +11,9 @@ namespace {
 constexpr double kPanelHeight = 180.0, kPanelGap = 52.0; // pixels of the page
 constexpr double kHead = 90.0, kFoot = 92.0;
 
-std::string rangeOf(const char* axis, const char* format, double low, double high) {
-    std::array<char, 64> range{}, text{};
-    std::snprintf(range.data(), range.size(), format, low, high);
-    std::snprintf(text.data(), text.size(), "set %srange [%s]\n", axis, range.data());
+std::string rangeOf(char axis, int digits, double low, double high) {
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "set %crange [%.*g:%.*g]\n", axis, digits, low, digits, high);
     return text.data();
 }
 
@@ -50,10 +49,10 @@ study::Figure stacked(StackedFigure figure, const study::Provenance& where) {
         std::snprintf(margins.data(), margins.size(),
                       "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
                       paper.area.top / paper.height, paper.area.bottom / paper.height);
-        drawn.script += margins.data() + rangeOf("x", "%.4f:%.4f", figure.begin, figure.end) +
+        drawn.script += margins.data() + rangeOf('x', 9, figure.begin, figure.end) +
                         "set key at graph 1,1.03 right bottom horizontal maxrows 1 samplen 2 spacing 1.2\n" +
-                        rangeOf("y", "%.6g:%.6g", panel.low, panel.high) + "set ylabel " +
-                        study::inQuotes(panel.axis) + " offset 0.5,0\n" +
+                        rangeOf('y', 6, panel.low, panel.high) + "set ylabel " + study::inQuotes(panel.axis) +
+                        " offset 0.5,0\n" +
                         (p + 1 == figure.panels.size()
                              ? "set format x '%g'\nset xlabel " + study::inQuotes(figure.timeAxis) + "\n"
                              : "set format x ''\n") +

@@ -74,7 +74,7 @@ void places(FileBrowser& browser, float height, Widgets& widgets) {
 }
 
 /// Why the list is empty or short; empty: no reason to tell.
-std::string noteOf(const FileBrowser& browser) {
+std::string emptyNoteOf(const FileBrowser& browser) {
     if (browser.reading())
         return "reading ...";
     if (!browser.contents().problem.empty())
@@ -118,7 +118,7 @@ bool row(FileBrowser& browser, size_t index, Widgets& widgets) {
 bool list(FileBrowser& browser, float height, bool moved, Widgets& widgets) {
     bool opened = false;
     ImGui::BeginChild("list", ImVec2(0.0f, height), true);
-    const std::string note = noteOf(browser);
+    const std::string note = emptyNoteOf(browser);
     if (!note.empty())
         ImGui::TextWrapped("%s", note.c_str());
     if (ImGui::BeginTable("files", 2)) {

@@ -333,19 +333,21 @@ void drawNear(TimelineController& controller, TimelinePanelState& state, float h
     strip.labelRight(0, kForce, text);
     const TouchAgain& again = controller.again();
     const size_t cursor = at.cursor();
+    int row = 1;
+    const auto value = [&](const char* name, ImU32 color, float newton) {
+        if (static_cast<float>(row + 1) * ImGui::GetTextLineHeight() >
+            height + ImGui::GetStyle().ItemSpacing.y)
+            return; // it would lie over the line below
+        std::snprintf(text, sizeof text, "%.3f N", static_cast<double>(newton));
+        strip.label(row, color, name);
+        strip.labelRight(row++, color, text);
+    };
     if (cursor >= again.first() && cursor - again.first() < again.force().size() &&
-        !std::isnan(again.force()[cursor - again.first()])) {
-        std::snprintf(text, sizeof text, "%.3f N",
-                      static_cast<double>(again.force()[cursor - again.first()]));
-        strip.label(1, kAgain, "again");
-        strip.labelRight(1, kAgain, text);
-    }
+        !std::isnan(again.force()[cursor - again.first()]))
+        value("again", kAgain, again.force()[cursor - again.first()]);
     if (const ComparedTouch* const compared = controller.comparison().result();
-        compared != nullptr && cursor < compared->force.size()) {
-        std::snprintf(text, sizeof text, "%.3f N", static_cast<double>(compared->force[cursor]));
-        strip.label(2, kCompared, "now");
-        strip.labelRight(2, kCompared, text);
-    }
+        compared != nullptr && cursor < compared->force.size())
+        value("now", kCompared, compared->force[cursor]);
     ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + height));
 }
 
