@@ -14,7 +14,7 @@ namespace touchstone {
 namespace {
 
 // Layout units. A picture has its native size, so that no filter blurs it.
-constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 68.0f, kGap = 14.0f, kInset = 4.0f,
+constexpr float kPictureWidth = 208.0f, kPictureHeight = 130.0f, kLines = 60.0f, kGap = 14.0f, kInset = 4.0f,
                 kGalleryMargin = 24.0f;
 constexpr ImU32 kCardGround = IM_COL32(44, 48, 54, 255), kHovered = IM_COL32(60, 68, 80, 255);
 

@@ -70,8 +70,8 @@ void transport(TimelineController& controller, Widgets& widgets) {
 void examination(TimelineController& controller, Widgets& widgets) {
     char label[48] = "Verify";
     if (controller.verifying())
-        std::snprintf(label, sizeof label, "Cancel (%.0f %%)", 100.0 * controller.verifyingFraction());
-    if (button((std::string(label) + "##verify").c_str(), "verify", widgets, "Cancel (100 %)")) {
+        std::snprintf(label, sizeof label, "Stop %.0f %%", 100.0 * controller.verifyingFraction());
+    if (button((std::string(label) + "##verify").c_str(), "verify", widgets, "Stop 100 %")) {
         if (controller.verifying())
             controller.cancelVerifying();
         else
@@ -139,15 +139,16 @@ News newsOf(const TimelineController& controller) {
             ImGui::GetColorU32(ImGuiCol_TextDisabled)};
 }
 
-/// As many lines as needed, two at most; the rest is cut off and shown in the tooltip.
-float heightOf(const News& news) {
-    const float wrap = ImGui::GetContentRegionAvail().x;
-    return std::min(ImGui::CalcTextSize(news.text.c_str(), nullptr, false, wrap).y,
-                    2.0f * ImGui::GetTextLineHeight());
+/// As many lines as needed, two at most, one where the strips would have no room; the rest is cut off and
+/// shown in the tooltip.
+float heightOf(const News& news, float strips) {
+    const float wrap = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+    const float most = ImGui::GetContentRegionAvail().y - strips < 2.0f * line ? line : 2.0f * line;
+    return std::min(ImGui::CalcTextSize(news.text.c_str(), nullptr, false, wrap).y, most);
 }
 
-void tell(const News& news, const TimelineController& controller, Widgets& widgets) {
-    const ImVec2 at = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, heightOf(news));
+void tell(const News& news, float height, const TimelineController& controller, Widgets& widgets) {
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, height);
     const ImVec4 clip(at.x, at.y, at.x + size.x, at.y + size.y);
     ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, news.color,
                                         news.text.c_str(), nullptr, size.x, &clip);
@@ -201,13 +202,14 @@ void drawTimeline(TimelineController& controller, TimelinePanelState& state, Wid
     ImGui::PopStyleVar();
     const float gap = ImGui::GetStyle().ItemSpacing.y;
     const News news = newsOf(controller);
-    const float room = ImGui::GetContentRegionAvail().y - heightOf(news) - 2.0f * gap;
+    const float newsHeight = heightOf(news, widgets.units(2.0f * 24.0f) + 2.0f * gap);
+    const float room = ImGui::GetContentRegionAvail().y - newsHeight - 2.0f * gap;
     const float overview = std::clamp(0.5f * room, widgets.units(24.0f), widgets.units(44.0f));
     drawOverview(controller, overview, widgets);
     ImGui::Dummy(ImVec2(0.0f, 0.0f));
     drawNear(controller, state, std::max(room - overview, widgets.units(24.0f)), widgets);
     ImGui::Dummy(ImVec2(0.0f, 0.0f));
-    tell(news, controller, widgets);
+    tell(news, newsHeight, controller, widgets);
 }
 
 void drawLookingCard(TimelineController& controller, const WidgetRect& picture, Widgets& widgets) {
