@@ -116,7 +116,7 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 15) << "ten swatches, three effects, a doughnut and a virtual bump";
+    EXPECT_EQ(materials, 16) << "ten swatches, three effects, a doughnut, a virtual bump and a field torus";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,

@@ -100,7 +100,11 @@ void expectTheSameForAllChanges(const std::filesystem::path& path) {
                     const auto height = next.height;
                     const auto friction = next.friction, stiffness = next.stiffnessMap,
                                damping = next.dampingMap;
+                    const auto implicit = next.implicit; // another representation is another geometry
+                    const auto voxelSize = next.voxelSize;
                     next = HapticStatement{};
+                    next.implicit = implicit;
+                    next.voxelSize = voxelSize;
                     next.height = height;
                     next.friction = friction;
                     next.stiffnessMap = stiffness;
