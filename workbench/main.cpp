@@ -1,4 +1,5 @@
 #include "engine/core/error.h"
+#include "haptics/scene/shape_object.h"
 #include "workbench/command_line.h"
 
 #include <csignal>
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit is a write error and must not end the process
     std::signal(SIGCHLD, SIG_DFL); // a parent that ignored it would leave us without our children's status
     try {
+        keepFieldsIn(FieldCache::usual());
         int status = 0;
         const std::optional<Command> command = parseCommandLine(argc, argv, status);
         if (!command)

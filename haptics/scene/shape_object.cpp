@@ -17,16 +17,10 @@ namespace touchstone {
 
 namespace {
 
-/// m, workspace: how deep a device pushes, and the largest ball (the panel's largest proxy radius, and what
-/// counts as near a model), with room.
-struct Depths {
-    double inside = 0.0, outside = 0.0;
-};
-
-Depths depths() {
-    constexpr double kRoom = 1.5, kLargestBall = 5e-3;
-    const DeviceLimits limits;
-    return {kRoom * limits.maxForce / limits.recommendedStiffness, kRoom * kLargestBall};
+/// Of the process.
+FieldCache& fieldCache() {
+    static FieldCache cache({}, 0);
+    return cache;
 }
 
 std::shared_ptr<HapticObject> objectOf(std::string name, std::shared_ptr<const Shape> shape, int material,
@@ -44,6 +38,16 @@ std::shared_ptr<HapticObject> objectOf(std::string name, std::shared_ptr<const S
 }
 
 } // namespace
+
+void keepFieldsIn(const FieldCache& cache) {
+    fieldCache() = cache;
+}
+
+FieldDepths fieldDepths() {
+    constexpr double kRoom = 1.5, kLargestBall = 5e-3;
+    const DeviceLimits limits;
+    return {kRoom * limits.maxForce / limits.recommendedStiffness, kRoom * kLargestBall};
+}
 
 int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> shape, int material,
              const Similarity& workspaceFromObject) {
@@ -72,8 +76,8 @@ std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
     if (use.voxelSize > 0.0f)
         request.voxel = static_cast<double>(use.voxelSize) * objectPerModel;
     const double scale = mesh.workspaceFromObject.scale;
-    request.inside = std::min(kDeepest, depths().inside / scale);
-    request.outside = std::clamp(depths().outside / scale, request.outside, kFarthest);
+    request.inside = std::min(kDeepest, fieldDepths().inside / scale);
+    request.outside = std::clamp(fieldDepths().outside / scale, request.outside, kFarthest);
     const double finest = finestVoxel(mesh, request.outside);
     if (request.voxel < finest || request.voxel > kCoarsest) {
         const FieldRequest usual;
@@ -86,8 +90,8 @@ std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
         request.voxel = usual.voxel;
     }
     const auto object =
-        objectOf(mesh.name, std::make_shared<FieldShape>(fieldOfMesh(mesh, request, progress)), mesh.material,
-                 mesh.workspaceFromObject);
+        objectOf(mesh.name, std::make_shared<FieldShape>(fieldOfMesh(mesh, request, fieldCache(), progress)),
+                 mesh.material, mesh.workspaceFromObject);
     object->instance = mesh.instance;
     object->objectFromMesh = mesh.objectFromMesh;
     return object;
@@ -100,9 +104,9 @@ std::shared_ptr<const HapticObject> volumeObject(const Scene& scene, int instanc
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(instance)].mesh)];
     const double scale = workspaceFromScene.scale;
     const glm::dvec3 sides = scene.volume->bounds().extent();
-    const FieldReach reach{
-        .inside = depths().inside / scale,
-        .outside = std::min(depths().outside / scale, kFarthest * std::max({sides.x, sides.y, sides.z}))};
+    const FieldReach reach{.inside = fieldDepths().inside / scale,
+                           .outside = std::min(fieldDepths().outside / scale,
+                                               kFarthest * std::max({sides.x, sides.y, sides.z}))};
     const VolumeField field = fieldOfVolume(*scene.volume, scene.iso, reach, scene.path, progress);
     if (field.coarser > 1.0)
         warnings.push_back({"volume", "is felt with voxels " + std::to_string(field.coarser) +

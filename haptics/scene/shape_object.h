@@ -1,6 +1,7 @@
 #pragma once
 
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/shape/field/field_cache.h"
 
 #include <memory>
 #include <string>
@@ -15,10 +16,21 @@ namespace touchstone {
 int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> shape, int material,
              const Similarity& workspaceFromObject);
 
+/// m, workspace: how far from its surface a field tells distances. Inside 1.5 times as deep as the greatest
+/// force of the default limits pushes; outside the largest ball (the panel's largest proxy radius, and what
+/// counts as near a model) with the same room.
+struct FieldDepths {
+    double inside = 0.0, outside = 0.0;
+};
+[[nodiscard]] FieldDepths fieldDepths();
+
+/// Where fieldObject looks for fields of earlier runs and keeps its own; none until this is called. Main
+/// thread, before the first scene is compiled.
+void keepFieldsIn(const FieldCache& cache);
+
 /// The object of a mesh that is felt as its distance field (`use.implicit`): voxels of use.voxelSize, or a
 /// 128th of the longest side where none is stated or where it would need too many cells, with a warning; as
-/// deep as 1.5 times the greatest force of the default limits pushes it in. Not for the servo thread. Throws
-/// Error, which names the mesh, and Cancelled.
+/// deep as fieldDepths(). Not for the servo thread. Throws Error, which names the mesh, and Cancelled.
 [[nodiscard]] std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
                                                               const Similarity& workspaceFromScene,
                                                               const ObjectUse& use, const Progress& progress,

@@ -48,6 +48,7 @@ class FieldGrid {
     FieldGrid(const FieldLayout& layout, double inside, double outside, const FillBrick& fill);
 
     [[nodiscard]] const FieldLayout& layout() const noexcept { return layout_; }
+    [[nodiscard]] double inside() const noexcept { return inside_; }
     [[nodiscard]] double outside() const noexcept { return outside_; }
     /// At least |f(a) - f(b)| / |a - b| for all a, b.
     [[nodiscard]] double lipschitz() const noexcept { return lipschitz_; }
@@ -72,6 +73,9 @@ class FieldGrid {
     [[nodiscard]] FieldCell cell(const glm::ivec3& at) const noexcept;
     /// The value that all nodes of the cell's brick have; NaN where they differ.
     [[nodiscard]] float flatBrick(const glm::ivec3& cell) const noexcept;
+
+    /// All nodes (kBrickNodes) of the brick that contains the cell.
+    void copyBrick(const glm::ivec3& cell, std::span<float> nodes) const noexcept;
 
     [[nodiscard]] uint32_t numberOf(const glm::ivec3& cell) const noexcept;
     [[nodiscard]] glm::ivec3 cellOf(uint32_t number) const noexcept;

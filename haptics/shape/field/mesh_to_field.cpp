@@ -1,5 +1,6 @@
 #include "haptics/shape/field/mesh_to_field.h"
 
+#include "engine/core/checksum.h"
 #include "engine/core/error.h"
 
 #include <openvdb/tools/MeshToVolume.h>
@@ -126,6 +127,40 @@ std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const Fie
             return solid;
     }
     return gridOf(soup, layout, request, false, progress.part(0.6, 1.0));
+}
+
+namespace {
+
+/// Of all that the field depends on; kBuilder: of this file.
+uint64_t keyOf(const HapticObject& mesh, const FieldRequest& request) {
+    constexpr int kBuilder = 1;
+    Hash64 hash;
+    hash.add(kBuilder);
+    hash.add(FieldGrid::kBrick);
+    hash.add(openvdb::OPENVDB_LIBRARY_VERSION);
+    hash.add(mesh.closed);
+    for (const double number : {request.voxel, request.inside, request.outside})
+        hash.add(number);
+    hash.add(mesh.vertices.size());
+    for (const glm::vec3& v : mesh.vertices)
+        for (int axis = 0; axis < 3; ++axis)
+            hash.add(v[axis]);
+    hash.add(mesh.indices.size());
+    for (const uint32_t index : mesh.indices)
+        hash.add(index);
+    return hash.value();
+}
+
+} // namespace
+
+std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const FieldRequest& request,
+                                             const FieldCache& cache, const Progress& progress) {
+    const uint64_t key = keyOf(mesh, request);
+    if (auto kept = cache.find(key))
+        return kept;
+    auto built = fieldOfMesh(mesh, request, progress);
+    cache.keep(key, *built);
+    return built;
 }
 
 } // namespace touchstone

@@ -2,6 +2,7 @@
 // The distance field of a mesh, by OpenVDB. Not for the servo thread.
 
 #include "engine/core/progress.h"
+#include "haptics/shape/field/field_cache.h"
 #include "haptics/shape/field/field_grid.h"
 #include "haptics/shape/mesh/haptic_object.h"
 
@@ -22,6 +23,12 @@ struct FieldRequest {
 /// kMostFieldCells cells (the message tells by how much the voxel is too small); Cancelled.
 [[nodiscard]] std::shared_ptr<const FieldGrid>
 fieldOfMesh(const HapticObject& mesh, const FieldRequest& request, const Progress& progress = {});
+
+/// The same bits, out of `cache` where it has them; else they are built and kept there.
+[[nodiscard]] std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh,
+                                                           const FieldRequest& request,
+                                                           const FieldCache& cache,
+                                                           const Progress& progress = {});
 
 /// The smallest voxel with which the mesh's field has at most kMostFieldCells cells.
 [[nodiscard]] double finestVoxel(const HapticObject& mesh, double outside);
