@@ -84,6 +84,27 @@ void visitFields(Visitor& visit, RateResult& r) {
 }
 
 template <class Visitor>
+void visitFields(Visitor& visit, VoxelResult& v) {
+    visit("shape", "", v.shape);
+    visit("source", "", v.source);
+    visit("method", "", v.method);
+    visit("triangles", "", v.triangles);
+    visit("voxels_across_diagonal", "", v.across);
+    visit("voxel", "m", v.voxel);
+    visit("memory", "bytes", v.memory);
+    visit("build", "s", v.build);
+    visit("position_error_mean", "m", v.meanPosition);
+    visit("position_error", "m", v.position);
+    visit("surface_error_mean", "m", v.meanSurface);
+    visit("surface_error_max", "m", v.maxSurface);
+    visit("force_direction_error", "rad", v.direction);
+    visit("contact_lost_share", "", v.contactLost);
+    visit("step_median", "ns", v.step);
+    visit("step_p99", "ns", v.stepP99);
+    visit("ray_floor", "ns", v.rayFloor);
+}
+
+template <class Visitor>
 void visitFields(Visitor& visit, JustNoticeable& j) {
     visit("quantity", "", j.quantity);
     visit("unit", "", j.unit);
@@ -110,6 +131,7 @@ void visitFields(Visitor& visit, StudyResult& s) {
     visit("noticeable", "", s.noticeable);
     visit("rungs", "", s.configurations);
     visit("rates", "", s.rates);
+    visit("voxels", "", s.voxels);
     visit("problems", "", s.problems);
     visit("notes", "", s.notes);
 }

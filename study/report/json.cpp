@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "touchstone study";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 std::string keyOf(std::string_view name, std::string_view unit) {
     return std::string(name) + (unit.empty() ? "" : "_" + std::string(unit));

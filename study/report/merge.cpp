@@ -30,6 +30,10 @@ ConfigurationKey rungKey(const ConfigurationResult& r) {
 double rateKey(const RateResult& r) {
     return r.rateHz;
 }
+using VoxelKey = std::tuple<std::string, std::string, std::string, size_t, double>;
+VoxelKey voxelKey(const VoxelResult& v) {
+    return {v.shape, v.source, v.method, v.triangles, v.across};
+}
 std::string noticeableKey(const JustNoticeable& j) {
     return j.quantity + "\n" + j.source;
 }
@@ -40,6 +44,7 @@ StudyResult mergeStudies(std::span<const StudyResult> shards) {
     StudyResult all;
     std::set<ConfigurationKey> configurations;
     std::set<double> rates;
+    std::set<VoxelKey> voxels;
     std::set<std::string> noticeable, strangers;
     if (!shards.empty()) {
         all.provenance = shards.front().provenance;
@@ -58,6 +63,10 @@ StudyResult mergeStudies(std::span<const StudyResult> shards) {
         append(all.rates, shard.rates, rates, rateKey, [&](const RateResult& r) {
             all.problems.push_back("the servo rate of " + std::to_string(std::lround(r.rateHz)) +
                                    " Hz was measured twice; the first one counts");
+        });
+        append(all.voxels, shard.voxels, voxels, voxelKey, [&](const VoxelResult& v) {
+            all.problems.push_back(v.shape + ", " + v.source + ", " + v.method +
+                                   ": its voxels were measured twice; the first ones count");
         });
         all.problems.insert(all.problems.end(), shard.problems.begin(), shard.problems.end());
         all.notes.insert(all.notes.end(), shard.notes.begin(), shard.notes.end());

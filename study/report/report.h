@@ -10,8 +10,8 @@
 
 namespace touchstone::study {
 
-/// One row per configuration; the column's name contains the unit, numbers have full precision. The rates and
-/// the provenance are in the JSON only. Throws Error where the file cannot be written.
+/// One row per configuration; the column's name contains the unit, numbers have full precision. The rates,
+/// the voxels and the provenance are in the JSON only. Throws Error where the file cannot be written.
 void writeStudyCsv(const StudyResult& result, const std::filesystem::path& file);
 
 /// Everything. `readStudyJson` restores `result` bitwise (except names that are not UTF-8). Throws Error

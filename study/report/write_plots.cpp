@@ -14,8 +14,8 @@ PlotsWritten writeStudyPlots(const StudyResult& result, const std::filesystem::p
         throw Error(folder.string(), "", "cannot be made: " + error.message(),
                     "choose a folder that you may write to");
     PlotsWritten written;
-    for (const auto& kind :
-         {errorOverTime, costByStage, costOverTriangles, errorOverTessellation, stabilityOverRate})
+    for (const auto& kind : {errorOverTime, costByStage, costOverTriangles, errorOverTessellation,
+                             stabilityOverRate, errorOverVoxel})
         for (Figure& figure : kind(result)) {
             const std::string problem = draw(figure, folder, gnuplot);
             if (problem.empty())

@@ -86,6 +86,32 @@ struct RateResult {
     bool operator==(const RateResult&) const = default;
 };
 
+/// VoxelResult::source.
+inline constexpr const char *kFromClosedForm = "closed form", *kFromMesh = "mesh";
+
+/// A shape felt as a distance field of one voxel size, or, to compare with, as its mesh.
+struct VoxelResult {
+    std::string shape;    ///< "torus"
+    std::string source;   ///< of the nodes: kFromClosedForm or kFromMesh
+    std::string method;   ///< "sweep", "virtual point, tricubic", …; "mesh" where no field is touched
+    size_t triangles = 0; ///< of the source, or of the mesh that is touched
+    double across = 0.0;  ///< voxels on the diagonal of the shape's box; 0: no field
+    double voxel = 0.0;   ///< m
+    double memory = 0.0;  ///< bytes, of the field
+    double build = 0.0;   ///< s, of the field
+    /// Proxy from the truth's over the ticks in which both touch, m. The truth of nodes out of the closed
+    /// form is the closed form; that of nodes out of a mesh is the proxy on the mesh.
+    double meanPosition = 0.0;
+    Spread position;
+    double meanSurface = 0.0, maxSurface = 0.0; ///< m, proxy from the closed form's surface, over the same
+    Spread direction;                           ///< rad, force from the truth's
+    double contactLost = 0.0;                   ///< fraction of the truth's contact ticks
+    Estimate step;                              ///< ns, median over contact ticks
+    double stepP99 = 0.0;                       ///< ns
+    double rayFloor = 0.0;                      ///< ns, of an Embree ray; 0 on a field
+    bool operator==(const VoxelResult&) const = default;
+};
+
 /// A just-noticeable difference and its source.
 struct JustNoticeable {
     std::string quantity, unit, source;
@@ -105,6 +131,7 @@ struct StudyResult {
     std::vector<JustNoticeable> noticeable;
     std::vector<ConfigurationResult> configurations;
     std::vector<RateResult> rates;
+    std::vector<VoxelResult> voxels;
     std::vector<std::string> problems; ///< models that could not be studied: file and reason
     std::vector<std::string>
         notes; ///< configurations left out because they make no difference there, and similar remarks

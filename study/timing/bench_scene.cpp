@@ -2,6 +2,7 @@
 
 #include "assets/cut_torus.h"
 #include "assets/shapes.h"
+#include "haptics/scene/shape_object.h"
 
 #include <algorithm>
 #include <array>
@@ -244,6 +245,13 @@ BenchScene torusScene(size_t triangles) {
 
 BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke) {
     return {std::move(name), compile(std::move(shape), {glm::dvec3(0.0)}), std::move(stroke), nullptr};
+}
+
+BenchScene fieldScene(std::string name, std::shared_ptr<const Shape> shape,
+                      const Similarity& workspaceFromObject, BenchStroke stroke) {
+    const std::shared_ptr<HapticScene> haptic = copyOf(*compileHapticScene(plainScene(), Similarity{}));
+    addShape(*haptic, name, std::move(shape), 0, workspaceFromObject);
+    return {std::move(name), haptic, std::move(stroke), nullptr};
 }
 
 BenchScene reliefScene(std::string name, assets::Shape shape, BenchStroke stroke, int side, double scale,

@@ -44,6 +44,10 @@ struct BenchScene {
 /// Any shape, unscaled, with a given stroke.
 [[nodiscard]] BenchScene shapeScene(std::string name, assets::Shape shape, BenchStroke stroke);
 
+/// A shape that is no mesh, alone, with a default material.
+[[nodiscard]] BenchScene fieldScene(std::string name, std::shared_ptr<const Shape> shape,
+                                    const Similarity& workspaceFromObject, BenchStroke stroke);
+
 /// A height over texture coordinates in 0..1, 0..1, as a fraction of `scale`.
 using BenchHeight = std::function<double(double u, double v)>;
 

@@ -134,8 +134,9 @@ class Turn {
     void castRays(ConfigurationTimes& times) {
         float sum = 0.0f;
         for (const Touched& t : touched_) {
-            if (t.object < 0)
-                continue;
+            if (t.object < 0 ||
+                configuration_.scene->haptic->objects[static_cast<size_t>(t.object)]->shape != nullptr)
+                continue; // rays are cast at triangles
             const long long begin = monotonicNs();
             sum += castFloorRay(*configuration_.scene->haptic, t.object, t.pose, t.proxy, t.hip);
             times.ray.add(monotonicNs() - begin);

@@ -9,6 +9,7 @@
 #include "study/report/report.h"
 #include "study/result/provenance.h"
 #include "study/study.h"
+#include "study/voxel/voxel_study.h"
 #include "workbench/options/commands.h"
 
 #include <unistd.h>
@@ -49,8 +50,8 @@ class Bar {
     bool shown_;
 };
 
-/// A subject that is not a shape: the servo rate.
-constexpr const char* kRate = "rate";
+/// Subjects that are no shapes: the servo rate, and the voxels of distance fields.
+constexpr const char *kRate = "rate", *kVoxel = "voxel";
 
 const ShapeKind* kindNamed(const std::string& name) {
     for (const ShapeKind& kind : shapeKinds())
@@ -79,6 +80,10 @@ void printAblations() {
         "%s: how often the servo ticks: the stiffest stable wall, energy and processor at 0.5, 1, 2, 4 kHz; "
         "an ablation without a scene, named like a shape\n",
         kRate);
+    std::printf(
+        "%s: how large the voxels of a distance field are: sphere, torus, box and groove at 1/64 to 1/512 "
+        "of their diagonals (--finest), trilinear and tricubic, beside their meshes\n",
+        kVoxel);
     std::printf("shapes:\n");
     for (const ShapeKind& kind : shapeKinds())
         std::printf("  %-18s %s; %s triangles\n", std::string(kind.name).c_str(),
@@ -98,7 +103,7 @@ std::vector<std::string> modelsIn(const std::filesystem::path& folder) {
     return models;
 }
 
-/// A model, shape or "rate", and its name in the results.
+/// A model, shape, "rate" or "voxel", and its name in the results.
 struct Asked {
     std::string what, name;
 };
@@ -129,7 +134,7 @@ std::vector<Asked> share(const StudyCommandOptions& options) {
         for (const ShapeKind& kind : shapeKinds())
             what.emplace_back(kind.name);
     if (options.what.empty() && options.ablations.empty())
-        what.emplace_back(kRate);
+        what.insert(what.end(), {kRate, kVoxel});
     std::sort(what.begin(), what.end());
     what.erase(std::unique(what.begin(), what.end()), what.end());
     const std::vector<Asked> all = named(what);
@@ -140,11 +145,19 @@ std::vector<Asked> share(const StudyCommandOptions& options) {
     return mine;
 }
 
-void studyOne(const Asked& asked, const StudyOptions& options, bool tessellate, StudyResult& result,
-              const StudyProgress& progress) {
+void studyOne(const Asked& asked, const StudyOptions& options, int finestVoxel, bool tessellate,
+              StudyResult& result, const StudyProgress& progress) {
     if (asked.what == kRate) {
         result.rates = studyRates(kServoRates, {.rounds = std::max(2, options.rounds / 5)},
                                   [&](double done) { progress("servo rates", done); });
+        return;
+    }
+    if (asked.what == kVoxel) {
+        VoxelOptions voxels{.errorTicks = options.errorTicks, .rounds = std::max(2, options.rounds / 5)};
+        voxels.across.clear();
+        for (int across = 64; across <= finestVoxel; across *= 2)
+            voxels.across.push_back(across);
+        result.voxels = studyVoxels(voxels, result.notes, [&](double done) { progress("voxels", done); });
         return;
     }
     const ShapeKind* kind = kindNamed(asked.what);
@@ -165,6 +178,23 @@ void studyOne(const Asked& asked, const StudyOptions& options, bool tessellate, 
 double sum(const std::array<Estimate, kStageCount>& stages) {
     return std::accumulate(stages.begin(), stages.end(), 0.0,
                            [](double total, const Estimate& stage) { return total + stage.value; });
+}
+
+void printVoxels(const StudyResult& result) {
+    std::string shape;
+    for (const VoxelResult& v : result.voxels) {
+        if (v.shape != shape) {
+            shape = v.shape;
+            std::printf(
+                "\n%s as a distance field\n  %-12s %9s %-24s %6s %8s %8s %8s %10s %10s %10s %9s %8s\n",
+                shape.c_str(), "nodes from", "triangles", "touched by", "across", "voxel mm", "MB", "build s",
+                "place um", "surface um", "max um", "angle", "ns");
+        }
+        std::printf("  %-12s %9zu %-24s %6.0f %8.3f %8.2f %8.3f %10.4g %10.4g %10.4g %8.3f° %8.0f\n",
+                    v.source.c_str(), v.triangles, v.method.c_str(), v.across, 1e3 * v.voxel, 1e-6 * v.memory,
+                    v.build, 1e6 * v.meanPosition, 1e6 * v.meanSurface, 1e6 * v.maxSurface,
+                    v.direction.p99 / 0.017453292519943295, v.step.value);
+    }
 }
 
 void printTable(const StudyResult& result) {
@@ -201,6 +231,7 @@ void printTable(const StudyResult& result) {
             "given %.3g mJ; %.3f..%.3f %% of a processor\n",
             r.rateHz, r.stiffestStable, r.bound, 1e3 * r.energyCreated, 100.0 * r.busy.low,
             100.0 * r.busy.high);
+    printVoxels(result);
     if (result.configurations.empty())
         return;
     std::printf(
@@ -245,6 +276,7 @@ int studyCommand(const StudyCommandOptions& options) {
         plan.errorTicks = 1500;
         plan.largestTriangles = 65'536;
     }
+    const int finestVoxel = options.finestVoxel > 0 ? options.finestVoxel : options.quick ? 128 : 512;
     if (options.rounds > 0)
         plan.rounds = options.rounds;
     const bool tessellate = plan.ablations.empty() || std::find(plan.ablations.begin(), plan.ablations.end(),
@@ -261,7 +293,7 @@ int studyCommand(const StudyCommandOptions& options) {
                          (static_cast<double>(i) + done) / static_cast<double>(mine.size()));
             };
             try {
-                studyOne(mine[i], plan, tessellate, result, progress);
+                studyOne(mine[i], plan, finestVoxel, tessellate, result, progress);
             } catch (const std::exception& error) { // one of thousands may be invalid, or too large
                 if (options.shards == 1 && mine.size() == 1)
                     throw;
@@ -273,7 +305,9 @@ int studyCommand(const StudyCommandOptions& options) {
     printTable(result);
     publish(result, options.out, options.shards == 1);
     // A shard without subjects succeeds; one without results fails.
-    return mine.empty() || !result.configurations.empty() || !result.rates.empty() ? 0 : 1;
+    return mine.empty() || !result.configurations.empty() || !result.rates.empty() || !result.voxels.empty()
+               ? 0
+               : 1;
 }
 
 int studyMerge(const StudyMergeOptions& options) {

@@ -346,9 +346,11 @@ void defineBench(CLI::App& app, BenchOptions& options) {
 }
 
 void defineStudy(CLI::App& app, StudyCommandOptions& options) {
-    app.add_option("WHAT", options.what,
-                   "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), models, folders of them "
-                   "and `rate`, the servo's; without any, every shape and the rate")
+    app.add_option(
+           "WHAT", options.what,
+           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), models, folders of them, "
+           "`rate`, the servo's, and `voxel`, those of distance fields; without any, every shape, the rate "
+           "and the voxels")
         ->type_name("");
     app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
     app.add_option("--ladder", options.ablations, "This ablation alone (see --list); may be given again")
@@ -359,6 +361,12 @@ void defineStudy(CLI::App& app, StudyCommandOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(2, 10000));
     app.add_flag("--quick", options.quick, "A rougher answer in less time");
+    app.add_option("--finest", options.finestVoxel,
+                   "voxel: the finest field has at most this many voxels on a shape's diagonal, from 64 on "
+                   "in powers of "
+                   "two [512]; 1024 takes 3 GB and some minutes")
+        ->type_name("N")
+        ->check(CLI::Range(64, 2048));
     app.add_flag("--list", options.list, "Print the ablations and shapes");
     app.add_option_function<std::string>(
            "--shard", [&options](const std::string& text) { parseShard(text, options); },

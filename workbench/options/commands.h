@@ -173,6 +173,7 @@ struct StudyCommandOptions {
     std::vector<std::string> ablations; ///< empty: all
     int rounds = 0; ///< turns of each configuration; 0: enough for intervals of a few per cent
     bool quick = false;
+    int finestVoxel = 0;       ///< of the voxel study: voxels on the diagonal; 0: 512, with `quick` 128
     bool list = false;         ///< list the ablations and shapes only
     int shard = 1, shards = 1; ///< every `shards`-th of the subjects, starting with the `shard`-th
     std::string commandLine;   ///< as typed, for the provenance

@@ -23,6 +23,9 @@ namespace touchstone::study {
 /// The stiffest stable wall over the servo rate, with theory and processor load.
 [[nodiscard]] std::vector<Figure> stabilityOverRate(const StudyResult& result);
 
+/// Distance of the proxy from the truth's over the voxel of a distance field.
+[[nodiscard]] std::vector<Figure> errorOverVoxel(const StudyResult& result);
+
 /// Configurations of one scene and path, in the study's order.
 struct SceneRungs {
     std::string scene, path;

@@ -21,7 +21,8 @@ TEST(StudyFiles, KnowTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(ConfigurationResult), 6 * sizeof(std::string) + 36 * 8u + sizeof(Errors) + 8u);
     EXPECT_EQ(sizeof(RateResult), 7 * 8u);
     EXPECT_EQ(sizeof(Provenance), 8 * sizeof(std::string) + 8u);
-    EXPECT_EQ(sizeof(StudyResult), sizeof(Provenance) + 5 * sizeof(std::vector<int>));
+    EXPECT_EQ(sizeof(StudyResult), sizeof(Provenance) + 6 * sizeof(std::vector<int>));
+    EXPECT_EQ(sizeof(VoxelResult), 3 * sizeof(std::string) + 20 * 8u);
     EXPECT_EQ(sizeof(JustNoticeable), 3 * sizeof(std::string) + 8u);
 }
 

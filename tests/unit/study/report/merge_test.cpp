@@ -9,6 +9,7 @@ namespace {
 StudyResult shardOf(const std::string& scene) {
     StudyResult shard = everyField();
     shard.rates.clear();
+    shard.voxels.clear();
     shard.problems.clear();
     for (ConfigurationResult& configuration : shard.configurations)
         configuration.scene = scene;
@@ -44,6 +45,21 @@ TEST(MergeStudies, TellsWhatCameTwiceAndWhatWasMeasuredElsewhere) {
     EXPECT_NE(all.problems[1].find("twice"), std::string::npos);
     EXPECT_EQ(all.problems[3], "c.glb: is not there");
     EXPECT_EQ(all.notes.size(), shards[0].notes.size() + shards[1].notes.size());
+}
+
+TEST(MergeStudies, TakesTheVoxelsOfAllAndTellsWhichCameTwice) {
+    std::vector<StudyResult> shards{shardOf("a.glb"), shardOf("b.glb")};
+    VoxelResult coarse;
+    coarse.shape = "torus";
+    coarse.across = 64.0;
+    VoxelResult fine = coarse;
+    fine.across = 128.0;
+    shards[0].voxels = {coarse};
+    shards[1].voxels = {fine, coarse};
+    const StudyResult all = mergeStudies(shards);
+    EXPECT_EQ(all.voxels, (std::vector<VoxelResult>{coarse, fine}));
+    ASSERT_EQ(all.problems.size(), 1u);
+    EXPECT_NE(all.problems[0].find("torus"), std::string::npos);
 }
 
 } // namespace

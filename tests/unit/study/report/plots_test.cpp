@@ -27,8 +27,8 @@ TEST(StudyPlots, AreAllDrawnWhateverTheNamesHold) {
     const PlotsWritten written = writeStudyPlots(likeMeasured(), folder.path());
     for (const std::string& problem : written.problems)
         ADD_FAILURE() << problem;
-    // Two scenes: three errors and the stages each. Then triangles, scenes, tessellation, rates.
-    EXPECT_EQ(written.files.size(), 2 * 4 + 4u);
+    // Two scenes: three errors and the stages each. Then triangles, scenes, tessellation, rates, voxels.
+    EXPECT_EQ(written.files.size(), 2 * 4 + 5u);
     for (const auto& file : written.files) {
         const std::string svg = readFile(file);
         EXPECT_NE(svg.find("</svg>"), std::string::npos) << file;
@@ -56,6 +56,7 @@ TEST(StudyPlots, NameTheirUnitsAndSeries) {
         {"stages_torus", {"ns", "safety", "whole tick", "rung 0"}},
         {"cost_over_triangles", {"triangles", "µs", "one Embree ray", "flat", "two-pass"}},
         {"error_over_tessellation", {"degrees", "C1 0.498°", "no shading", "C2 3.38°", "shape"}},
+        {"error_over_voxel", {"voxel, mm", "µm", "virtual point", "torus", "groove"}},
         {"servo_rate", {"kHz", "N/mm", "%", "theory", "measured"}},
     };
     for (const auto& [name, words] : expected) {
@@ -94,6 +95,7 @@ TEST(StudyPlots, FindAPlaceForWhatALogarithmHasNoneFor) {
     StudyResult result = likeMeasured();
     result.noticeable.clear();
     result.rates.clear();
+    result.voxels.clear();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     result.configurations.resize(3);
     for (ConfigurationResult& r : result.configurations)

@@ -109,6 +109,17 @@ StudyResult likeMeasured() {
     addScene(result, "it's `touch gotcha` $(touch gotcha) \"<&>\" µ\n\\.glb");
     for (const double hz : {500.0, 1000.0, 2000.0, 4000.0})
         result.rates.push_back({hz, 9.0 * hz, 6.0 * hz, 1e-3 / hz, {6e-7 * hz, 5e-7 * hz, 7e-7 * hz}});
+    for (const char* shape : {"torus", "groove"})
+        for (const char* method : {"sweep", "virtual point"})
+            for (const double across : {64.0, 128.0}) {
+                VoxelResult& voxel = result.voxels.emplace_back();
+                voxel.shape = shape;
+                voxel.source = kFromClosedForm;
+                voxel.method = method;
+                voxel.across = across;
+                voxel.voxel = 0.2 / across;
+                voxel.meanPosition = 1e-3 * voxel.voxel;
+            }
     return result;
 }
 
