@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 
@@ -29,19 +30,6 @@ void checkLayout(const FieldLayout& layout) {
         refuse("has a voxel size or a place that is not a finite positive number", "check its file");
 }
 
-size_t nodeIndex(const glm::ivec3& inBrick) {
-    return static_cast<size_t>(inBrick.x + FieldGrid::kNodes * (inBrick.y + FieldGrid::kNodes * inBrick.z));
-}
-
-/// Calls visit(index in brick) for every node of a brick.
-template <class Visit>
-void eachNode(const Visit& visit) {
-    for (int z = 0; z < FieldGrid::kNodes; ++z)
-        for (int y = 0; y < FieldGrid::kNodes; ++y)
-            for (int x = 0; x < FieldGrid::kNodes; ++x)
-                visit(glm::ivec3(x, y, z));
-}
-
 bool inside(const glm::ivec3& node, const glm::ivec3& cells) {
     return node.x <= cells.x && node.y <= cells.y && node.z <= cells.z;
 }
@@ -61,6 +49,7 @@ FieldGrid::FieldGrid(const FieldLayout& layout, double inside, double outside, c
         for (int y = 0; y < bricks_.y; ++y)
             for (int x = 0; x < bricks_.x; ++x)
                 fillBrick({x, y, z}, fill, nodes);
+    setLipschitz();
     Hash64 hash;
     hash.add(layout.voxel);
     for (int axis = 0; axis < 3; ++axis) {
@@ -80,9 +69,9 @@ void FieldGrid::fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::v
     const glm::ivec3 first = kBrick * brick;
     fill(first, nodes);
     if (!touchstone::inside(first + kBrick, layout_.cells))
-        eachNode([&](const glm::ivec3& at) {
+        eachBrickNode([&](const glm::ivec3& at) {
             if (!touchstone::inside(first + at, layout_.cells))
-                nodes[nodeIndex(at)] = static_cast<float>(outside_); // beyond the grid: read by no cell
+                nodes[brickNode(at)] = static_cast<float>(outside_); // beyond the grid: read by no cell
         });
     const auto deepest = static_cast<float>(-inside_), farthest = static_cast<float>(outside_);
     float least = INFINITY, most = -INFINITY, sum = 0.0f;
@@ -97,13 +86,33 @@ void FieldGrid::fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::v
     if (glm::any(glm::equal(first, glm::ivec3(0))) ||
         glm::any(glm::greaterThanEqual(first + kBrick, layout_.cells)))
         checkBorder(first, nodes);
-    if (least == most) {
-        table_.push_back({least, nullptr});
-        measureFlat(first, least);
-        return;
+    const BrickMeasure measure = measureBrick(first, glm::min(glm::ivec3(kBrick), layout_.cells - first),
+                                              std::span<const float, kBrickNodes>(nodes));
+    include(measure);
+    if (least == most)
+        table_.push_back({least, 0.0f, nullptr});
+    else
+        table_.push_back({kVaries, measure.steepest, keep(nodes)});
+}
+
+FieldGrid::FieldGrid(std::shared_ptr<const FieldGrid> base, std::vector<BrickEdit> edits)
+    : layout_(base->layout_), inside_(base->inside_), outside_(base->outside_), bricks_(base->bricks_),
+      table_(base->table_), base_(std::move(base)), edits_(std::move(edits)), low_(base_->low_),
+      high_(base_->high_), hash_(base_->hash_) {
+    Hash64 hash;
+    hash.add(base_->hash_);
+    for (const BrickEdit& edit : edits_) {
+        const EditedBrick& brick = *edit.brick;
+        table_[edit.number] = brick.flat == brick.flat
+                                  ? Brick{brick.flat, 0.0f, nullptr}
+                                  : Brick{kVaries, brick.measure.steepest, brick.nodes.data()};
+        include(brick.measure);
+        hash.add(edit.number);
+        hash.add(brick.hash);
     }
-    table_.push_back({kVaries, keep(nodes)});
-    measure(first, nodes);
+    setLipschitz();
+    if (!edits_.empty())
+        hash_ = hash.value();
 }
 
 const float* FieldGrid::keep(std::span<const float> nodes) {
@@ -115,67 +124,74 @@ const float* FieldGrid::keep(std::span<const float> nodes) {
 }
 
 void FieldGrid::checkBorder(const glm::ivec3& first, std::span<const float> nodes) const {
-    eachNode([&](const glm::ivec3& at) {
+    eachBrickNode([&](const glm::ivec3& at) {
         const glm::ivec3 node = first + at;
         if (!touchstone::inside(node, layout_.cells))
             return;
         const bool border = node.x == 0 || node.y == 0 || node.z == 0 || node.x == layout_.cells.x ||
                             node.y == layout_.cells.y || node.z == layout_.cells.z;
-        if (border && !(nodes[nodeIndex(at)] > 0.0f))
+        if (border && !(nodes[brickNode(at)] > 0.0f))
             refuse("reaches the border of its grid", "leave a voxel of free space on every side");
     });
 }
 
-/// Bounds of the object, and of the gradient: within a cell each component lies between the differences along
-/// the four parallel edges.
-void FieldGrid::measure(const glm::ivec3& first, std::span<const float> nodes) {
-    constexpr size_t kStep[] = {1, kNodes, size_t{kNodes} * kNodes};
-    const glm::ivec3 cells = glm::min(glm::ivec3(kBrick), layout_.cells - first);
+void FieldGrid::include(const BrickMeasure& measure) {
+    if (measure.low.x > measure.high.x)
+        return;
+    low_ = glm::min(low_, layout_.origin + layout_.voxel * glm::dvec3(measure.low));
+    high_ = glm::max(high_, layout_.origin + layout_.voxel * glm::dvec3(measure.high));
+}
+
+void FieldGrid::setLipschitz() {
     float steepest = 0.0f;
-    for (int z = 0; z < cells.z; ++z)
-        for (int y = 0; y < cells.y; ++y)
-            for (int x = 0; x < cells.x; ++x) {
-                const float* const at = nodes.data() + nodeIndex({x, y, z});
-                float sum = 0.0f;
-                for (size_t axis = 0; axis < 3; ++axis) {
-                    const size_t d = kStep[axis], b = kStep[(axis + 1) % 3], c = kStep[(axis + 2) % 3];
-                    const float edge =
-                        std::max(std::max(std::abs(at[d] - at[0]), std::abs(at[d + b] - at[b])),
-                                 std::max(std::abs(at[d + c] - at[c]), std::abs(at[d + b + c] - at[b + c])));
-                    sum += edge * edge;
-                }
-                steepest = std::max(steepest, sum);
-                const float lowest = std::min(
-                    std::min(std::min(at[0], at[1]), std::min(at[kNodes], at[kNodes + 1])),
-                    std::min(std::min(at[kNodes * kNodes], at[kNodes * kNodes + 1]),
-                             std::min(at[kNodes * kNodes + kNodes], at[kNodes * kNodes + kNodes + 1])));
-                if (lowest <= 0.0f)
-                    include(first + glm::ivec3(x, y, z), first + glm::ivec3(x, y, z) + 1);
-            }
+    for (const Brick& brick : table_)
+        steepest = std::max(steepest, brick.steepest);
     constexpr double kRounded = 1.0 + 1e-6; // the sum is of floats
-    lipschitz_ = std::max(lipschitz_, kRounded * std::sqrt(static_cast<double>(steepest)) / layout_.voxel);
-}
-
-void FieldGrid::measureFlat(const glm::ivec3& first, float value) {
-    if (value <= 0.0f)
-        include(first, glm::min(first + kBrick, layout_.cells));
-}
-
-void FieldGrid::include(const glm::ivec3& low, const glm::ivec3& high) {
-    low_ = glm::min(low_, layout_.origin + layout_.voxel * glm::dvec3(low));
-    high_ = glm::max(high_, layout_.origin + layout_.voxel * glm::dvec3(high));
+    lipschitz_ = kRounded * std::sqrt(static_cast<double>(steepest)) / layout_.voxel;
 }
 
 size_t FieldGrid::memoryBytes() const noexcept {
     return sizeof *this + table_.capacity() * sizeof(Brick) +
-           chunks_.size() * kChunk * kBrickNodes * sizeof(float);
+           chunks_.size() * kChunk * kBrickNodes * sizeof(float) +
+           edits_.size() * (sizeof(BrickEdit) + sizeof(EditedBrick)) +
+           (base_ != nullptr ? base_->memoryBytes() : 0);
+}
+
+uint32_t FieldGrid::brickNumber(const glm::ivec3& brick) const noexcept {
+    return static_cast<uint32_t>(brick.x) +
+           static_cast<uint32_t>(bricks_.x) *
+               (static_cast<uint32_t>(brick.y) +
+                static_cast<uint32_t>(bricks_.y) * static_cast<uint32_t>(brick.z));
 }
 
 const FieldGrid::Brick& FieldGrid::brickOf(const glm::ivec3& brick) const noexcept {
-    return table_[static_cast<size_t>(brick.x) +
-                  static_cast<size_t>(bricks_.x) *
-                      (static_cast<size_t>(brick.y) +
-                       static_cast<size_t>(bricks_.y) * static_cast<size_t>(brick.z))];
+    return table_[brickNumber(brick)];
+}
+
+void FieldGrid::copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes> nodes) const noexcept {
+    const Brick& own = brickOf(brick);
+    if (own.nodes == nullptr)
+        std::ranges::fill(nodes, own.flat);
+    else
+        std::copy_n(own.nodes, kBrickNodes, nodes.begin());
+}
+
+void FieldGrid::copyNodes(const glm::ivec3& first, const glm::ivec3& size,
+                          std::span<float> values) const noexcept {
+    float* to = values.data();
+    for (int z = first.z; z < first.z + size.z; ++z)
+        for (int y = first.y; y < first.y + size.y; ++y)
+            for (int x = first.x; x < first.x + size.x;) {
+                const glm::ivec3 at(x, y, z), brick = glm::min(at / kBrick, bricks_ - 1),
+                                              own = at - kBrick * brick;
+                const int count = std::min(kNodes - own.x, first.x + size.x - x);
+                if (const Brick& from = brickOf(brick); from.nodes == nullptr)
+                    std::fill_n(to, count, from.flat);
+                else
+                    std::copy_n(from.nodes + brickNode(own), count, to);
+                to += count;
+                x += count;
+            }
 }
 
 glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {
@@ -193,7 +209,7 @@ FieldCell FieldGrid::cell(const glm::ivec3& at) const noexcept {
         flat.c[0] = static_cast<double>(brick.flat);
         return flat;
     }
-    const float* const values = brick.nodes + nodeIndex(at % kBrick);
+    const float* const values = brick.nodes + brickNode(at % kBrick);
     std::array<double, 8> node{};
     for (size_t k = 0; k < 8; ++k)
         node[k] = static_cast<double>(

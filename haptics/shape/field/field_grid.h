@@ -1,6 +1,7 @@
 #pragma once
 // Node values of a scalar field on a regular grid, in bricks.
 
+#include "haptics/shape/field/field_brick.h"
 #include "haptics/shape/field/field_cell.h"
 
 #include <glm/glm.hpp>
@@ -30,10 +31,9 @@ struct FieldLayout {
 /// one.
 class FieldGrid {
   public:
-    static constexpr int kBrick = 8; ///< cells a side
-    static constexpr int kNodes =
-        kBrick + 1; ///< nodes a side: the last ones are also those of the next brick
-    static constexpr size_t kBrickNodes = size_t{kNodes} * kNodes * kNodes;
+    static constexpr int kBrick = kBrickCells; ///< cells a side
+    static constexpr int kNodes = kBrickSide;  ///< nodes a side
+    static constexpr size_t kBrickNodes = kNodesInBrick;
     static constexpr int kMostOnAxis = 1 << 16;               ///< cells
     static constexpr uint64_t kMostCells = uint64_t{1} << 32; ///< a cell's number has 32 bits
 
@@ -47,13 +47,17 @@ class FieldGrid {
     /// lie inside by a voxel).
     FieldGrid(const FieldLayout& layout, double inside, double outside, const FillBrick& fill);
 
+    /// The grid `base`, which is not edited itself, with other bricks in some places: in increasing order of
+    /// their numbers. Shares all others with it. Takes time for a table of 16 bytes a brick, not for nodes.
+    FieldGrid(std::shared_ptr<const FieldGrid> base, std::vector<BrickEdit> edits);
+
     [[nodiscard]] const FieldLayout& layout() const noexcept { return layout_; }
     [[nodiscard]] double inside() const noexcept { return inside_; }
     [[nodiscard]] double outside() const noexcept { return outside_; }
     /// At least |f(a) - f(b)| / |a - b| for all a, b.
     [[nodiscard]] double lipschitz() const noexcept { return lipschitz_; }
     [[nodiscard]] size_t memoryBytes() const noexcept;
-    /// Of layout and values.
+    /// Of layout and values; of an edited grid that of its base and of the bricks that differ from it.
     [[nodiscard]] uint64_t hash() const noexcept { return hash_; }
     /// The bounds of all cells with a node that is not positive, object frame; low > high where there is
     /// none.
@@ -80,6 +84,13 @@ class FieldGrid {
     [[nodiscard]] uint32_t numberOf(const glm::ivec3& cell) const noexcept;
     [[nodiscard]] glm::ivec3 cellOf(uint32_t number) const noexcept;
 
+    [[nodiscard]] const glm::ivec3& bricks() const noexcept { return bricks_; } ///< on each axis
+    [[nodiscard]] uint32_t brickNumber(const glm::ivec3& brick) const noexcept;
+    /// The nodes of a brick, which may be flat; those beyond the grid are outside().
+    void copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes> nodes) const noexcept;
+    /// The values of `size` nodes from `first` on, the first axis fastest; all of them in the grid.
+    void copyNodes(const glm::ivec3& first, const glm::ivec3& size, std::span<float> values) const noexcept;
+
     /// Gradient at a node, by central differences, per object unit; one-sided at the border.
     [[nodiscard]] glm::dvec3 nodeGradient(const glm::ivec3& node) const noexcept;
     [[nodiscard]] double node(const glm::ivec3& at) const noexcept;
@@ -87,13 +98,13 @@ class FieldGrid {
   private:
     struct Brick {
         float flat;         ///< NaN: the nodes differ
+        float steepest;     ///< BrickMeasure::steepest
         const float* nodes; ///< null: all are `flat`
     };
     void fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::vector<float>& nodes);
     [[nodiscard]] const float* keep(std::span<const float> nodes);
-    void measure(const glm::ivec3& first, std::span<const float> nodes);
-    void measureFlat(const glm::ivec3& first, float value);
-    void include(const glm::ivec3& low, const glm::ivec3& high);
+    void include(const BrickMeasure& measure);
+    void setLipschitz();
     void checkBorder(const glm::ivec3& first, std::span<const float> nodes) const;
     [[nodiscard]] const Brick& brickOf(const glm::ivec3& brick) const noexcept;
 
@@ -101,6 +112,8 @@ class FieldGrid {
     double inside_, outside_, lipschitz_ = 0.0;
     glm::ivec3 bricks_{0};
     std::vector<Brick> table_;
+    std::shared_ptr<const FieldGrid> base_; ///< of an edited grid: the owner of all other nodes
+    std::vector<BrickEdit> edits_;
     /// The nodes of kChunk bricks each: growing copies nothing.
     static constexpr size_t kChunk = 64;
     std::vector<std::unique_ptr<float[]>> chunks_;

@@ -1,0 +1,196 @@
+#include "haptics/shape/field/sculpt/restore_distance.h"
+
+#include "haptics/shape/field/sculpt/closest_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kSteep = 0.1; // from 1: the gradient of a distance, away from its kinks
+
+template <class Visit>
+void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visit& visit) {
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x)
+                if (const glm::ivec3 at = node + glm::ivec3(x, y, z);
+                    (x != 0 || y != 0 || z != 0) && window.contains(at))
+                    visit(at, window.index(at));
+}
+
+} // namespace
+
+NodeBox DistanceRestorer::run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach) {
+    window_ = &window;
+    zone_ = zone;
+    reach_ = reach;
+    const size_t count = window.value.size();
+    state_.assign(count, Node::Kept);
+    pointOf_.assign(count, kNone);
+    distance_.resize(count);
+    points_.clear();
+    touched_.clear();
+    queue_ = {};
+    if (!findNear())
+        return {};
+    open();
+    seedKept();
+    march();
+    return finish();
+}
+
+void DistanceRestorer::give(size_t node, const glm::dvec3& point) {
+    if (pointOf_[node] == kNone) {
+        pointOf_[node] = static_cast<uint32_t>(points_.size());
+        points_.push_back(point);
+    } else {
+        points_[pointOf_[node]] = point;
+    }
+    queue_.push({distance_[node], static_cast<uint32_t>(node)});
+}
+
+/// The nodes at the surface in and around the zone. A value that is the distance already, as where a ball was
+/// taken out, stays: the surface does not creep however often it is worked at. False where nothing changed.
+bool DistanceRestorer::findNear() {
+    constexpr double kSame = 0.03; // voxels, and 2 % of the distance
+    FieldWindow& window = *window_;
+    const ClosestPoints surface(window);
+    const glm::ivec3 low = zone_.low(2.0, 0), high = zone_.high(window, 2.0, 0);
+    const auto differs = [&](size_t node) { return window.value[node] != window.before[node]; };
+    bool any = false;
+    std::vector<std::pair<size_t, glm::dvec3>> found;
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) {
+                const glm::ivec3 node(x, y, z);
+                const size_t index = window.index(node);
+                any = any || differs(index);
+                if (surface.near(node))
+                    found.emplace_back(index, surface.fromNear(node));
+            }
+    if (!any)
+        return false;
+    for (const auto& [index, point] : found) {
+        const glm::ivec3 node = window.nodeAt(index);
+        bool changed = differs(index);
+        eachNeighbour(window, node,
+                      [&](const glm::ivec3&, size_t other) { changed = changed || differs(other); });
+        const double own = std::abs(static_cast<double>(window.value[index])) / window.voxel;
+        const double measured = glm::distance(glm::dvec3(node), point);
+        const bool keep = !changed || std::abs(own - measured) <= kSame + 0.02 * measured;
+        state_[index] = Node::Near;
+        distance_[index] = static_cast<float>(keep ? own : measured);
+        if (!keep)
+            touched_.push_back(static_cast<uint32_t>(index));
+        give(index, point);
+    }
+    return true;
+}
+
+/// Forgets the distances of nodes in the zone, and of those whose nearest place may be in it: f g away
+/// against the gradient g where that is a unit vector, anywhere at f from the node where it is not.
+void DistanceRestorer::open() {
+    FieldWindow& window = *window_;
+    const ClosestPoints surface(window);
+    constexpr double kRoom = 1.5; // voxels: the place is known to a voxel
+    size_t index = 0;
+    for (int z = 0; z < window.size.z; ++z)
+        for (int y = 0; y < window.size.y; ++y)
+            for (int x = 0; x < window.size.x; ++x, ++index) {
+                const glm::ivec3 node(x, y, z);
+                const bool inside = negative(index);
+                const double f = static_cast<double>(window.before[index]) / window.voxel, own = std::abs(f);
+                if (state_[index] == Node::Near)
+                    continue;
+                distance_[index] = static_cast<float>(own);
+                const double away = glm::distance(glm::dvec3(node), zone_.centre);
+                if (away > zone_.radius + kRoom) {
+                    if (own >= limit(inside) * (1.0 - 1e-6) || away - zone_.radius - kRoom > own)
+                        continue;
+                    const glm::dvec3 slope = surface.gradientBefore(node);
+                    const double steep = glm::length(slope);
+                    if (std::abs(steep - 1.0) <= kSteep && glm::distance(glm::dvec3(node) - f * slope / steep,
+                                                                         zone_.centre) > zone_.radius + kRoom)
+                        continue;
+                }
+                state_[index] = Node::Open;
+                distance_[index] = static_cast<float>(limit(inside));
+                touched_.push_back(static_cast<uint32_t>(index));
+            }
+}
+
+/// Kept nodes beside open ones hand on where their own nearest places are.
+void DistanceRestorer::seedKept() {
+    FieldWindow& window = *window_;
+    const ClosestPoints surface(window);
+    for (size_t i = 0, count = touched_.size(); i < count; ++i) {
+        if (state_[touched_[i]] != Node::Open)
+            continue;
+        eachNeighbour(window, window.nodeAt(touched_[i]), [&](const glm::ivec3& at, size_t other) {
+            if (state_[other] != Node::Kept || pointOf_[other] != kNone)
+                return;
+            const bool inside = negative(other);
+            const double f = static_cast<double>(window.value[other]) / window.voxel;
+            const glm::dvec3 slope = surface.gradientBefore(at);
+            const double steep = glm::length(slope);
+            if (std::abs(f) < limit(inside) * (1.0 - 1e-6) && std::abs(steep - 1.0) <= kSteep)
+                give(other, glm::dvec3(at) - f * slope / steep);
+        });
+    }
+}
+
+void DistanceRestorer::offer(size_t to, const glm::ivec3& at, const glm::dvec3& point) {
+    const bool isKept = state_[to] == Node::Kept;
+    // As floats: a double below a float that it rounds to would be offered for ever.
+    const auto offered = static_cast<float>(glm::distance(glm::dvec3(at), point));
+    if (!(offered < distance_[to] - (isKept ? kNearer : 0.0f)))
+        return;
+    const glm::dvec3 foot = ClosestPoints(*window_).slid(glm::dvec3(at), point);
+    if (isKept)
+        touched_.push_back(static_cast<uint32_t>(to));
+    state_[to] = Node::Reached;
+    distance_[to] = static_cast<float>(glm::distance(glm::dvec3(at), foot));
+    give(to, foot);
+}
+
+void DistanceRestorer::march() {
+    while (!queue_.empty()) {
+        const Entry entry = queue_.top();
+        queue_.pop();
+        if (entry.distance > distance_[entry.node])
+            continue; // a nearer place was found since
+        const bool inside = negative(entry.node);
+        const glm::dvec3 point = points_[pointOf_[entry.node]];
+        eachNeighbour(*window_, window_->nodeAt(entry.node), [&](const glm::ivec3& at, size_t other) {
+            if (state_[other] != Node::Near && negative(other) == inside)
+                offer(other, at, point);
+        });
+    }
+}
+
+NodeBox DistanceRestorer::finish() {
+    FieldWindow& window = *window_;
+    for (const uint32_t node : touched_) {
+        const bool inside = negative(node);
+        const auto voxels = static_cast<double>(distance_[node]);
+        const double distance =
+            voxels < limit(inside) * (1.0 - 1e-6) ? voxels * window.voxel : reachOf(inside);
+        window.value[node] = static_cast<float>(inside ? -distance : distance);
+    }
+    NodeBox changed;
+    for (const uint32_t node : touched_)
+        if (window.value[node] != window.before[node])
+            changed.include(window.nodeAt(node));
+    const glm::ivec3 low = zone_.low(0.0, 0), high = zone_.high(window, 0.0, 0);
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x)
+                if (const size_t index = window.index({x, y, z}); window.value[index] != window.before[index])
+                    changed.include({x, y, z});
+    return changed;
+}
+
+} // namespace touchstone

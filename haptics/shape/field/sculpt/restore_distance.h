@@ -1,0 +1,62 @@
+#pragma once
+// From changed values back to distances, in the part of a window that the change reaches.
+
+#include "haptics/shape/field/sculpt/field_window.h"
+
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+namespace touchstone {
+
+/// How far the field tells distances, object units.
+struct DistanceReach {
+    double inside = 0.0, outside = 0.0;
+};
+
+/// Makes the values of a window distances again, where those before the dab were. Kept to the last bit are
+/// the nodes whose nearest place on the surface is farther than a voxel from the zone, unless the new surface
+/// is nearer by kNearer. Closest points are handed on from the nodes at the surface, by increasing distance
+/// and from each node to its 26 neighbours, and slid along the surface to the foot of the node that takes
+/// them: no equation is discretised, so small balls are as exact as planes. One thread; the order of equal
+/// distances is that of the nodes.
+class DistanceRestorer {
+  public:
+    /// The window holds all nodes within the reach of the zone. Returns the nodes that differ from before.
+    NodeBox run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach);
+
+  private:
+    static constexpr float kNearer = 0.02f; // voxels
+    enum class Node : uint8_t { Kept, Near, Open, Reached };
+    struct Entry {
+        float distance;
+        uint32_t node;
+        bool operator<(const Entry& other) const { // the queue's top is its largest
+            return distance != other.distance ? distance > other.distance : node > other.node;
+        }
+    };
+    [[nodiscard]] bool findNear();
+    void open();
+    void seedKept();
+    void march();
+    void offer(size_t to, const glm::ivec3& at, const glm::dvec3& point);
+    void give(size_t node, const glm::dvec3& point);
+    [[nodiscard]] bool negative(size_t node) const { return window_->value[node] < 0.0f; }
+    [[nodiscard]] double reachOf(bool inside) const { return inside ? reach_.inside : reach_.outside; }
+    /// Voxels.
+    [[nodiscard]] double limit(bool inside) const { return reachOf(inside) / window_->voxel; }
+    [[nodiscard]] NodeBox finish();
+
+    FieldWindow* window_ = nullptr;
+    SculptZone zone_;
+    DistanceReach reach_;
+    std::vector<Node> state_;
+    std::vector<float> distance_;    ///< voxels, not negative
+    std::vector<uint32_t> pointOf_;  ///< index in points_; kNone
+    std::vector<glm::dvec3> points_; ///< on the surface
+    std::vector<uint32_t> touched_;  ///< nodes that are not Kept
+    std::priority_queue<Entry> queue_;
+    static constexpr uint32_t kNone = 0xffffffffu;
+};
+
+} // namespace touchstone

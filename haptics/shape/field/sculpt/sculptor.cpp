@@ -1,0 +1,200 @@
+#include "haptics/shape/field/sculpt/sculptor.h"
+
+#include "haptics/shape/field/sculpt/tool_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <utility>
+
+namespace touchstone {
+
+namespace {
+
+/// The part of a voxel around a node that lies inside, from its distance in voxels: exact for a plane at
+/// right angles to an axis, and on average for any other.
+double insideShare(double distance) {
+    return std::clamp(0.5 - distance, 0.0, 1.0);
+}
+
+double removedVolume(const FieldWindow& window, const NodeBox& box) {
+    double voxels = 0.0;
+    for (int z = box.low.z; z <= box.high.z; ++z)
+        for (int y = box.low.y; y <= box.high.y; ++y)
+            for (int x = box.low.x; x <= box.high.x; ++x) {
+                const size_t index = window.index({x, y, z});
+                voxels += insideShare(static_cast<double>(window.before[index]) / window.voxel) -
+                          insideShare(static_cast<double>(window.value[index]) / window.voxel);
+            }
+    return voxels * window.voxel * window.voxel * window.voxel;
+}
+
+bool sameBytes(std::span<const float, kNodesInBrick> a, std::span<const float, kNodesInBrick> b) {
+    return std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+} // namespace
+
+Sculptor::Sculptor(std::shared_ptr<const FieldGrid> base) : base_(std::move(base)), grid_(base_) {}
+
+std::shared_ptr<const FieldGrid> Sculptor::grid() {
+    if (grid_ == nullptr) {
+        std::vector<BrickEdit> edits;
+        edits.reserve(edits_.size());
+        for (const auto& [number, brick] : edits_)
+            edits.push_back({number, brick});
+        grid_ = std::make_shared<const FieldGrid>(base_, std::move(edits));
+    }
+    return grid_;
+}
+
+void Sculptor::beginStroke() {
+    steps_.resize(done_);
+    if (done_ == 0 || !steps_.back().empty()) {
+        steps_.emplace_back();
+        ++done_;
+    }
+}
+
+DabReport Sculptor::apply(const Dab& dab) {
+    checkDab(*base_, dab);
+    if (done_ == 0 || done_ < steps_.size())
+        beginStroke();
+    if (dab.tool != SculptTool::Drag)
+        return applyOnce(dab);
+    constexpr double kMostMotion = 0.25; // of the radius: the bell's slope is at most 1.54 a radius
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(glm::length(dab.motion) / (kMostMotion * dab.radius))));
+    DabReport all;
+    for (int i = 0; i < parts; ++i) {
+        Dab part = dab;
+        part.motion = dab.motion / static_cast<double>(parts);
+        part.centre = dab.centre - dab.motion + part.motion * static_cast<double>(i + 1);
+        const DabReport one = applyOnce(part);
+        all.removed += one.removed;
+        all.bricks += one.bricks;
+        if (!one.changed.empty()) {
+            all.changed.include(one.changed.low);
+            all.changed.include(one.changed.high);
+        }
+    }
+    return all;
+}
+
+DabReport Sculptor::applyOnce(const Dab& dab) {
+    const double voxel = base_->layout().voxel;
+    const double margin = std::max(base_->inside(), base_->outside()) / voxel + 3.0;
+    const SculptZone zone = fillWindow(window_, *grid(), dab.centre, changedRadius(*base_, dab), margin);
+    applyTool(window_, *base_, dab, zone);
+    const NodeBox changed = restorer_.run(window_, zone, {base_->inside(), base_->outside()});
+    DabReport report;
+    if (changed.empty())
+        return report;
+    report.removed = removedVolume(window_, changed);
+    report.bricks = commit(changed);
+    const auto place = [&](const glm::ivec3& node) {
+        return base_->layout().origin + voxel * glm::dvec3(window_.first + node);
+    };
+    report.changed.include(place(changed.low));
+    report.changed.include(place(changed.high));
+    return report;
+}
+
+Sculptor::BrickPtr Sculptor::current(uint32_t number) const {
+    const auto found = edits_.find(number);
+    return found != edits_.end() ? found->second : nullptr;
+}
+
+void Sculptor::replace(uint32_t number, const BrickPtr& brick) {
+    if (brick == nullptr)
+        edits_.erase(number);
+    else
+        edits_[number] = brick;
+}
+
+/// All bricks that have changed nodes: those at the faces of a brick belong to its neighbours, too.
+size_t Sculptor::commit(const NodeBox& changed) {
+    const glm::ivec3 low = glm::max(window_.first + changed.low - 1, glm::ivec3(0)) / kBrickCells;
+    const glm::ivec3 high = glm::min((window_.first + changed.high) / kBrickCells, base_->bricks() - 1);
+    size_t count = 0;
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x)
+                count += commitBrick({x, y, z}) ? 1 : 0;
+    if (count > 0)
+        grid_ = nullptr;
+    return count;
+}
+
+bool Sculptor::commitBrick(const glm::ivec3& brick) {
+    std::array<float, kNodesInBrick> before{}, after{}, base{};
+    grid_->copyBrick(brick, before);
+    after = before;
+    const glm::ivec3 first = kBrickCells * brick, size = window_.size;
+    const glm::ivec3 low = glm::max(window_.first - first, glm::ivec3(0));
+    const glm::ivec3 high = glm::min(window_.first + size - 1 - first, glm::ivec3(kBrickCells));
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            std::copy_n(window_.value.data() + window_.index(first + glm::ivec3(low.x, y, z) - window_.first),
+                        std::max(0, high.x - low.x + 1), after.data() + brickNode({low.x, y, z}));
+    if (sameBytes(before, after))
+        return false;
+    const uint32_t number = base_->brickNumber(brick);
+    base_->copyBrick(brick, base);
+    const BrickPtr made =
+        sameBytes(after, base)
+            ? nullptr
+            : editedBrick(first, glm::min(glm::ivec3(kBrickCells), base_->layout().cells - first), after);
+    const auto [place, isNew] = steps_.back().try_emplace(number, Replaced{current(number), made});
+    if (!isNew)
+        place->second.after = made;
+    replace(number, made);
+    return true;
+}
+
+bool Sculptor::undo() {
+    while (done_ > 0 && steps_[done_ - 1].empty())
+        --done_;
+    if (done_ == 0)
+        return false;
+    for (const auto& [number, replaced] : steps_[--done_])
+        replace(number, replaced.before);
+    grid_ = edits_.empty() ? base_ : nullptr;
+    return true;
+}
+
+bool Sculptor::redo() {
+    while (done_ < steps_.size() && steps_[done_].empty())
+        ++done_;
+    if (done_ == steps_.size())
+        return false;
+    for (const auto& [number, replaced] : steps_[done_++])
+        replace(number, replaced.after);
+    grid_ = edits_.empty() ? base_ : nullptr;
+    return true;
+}
+
+size_t Sculptor::undoSteps() const {
+    return static_cast<size_t>(std::count_if(steps_.begin(), steps_.begin() + static_cast<ptrdiff_t>(done_),
+                                             [](const Step& step) { return !step.empty(); }));
+}
+
+size_t Sculptor::redoSteps() const {
+    return static_cast<size_t>(std::count_if(steps_.begin() + static_cast<ptrdiff_t>(done_), steps_.end(),
+                                             [](const Step& step) { return !step.empty(); }));
+}
+
+uint64_t Sculptor::memoryBytes() const {
+    std::set<const EditedBrick*> bricks;
+    for (const Step& step : steps_)
+        for (const auto& [number, replaced] : step) {
+            bricks.insert(replaced.before.get());
+            bricks.insert(replaced.after.get());
+        }
+    bricks.erase(nullptr);
+    return bricks.size() * sizeof(EditedBrick);
+}
+
+} // namespace touchstone

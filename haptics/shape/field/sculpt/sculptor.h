@@ -1,0 +1,69 @@
+#pragma once
+// Edits of a distance field, with undo. One thread, not the servo's.
+
+#include "engine/math/similarity.h"
+#include "haptics/shape/field/sculpt/field_window.h"
+#include "haptics/shape/field/sculpt/restore_distance.h"
+#include "haptics/shape/field/sculpt/sculpt_tool.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace touchstone {
+
+struct DabReport {
+    double removed = 0.0; ///< object units cubed; negative where the solid grew
+    size_t bricks = 0;    ///< that were replaced
+    Bounds changed;       ///< of nodes that changed, object frame
+};
+
+/// Applies dabs to a field and keeps every brick that they replace. Bricks are never written to: each grid
+/// that `grid` gave stays as it was, and shares with the next all bricks but the replaced ones. The same dabs
+/// give the same bytes, and so the same hash, wherever and whenever they are applied.
+class Sculptor {
+  public:
+    /// `base`: a grid that is not edited.
+    explicit Sculptor(std::shared_ptr<const FieldGrid> base);
+
+    [[nodiscard]] const std::shared_ptr<const FieldGrid>& base() const { return base_; }
+    /// The field as it is now. A new one after each change.
+    [[nodiscard]] std::shared_ptr<const FieldGrid> grid();
+
+    /// The dabs from here to the next call are one step of `undo`. Forgets what was undone.
+    void beginStroke();
+    /// Begins a stroke where none was begun. A Drag longer than a quarter of the radius is divided, so that
+    /// it folds nothing. Throws Error (checkDab) before anything is changed.
+    DabReport apply(const Dab& dab);
+
+    /// Takes back the last stroke that changed something. False where there is none.
+    bool undo();
+    bool redo();
+    [[nodiscard]] size_t undoSteps() const;
+    [[nodiscard]] size_t redoSteps() const;
+    /// Of all bricks that the field and its history hold.
+    [[nodiscard]] uint64_t memoryBytes() const;
+
+  private:
+    using BrickPtr = std::shared_ptr<const EditedBrick>; ///< null: the base's brick
+    struct Replaced {
+        BrickPtr before, after;
+    };
+    using Step = std::map<uint32_t, Replaced>;
+
+    DabReport applyOnce(const Dab& dab);
+    [[nodiscard]] BrickPtr current(uint32_t number) const;
+    void replace(uint32_t number, const BrickPtr& brick);
+    size_t commit(const NodeBox& changed);
+    bool commitBrick(const glm::ivec3& brick);
+
+    std::shared_ptr<const FieldGrid> base_, grid_; ///< grid_ is null where it is to be made
+    std::map<uint32_t, BrickPtr> edits_;           ///< bricks that differ from the base's
+    std::vector<Step> steps_;                      ///< strokes; the first `done_` are applied
+    size_t done_ = 0;
+    FieldWindow window_;
+    DistanceRestorer restorer_;
+};
+
+} // namespace touchstone
