@@ -23,7 +23,9 @@ void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visi
 
 } // namespace
 
-NodeBox DistanceRestorer::run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach) {
+NodeBox DistanceRestorer::run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach,
+                              ExactSide exact) {
+    exact_ = exact;
     window_ = &window;
     zone_ = zone;
     reach_ = reach;
@@ -49,7 +51,8 @@ void DistanceRestorer::give(size_t node, const glm::dvec3& point) {
     } else {
         points_[pointOf_[node]] = point;
     }
-    queue_.push({distance_[node], static_cast<uint32_t>(node)});
+    const float distance = state_[node] == Node::Kept ? keptDistance(node) : distance_[node];
+    queue_.push({distance, static_cast<uint32_t>(node)});
 }
 
 /// The nodes at the surface in and around the zone. A value that is the distance already, as where a ball was
@@ -80,12 +83,13 @@ bool DistanceRestorer::findNear() {
                       [&](const glm::ivec3&, size_t other) { changed = changed || differs(other); });
         const double own = std::abs(static_cast<double>(window.value[index])) / window.voxel;
         const double measured = glm::distance(glm::dvec3(node), point);
-        const bool keep = !changed || std::abs(own - measured) <= kSame + 0.02 * measured;
+        const bool keep = !changed || isExact(index) || std::abs(own - measured) <= kSame + 0.02 * measured;
         state_[index] = Node::Near;
         distance_[index] = static_cast<float>(keep ? own : measured);
         if (!keep)
             touched_.push_back(static_cast<uint32_t>(index));
-        give(index, point);
+        if (!isExact(index))
+            give(index, point);
     }
     return true;
 }
@@ -101,11 +105,10 @@ void DistanceRestorer::open() {
         for (int y = 0; y < window.size.y; ++y)
             for (int x = 0; x < window.size.x; ++x, ++index) {
                 const glm::ivec3 node(x, y, z);
+                if (state_[index] == Node::Near || isExact(index))
+                    continue;
                 const bool inside = negative(index);
                 const double f = static_cast<double>(window.before[index]) / window.voxel, own = std::abs(f);
-                if (state_[index] == Node::Near)
-                    continue;
-                distance_[index] = static_cast<float>(own);
                 const double away = glm::distance(glm::dvec3(node), zone_.centre);
                 if (away > zone_.radius + kRoom) {
                     if (own >= limit(inside) * (1.0 - 1e-6) || away - zone_.radius - kRoom > own)
@@ -146,26 +149,36 @@ void DistanceRestorer::offer(size_t to, const glm::ivec3& at, const glm::dvec3& 
     const bool isKept = state_[to] == Node::Kept;
     // As floats: a double below a float that it rounds to would be offered for ever.
     const auto offered = static_cast<float>(glm::distance(glm::dvec3(at), point));
-    if (!(offered < distance_[to] - (isKept ? kNearer : 0.0f)))
+    if (!(offered < (isKept ? keptDistance(to) - kNearer : distance_[to])))
         return;
-    const glm::dvec3 foot = ClosestPoints(*window_).slid(glm::dvec3(at), point);
     if (isKept)
         touched_.push_back(static_cast<uint32_t>(to));
     state_[to] = Node::Reached;
-    distance_[to] = static_cast<float>(glm::distance(glm::dvec3(at), foot));
-    give(to, foot);
+    distance_[to] = offered;
+    give(to, point);
+}
+
+/// Its nearest place, once no other node will hand on a nearer one.
+glm::dvec3 DistanceRestorer::settled(size_t node) {
+    glm::dvec3& point = points_[pointOf_[node]];
+    if (state_[node] == Node::Reached) {
+        const glm::dvec3 at(window_->nodeAt(node));
+        point = ClosestPoints(*window_).slid(at, point);
+        distance_[node] = static_cast<float>(glm::distance(at, point));
+    }
+    return point;
 }
 
 void DistanceRestorer::march() {
     while (!queue_.empty()) {
         const Entry entry = queue_.top();
         queue_.pop();
-        if (entry.distance > distance_[entry.node])
+        if (state_[entry.node] != Node::Kept && entry.distance > distance_[entry.node])
             continue; // a nearer place was found since
         const bool inside = negative(entry.node);
-        const glm::dvec3 point = points_[pointOf_[entry.node]];
+        const glm::dvec3 point = settled(entry.node);
         eachNeighbour(*window_, window_->nodeAt(entry.node), [&](const glm::ivec3& at, size_t other) {
-            if (state_[other] != Node::Near && negative(other) == inside)
+            if (state_[other] != Node::Near && negative(other) == inside && !isExact(other))
                 offer(other, at, point);
         });
     }
@@ -181,15 +194,16 @@ NodeBox DistanceRestorer::finish() {
         window.value[node] = static_cast<float>(inside ? -distance : distance);
     }
     NodeBox changed;
-    for (const uint32_t node : touched_)
-        if (window.value[node] != window.before[node])
-            changed.include(window.nodeAt(node));
-    const glm::ivec3 low = zone_.low(0.0, 0), high = zone_.high(window, 0.0, 0);
-    for (int z = low.z; z <= high.z; ++z)
-        for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x)
-                if (const size_t index = window.index({x, y, z}); window.value[index] != window.before[index])
+    size_t row = 0;
+    const auto nx = static_cast<size_t>(window.size.x);
+    for (int z = 0; z < window.size.z; ++z)
+        for (int y = 0; y < window.size.y; ++y, row += nx) {
+            if (std::equal(&window.value[row], &window.value[row] + nx, &window.before[row]))
+                continue;
+            for (int x = 0; x < window.size.x; ++x)
+                if (window.value[row + static_cast<size_t>(x)] != window.before[row + static_cast<size_t>(x)])
                     changed.include({x, y, z});
+        }
     return changed;
 }
 

@@ -3,6 +3,7 @@
 
 #include "haptics/shape/field/sculpt/field_window.h"
 
+#include <cmath>
 #include <cstdint>
 #include <queue>
 #include <vector>
@@ -14,6 +15,8 @@ struct DistanceReach {
     double inside = 0.0, outside = 0.0;
 };
 
+enum class ExactSide : uint8_t { None, Inside, Outside };
+
 /// Makes the values of a window distances again, where those before the dab were. Kept to the last bit are
 /// the nodes whose nearest place on the surface is farther than a voxel from the zone, unless the new surface
 /// is nearer by kNearer. Closest points are handed on from the nodes at the surface, by increasing distance
@@ -22,8 +25,10 @@ struct DistanceReach {
 /// distances is that of the nodes.
 class DistanceRestorer {
   public:
-    /// The window holds all nodes within the reach of the zone. Returns the nodes that differ from before.
-    NodeBox run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach);
+    /// The window holds all nodes within the reach of the zone. `exact`: the side of the surface where the
+    /// values are distances already. Returns the nodes that differ from before.
+    NodeBox run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach,
+                ExactSide exact = ExactSide::None);
 
   private:
     static constexpr float kNearer = 0.02f; // voxels
@@ -41,6 +46,14 @@ class DistanceRestorer {
     void march();
     void offer(size_t to, const glm::ivec3& at, const glm::dvec3& point);
     void give(size_t node, const glm::dvec3& point);
+    [[nodiscard]] glm::dvec3 settled(size_t node);
+    [[nodiscard]] bool isExact(size_t node) const {
+        return exact_ == (negative(node) ? ExactSide::Inside : ExactSide::Outside);
+    }
+    /// Voxels, of a node that was not changed.
+    [[nodiscard]] float keptDistance(size_t node) const {
+        return std::abs(window_->value[node]) / static_cast<float>(window_->voxel);
+    }
     [[nodiscard]] bool negative(size_t node) const { return window_->value[node] < 0.0f; }
     [[nodiscard]] double reachOf(bool inside) const { return inside ? reach_.inside : reach_.outside; }
     /// Voxels.
@@ -50,6 +63,7 @@ class DistanceRestorer {
     FieldWindow* window_ = nullptr;
     SculptZone zone_;
     DistanceReach reach_;
+    ExactSide exact_ = ExactSide::None;
     std::vector<Node> state_;
     std::vector<float> distance_;    ///< voxels, not negative
     std::vector<uint32_t> pointOf_;  ///< index in points_; kNone

@@ -19,11 +19,13 @@ double insideShare(double distance) {
     return std::clamp(0.5 - distance, 0.0, 1.0);
 }
 
-double removedVolume(const FieldWindow& window, const NodeBox& box) {
+/// The surface moves in the zone only.
+double removedVolume(const FieldWindow& window, const SculptZone& zone) {
+    const glm::ivec3 low = zone.low(1.0, 0), high = zone.high(window, 1.0, 0);
     double voxels = 0.0;
-    for (int z = box.low.z; z <= box.high.z; ++z)
-        for (int y = box.low.y; y <= box.high.y; ++y)
-            for (int x = box.low.x; x <= box.high.x; ++x) {
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) {
                 const size_t index = window.index({x, y, z});
                 voxels += insideShare(static_cast<double>(window.before[index]) / window.voxel) -
                           insideShare(static_cast<double>(window.value[index]) / window.voxel);
@@ -87,12 +89,12 @@ DabReport Sculptor::applyOnce(const Dab& dab) {
     const double voxel = base_->layout().voxel;
     const double margin = std::max(base_->inside(), base_->outside()) / voxel + 3.0;
     const SculptZone zone = fillWindow(window_, *grid(), dab.centre, changedRadius(*base_, dab), margin);
-    applyTool(window_, *base_, dab, zone);
-    const NodeBox changed = restorer_.run(window_, zone, {base_->inside(), base_->outside()});
+    const ExactSide exact = applyTool(window_, *base_, dab, zone);
+    const NodeBox changed = restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact);
     DabReport report;
     if (changed.empty())
         return report;
-    report.removed = removedVolume(window_, changed);
+    report.removed = removedVolume(window_, zone);
     report.bricks = commit(changed);
     const auto place = [&](const glm::ivec3& node) {
         return base_->layout().origin + voxel * glm::dvec3(window_.first + node);
@@ -129,16 +131,25 @@ size_t Sculptor::commit(const NodeBox& changed) {
 }
 
 bool Sculptor::commitBrick(const glm::ivec3& brick) {
-    std::array<float, kNodesInBrick> before{}, after{}, base{};
-    grid_->copyBrick(brick, before);
-    after = before;
+    std::array<float, kNodesInBrick> before, after, base;
     const glm::ivec3 first = kBrickCells * brick, size = window_.size;
     const glm::ivec3 low = glm::max(window_.first - first, glm::ivec3(0));
     const glm::ivec3 high = glm::min(window_.first + size - 1 - first, glm::ivec3(kBrickCells));
+    const auto width = static_cast<size_t>(std::max(0, high.x - low.x + 1));
+    bool differs = false;
+    for (int z = low.z; z <= high.z && !differs; ++z)
+        for (int y = low.y; y <= high.y && !differs; ++y) {
+            const size_t row = window_.index(first + glm::ivec3(low.x, y, z) - window_.first);
+            differs = std::memcmp(&window_.value[row], &window_.before[row], width * sizeof(float)) != 0;
+        }
+    if (!differs)
+        return false;
+    grid_->copyBrick(brick, before);
+    after = before;
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
             std::copy_n(window_.value.data() + window_.index(first + glm::ivec3(low.x, y, z) - window_.first),
-                        std::max(0, high.x - low.x + 1), after.data() + brickNode({low.x, y, z}));
+                        width, after.data() + brickNode({low.x, y, z}));
     if (sameBytes(before, after))
         return false;
     const uint32_t number = base_->brickNumber(brick);

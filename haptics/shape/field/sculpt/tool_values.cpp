@@ -98,6 +98,26 @@ double borderDistance(const FieldGrid& grid, const glm::ivec3& node) {
     return (0.5 - std::min({within.x, within.y, within.z})) * grid.layout().voxel;
 }
 
+/// The side where a whole ball's distance is exact, and its values outside of the zone.
+ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone) {
+    const bool carves = dab.tool == SculptTool::Carve;
+    if ((!carves && dab.tool != SculptTool::Add) || dab.strength != 1.0 || dab.falloff != 0.0)
+        return ExactSide::None;
+    const auto voxel = static_cast<float>(window.voxel), radius = static_cast<float>(dab.radius);
+    const glm::vec3 centre(zone.centre);
+    size_t index = 0;
+    for (int z = 0; z < window.size.z; ++z)
+        for (int y = 0; y < window.size.y; ++y)
+            for (int x = 0; x < window.size.x; ++x, ++index) {
+                float& value = window.value[index];
+                if ((value < 0.0f) != carves || zone.contains({x, y, z}))
+                    continue;
+                const float ball = voxel * glm::distance(glm::vec3(x, y, z), centre) - radius;
+                value = carves ? std::max(value, -ball) : std::min(value, ball);
+            }
+    return carves ? ExactSide::Inside : ExactSide::Outside;
+}
+
 } // namespace
 
 double changedRadius(const FieldGrid& grid, const Dab& dab) {
@@ -108,10 +128,10 @@ double changedRadius(const FieldGrid& grid, const Dab& dab) {
     return dab.radius * glm::length(extent) / std::max({extent.x, extent.y, extent.z}) + room;
 }
 
-void applyTool(FieldWindow& window, const FieldGrid& grid, const Dab& dab, const SculptZone& zone) {
+ExactSide applyTool(FieldWindow& window, const FieldGrid& grid, const Dab& dab, const SculptZone& zone) {
     const glm::ivec3 low = zone.low(0.0, 0), high = zone.high(window, 0.0, 0);
     if (glm::any(glm::greaterThan(low, high)))
-        return;
+        return ExactSide::None;
     const ToolSolid solid(dab);
     std::optional<Smoothed> smoothed;
     if (dab.tool == SculptTool::Smooth)
@@ -145,6 +165,7 @@ void applyTool(FieldWindow& window, const FieldGrid& grid, const Dab& dab, const
                     g = std::min(f, std::max(g, borderDistance(grid, window.first + node)));
                 window.value[index] = static_cast<float>(g);
             }
+    return wholeBall(window, dab, zone);
 }
 
 } // namespace touchstone

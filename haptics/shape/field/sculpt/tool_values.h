@@ -2,6 +2,7 @@
 // What each tool makes of the values near it.
 
 #include "haptics/shape/field/sculpt/field_window.h"
+#include "haptics/shape/field/sculpt/restore_distance.h"
 #include "haptics/shape/field/sculpt/sculpt_tool.h"
 
 namespace touchstone {
@@ -9,8 +10,11 @@ namespace touchstone {
 /// Radius of the ball in which a dab changes nodes by itself, object units: with two voxels around the tool.
 [[nodiscard]] double changedRadius(const FieldGrid& grid, const Dab& dab);
 
-/// Replaces the values in the zone. They are no distances yet, but where the whole ball is taken out or
-/// joined (strength 1, no falloff). The object stays half a voxel inside of the grid.
-void applyTool(FieldWindow& window, const FieldGrid& grid, const Dab& dab, const SculptZone& zone);
+/// Replaces the values in the zone. They are no distances yet, but on the side that is returned: a point in a
+/// solid from which a ball is taken out is as far from its surface as the nearer of the two surfaces, and so
+/// is one outside of a solid to which a ball is joined; there values are replaced in the whole window. The
+/// object stays half a voxel inside of the grid.
+[[nodiscard]] ExactSide applyTool(FieldWindow& window, const FieldGrid& grid, const Dab& dab,
+                                  const SculptZone& zone);
 
 } // namespace touchstone
