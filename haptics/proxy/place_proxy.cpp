@@ -62,4 +62,24 @@ void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState
     }
 }
 
+void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
+    state.candidates.invalidate();
+    state.obstacleCandidates.invalidate();
+    state.shaded = false;
+    if (!state.placed || state.reference < 0)
+        return;
+    const glm::dvec3 proxy =
+        motions[static_cast<size_t>(state.reference)].workspaceFromObject.point(state.proxy);
+    for (size_t k = 0; k < scene.objects.size(); ++k) {
+        const Shape* const shape = scene.objects[k]->shape.get();
+        const PotentialField* const field = shape != nullptr ? shape->potential() : nullptr;
+        if (field == nullptr ||
+            field->value(motions[k].workspaceFromObject.inversePoint(proxy)) >= -field->voxel())
+            continue;
+        state.forgetTouch();
+        state.mustLeave = true;
+        return;
+    }
+}
+
 } // namespace touchstone

@@ -27,4 +27,10 @@ namespace touchstone {
 /// that is left.
 void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
+/// Between two ticks, after fields of the scene have changed. `motions`: of the preceding tick. What was
+/// gathered near the proxy is dropped. A hand whose proxy a field has come to cover by more than a voxel
+/// begins again, once it is clear of the model: it would push at full depth. Any other touch goes on; a proxy
+/// that is covered by less is lifted by the next solve.
+void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
+
 } // namespace touchstone

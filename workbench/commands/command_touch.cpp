@@ -7,6 +7,7 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "haptics/comparison/comparison_solver.h"
+#include "haptics/proxy/place_proxy.h"
 #include "haptics/query/ray_floor.h"
 #include "haptics/recording/recording_writer.h"
 #include "haptics/servo/realtime_thread.h"
@@ -14,6 +15,7 @@
 #include "haptics/tick/stepped_hand.h"
 #include "study/timing/clock_cost.h"
 #include "workbench/commands/stroke_outcome.h"
+#include "workbench/commands/touch_sculpt.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
@@ -229,6 +231,12 @@ class OfflineTouch {
                                               : objects())[static_cast<size_t>(tick.output.object)]
                                .workspaceFromObject;
     }
+    /// Between two ticks: the same objects, some of which have been sculpted. The scene outlives it.
+    void take(const HapticScene& reshaped) {
+        touch_.scene = &reshaped;
+        takeUpReshaped(reshaped, objects().empty() ? ObjectMotions(reshaped.restMotions) : objects(),
+                       touch_.state);
+    }
     [[nodiscard]] bool moving() const { return touch_.world.moving(); }
     /// Before the first step.
     [[nodiscard]] TouchCheckpoint checkpoint() {
@@ -301,6 +309,12 @@ int touchCommand(const TouchOptions& options) {
     Model model = loadModelToTouch(options.scene, options.fit, &clock, options.iso);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
+    std::optional<TouchSculpt> sculpt;
+    if (!options.sculpt.empty()) {
+        clock.at("sculpting");
+        sculpt.emplace(options.sculpt, model.haptic);
+        model.haptic = sculpt->scene();
+    }
     clock.at("preparing for the settings");
     prepareFor(model, options.settings);
     clock.at("laying the stroke");
@@ -330,7 +344,7 @@ int touchCommand(const TouchOptions& options) {
     }
 
     OfflineTouch touch(model, options);
-    const bool moving = touch.moving();
+    const bool changes = touch.moving() || (sculpt && sculpt->waits());
     const TouchCheckpoint first = touch.checkpoint();
     TickStatistics statistics;
     Samples rays;
@@ -340,8 +354,10 @@ int touchCommand(const TouchOptions& options) {
     for (size_t begin = 0; begin < planned.size(); begin += kBlock) {
         const std::span<OfflineTick> block(ticks.data(), std::min(kBlock, planned.size() - begin));
         for (size_t i = 0; i < block.size(); ++i) {
+            if (sculpt && sculpt->applyUntil(planned[begin + i].time))
+                touch.take(*(model.haptic = sculpt->scene()));
             touch.step(planned[begin + i], block[i]);
-            if (moving && report && block[i].output.contacts > 0)
+            if (changes && report && block[i].output.contacts > 0)
                 block[i].gap = proxyGap(*model.haptic, touch.objects(), block[i].output, options.settings);
         }
         if (report)
@@ -355,8 +371,8 @@ int touchCommand(const TouchOptions& options) {
             if (sound)
                 sound->add(soundTick(tick.dt, tick.sample, tick.output.command));
             if (report && tick.output.contacts > 0)
-                statistics.addProxyGap(moving ? tick.gap
-                                              : proxyGap(*model.haptic, {}, tick.output, options.settings));
+                statistics.addProxyGap(changes ? tick.gap
+                                               : proxyGap(*model.haptic, {}, tick.output, options.settings));
         }
         out.write(rows);
         if (recorder)
@@ -387,6 +403,7 @@ int touchCommand(const TouchOptions& options) {
             {"force", statistics.forceJson()},
             {"energy", statistics.energyJson()},
             {"flags", statistics.flagsJson()},
+            {"sculpt", sculpt ? sculpt->json() : nlohmann::ordered_json()},
             {"allocations_in_tick", violations.allocations},
             {"deallocations_in_tick", violations.deallocations},
         };
@@ -396,6 +413,8 @@ int touchCommand(const TouchOptions& options) {
     if (sound)
         sound->commit();
     out.commit();
+    if (sculpt)
+        sculpt->finish(options.sculpted);
     std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
                 static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
     if (stroke) // a user's path may stay in the air

@@ -219,8 +219,25 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
         app.add_flag("--closed-loop", options.closedLoop,
                      "The path is what the hand intends: it holds a simulated device, and both yield");
     addPlant(app, options.plant)->needs(closed);
-    app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
+    CLI::Option* record =
+        app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
     app.add_option("--sound", options.sound, "Write how the force sounds, as WAV")->type_name("FILE.wav");
+    CLI::Option* sculpt =
+        app.add_option("--sculpt", options.sculpt,
+                       "Sculpt what is felt as a field: strokes before touch begins, or at their times")
+            ->type_name("JOURNAL.json")
+            ->excludes(record);
+    app.add_option("--sculpted", options.sculpted,
+                   "Write the sculpted object, at the end; may be given again")
+        ->type_name("FILE.glb|vdb")
+        ->expected(1)
+        ->take_all()
+        ->needs(sculpt)
+        ->check([](const std::string& file) {
+            const std::string ending = std::filesystem::path(file).extension().string();
+            return ending == ".glb" || ending == ".vdb" ? std::string()
+                                                        : file + " ends in neither .glb nor .vdb";
+        });
     addSettings(app, options.settings);
     addRate(app, options.rateHz,
             "Resample the path at this rate; without it one tick a row (1000 for a stroke)");

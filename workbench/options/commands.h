@@ -90,6 +90,8 @@ struct TouchOptions {
     PlantParameters plant;     ///< in the closed loop
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
     PartNames part;            ///< what is felt
+    std::filesystem::path sculpt;                ///< a journal; empty: nothing is sculpted
+    std::vector<std::filesystem::path> sculpted; ///< .glb and .vdb of the sculpted object, at the end
 };
 int touchCommand(const TouchOptions& options);
 

@@ -152,7 +152,7 @@ void checkFileSize(const ImportContext& context, const FileDescriptor& file, con
 
 /// Size, and the hash by which recordings know a file (haptics/recording/scene_identity.cpp): of blocks of 1
 /// MiB, as many of them full as there are, in however many pieces the system gives them.
-FileStamp stampOf(const FileDescriptor& file, const Progress& progress) {
+FileStamp stampOfFile(const FileDescriptor& file, const Progress& progress) {
     std::vector<std::byte> block(size_t{1} << 20);
     FileStamp stamp;
     Hash64 hash;
@@ -287,7 +287,7 @@ std::shared_ptr<const Volume> readVolume(const ImportContext& context, const std
     const FlatVolumeHead head = headOf(context, owner->bytes());
     VolumeFacts facts = factsOf(head, format);
     checkPlace(context, facts);
-    facts.file = stampOf(file, context.progress());
+    facts.file = stampOfFile(file, context.progress());
     return std::make_shared<const Volume>(std::move(facts), owner->bytes().subspan(sizeof head), owner,
                                           context.file(), context.progress());
 }

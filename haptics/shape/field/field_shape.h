@@ -21,6 +21,7 @@ class FieldShape final : public Shape, public PotentialField {
     explicit FieldShape(std::shared_ptr<const FieldGrid> grid);
 
     [[nodiscard]] const FieldGrid& grid() const noexcept { return *grid_; }
+    [[nodiscard]] const std::shared_ptr<const FieldGrid>& sharedGrid() const noexcept { return grid_; }
     [[nodiscard]] double value(const glm::dvec3& point) const noexcept override;
     [[nodiscard]] glm::dvec3 gradient(const glm::dvec3& point) const noexcept override;
     [[nodiscard]] double lipschitz() const noexcept override { return grid_->lipschitz(); }
