@@ -24,7 +24,7 @@ def block():
     mm, low = 1e3 * SPACING, 1e3 * SIDE / 2
     head = (f"NRRD0004\ntype: uint8\ndimension: 3\nsizes: {VOXELS} {VOXELS} {VOXELS}\nencoding: raw\n"
             "space: left-posterior-superior\n"
-            f"space directions: ({mm},0,0) (0,0,{mm}) (0,{-mm},0)\nspace origin: ({-low},{low},{-low})\n\n")
+            f"space units: \"mm\" \"mm\" \"mm\"\nspace directions: ({mm},0,0) (0,0,{mm}) (0,{-mm},0)\nspace origin: ({-low},{low},{-low})\n\n")
     return head.encode() + bytes(values)
 
 
