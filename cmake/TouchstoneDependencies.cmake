@@ -12,6 +12,9 @@ find_package(ZLIB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(glslang REQUIRED)
+find_package(SPIRV-Tools REQUIRED)
+find_package(SPIRV-Tools-opt REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
 # OpenImageIO's own CMake config demands the tools package; pkg-config does not.

@@ -1,0 +1,46 @@
+#pragma once
+// Runs register programs on the servo: no allocation, no lock, no throw, bounded time.
+
+#include "haptics/program/register_program.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace touchstone::program {
+
+/// How a run ended. Only a finished run has outputs.
+enum class Ending : uint8_t {
+    Finished,
+    BudgetReached,  ///< kBudget, counted at every jump backwards
+    BadIndex,       ///< an array index outside of its array
+    DivisionByZero, ///< of integers
+    Unreachable,
+    NotFinite, ///< an output, or a derivative of one, is a NaN or an infinity
+};
+
+/// Up to four components at a location.
+using PortValue = std::array<float, 4>;
+/// The same with their derivatives by three variables.
+struct DualPortValue {
+    PortValue v{};
+    std::array<std::array<float, 3>, 4> d{};
+};
+
+/// What a run of the servo gave and took.
+struct RunResult {
+    Ending ending = Ending::Finished;
+    uint32_t cost = 0; ///< an upper bound, in the units of operation.h
+};
+
+/// Runs the program on inputs and outputs by location (at least kMaxLocations of each; the program reads and
+/// writes those that it declares). Same bits for the same program, inputs and binary.
+[[nodiscard]] RunResult run(const RegisterProgram& program, std::span<const PortValue, kMaxLocations> inputs,
+                            std::span<PortValue, kMaxLocations> outputs) noexcept;
+
+/// The same with derivatives. The values are those of `run` to the bit.
+[[nodiscard]] RunResult runDual(const RegisterProgram& program,
+                                std::span<const DualPortValue, kMaxLocations> inputs,
+                                std::span<DualPortValue, kMaxLocations> outputs) noexcept;
+
+} // namespace touchstone::program

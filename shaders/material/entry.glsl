@@ -1,0 +1,33 @@
+// Runs a haptic program: read after it.
+
+void main() {
+    Touch before;
+    before.position = touchstone_position;
+    before.normal = touchstone_normal;
+    before.tangent = touchstone_tangent;
+    before.binormal = touchstone_binormal;
+    before.uv = touchstone_uv;
+    before.toolDirection = touchstone_toolDirection;
+    before.toolVelocity = touchstone_toolVelocity;
+    before.toolAcceleration = touchstone_toolAcceleration;
+    before.force = touchstone_force;
+    before.staticFriction = touchstone_material.x;
+    before.dynamicFriction = touchstone_material.y;
+    before.stiffness = touchstone_material.z;
+    before.damping = touchstone_material.w;
+    before.filterWidth = touchstone_tick.x;
+    before.time = touchstone_tick.y;
+    Surface after;
+    after.position = before.position;
+    after.normal = before.normal;
+    after.force = before.force;
+    after.staticFriction = before.staticFriction;
+    after.dynamicFriction = before.dynamicFriction;
+    after.stiffness = before.stiffness;
+    after.damping = before.damping;
+    touch(before, after);
+    touchstone_outPosition = after.position;
+    touchstone_outNormal = after.normal;
+    touchstone_outForce = after.force;
+    touchstone_outMaterial = vec4(after.staticFriction, after.dynamicFriction, after.stiffness, after.damping);
+}

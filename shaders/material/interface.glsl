@@ -1,0 +1,49 @@
+// What a haptic program gets and gives (docs/programs.md). Read before every program.
+//
+// Lengths are metres of the model, in the object's own frame; directions too. Velocities and forces are those of
+// the hand, m/s and N, in that frame.
+
+struct Touch {
+    vec3 position;         // touched place, model m
+    vec3 normal;           // unit, of the felt surface, outwards
+    vec3 tangent;          // unit, along u where the mesh has texture coordinates
+    vec3 binormal;         // unit, normal x tangent
+    vec2 uv;               // texture coordinates, (0, 0) where the mesh has none
+    vec3 toolDirection;    // unit, of the last motion along the surface; 0 before any
+    vec3 toolVelocity;     // m/s, relative to the surface
+    vec3 toolAcceleration; // m/s^2
+    vec3 force;            // N: stiffness times depth along the normal, without friction and damping
+    float staticFriction;  // 1
+    float dynamicFriction; // 1
+    float stiffness;       // N/m
+    float damping;         // N s/m
+    float filterWidth;     // model m that the tool moves along the surface in this tick
+    float time;            // s since touch began on this scene
+};
+
+struct Surface {
+    vec3 position; // displaced place, model m; less than depth is felt of what lies outside of the mesh
+    vec3 normal;   // perturbed normal; where it is left alone, that of the displaced surface
+    vec3 force;    // N
+    float staticFriction;
+    float dynamicFriction; // at most the static one is felt
+    float stiffness;
+    float damping;
+};
+
+layout(location = 0) in vec3 touchstone_position;
+layout(location = 1) in vec3 touchstone_normal;
+layout(location = 2) in vec3 touchstone_tangent;
+layout(location = 3) in vec3 touchstone_binormal;
+layout(location = 4) in vec2 touchstone_uv;
+layout(location = 5) in vec3 touchstone_toolDirection;
+layout(location = 6) in vec3 touchstone_toolVelocity;
+layout(location = 7) in vec3 touchstone_toolAcceleration;
+layout(location = 8) in vec3 touchstone_force;
+layout(location = 9) in vec4 touchstone_material; // static and dynamic friction, stiffness, damping
+layout(location = 10) in vec2 touchstone_tick;    // filter width, time
+
+layout(location = 0) out vec3 touchstone_outPosition;
+layout(location = 1) out vec3 touchstone_outNormal;
+layout(location = 2) out vec3 touchstone_outForce;
+layout(location = 3) out vec4 touchstone_outMaterial;

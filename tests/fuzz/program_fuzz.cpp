@@ -1,0 +1,202 @@
+// Feeds the translator of haptic programs SPIR-V that is nearly right, and runs what it accepts: no crash, no
+// run beyond its budget, no finished run with an output that is not finite. This target alone is compiled
+// under the address and undefined behaviour sanitizers in every preset.
+#include "engine/core/error.h"
+#include "engine/program/program_compiler.h"
+#include "haptics/program/executor.h"
+#include "haptics/program/translator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace touchstone::program {
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+constexpr const char* kSources[] = {
+    R"(parameter float ringscale = 10; // 1..100
+void touch(const in Touch before, inout Surface after) {
+    vec3 p = before.position + noise(before.position);
+    float r = length(p.yz) * ringscale;
+    r += abs(noise(r));
+    after.staticFriction = mix(0.02, 0.5, fract(r));
+})",
+    R"(float table[4] = float[](0.1, 0.2, 0.3, 0.4);
+void touch(const in Touch before, inout Surface after) {
+    float sum = 0.0;
+    mat3 m = mat3(before.normal, before.tangent, before.force);
+    for (int i = 0; i < int(before.uv.x); i++) {
+        switch (i & 3) {
+        case 0: sum += table[i]; break;
+        case 2: table[i] = sum; continue;
+        default: sum -= m[i % 3][i & 1];
+        }
+        if (sum > 3.0) break;
+    }
+    after.force = inverse(m) * before.force * sum;
+    after.position[int(before.uv.y)] += 1e-3;
+})",
+    R"(parameter int octaves = 3; // 1..8
+void touch(const in Touch before, inout Surface after) {
+    float u = 0.0, f = 1.0;
+    int n = octaves;
+    while (n-- > 0) { u += noise(before.position * f) / f; f *= 2.0; }
+    after.force = before.force * (1.0 + u) + refract(before.force, before.normal, 0.9);
+    after.normal = normalize(mix(before.normal, vec3(u), bvec3(u > 0.1)));
+    after.damping = float((octaves / (n + 2)) << bitCount(uint(f)));
+})"};
+
+std::vector<Words> seeds() {
+    std::vector<Words> all;
+    for (const char* source : kSources)
+        all.push_back(compileProgram(readProgramSource("seed", source), installedProgramCompiler(),
+                                     [] { return false; }));
+    return all;
+}
+
+constexpr size_t kHeaderWords = 5;
+
+Words mutant(const Words& seed, std::mt19937& random) {
+    Words words = seed;
+    for (size_t changes = 1 + random() % 4; changes > 0; --changes) {
+        const size_t at = kHeaderWords + random() % (words.size() - kHeaderWords);
+        const auto place = words.begin() + static_cast<std::ptrdiff_t>(at);
+        switch (random() % 7) {
+        case 0:
+            words[at] = static_cast<uint32_t>(random());
+            break;
+        case 1:
+            words[at] ^= 1u << random() % 32;
+            break;
+        case 2:
+            words[at] = static_cast<uint32_t>(random() % 400); // another id, another opcode
+            break;
+        case 3:
+            words[at] = words[kHeaderWords + random() % (words.size() - kHeaderWords)];
+            break;
+        case 4:
+            words.erase(place, place + std::min<std::ptrdiff_t>(words.end() - place,
+                                                                1 + static_cast<int>(random() % 6)));
+            break;
+        case 5:
+            words[at] = (words[at] & 0xffff0000u) | static_cast<uint32_t>(random() % 330);
+            break;
+        default:
+            words[random() % kHeaderWords] = static_cast<uint32_t>(random() % 70000);
+            break;
+        }
+        if (words.size() <= kHeaderWords + 1)
+            return seed;
+    }
+    return words;
+}
+
+constexpr float kStrange[] = {0.0f,
+                              1.0f,
+                              -1.0f,
+                              1e38f,
+                              -1e38f,
+                              1e-40f,
+                              std::numeric_limits<float>::quiet_NaN(),
+                              std::numeric_limits<float>::infinity(),
+                              3.7f,
+                              2147483648.0f,
+                              0.5f,
+                              17.0f};
+
+void runHere(const RegisterProgram& program, std::mt19937& random) {
+    std::array<PortValue, kMaxLocations> in{}, out{};
+    std::array<DualPortValue, kMaxLocations> dual{}, dualOut{};
+    for (size_t i = 0; i < kMaxLocations; ++i)
+        for (size_t k = 0; k < 4; ++k) {
+            in[i][k] = dual[i].v[k] = kStrange[random() % std::size(kStrange)];
+            dual[i].d[k][random() % 3] = kStrange[random() % std::size(kStrange)];
+        }
+    const RunResult result = run(program, in, out);
+    ASSERT_LE(result.cost, 2 * kBudget);
+    for (const Port& port : program.outputs)
+        for (size_t k = 0; k < port.count && result.ending == Ending::Finished; ++k)
+            ASSERT_TRUE(std::isfinite(out[port.location][k]));
+    ASSERT_LE(runDual(program, dual, dualOut).cost, 2 * kBudget);
+}
+
+/// Some are accepted and run, some are refused.
+void fuzz(unsigned seed, int trials) {
+    std::mt19937 random(seed);
+    const std::vector<Words> from = seeds();
+    int accepted = 0;
+    for (int i = 0; i < trials; ++i) {
+        const Words words = mutant(from[random() % from.size()], random);
+        const Translation translation = translateSpirv(words);
+        if (translation.problem) {
+            ASSERT_FALSE(translation.problem->remedy.empty());
+            continue;
+        }
+        ++accepted;
+        for (int k = 0; k < 4; ++k)
+            runHere(translation.program, random);
+        if (::testing::Test::HasFatalFailure())
+            return;
+    }
+    std::printf("%d of %d modules accepted and run\n", accepted, trials);
+    ASSERT_GT(accepted, 0);
+    ASSERT_LT(accepted, trials);
+}
+
+TEST(ProgramFuzz, MutatedModulesAreRefusedOrRunWithinTheBudget) {
+    fuzz(1, 2000);
+}
+
+TEST(ProgramSweep, TenThousandMutatedModulesAreRefusedOrRunWithinTheBudget) {
+    if (std::getenv("TOUCHSTONE_SWEEP") == nullptr)
+        GTEST_SKIP() << "set TOUCHSTONE_SWEEP=1 for the long form";
+    fuzz(2, 10000);
+}
+
+/// Lines out of the sources above in another order, with other words.
+TEST(ProgramSweep, AThousandRandomSourcesAreRefusedWithAMessageOrRun) {
+    if (std::getenv("TOUCHSTONE_SWEEP") == nullptr)
+        GTEST_SKIP() << "set TOUCHSTONE_SWEEP=1 for the long form";
+    constexpr const char* kPieces[] = {"sin(",    "vec3(",       "before.position",
+                                       ")",       "*",           "+",
+                                       "1.0",     "after.force", "=",
+                                       ";",       "{",           "}",
+                                       "for(;;)", "while(true)", "int i",
+                                       "i",       "/",           "0",
+                                       "noise(",  "if(",         "[",
+                                       "]",       "<",           "float f",
+                                       "f",       "mat3("};
+    std::mt19937 random(3);
+    int accepted = 0;
+    for (int i = 0; i < 1000; ++i) {
+        std::string body =
+            i % 2 == 0 ? kSources[random() % 3] : "void touch(const in Touch before, inout Surface after){";
+        for (size_t k = 1 + random() % 12; k > 0; --k) {
+            const std::string piece = kPieces[random() % std::size(kPieces)];
+            body.insert(i % 2 == 0 ? random() % body.size() : body.size(), " " + piece + " ");
+        }
+        if (i % 2 == 1)
+            body += ";}";
+        try {
+            const Translation translation = translateSpirv(compileProgram(
+                readProgramSource("random", body), installedProgramCompiler(), [] { return false; }));
+            if (!translation.problem) {
+                ++accepted;
+                runHere(translation.program, random);
+            }
+        } catch (const Error& error) {
+            ASSERT_FALSE(error.remedy().empty());
+        }
+    }
+    std::printf("%d of 1000 sources accepted and run\n", accepted);
+}
+
+} // namespace
+} // namespace touchstone::program

@@ -1,0 +1,72 @@
+#pragma once
+// Programs out of GLSL, compiled by the process that the product uses.
+
+#include "engine/core/error.h"
+#include "engine/program/program_compiler.h"
+#include "haptics/program/executor.h"
+#include "haptics/program/translator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace touchstone::program {
+
+inline std::vector<uint32_t> spirvOf(const std::string& text) {
+    return compileProgram(readProgramSource("test.glsl", text), installedProgramCompiler(),
+                          [] { return false; });
+}
+
+inline RegisterProgram programOf(const std::string& text) {
+    Translation translation = translateSpirv(spirvOf(text));
+    if (translation.problem)
+        throw std::runtime_error(translation.problem->place.file + ":" +
+                                 std::to_string(translation.problem->place.line) + ": " +
+                                 translation.problem->what);
+    return std::move(translation.program);
+}
+
+/// The body of touch.
+inline std::string touchBody(const std::string& body) {
+    return "void touch(const in Touch before, inout Surface after) {\n" + body + "\n}\n";
+}
+
+using Inputs = std::array<PortValue, kMaxLocations>;
+using DualInputs = std::array<DualPortValue, kMaxLocations>;
+
+/// Locations of shaders/material/interface.glsl.
+enum Location : size_t { kPosition = 0, kNormal = 1, kUv = 4, kForce = 8, kMaterial = 9, kTick = 10 };
+enum OutLocation : size_t { kOutPosition = 0, kOutNormal = 1, kOutForce = 2, kOutMaterial = 3 };
+
+inline Inputs inputsAt(float x, float y, float z) {
+    Inputs inputs{};
+    inputs[kPosition] = {x, y, z, 0.0f};
+    inputs[kNormal] = {0.0f, 0.0f, 1.0f, 0.0f};
+    inputs[kForce] = {0.0f, 0.0f, 2.0f, 0.0f};
+    inputs[kMaterial] = {0.4f, 0.3f, 600.0f, 1.0f};
+    return inputs;
+}
+
+/// The position, with its derivatives by itself; everything else is constant.
+inline DualInputs dualInputs(const Inputs& inputs) {
+    DualInputs dual{};
+    for (size_t i = 0; i < inputs.size(); ++i)
+        dual[i].v = inputs[i];
+    for (size_t k = 0; k < 3; ++k)
+        dual[kPosition].d[k][k] = 1.0f;
+    return dual;
+}
+
+inline void setParameter(RegisterProgram& program, const std::string& name, float value) {
+    for (const ParameterSlot& slot : program.parameters)
+        if (slot.name == name)
+            program.constants[slot.first] = std::bit_cast<uint32_t>(value);
+}
+
+} // namespace touchstone::program
