@@ -54,8 +54,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     defineEdit(*editApp, edit);
     CLI::App* renderApp = app.add_subcommand("render", "Draw a picture of a model");
     defineRender(*renderApp, render);
-    CLI::App* inspectApp =
-        app.add_subcommand("inspect", "What a model is, what it would feel like, and its problems");
+    CLI::App* inspectApp = app.add_subcommand(
+        "inspect", "What a model or a haptic program (.glsl) is, what it would feel like, and its problems");
     defineInspect(*inspectApp, inspect);
     CLI::App* benchApp = app.add_subcommand("bench", "What a tick costs against Embree's floor");
     defineBench(*benchApp, bench);

@@ -1,7 +1,8 @@
-// Prints a model's contents and haptic properties.
+// Prints a model's contents and haptic properties, or what a haptic program is.
 
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
+#include "workbench/commands/inspect_program.h"
 #include "workbench/figures/inspection.h"
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
@@ -105,6 +106,12 @@ void printInspection(const Json& json) {
 } // namespace
 
 int inspectCommand(const InspectOptions& options) {
+    if (isProgramFile(options.scene)) {
+        if (options.iso)
+            throw Error(options.scene.string(), "", "a program has no value at its surface",
+                        "leave out --iso");
+        return inspectProgram(options.scene, options.json);
+    }
     const Model model = loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso);
     const Json json = inspectionOf(model);
     printInspection(json);

@@ -1,5 +1,6 @@
 // The programs of [003] in assets/programs, each against its formula in long double.
 
+#include "haptics/program/load_program.h"
 #include "noise_reference.h"
 #include "program_bench.h"
 
@@ -17,17 +18,7 @@ using Vec = std::array<long double, 3>;
 RegisterProgram paperProgram(const std::string& name) {
     std::ifstream file(std::string(TOUCHSTONE_ASSETS) + "/../programs/" + name);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
-    RegisterProgram program = programOf(text);
-    const ProgramSource source = readProgramSource(name, text);
-    for (const ProgramParameter& parameter : source.parameters)
-        for (ParameterSlot& slot : program.parameters)
-            if (slot.name == parameter.name)
-                for (size_t i = 0; i < slot.count; ++i)
-                    program.constants[slot.first + i] =
-                        slot.kind == ParameterSlot::Kind::Float
-                            ? std::bit_cast<uint32_t>(static_cast<float>(parameter.value[i]))
-                            : static_cast<uint32_t>(static_cast<int64_t>(parameter.value[i]));
-    return program;
+    return loadProgram(readProgramSource(name, text), installedProgramCompiler(), [] { return false; });
 }
 
 void setInteger(RegisterProgram& program, const std::string& name, uint32_t value) {
@@ -121,10 +112,59 @@ TEST(PaperPrograms, SimpleNoiseIsItsFormulaAndNeverPulls) {
 TEST(PaperPrograms, SimpleNoiseLeavesOutWhatAStrokeWouldAlias) {
     const RegisterProgram program = paperProgram("simple_noise.glsl");
     Inputs in = inputsAt(0.0031f, 0.0017f, 0.0023f);
-    in[kTick] = {0.00126f, 0.0f, 0.0f, 0.0f}; // 1.26 mm a tick: half of the coarsest wave is 1.25 mm
+    in[kTick] = {0.00101f, 0.0f, 0.0f, 0.0f}; // 0.4 of the coarsest wave, 2.5 mm long, is 1 mm
     EXPECT_EQ(outputAt(program, in, kOutForce)[2], 2.0f);
     in[kTick] = {0.0f, 0.0f, 0.0f, 0.0f};
     EXPECT_NE(outputAt(program, in, kOutForce)[2], 2.0f);
+}
+
+/// Share of a signal's power, without its mean, above 1/32 of the sampling rate: half the servo rate where it
+/// is sampled at 16 times that rate. With Hann's window, so that the ends of the stroke add nothing.
+double shareAboveHalfTheServoRate(const std::vector<double>& signal) {
+    const size_t count = signal.size();
+    double mean = 0.0;
+    for (const double value : signal)
+        mean += value / static_cast<double>(count);
+    constexpr double kTurn = 6.283185307179586;
+    std::vector<double> windowed(count);
+    double all = 0.0, below = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        windowed[i] = (signal[i] - mean) *
+                      (0.5 - 0.5 * std::cos(kTurn * static_cast<double>(i) / static_cast<double>(count)));
+        all += windowed[i] * windowed[i];
+    }
+    for (size_t bin = 0; bin <= count / 32; ++bin) { // Parseval: the rest lies above
+        double real = 0.0, imaginary = 0.0;
+        for (size_t i = 0; i < count; ++i) {
+            const double angle = kTurn * static_cast<double>(bin * i % count) / static_cast<double>(count);
+            real += windowed[i] * std::cos(angle);
+            imaginary += windowed[i] * std::sin(angle);
+        }
+        below += (bin == 0 ? 1.0 : 2.0) * (real * real + imaginary * imaginary) / static_cast<double>(count);
+    }
+    return all > 0.0 ? std::max(all - below, 0.0) / all : 0.0;
+}
+
+/// A stroke of 1 m/s, evaluated at 16 kHz with the filter width of a tick of 1 ms.
+TEST(PaperPrograms, SimpleNoiseHasNoPowerThatTheServoWouldAlias) {
+    RegisterProgram program = paperProgram("simple_noise.glsl");
+    for (const float domain : {60.0f, 100.0f, 150.0f, 200.0f, 250.0f, 300.0f, 350.0f, 400.0f, 450.0f}) {
+        setParameter(program, "domain", domain);
+        double share[2] = {};
+        for (const uint32_t filtered : {0u, 1u}) {
+            setInteger(program, "filtered", filtered);
+            std::vector<double> force;
+            for (int i = 0; i < 8192; ++i) {
+                Inputs in = inputsAt(static_cast<float>(i) * (1.0f / 16000.0f), 0.00371f, 0.0023f);
+                in[kTick] = {0.001f, 0.0f, 0.0f, 0.0f};
+                force.push_back(static_cast<double>(outputAt(program, in, kOutForce)[2]));
+            }
+            share[filtered] = shareAboveHalfTheServoRate(force);
+        }
+        std::printf("%3.0f waves/m: %.2f %% of the power above half the servo rate, unfiltered %.1f %%\n",
+                    static_cast<double>(domain), 100.0 * share[1], 100.0 * share[0]);
+        EXPECT_LT(share[1], 0.01) << domain;
+    }
 }
 
 TEST(PaperPrograms, AnisotropicIsItsFormulaInBothForms) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 namespace touchstone::test {
 namespace {
@@ -546,6 +547,37 @@ TEST(Inspect, DecodesOnlyWhatTheHandReads) {
     const ProgramResult result = runProgram({kProgram, "inspect", TOUCHSTONE_ASSETS "/swatches.glb"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(contains(result.out, "6 of 17 images decoded"));
+}
+
+TEST(Inspect, TellsWhatAProgramIsAndCosts) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "wood.json").string();
+    const ProgramResult result =
+        runProgram({kProgram, "inspect", TOUCHSTONE_ASSETS "/../programs/wood.glsl", "--json", json});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "parameter ringscale = [200.0], 1 to 2000 1/m  rings per metre"));
+    const auto answer = nlohmann::json::parse(readFile(json));
+    EXPECT_GT(answer["instructions"], 100);
+    EXPECT_GT(answer["ns_per_tick"], 0.0);
+    EXPECT_LT(answer["cost"], answer["budget"]);
+    EXPECT_EQ(answer["flagged_share"], 0.0);
+    EXPECT_EQ(answer["parameters"].size(), 8);
+}
+
+TEST(Inspect, RefusesWrongProgramsAtTheirLine) {
+    const ScratchFolder scratch;
+    const std::string wrong = (scratch / "wrong.glsl").string();
+    std::ofstream(wrong)
+        << "// one\nvoid touch(const in Touch before, inout Surface after) { after.force = colour; }\n";
+    expectRefused(runProgram({kProgram, "inspect", wrong}), 1,
+                  {"wrong.glsl: line 2: ", "undeclared identifier", "remedy: "});
+    expectRefused(runProgram({kProgram, "inspect", (scratch / "none.glsl").string()}), 1, {"none.glsl"});
+    std::ofstream(wrong)
+        << "void touch(const in Touch before, inout Surface after) { after.force /= before.uv.x; }\n";
+    const ProgramResult flagged = runProgram({kProgram, "inspect", wrong});
+    EXPECT_EQ(flagged.status, 0) << flagged.err;
+    EXPECT_TRUE(contains(flagged.out, "without a result at 100 %"));
+    expectRefused(runProgram({kProgram, "inspect", wrong, "--iso", "3"}), 1, {"--iso"});
 }
 
 TEST(Inspect, TellsWhatTheNeighbourhoodWatchWouldCost) {

@@ -1,0 +1,38 @@
+#include "haptics/program/load_program.h"
+
+#include "engine/core/error.h"
+#include "haptics/program/translator.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace touchstone::program {
+
+void setParameters(RegisterProgram& program, const std::vector<ProgramParameter>& parameters) {
+    for (const ParameterSlot& slot : program.parameters) {
+        const auto parameter = std::ranges::find(parameters, slot.name, &ProgramParameter::name);
+        if (parameter == parameters.end())
+            continue;
+        for (size_t i = 0; i < slot.count; ++i) {
+            const double value = parameter->value[i];
+            program.constants[slot.first + i] = slot.kind == ParameterSlot::Kind::Float
+                                                    ? std::bit_cast<uint32_t>(static_cast<float>(value))
+                                                    : static_cast<uint32_t>(static_cast<int64_t>(value));
+        }
+    }
+}
+
+RegisterProgram loadProgram(const ProgramSource& source, const ProgramCompiler& compiler,
+                            const std::function<bool()>& stop) {
+    Translation translation = translateSpirv(compileProgram(source, compiler, stop));
+    if (translation.problem) {
+        const TranslationProblem& problem = *translation.problem;
+        throw Error(source.name, placeInSource(source, problem.place.file, problem.place.line), problem.what,
+                    problem.remedy);
+    }
+    setParameters(translation.program, source.parameters);
+    return std::move(translation.program);
+}
+
+} // namespace touchstone::program

@@ -1,0 +1,20 @@
+#pragma once
+// From a source to a program that can be run.
+
+#include "engine/program/program_compiler.h"
+#include "haptics/program/register_program.h"
+
+#include <functional>
+
+namespace touchstone::program {
+
+/// Compiles and translates it, with the defaults of its parameters. Throws Error with the line and a remedy;
+/// Cancelled. `stop` is asked every 20 ms. Any thread but the servo.
+[[nodiscard]] RegisterProgram loadProgram(const ProgramSource& source, const ProgramCompiler& compiler,
+                                          const std::function<bool()>& stop);
+
+/// Gives the parameters their values: one entry for each of the source, in its order. A parameter that the
+/// program does not use has no register.
+void setParameters(RegisterProgram& program, const std::vector<ProgramParameter>& parameters);
+
+} // namespace touchstone::program
