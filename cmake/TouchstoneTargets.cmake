@@ -50,9 +50,26 @@ endfunction()
 
 touchstone_headers(common_headers common.h glm::glm)
 
+# touchstone_rooms(TARGET SOURCES...): in a unity build the files of a room are compiled together, twelve at most, so that
+# a new file concerns the names of its own room alone.
+function(touchstone_rooms target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    foreach(file ${ARGN})
+        cmake_path(GET file PARENT_PATH room)
+        string(REPLACE "/" "_" room "room_${room}")
+        if(NOT DEFINED ${room}_files)
+            set(${room}_files 0)
+        endif()
+        math(EXPR unit "${${room}_files} / 12")
+        math(EXPR ${room}_files "${${room}_files} + 1")
+        set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${room}_${unit})
+    endforeach()
+endfunction()
+
 # touchstone_library(NAME SOURCES... ) makes touchstone_NAME, the one static library of the folder NAME.
 function(touchstone_library name)
     add_library(touchstone_${name} STATIC ${ARGN})
     add_library(touchstone::${name} ALIAS touchstone_${name})
     target_link_libraries(touchstone_${name} PUBLIC touchstone_flags)
+    touchstone_rooms(touchstone_${name} ${ARGN})
 endfunction()

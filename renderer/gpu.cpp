@@ -14,7 +14,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr const char* kFacility = "Vulkan";
+constexpr const char* kVulkan = "Vulkan";
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kDriverRemedy =
     "install a driver for your graphics card, or the software one: apt install mesa-vulkan-drivers";
@@ -68,14 +68,14 @@ std::unique_ptr<Gpu::Impl> loadVulkan() {
     try {
         return std::make_unique<Gpu::Impl>();
     } catch (const std::exception& error) {
-        throw Error(kFacility, "", std::string("the Vulkan loader cannot be opened: ") + error.what(),
+        throw Error(kVulkan, "", std::string("the Vulkan loader cannot be opened: ") + error.what(),
                     "apt install libvulkan1 mesa-vulkan-drivers");
     }
 }
 
 void createInstance(Gpu::Impl& gpu, const GpuOptions& options, const SurfaceRequest* surface) {
     if (gpu.context.enumerateInstanceVersion() < VK_API_VERSION_1_3)
-        throw Error(kFacility, "", "the Vulkan loader is older than 1.3",
+        throw Error(kVulkan, "", "the Vulkan loader is older than 1.3",
                     "apt install libvulkan1 of Debian 12 or newer");
     std::vector<const char*> layers, extensions;
     if (surface != nullptr)
@@ -106,9 +106,9 @@ void createInstance(Gpu::Impl& gpu, const GpuOptions& options, const SurfaceRequ
     try {
         gpu.instance = vk::raii::Instance(gpu.context, info);
     } catch (const vk::IncompatibleDriverError&) {
-        throw Error(kFacility, "", "there is no Vulkan driver", kDriverRemedy);
+        throw Error(kVulkan, "", "there is no Vulkan driver", kDriverRemedy);
     } catch (const vk::SystemError& error) {
-        throw Error(kFacility, "", std::string("no Vulkan instance can be made: ") + error.what(),
+        throw Error(kVulkan, "", std::string("no Vulkan instance can be made: ") + error.what(),
                     kDriverRemedy);
     }
     if (gpu.validation)
@@ -188,7 +188,7 @@ vk::raii::PhysicalDevices physicalDevices(const vk::raii::Instance& instance) {
     try {
         return vk::raii::PhysicalDevices(instance);
     } catch (const vk::SystemError&) {
-        throw Error(kFacility, "", "no device was found", kDriverRemedy);
+        throw Error(kVulkan, "", "no device was found", kDriverRemedy);
     }
 }
 
@@ -273,12 +273,12 @@ void throwVulkanError(const vk::SystemError& error, const char* whileDoing) {
     const int code = error.code().value();
     const auto is = [code](vk::Result result) { return code == static_cast<int>(result); };
     if (is(vk::Result::eErrorDeviceLost) || is(vk::Result::eErrorSurfaceLostKHR))
-        throw DeviceLost(kFacility, whileDoing, error.what(),
+        throw DeviceLost(kVulkan, whileDoing, error.what(),
                          "update the graphics driver, or draw on the CPU: TOUCHSTONE_GPU=llvmpipe");
     std::string remedy = "update the graphics driver, or choose another device with TOUCHSTONE_GPU";
     if (is(vk::Result::eErrorOutOfDeviceMemory) || is(vk::Result::eErrorOutOfHostMemory))
         remedy = "close other programs, or load a smaller model";
-    throw Error(kFacility, whileDoing, error.what(), remedy);
+    throw Error(kVulkan, whileDoing, error.what(), remedy);
 }
 
 std::unique_ptr<Gpu> createGpu(const GpuOptions& options, const SurfaceRequest* surface) {

@@ -30,7 +30,7 @@ constexpr double kLargestHalfAxis = 0.5; ///< m: a larger model is stroked near 
 constexpr double kWorthwhile = 0.3; ///< fraction of the ellipse over the model that ends the search for a
                                     ///< side
 constexpr double kHardlyAnything = 0.05; ///< fraction below which single triangles are pressed instead
-constexpr double kStep = 0.2;            ///< of the spacing: tolerance of neighbours' heights to their planes
+constexpr double kHeightStep = 0.2;      ///< of the spacing: tolerance of neighbours' heights to their planes
 constexpr double kHop = 0.003;           ///< m above the higher side of a step or gap
 constexpr double kDeepestPlanned = 0.1;  ///< of the model's diagonal: limit for small models
 constexpr int kRepairs = 16;             ///< repairs of a tour before another side is tried
@@ -151,7 +151,8 @@ std::vector<Waypoint> waypointsAlong(const Stroke& stroke, double depth, double 
         const glm::dvec3 pressed = hit->point - depth * hit->normal;
         if (last == nullptr) {
             waypoints.push_back({raised(pressed, top), i, true});
-        } else if (skipped || stroke.overTop[i] || breaksOff(view, *last, *hit, kStep * stroke.spacing)) {
+        } else if (skipped || stroke.overTop[i] ||
+                   breaksOff(view, *last, *hit, kHeightStep * stroke.spacing)) {
             const double height = stroke.overTop[i] ? top : highest + kHop;
             waypoints.push_back({raised(waypoints.back().place, height), waypoints.back().hit, true});
             waypoints.push_back({raised(pressed, height), i, true});

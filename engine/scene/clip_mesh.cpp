@@ -14,7 +14,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
+constexpr uint32_t kUntaken = UINT32_MAX;
 
 bool comesBefore(const glm::vec3& a, const glm::vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -24,7 +24,7 @@ bool comesBefore(const glm::vec3& a, const glm::vec3& b) {
 class Clipping {
   public:
     Clipping(const Mesh& mesh, const glm::dvec4& plane, double tolerance)
-        : mesh_(mesh), distances_(mesh.positions.size()), taken_(mesh.positions.size(), kNone) {
+        : mesh_(mesh), distances_(mesh.positions.size()), taken_(mesh.positions.size(), kUntaken) {
         for (size_t v = 0; v < distances_.size(); ++v) {
             const double d = glm::dot(plane, glm::dvec4(glm::dvec3(mesh.positions[v]), 1.0));
             distances_[v] = std::abs(d) <= tolerance ? 0.0 : d;
@@ -87,7 +87,7 @@ class Clipping {
 
     uint32_t take(uint32_t vertex) {
         uint32_t& taken = taken_[vertex];
-        if (taken == kNone)
+        if (taken == kUntaken)
             taken = append([&](const auto& from) { return from[vertex]; });
         return taken;
     }

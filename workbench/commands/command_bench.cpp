@@ -244,7 +244,7 @@ std::deque<GrowthColumn> growthColumns(size_t largest) {
     return columns;
 }
 
-struct Ablation {
+struct GrowthMethod {
     const char* name;
     HapticSettings settings;
 };
@@ -260,7 +260,7 @@ HapticSettings byRays(HapticSettings settings, Precision precision) {
     return settings;
 }
 
-std::vector<Ablation> growthAblation() {
+std::vector<GrowthMethod> growthAblation() {
     return {{"sweep, r = 0", bare(0.0)},
             {"sweep, r = 0.5 mm", bare(0.5e-3)},
             {"neighbourhood watch", walking(bare(0.0))},
@@ -272,12 +272,12 @@ std::vector<Ablation> growthAblation() {
 
 Json benchGrowth(const BenchOptions& options) {
     const std::deque<GrowthColumn> columns = growthColumns(options.largestTriangles);
-    const std::vector<Ablation> ablation = growthAblation();
+    const std::vector<GrowthMethod> ablation = growthAblation();
     std::vector<TimedConfiguration> configurations;
     for (const GrowthColumn& column : columns)
         column.scene.haptic->buildNeighbourhoods();
     for (const GrowthColumn& column : columns)
-        for (const Ablation& method : ablation)
+        for (const GrowthMethod& method : ablation)
             configurations.push_back({method.name, &column.scene, method.settings, 0.1});
     const std::vector<ConfigurationTimes> times = timeConfigurations(
         configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, PercentLine("growth"));

@@ -8,11 +8,11 @@ namespace touchstone {
 
 namespace {
 
-constexpr float kStep = 0.25f;
+constexpr float kScaleStep = 0.25f;
 
 /// In steps, so that the fonts are not rebuilt at every width of a window that is being resized.
 float stepsBelow(float scale) {
-    return kStep * std::floor(scale / kStep + 1e-3f);
+    return kScaleStep * std::floor(scale / kScaleStep + 1e-3f);
 }
 
 } // namespace
@@ -24,9 +24,9 @@ float fittingScale(float wanted, float monitor, const glm::vec2& window) {
 }
 
 float steppedUiScale(float scale, int direction) {
-    const float steps = scale / kStep;
+    const float steps = scale / kScaleStep;
     const float next = direction > 0 ? std::floor(steps + 1e-3f) + 1.0f : std::ceil(steps - 1e-3f) - 1.0f;
-    return clampedUiScale(next * kStep);
+    return clampedUiScale(next * kScaleStep);
 }
 
 float clampedUiScale(double scale) {

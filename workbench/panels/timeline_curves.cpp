@@ -18,12 +18,12 @@ namespace touchstone {
 
 namespace {
 
-constexpr ImU32 kBackground = IM_COL32(22, 24, 27, 255), kGrid = IM_COL32(48, 52, 58, 255),
+constexpr ImU32 kCurveBackground = IM_COL32(22, 24, 27, 255), kCurveGrid = IM_COL32(48, 52, 58, 255),
                 kCurveLabel = IM_COL32(140, 147, 155, 255), kCurveText = IM_COL32(228, 231, 234, 255),
-                kCursor = IM_COL32(235, 238, 240, 255), kForce = IM_COL32(245, 190, 70, 255),
+                kCurveCursor = IM_COL32(235, 238, 240, 255), kForce = IM_COL32(245, 190, 70, 255),
                 kAgain = IM_COL32(97, 173, 255, 255), kCompared = IM_COL32(105, 205, 135, 255),
                 kContact = IM_COL32(245, 190, 70, 26), kLoop = IM_COL32(97, 173, 255, 34),
-                kLoopEdge = IM_COL32(97, 173, 255, 200), kGap = IM_COL32(235, 75, 65, 220),
+                kLoopEdge = IM_COL32(97, 173, 255, 200), kCurveGap = IM_COL32(235, 75, 65, 220),
                 kScene = IM_COL32(120, 205, 130, 220), kSettings = IM_COL32(190, 150, 240, 230),
                 kNote = IM_COL32(228, 231, 234, 220);
 
@@ -33,7 +33,7 @@ constexpr float kLabelWidth = 108.0f; // units, the same as in the charts
 ImU32 colorOf(TimelineMark::Kind kind) {
     switch (kind) {
     case TimelineMark::Kind::Gap:
-        return kGap;
+        return kCurveGap;
     case TimelineMark::Kind::Scene:
         return kScene;
     case TimelineMark::Kind::Settings:
@@ -56,7 +56,7 @@ class Strip {
 
     /// Curve, contact, marks and cursor; scrubs. True during a drag.
     bool draw(const char* name) {
-        draw_.AddRectFilled(ImVec2(left_, top()), ImVec2(right_, bottom()), kBackground, 3.0f);
+        draw_.AddRectFilled(ImVec2(left_, top()), ImVec2(right_, bottom()), kCurveBackground, 3.0f);
         draw_.PushClipRect(ImVec2(left_, top()), ImVec2(right_, bottom()), true);
         findScale();
         loop();
@@ -242,10 +242,10 @@ class Strip {
 
     void cursor() {
         const float x = xOf(controller_.playback().seconds());
-        draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), kCursor, 1.5f);
+        draw_.AddLine(ImVec2(x, top()), ImVec2(x, bottom()), kCurveCursor, 1.5f);
         const float grip = widgets_.units(4.0f);
         draw_.AddTriangleFilled(ImVec2(x - grip, bottom()), ImVec2(x, bottom() - 1.6f * grip),
-                                ImVec2(x + grip, bottom()), kCursor);
+                                ImVec2(x + grip, bottom()), kCurveCursor);
     }
 
     bool scrub(const char* name) {

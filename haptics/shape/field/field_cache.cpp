@@ -210,13 +210,13 @@ void FieldCache::keep(uint64_t key, const FieldGrid& grid) const {
     try {
         OutputFile file(fileOf(key));
         file.write(bytesAt(&header, 1));
-        std::vector<float> nodes(FieldGrid::kBrickNodes);
+        std::array<float, FieldGrid::kBrickNodes> nodes{};
         eachBrick(layout.cells, [&](const glm::ivec3& first) {
             const float flat = grid.flatBrick(first);
             file.write(bytesAt(&flat, 1));
             if (flat == flat)
                 return;
-            grid.copyBrick(first, nodes);
+            grid.copyBrick(first / FieldGrid::kBrick, nodes);
             file.write(bytesAt(nodes.data(), nodes.size()));
         });
         file.commit();

@@ -221,14 +221,6 @@ float FieldGrid::flatBrick(const glm::ivec3& cell) const noexcept {
     return brickOf(cell / kBrick).flat;
 }
 
-void FieldGrid::copyBrick(const glm::ivec3& cell, std::span<float> nodes) const noexcept {
-    const Brick& brick = brickOf(cell / kBrick);
-    if (brick.nodes == nullptr)
-        std::ranges::fill(nodes, brick.flat);
-    else
-        std::copy_n(brick.nodes, kBrickNodes, nodes.begin());
-}
-
 uint32_t FieldGrid::numberOf(const glm::ivec3& cell) const noexcept {
     return static_cast<uint32_t>(cell.x) +
            static_cast<uint32_t>(layout_.cells.x) *

@@ -78,9 +78,6 @@ class FieldGrid {
     /// The value that all nodes of the cell's brick have; NaN where they differ.
     [[nodiscard]] float flatBrick(const glm::ivec3& cell) const noexcept;
 
-    /// All nodes (kBrickNodes) of the brick that contains the cell.
-    void copyBrick(const glm::ivec3& cell, std::span<float> nodes) const noexcept;
-
     [[nodiscard]] uint32_t numberOf(const glm::ivec3& cell) const noexcept;
     [[nodiscard]] glm::ivec3 cellOf(uint32_t number) const noexcept;
 
