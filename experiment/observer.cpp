@@ -1,5 +1,8 @@
 #include "experiment/observer.h"
 
+#include "engine/core/error.h"
+
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -21,6 +24,11 @@ double PsychometricFunction::levelOf(double rightShare) const noexcept {
 }
 
 ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& function, size_t runs, uint64_t seed) {
+    constexpr double kMostLapses = 0.25; // beyond 0.29 no level has kStaircaseShare of right answers
+    if (!std::isfinite(function.middle) || !(function.spread > 0.0) || !std::isfinite(function.spread) ||
+        !(function.lapses >= 0.0 && function.lapses <= kMostLapses))
+        throw Error("psychometric function", "", "its spread is not positive, or its lapses lie beyond 0 to 0.25",
+                    "give the spread in the unit of the levels and lapses as a share of the answers");
     std::mt19937_64 random(seed);
     ProcedureError error{.target = function.levelOf(kStaircaseShare), .runs = runs};
     double sum = 0.0, squares = 0.0, trials = 0.0;

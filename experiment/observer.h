@@ -29,7 +29,8 @@ struct ProcedureError {
     size_t runs = 0;
 };
 
-/// Runs the staircase `runs` times on answers drawn from the function. The same seed gives the same result.
+/// Runs the staircase `runs` times on answers drawn from the function. The same seed gives the same result. Throws
+/// Error where the function's spread is not positive or its lapses lie beyond 0 to 0.25.
 [[nodiscard]] ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& function, size_t runs,
                                       uint64_t seed);
 

@@ -12,9 +12,11 @@ constexpr int kSettling = 4;            ///< frames after a change whose times s
 constexpr int kJudged = kSettling + 12; ///< frames after which the smoothed time is that of the new quality
 constexpr double kRise = 0.15;          ///< increment of the quality
 constexpr double kMinFall = 0.05;
-constexpr int kDoubtful = 4;          ///< times the wait, before a rise that is predicted to fail
-constexpr double kWorthFalling = 0.2; ///< fraction of the time that the lowest quality must save
-constexpr double kMuchWorse = 1.25;   ///< times the tolerated time: the load has changed
+constexpr int kDoubtful = 4;           ///< times the wait, before a rise that is predicted to fail
+constexpr double kWorthFalling = 0.2;  ///< fraction of the time that the lowest quality must save
+constexpr double kPlainlySlower = 2.0; ///< times the lowest quality's time
+constexpr int kPlain = 2;              ///< such frames in a row
+constexpr double kMuchWorse = 1.25;    ///< times the tolerated time: the load has changed
 } // namespace
 
 void DrawQuality::setQuality(double quality) {
@@ -26,6 +28,15 @@ void DrawQuality::frameDone(double busy) {
     if (!(busy >= 0.0))
         return;
     ++framesAtQuality_;
+    // A trial that hangs the window for seconds is over as soon as it is plain.
+    framesTooSlow_ = tryingHighest_ && framesAtQuality_ > 1 && busy > kPlainlySlower * timeAtLowest_
+                         ? framesTooSlow_ + 1
+                         : 0;
+    if (framesTooSlow_ >= kPlain) {
+        smoothed_ = busy;
+        judgeHighest();
+        return;
+    }
     if (framesAtQuality_ <= kSettling) {
         smoothed_ = busy;
         return;

@@ -56,6 +56,7 @@ class DrawQuality {
     bool lastChangeWasRise_ = false;
     // The highest quality against the lowest, where both are late.
     bool tryingHighest_ = false;
+    int framesTooSlow_ = 0;     ///< in a row, of the trial
     double timeAtLowest_ = 0.0; ///< s, smoothed, when the trial began
     double tolerated_ = 0.0; ///< s, smoothed, at the highest quality, where the lowest saves little; 0: never
     int framesToTrial_ = kFirstWait;

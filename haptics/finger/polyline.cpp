@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace touchstone {
@@ -15,6 +16,8 @@ constexpr double kStraight =
 constexpr double kSpike = 1e-6;      // rad short of turning back
 constexpr double kBesideEdge = 1e-3; // of an edge: a local centre nearer to it would see it edge-on
 constexpr double kSamePlace = 1e-12; // of the line's extent
+constexpr double kSmallest = 1e-12;  // m
+constexpr double kFarthest = 1e6;    // m
 
 glm::dvec2 leftOf(const glm::dvec2& direction) {
     return {-direction.y, direction.x};
@@ -61,12 +64,13 @@ Polyline::Patch patchAt(const glm::dvec2& before, const glm::dvec2& vertex, cons
 Polyline::Polyline(std::span<const glm::dvec2> points, bool closed) : closed_(closed) {
     glm::dvec2 low(0.0), high(0.0);
     for (size_t i = 0; i < points.size(); ++i) {
-        if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
-            refuse("point " + std::to_string(i) + " is not finite", "give coordinates in metres");
+        if (!(std::abs(points[i].x) <= kFarthest && std::abs(points[i].y) <= kFarthest))
+            refuse("point " + std::to_string(i) + " is not a place within 1000 km",
+                   "give coordinates in metres");
         low = i == 0 ? points[i] : glm::min(low, points[i]);
         high = i == 0 ? points[i] : glm::max(high, points[i]);
     }
-    const double same = kSamePlace * glm::distance(low, high);
+    const double same = std::max(kSamePlace * glm::distance(low, high), kSmallest);
     for (const glm::dvec2& point : points)
         if (points_.empty() || glm::distance(points_.back(), point) > same)
             points_.push_back(point);
@@ -188,6 +192,16 @@ Polyline::Deepest Polyline::deepest(const ArcFinger& finger, const FingerPose& p
             best = {i, depth, true};
     }
     return best;
+}
+
+double Polyline::depthOf(long patch, const ArcFinger& finger, const FingerPose& pose) const noexcept {
+    const glm::dvec2 centre = finger.centre(pose);
+    const size_t count = edges_.size(), after = static_cast<size_t>(patch) + (closed_ ? 0 : 1);
+    double depth = -std::numeric_limits<double>::infinity();
+    for (const size_t i : {after % count, (after + count - 1) % count})
+        if (glm::dot(centre - edges_[i].from, edges_[i].normal) > 0.0)
+            depth = std::max(depth, depthIn(edges_[i], finger, pose, centre));
+    return depth;
 }
 
 double Polyline::middleOf(size_t edge) const noexcept {

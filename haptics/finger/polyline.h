@@ -15,8 +15,8 @@ namespace touchstone {
 class Polyline {
   public:
     /// Points in m. Points that follow one another at one place are taken once. Throws Error, with a remedy,
-    /// where fewer than two places are left (three of a closed line), a coordinate is not finite, or the line
-    /// turns back on itself at a point (a spike has no tangent).
+    /// where fewer than two places are left (three of a closed line), a coordinate lies beyond 1000 km, or
+    /// the line turns back on itself at a point (a spike has no tangent).
     Polyline(std::span<const glm::dvec2> points, bool closed);
 
     [[nodiscard]] bool closed() const noexcept { return closed_; }
@@ -54,6 +54,8 @@ class Polyline {
     };
     [[nodiscard]] Deepest deepest(const ArcFinger& finger, const FingerPose& pose, double than,
                                   long apartFrom = -1) const noexcept;
+    /// The depth to which the finger reaches into the edges of a patch, as deepest() sees them.
+    [[nodiscard]] double depthOf(long patch, const ArcFinger& finger, const FingerPose& pose) const noexcept;
     /// The place u in the middle of an edge.
     [[nodiscard]] double middleOf(size_t edge) const noexcept;
 

@@ -31,17 +31,19 @@ double TactileShading::solvedPlace(double from, const FingerPose& pose) const no
     return high;
 }
 
-/// The first condition of [004 §4.2.1]: a contact on an edge that is no neighbour, deeper than the present
-/// one, as where the finger bridges a valley.
+/// The first condition of [004 §4.2.1]: a contact on an edge that is no neighbour, as where the finger
+/// bridges a valley, deeper by a margin than into the present patch's own edges. Depths into edges do not
+/// depend on the place on the curve, so a hand that rests cannot go to and fro between two of them.
 void TactileShading::switchToDeeper(const FingerPose& pose) noexcept {
+    constexpr double kMargin = 1e-6; // m
     const auto patches = static_cast<double>(polyline_.patches().size());
     if (patches == 0.0)
         return;
     const double patch = std::floor(felt_.place);
     const auto index = static_cast<long>(std::clamp(
         polyline_.closed() ? patch - patches * std::floor(patch / patches) : patch, 0.0, patches - 1.0));
-    const double depth = finger_.touch(pose, polyline_.tangent(felt_.place)).depth;
-    const Polyline::Deepest other = polyline_.deepest(finger_, pose, std::max(depth, 0.0), index);
+    const double own = polyline_.depthOf(index, finger_, pose);
+    const Polyline::Deepest other = polyline_.deepest(finger_, pose, std::max(own, 0.0) + kMargin, index);
     if (other.found)
         felt_.place = polyline_.middleOf(other.edge);
 }
@@ -59,6 +61,7 @@ TactileShading::Felt TactileShading::step(const FingerPose& pose) noexcept {
     const double next =
         step_ == TangentStep::Solved ? solvedPlace(felt_.place, pose) : contactPlace(felt_.place, pose);
     felt_.place = next;
+    known_ = std::isfinite(next);
     felt_.line = polyline_.tangent(next);
     felt_.contact = finger_.touch(pose, felt_.line);
     return felt_;

@@ -166,9 +166,38 @@ void printResult(const ReplayReport& report) {
     row("replayed", first.replayedProxy, first.replayedForce);
 }
 
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error) ||
+           std::filesystem::equivalent(a, b, error);
+}
+
+/// What is written must be neither what is read nor anything else that is written. A plot is three files: the
+/// picture, gnuplot's script and its data.
+void refuseOverwriting(const ReplayOptions& options) {
+    std::vector<std::filesystem::path> taken{options.recording};
+    taken.insert(taken.end(), options.scenes.begin(), options.scenes.end());
+    std::vector<std::filesystem::path> written{options.out, options.json, options.compareOut, options.plot};
+    if (!options.plot.empty())
+        for (const char* ending : {".gp", ".dat"})
+            written.push_back(std::filesystem::path(options.plot).replace_extension(ending));
+    for (const std::filesystem::path& file : written) {
+        if (file.empty())
+            continue;
+        for (const std::filesystem::path& other : taken)
+            if (sameFile(file, other))
+                throw Error(
+                    file.string(), "", "it would be overwritten, or written twice",
+                    "give each file that is written a name of its own; a plot takes those with .gp and "
+                    ".dat, too");
+        taken.push_back(file);
+    }
+}
+
 } // namespace
 
 int replayCommand(const ReplayOptions& options) {
+    refuseOverwriting(options);
     RecordingReader reader(options.recording);
     std::optional<OutputFile> csv, json;
     if (!options.out.empty()) {

@@ -138,14 +138,16 @@ std::vector<ReplayComparison> compareReplay(const ReplayOptions& options, const 
                 continue; // behind a gap
             const double seconds = tick.time - begin.value_or(tick.time);
             begin = begin.value_or(tick.time);
-            figure.begin(seconds, glm::length(tick.force),
-                         glm::distance(tick.proxy, tick.sample.inWorkspace()));
+            if (!options.plot.empty())
+                figure.begin(seconds, glm::length(tick.force),
+                             glm::distance(tick.proxy, tick.sample.inWorkspace()));
             if (csv)
                 csv->begin(tick);
             for (size_t c = 0; c < changed.size(); ++c) {
                 const HapticOutput& output = *changed[c]->outputs()[i];
                 compared[c].figures.add(seconds, tick, output);
-                figure.add(glm::length(output.force), glm::distance(output.proxy, output.hip));
+                if (!options.plot.empty())
+                    figure.add(glm::length(output.force), glm::distance(output.proxy, output.hip));
                 if (csv)
                     csv->add(output);
             }

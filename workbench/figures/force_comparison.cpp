@@ -30,7 +30,7 @@ void ForceComparison::add(double seconds, const RecordedTick& recorded, const Ha
 
 std::string ForceComparison::text(const std::string& now) const {
     if (ticks_ == 0)
-        return "nothing is touched, with the recorded settings or with " + now;
+        return "nothing is touched, with the recorded settings or " + now;
     char text[160];
     std::snprintf(text, sizeof text, " %.3f N on average in contact; at most %.3f N apart, at %.3f s",
                   other().mean, maxDifference_, maxDifferenceAt_);

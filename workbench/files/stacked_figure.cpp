@@ -23,7 +23,7 @@ std::string curvesOf(const StackedPanel& panel, const std::string& name) {
     for (const StackedCurve& curve : panel.curves) {
         std::snprintf(line.data(), line.size(), " using 1:%zu with lines lw 1.2 lc rgb '%s' title ",
                       curve.column, std::string(study::markOf(curve.mark).colour).c_str());
-        script += (&curve != &panel.curves.front() ? ", " : "") + study::inQuotes(name + ".dat") +
+        script += (&curve != &panel.curves.front() ? ", " : "") + study::inQuotes("./" + name + ".dat") +
                   line.data() + study::inQuotes(curve.title);
     }
     return script + "\n";

@@ -122,11 +122,12 @@ std::string markAt(const Paper& paper, double x, double y, const Mark& mark) {
 }
 
 std::string openPaper(const std::string& name, const Paper& paper, const Provenance& where) {
-    std::string script = "# gnuplot " + name +
-                         ".gp draws this again.\n"
-                         "if (!exists('out')) out = '" +
-                         name + ".svg'\n" + "if (exists('png')) {\n  set terminal pngcairo size " +
-                         number(paper.width) + "*png," + number(paper.height) +
+    std::string script = "# gnuplot " + inQuotes(name + ".gp") +
+                         " draws this again.\n"
+                         "if (!exists('out')) out = " +
+                         inQuotes("./" + name + ".svg") + "\n" +
+                         "if (exists('png')) {\n  set terminal pngcairo size " + number(paper.width) +
+                         "*png," + number(paper.height) +
                          "*png noenhanced font 'Inter,13' fontscale png linewidth png pointscale png "
                          "background '#ffffff'\n} else {\n  set terminal svg size " +
                          number(paper.width) + "," + number(paper.height) +

@@ -41,12 +41,17 @@ std::string withFallback(std::string svg) {
 std::string draw(const Figure& figure, const std::filesystem::path& folder, const std::string& program,
                  PlotFormat format) {
     const bool png = format == PlotFormat::Png;
+    if (std::ranges::any_of(figure.name, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+        return (folder / "a figure").string() +
+               ": not drawn, its name holds a control character\n  remedy: give it another";
     writeFile(folder / (figure.name + ".gp"), figure.script);
     writeFile(folder / (figure.name + ".dat"), figure.data);
-    const std::string part = figure.name + ".part" + std::to_string(getpid());
-    const ProcessAnswer answer = run({program, "--default-settings", "-e",
-                                      "out = '" + part + (png ? "'; png = 3" : "'"), figure.name + ".gp"},
-                                     folder.empty() ? "." : folder);
+    // Each name is a path to gnuplot: '-' alone begins an option, '<' and '|' a command.
+    const std::string part = ".figure.part" + std::to_string(getpid());
+    const ProcessAnswer answer =
+        run({program, "--default-settings", "-e", "out = '" + part + (png ? "'; png = 3" : "'"),
+             "./" + figure.name + ".gp"},
+            folder.empty() ? "." : folder);
     using enum ProcessAnswer::End;
     const std::string said(answer.output.begin(), answer.output.end());
     std::ostringstream drawn;

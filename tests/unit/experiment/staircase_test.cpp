@@ -78,6 +78,15 @@ TEST(Staircase, RefusesRulesThatCannotBe) {
     refused([](StaircaseRule& r) { r.start = std::numeric_limits<double>::quiet_NaN(); });
 }
 
+TEST(PsychometricFunction, OneThatNobodyHasIsRefused) {
+    const StaircaseRule rule{.start = 3.0, .lowest = 2.0, .highest = 9.0};
+    for (const PsychometricFunction function :
+         {PsychometricFunction{5.0, 0.0}, PsychometricFunction{5.0, -1.0},
+          PsychometricFunction{5.0, 1.0, 0.3}, PsychometricFunction{5.0, 1.0, -0.1},
+          PsychometricFunction{std::nan(""), 1.0}})
+        EXPECT_THROW((void)simulate(rule, function, 1, 1), Error);
+}
+
 TEST(PsychometricFunction, IsHalfWhereNothingIsToldAndItsLevelsAreItsInverse) {
     const PsychometricFunction function{.middle = 100.0, .spread = 20.0};
     EXPECT_NEAR(function.share(1000.0), 0.5, 1e-12);

@@ -131,7 +131,8 @@ TEST(Polyline, RefusesWhatHasNoCurve) {
         {{}, "0 places"},
         {{{1.0, 1.0}}, "1 places"},
         {{{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}, "1 places"},
-        {{{0.0, 0.0}, {kNaN, 0.0}}, "point 1 is not finite"},
+        {{{0.0, 0.0}, {kNaN, 0.0}}, "point 1 is not a place"},
+        {{{0.0, 0.0}, {1e160, 0.0}, {1e160, 1e160}}, "point 1 is not a place"},
         {{{0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}}, "turns back on itself at point 1"}};
     for (const auto& [points, problem] : bad)
         try {

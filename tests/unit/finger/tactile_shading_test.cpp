@@ -175,6 +175,33 @@ TEST(TactileShading, AFingerThatBridgesAValleyGoesToTheDeeperSide) {
     EXPECT_LT(felt.line.normal.x, -0.3) << "on the right one";
 }
 
+/// Two flanks that a resting finger touches at once do not take it from each other.
+TEST(TactileShading, AHandThatRestsOverAValleyIsFeltAtOnePlace) {
+    unsigned seed = 1;
+    const auto random = [&] { return (seed = seed * 1664525u + 1013904223u) / 4294967296.0; };
+    int swung = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const double w = 0.004 + 0.012 * random(), d = 0.002 + 0.006 * random();
+        const Polyline valley(
+            std::vector<glm::dvec2>{
+                {-0.06, 0.04}, {-w, d}, {-0.4 * w, 0.0}, {0.4 * w, 0.0}, {w, d}, {0.06, 0.04}},
+            false);
+        TactileShading shading(valley, {}, TangentStep::Solved);
+        const FingerPose pose{{0.004 * (random() - 0.5), 0.001 + 0.003 * random()}, 0.2 * (random() - 0.5)};
+        double low = 1e9, high = -1e9;
+        for (int k = 0; k < 120; ++k) {
+            const double location = shading.step(pose).contact.location;
+            if (k >= 100) {
+                low = std::min(low, location);
+                high = std::max(high, location);
+            }
+        }
+        swung += high - low > 1e-4;
+    }
+    std::printf("valleys over which a resting contact moves more than 0.1 mm: %d of 3000\n", swung);
+    EXPECT_EQ(swung, 0);
+}
+
 TEST(TactileShading, AnyPolylineAndAnyHandGiveFiniteAnswersWithinThePad) {
     const ArcFinger finger;
     unsigned seed = 1;

@@ -284,6 +284,45 @@ TEST_F(Replay, TheForceIsDrawnAsAFigure) {
     EXPECT_EQ(width, 3 * 960) << "for print";
 }
 
+TEST_F(Replay, NothingThatIsReadOrWrittenIsOverwritten) {
+    file_ = scratch_ / "r.dat"; // the name of the data beside a plot r.png
+    record("box.glb");
+    const std::string recorded = readFile(file_);
+    const std::string scene = readFile(scene_), other = (scratch_ / "s.csv").string();
+    std::filesystem::create_symlink(file_, scratch_ / "link.csv");
+    const std::vector<std::vector<std::string>> refused{
+        {"--plot", (scratch_ / "r.png").string()},
+        {"--out", file_.string()},
+        {"--out", (scratch_ / "link.csv").string()},
+        {"--compare", "friction=off", "--compare-out", (scratch_ / "." / "r.dat").string()},
+        {"--scene", scene_.string(), "--out", scene_.string()},
+        {"--out", other, "--compare", "friction=off", "--compare-out", other}};
+    for (const std::vector<std::string>& options : refused) {
+        const ProgramResult result = replay(options);
+        EXPECT_NE(result.status, 0) << options.back();
+        EXPECT_TRUE(says(result.err, "overwritten")) << result.err;
+        EXPECT_EQ(readFile(file_), recorded);
+        EXPECT_EQ(readFile(scene_), scene);
+    }
+    EXPECT_FALSE(std::filesystem::exists(other));
+}
+
+/// A figure's name is nothing but a name to gnuplot.
+TEST_F(Replay, AFigureMayHaveAnyName) {
+    record("box.glb");
+    std::filesystem::create_directories(scratch_ / "p");
+    for (const std::string name :
+         {"it's", "-e", "a'; system(\"touch PWN\"); b='", "# x", "< touch PWN;", "| touch PWN"}) {
+        const std::filesystem::path file = scratch_ / "p" / (name + ".svg");
+        const ProgramResult result = replay({"--plot", file.string()});
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_TRUE(std::filesystem::exists(file)) << name;
+        EXPECT_FALSE(std::filesystem::exists(scratch_ / "p" / "PWN"));
+    }
+    EXPECT_TRUE(
+        says(replay({"--plot", (scratch_ / "p" / "two\nlines.svg").string()}).err, "control character"));
+}
+
 TEST_F(Replay, TouchSaysWhereItCannotRecord) {
     file_ = "/dev/full";
     writeTextFile(scratch_ / "hip.csv", straightPath({-0.05, 0.0, 0.09}, {0.05, 0.02, 0.0}, 1500));
