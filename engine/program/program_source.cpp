@@ -97,6 +97,19 @@ std::string trimmed(std::string_view text) {
     return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
 }
 
+/// True where the type has the number.
+bool isOfKind(ProgramParameter::Kind kind, double value) {
+    return kind == ProgramParameter::Kind::Float ||
+           (value == std::floor(value) && (kind == ProgramParameter::Kind::Int || value >= 0.0));
+}
+
+/// "#line", which would give the messages wrong places.
+bool namesLines(std::string_view line) {
+    const std::string none;
+    LineReader reader(none, 0, line);
+    return reader.take("#") && reader.word() == "line";
+}
+
 const ParameterType& takeType(LineReader& reader) {
     const std::string_view name = reader.word();
     const auto type = std::ranges::find(kTypes, name, &ParameterType::name);
@@ -154,12 +167,13 @@ ProgramParameter readParameter(LineReader& reader, unsigned line) {
     takeRange(reader, parameter);
     if (!(parameter.least < parameter.greatest))
         reader.fail("the range of '" + parameter.name + "' is empty");
+    if (!isOfKind(parameter.kind, parameter.least) || !isOfKind(parameter.kind, parameter.greatest))
+        reader.fail("the range of '" + parameter.name + "' ends at no whole number that its type has");
     for (size_t i = 0; i < parameter.components; ++i) {
         const double value = parameter.value[i];
         if (value < parameter.least || value > parameter.greatest)
             reader.fail("the default of '" + parameter.name + "' lies outside of its range");
-        if (parameter.kind != ProgramParameter::Kind::Float &&
-            (value != std::floor(value) || (parameter.kind == ProgramParameter::Kind::Uint && value < 0.0)))
+        if (!isOfKind(parameter.kind, value))
             reader.fail("the default of '" + parameter.name + "' is no whole number that its type has");
     }
     return parameter;
@@ -213,6 +227,8 @@ ProgramSource readProgramSource(const std::string& name, std::string_view text) 
     for (unsigned line = 1; !text.empty(); ++line) {
         const size_t end = std::min(text.find('\n'), text.size());
         LineReader reader(name, line, text.substr(0, end));
+        if (namesLines(text.substr(0, end)))
+            reader.fail("the program numbers its lines itself (#line)", "take the line out");
         if (reader.word() == kKeyword) {
             if (source.parameters.size() == kMaxProgramParameters)
                 reader.fail("the program has more than " + std::to_string(kMaxProgramParameters) +

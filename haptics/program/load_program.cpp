@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <utility>
 
 namespace touchstone::program {
@@ -12,7 +13,9 @@ namespace touchstone::program {
 void setParameters(RegisterProgram& program, const std::vector<ProgramParameter>& parameters) {
     for (const ParameterSlot& slot : program.parameters) {
         const auto parameter = std::ranges::find(parameters, slot.name, &ProgramParameter::name);
-        if (parameter == parameters.end())
+        const bool inside = slot.count <= std::size(ProgramParameter{}.value) &&
+                            size_t{slot.first} + slot.count <= program.constants.size();
+        if (parameter == parameters.end() || !inside)
             continue;
         for (size_t i = 0; i < slot.count; ++i) {
             const double value = parameter->value[i];

@@ -19,6 +19,8 @@ constexpr std::array<uint8_t, 256> kCosts = costs();
 } // namespace
 
 uint16_t ProgramBuilder::constant(std::span<const uint32_t> bits) {
+    if (registers_ != program_.constants.size()) // their registers would be others'
+        throw Refusal("is a damaged SPIR-V module: a constant comes too late", "compile the source again");
     const uint16_t first = allocate(bits.size());
     program_.constants.insert(program_.constants.end(), bits.begin(), bits.end());
     return first;

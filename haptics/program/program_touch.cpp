@@ -100,12 +100,30 @@ RunResult runWithDifferences(const RegisterProgram& program, const ProgramContac
     return result;
 }
 
+/// The displacement that is felt, s(h, d), with its derivatives by h and by d: h up to d/2, d from 3d/2 on,
+/// smooth between; -d below -d, where the spring is slack.
+struct Limited {
+    double height = 0.0, byHeight = 0.0, byDepth = 0.0;
+};
+
+Limited limited(double height, double depth) {
+    if (height <= -depth)
+        return {-depth, 0.0, -1.0};
+    if (height <= 0.5 * depth)
+        return {height, 1.0, 0.0};
+    if (height >= 1.5 * depth)
+        return {depth, 0.0, 1.0};
+    const double u = height / depth, over = u - 0.5, part = u - 0.5 * over * over;
+    return {part * depth, 1.0 - over, part - u * (1.0 - over)};
+}
+
 /// The force before its bounds.
 glm::dvec3 freeForce(const ProgramContact& contact, const Ports& in, const Ports& out,
-                     const Displacement& displacement, double stiffness, double height) {
+                     const Displacement& displacement, double stiffness, const Limited& felt) {
     const glm::dvec3& n = contact.normal;
-    const double depth = contact.depth;
-    glm::dvec3 direction = n - (displacement.slope - glm::dot(displacement.slope, n) * n);
+    const double depth = contact.depth, height = felt.height;
+    const glm::dvec3 along = displacement.slope - glm::dot(displacement.slope, n) * n;
+    glm::dvec3 direction = (1.0 + felt.byDepth) * n - felt.byHeight * along;
     if (out[kOutNormal] != in[kNormal]) {
         const glm::dvec3 perturbed = vectorOf(out[kOutNormal]);
         const double length = glm::length(perturbed);
@@ -146,8 +164,7 @@ ProgramFelt feelProgram(const RegisterProgram& program, ProgramGradient gradient
         return felt;
     const PortValue& material = out[kOutMaterial];
     const double stiffness = std::clamp(static_cast<double>(material[2]), 0.0, contact.maxStiffness);
-    const double height =
-        std::clamp(heightOf(contact, in, out) / contact.modelPerWorkspace, -contact.depth, contact.depth);
+    const Limited height = limited(heightOf(contact, in, out) / contact.modelPerWorkspace, contact.depth);
     const glm::dvec3 force =
         boundedForce(contact, freeForce(contact, in, out, displacement, stiffness, height), stiffness);
     if (!std::isfinite(force.x + force.y + force.z)) {
@@ -155,7 +172,7 @@ ProgramFelt feelProgram(const RegisterProgram& program, ProgramGradient gradient
         return felt;
     }
     felt.force = force;
-    felt.height = height;
+    felt.height = height.height;
     felt.stiffness = stiffness;
     felt.damping = std::max(static_cast<double>(material[3]), 0.0);
     felt.staticFriction = std::max(static_cast<double>(material[0]), 0.0);

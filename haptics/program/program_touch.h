@@ -8,9 +8,11 @@
 // perturbs the normal itself (m), it is k' (d + h) m. The force that the program returns, f', was made of k d
 // n, so that a changed stiffness k' scales it:
 //     F = k'/k f' + k' (d + h) (n - grad_t h) - k' d n.
-// Bounds hold whatever the program returns: |h| <= d, the force never pulls, and is at most kMaxProgramGain
-// k' d, so that contact begins without a step. Coefficients are at least 0, and the dynamic friction is at
-// most the static one.
+// Where h > d/2 a smooth s(h, d) <= d stands for it: with g(u) = u - (u - 1/2)^2 / 2 for 1/2 < u < 3/2 and 1
+// beyond, s = d g(h/d). The force is that of U = k'/2 (d + s)^2, k' (d + s) ((1 + ds/dd) n - ds/dh grad_t h),
+// so that a closed path across the limit does no work either, and no force steps there. Bounds hold whatever
+// the program returns: |s| <= d, the force never pulls, and is at most kMaxProgramGain k' d, so that contact
+// begins without a step. Coefficients are at least 0, and the dynamic friction is at most the static one.
 
 #include "haptics/program/executor.h"
 
@@ -54,7 +56,7 @@ struct ProgramFelt {
     Ending ending = Ending::Finished;
     glm::dvec3 force{0.0}; ///< elastic, N
     double stiffness = 0.0, damping = 0.0, staticFriction = 0.0, dynamicFriction = 0.0;
-    double height = 0.0; ///< h, workspace m
+    double height = 0.0; ///< s(h, d), workspace m
     uint32_t cost = 0;   ///< of all runs, see operation.h
 };
 

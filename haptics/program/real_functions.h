@@ -95,11 +95,11 @@ R modFloor(const R& x, const R& y) {
     const float a = valueOf(x), b = valueOf(y), n = std::floor(a / b);
     return chain(x, y, a - b * n, kOne, [&] { return -n; });
 }
-/// x - y trunc(x / y), exact, the sign of x.
+/// x - y trunc(x / y). Not fmod, whose time grows with the quotient.
 template <class R>
 R remainder(const R& x, const R& y) {
-    const float a = valueOf(x), b = valueOf(y);
-    return chain(x, y, std::fmod(a, b), kOne, [&] { return -std::trunc(a / b); });
+    const float a = valueOf(x), b = valueOf(y), n = std::trunc(a / b);
+    return chain(x, y, a - b * n, kOne, [&] { return -n; });
 }
 template <class R>
 R absolute(const R& x) {

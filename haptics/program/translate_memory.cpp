@@ -275,7 +275,9 @@ bool translateComposite(Meaning& t, const SpirvInstruction& at) {
 
 bool translateMemory(Meaning& t, const SpirvInstruction& at) {
     switch (at.code) {
-    case spv::OpVariable:
+    case spv::OpVariable: // inside of the entry function
+        if (at.operand(0) != spv::StorageClassFunction)
+            refuseDamaged("a variable is declared in a wrong place");
         declareVariable(t, at);
         return true;
     case spv::OpAccessChain:

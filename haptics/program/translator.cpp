@@ -255,7 +255,10 @@ class Translator {
     void choose(const SpirvInstruction& at, uint32_t next) {
         const uint16_t selector = t_.operand(at, 0, SpirvType::Kind::Int, 1);
         std::vector<std::pair<size_t, uint32_t>> stubs;
+        std::set<uint32_t> seen;
         for (size_t k = 2; k + 1 < at.operands(); k += 2) {
+            if (!seen.insert(at.operand(k)).second)
+                refuseDamaged("a switch has a case twice");
             const uint16_t wanted = cases_.at(at.operand(k));
             const uint32_t target = at.operand(k + 1);
             if (phis_.contains(target))
@@ -289,6 +292,8 @@ class Translator {
             const Value &to = t_.value(phi.result), &from = t_.value(source->first);
             if (to.type != from.type)
                 refuseDamaged("a value has another type");
+            if (to.first == from.first)
+                continue; // keeps its value
             const uint32_t count = t_.size(to);
             for (const Copy& before : copies)
                 overlap |= from.first < before.to + before.count && before.to < from.first + count;

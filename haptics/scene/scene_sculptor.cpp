@@ -102,7 +102,7 @@ std::vector<Dab> SceneSculptor::dabsOf(const SculptStep& step, size_t object) {
         before = to;
     }
     for (const Dab& one : dabs)
-        checkDab(*field(object), one);
+        sculptorOf(object).check(one);
     return dabs;
 }
 

@@ -26,7 +26,7 @@ class SceneSculptor {
 
     /// A stroke is laid in dabs a quarter of the radius apart (those of Drag: as far as the tool moved), at
     /// least half a voxel. Throws Error, before anything is changed: no such object, one that is felt as a
-    /// mesh, a stroke of more than kMostDabs, what checkDab refuses.
+    /// mesh, a stroke of more than kMostDabs, what Sculptor::check refuses.
     SculptReport apply(const SculptStep& step);
 
     /// The scene as it is now: the same objects, materials and plan, but for the sculpted shapes.

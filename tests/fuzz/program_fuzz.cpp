@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
 #include "haptics/program/executor.h"
+#include "haptics/program/load_program.h"
 #include "haptics/program/translator.h"
 
 #include <gtest/gtest.h>
@@ -127,19 +128,40 @@ void runHere(const RegisterProgram& program, std::mt19937& random) {
     ASSERT_LE(runDual(program, dual, dualOut).cost, 2 * kBudget);
 }
 
+/// A block of parameters among the instructions of the entry function, where registers are given out.
+TEST(ProgramFuzz, ParametersInsideAFunctionAreRefused) {
+    Words words = seeds()[0], variable;
+    size_t place = 0;
+    for (size_t i = kHeaderWords; i < words.size(); i += words[i] >> 16) {
+        if ((words[i] & 0xffffu) == 59 && words[i + 3] == 2) // OpVariable, Uniform
+            variable.assign(words.begin() + static_cast<std::ptrdiff_t>(i),
+                            words.begin() + static_cast<std::ptrdiff_t>(i + (words[i] >> 16)));
+        if ((words[i] & 0xffffu) == 248 && place == 0) // after the first OpLabel
+            place = i + 2;
+    }
+    ASSERT_FALSE(variable.empty());
+    ASSERT_GT(place, 0u);
+    words.insert(words.begin() + static_cast<std::ptrdiff_t>(place), variable.begin(), variable.end());
+    const Translation translation = translateSpirv(words);
+    ASSERT_TRUE(translation.problem.has_value());
+    EXPECT_NE(translation.problem->what.find("wrong place"), std::string::npos);
+}
+
 /// Some are accepted and run, some are refused.
 void fuzz(unsigned seed, int trials) {
     std::mt19937 random(seed);
     const std::vector<Words> from = seeds();
     int accepted = 0;
     for (int i = 0; i < trials; ++i) {
-        const Words words = mutant(from[random() % from.size()], random);
-        const Translation translation = translateSpirv(words);
+        const size_t source = random() % from.size();
+        const Words words = mutant(from[source], random);
+        Translation translation = translateSpirv(words);
         if (translation.problem) {
             ASSERT_FALSE(translation.problem->remedy.empty());
             continue;
         }
         ++accepted;
+        setParameters(translation.program, readProgramSource("seed", kSources[source]).parameters);
         for (int k = 0; k < 4; ++k)
             runHere(translation.program, random);
         if (::testing::Test::HasFatalFailure())

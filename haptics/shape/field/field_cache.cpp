@@ -180,15 +180,22 @@ bool FieldCache::makeRoom(uint64_t bytes) const {
     };
     std::vector<Kept> kept;
     uint64_t all = bytes;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
-        if (entry.path().extension() == kCachedEnding) {
-            kept.push_back({entry.last_write_time(error), entry.file_size(error), entry.path()});
-            all += kept.back().bytes;
-        }
+    std::filesystem::directory_iterator entry(folder_, error);
+    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+        std::error_code unknown; // a folder, or removed meanwhile: not ours to count
+        if (entry->path().extension() != kCachedEnding || !entry->is_regular_file(unknown))
+            continue;
+        const auto time = entry->last_write_time(unknown);
+        const uintmax_t size = unknown ? 0 : entry->file_size(unknown);
+        if (unknown)
+            continue;
+        kept.push_back({time, size, entry->path()});
+        all += size;
+    }
     std::ranges::sort(kept, std::less<>{}, &Kept::time);
     for (size_t i = 0; i < kept.size() && all > mostBytes_; ++i) {
-        std::filesystem::remove(kept[i].file, error);
-        all -= kept[i].bytes;
+        if (std::filesystem::remove(kept[i].file, error); !error)
+            all -= kept[i].bytes;
     }
     return true;
 }

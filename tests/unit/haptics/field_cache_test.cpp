@@ -110,6 +110,19 @@ TEST_F(FieldCacheTest, StaysWithinItsLimitAndForgetsTheOldest) {
     EXPECT_EQ(cache(0).find(5), nullptr) << "switched off";
 }
 
+TEST_F(FieldCacheTest, IsNotPutOutByEntriesThatAreNoFiles) {
+    cache().keep(0, grid_);
+    const uint64_t one = fs::file_size(cache().fileOf(0)), limit = 5 * one + one / 2;
+    const fs::path folder = cache().fileOf(0).parent_path();
+    fs::create_directory(folder / "x.field");
+    fs::create_symlink("nowhere", folder / "broken.field"); // its size and time cannot be read
+    for (uint64_t key = 1; key < 4; ++key)
+        cache(limit).keep(key, grid_);
+    for (uint64_t key = 0; key < 4; ++key)
+        EXPECT_TRUE(fs::exists(cache().fileOf(key))) << key;
+    EXPECT_TRUE(fs::is_directory(folder / "x.field"));
+}
+
 TEST_F(FieldCacheTest, AMeshsFieldIsTheSameToTheBit) {
     const TouchBench bench(sceneOf(assets::sphere(0.075, 40, 40)));
     const HapticObject& object = *bench.scene->objects[0];

@@ -63,6 +63,42 @@ Worst compare(const FieldGrid& grid, const Distance& truth, double band,
 
 const glm::dvec3 kHole(0.1, 0.0, -0.05);
 
+TEST(Sculptor, FarDabsChangeNothing) {
+    const auto base = gridOf(block, 32);
+    for (const SculptToolInfo& info : sculptTools())
+        for (const glm::dvec3& far :
+             {glm::dvec3(0, 0, 9e8), glm::dvec3(-9e8, 0, 0), glm::dvec3(0, 1e300, 0)}) {
+            Sculptor sculptor(base);
+            Dab dab;
+            dab.tool = info.tool;
+            dab.centre = far;
+            dab.radius = 0.1;
+            dab.motion = glm::dvec3(0.05, 0, 0);
+            dab.stamp = base;
+            const DabReport report = sculptor.apply(dab);
+            EXPECT_EQ(report.bricks, 0u) << info.name;
+            EXPECT_EQ(report.removed, 0.0) << info.name;
+            EXPECT_EQ(sculptor.grid()->hash(), base->hash()) << info.name;
+        }
+}
+
+/// A dab that needs too many nodes is refused before what was undone is forgotten.
+TEST(Sculptor, ATooLargeDabLeavesTheRedoList) {
+    Sculptor sculptor(std::make_shared<FieldGrid>(gridOfDistance(cubeOf(520), 0.01, 0.01, block)));
+    Dab dab;
+    dab.centre = glm::dvec3(0.4, 0, 0);
+    dab.radius = 0.02;
+    ASSERT_GT(sculptor.apply(dab).bricks, 0u);
+    ASSERT_TRUE(sculptor.undo());
+    Dab large = dab;
+    large.centre = glm::dvec3(0.0);
+    large.radius = 1.0;
+    EXPECT_THROW(sculptor.check(large), Error);
+    EXPECT_THROW(sculptor.apply(large), Error);
+    EXPECT_EQ(sculptor.redoSteps(), 1u);
+    EXPECT_TRUE(sculptor.redo());
+}
+
 /// A ball inside of the block: two closed surfaces, everywhere smooth but at the block's edges.
 TEST(Sculptor, CarvesABallOutOfABlock) {
     for (const int cells : {64, 128}) {

@@ -102,14 +102,28 @@ TEST(ProgramProblems, ParametersHaveRangeDefaultAndUnit) {
 }
 
 TEST(ProgramProblems, WrongParametersAreRefusedAtTheirLine) {
-    for (const char* wrong :
-         {"parameter", "parameter float", "parameter bool b = 1; // 0..1", "parameter float 9a = 1; // 0..1",
-          "parameter float a; // 0..1", "parameter float a = ; // 0..1", "parameter float a = 1;",
-          "parameter float a = 1; // 0", "parameter float a = 1; // 0..", "parameter float a = 1; // 2..3",
-          "parameter float a = 1; // 1..1", "parameter float a = nan; // 0..1",
-          "parameter float a = 1e30; // 0..1e31", "parameter vec2 a = vec2(1, 2, 3); // 0..9",
-          "parameter vec3 a = vec3(1, 2); // 0..9", "parameter int a = 0.5; // 0..1",
-          "parameter uint a = -1; // -2..1", "parameter float gl_a = 1; // 0..1"})
+    for (const char* wrong : {"parameter",
+                              "parameter float",
+                              "parameter bool b = 1; // 0..1",
+                              "parameter float 9a = 1; // 0..1",
+                              "parameter float a; // 0..1",
+                              "parameter float a = ; // 0..1",
+                              "parameter float a = 1;",
+                              "parameter float a = 1; // 0",
+                              "parameter float a = 1; // 0..",
+                              "parameter float a = 1; // 2..3",
+                              "parameter float a = 1; // 1..1",
+                              "parameter float a = nan; // 0..1",
+                              "parameter float a = 1e30; // 0..1e31",
+                              "parameter vec2 a = vec2(1, 2, 3); // 0..9",
+                              "parameter vec3 a = vec3(1, 2); // 0..9",
+                              "parameter int a = 0.5; // 0..1",
+                              "parameter uint a = -1; // -2..1",
+                              "parameter uint a = 5; // -3..10",
+                              "parameter int a = 1; // 0.5..2",
+                              "#line 9",
+                              " # line 9",
+                              "parameter float gl_a = 1; // 0..1"})
         expectProblem(std::string("\n") + wrong + "\n" + touchBody(""), "line 2: ", "");
     expectProblem("parameter float a = 1; // 0..1\nparameter int a = 1; // 0..1\n" + touchBody(""),
                   "line 2: ", "twice");

@@ -55,6 +55,30 @@ TEST(ProgramTouch, ADisplacementGivesTheForceOfItsPotential) {
     }
 }
 
+/// Round (x, d) across the limit of the displacement: dW = F_x dx - F_n dd, by the trapezoid rule.
+TEST(ProgramTouch, AClosedPathAcrossTheLimitDoesNoWork) {
+    const RegisterProgram program = programOf(touchBody("after.position.z += 0.2 * before.position.x;"));
+    constexpr int kSteps = 4000;
+    glm::dvec2 place{0.0}, force{0.0};
+    double work = 0.0, least = 1.0, greatest = 0.0;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double angle = 2.0 * 3.14159265358979323846 * i / kSteps;
+        const glm::dvec2 next{0.012 + 0.01 * std::cos(angle), 0.003 + 0.001 * std::sin(angle)};
+        const ProgramFelt felt =
+            feelProgram(program, ProgramGradient::Dual, contactAt({next.x, 0, 0}, next.y));
+        const glm::dvec2 here{felt.force.x, -felt.force.z};
+        if (i > 0)
+            work += 0.5 * glm::dot(force + here, next - place);
+        place = next;
+        force = here;
+        least = std::min(least, 0.2 * next.x / next.y);
+        greatest = std::max(greatest, 0.2 * next.x / next.y);
+    }
+    EXPECT_LT(least, 0.5);
+    EXPECT_GT(greatest, 1.0); // across the limit
+    EXPECT_LT(std::abs(work), 1e-7);
+}
+
 /// Model metres are not workspace metres: a model of 1 m shown 0.1 m long.
 TEST(ProgramTouch, ADisplacementScalesWithTheModel) {
     const RegisterProgram program = programOf(touchBody("after.position.z += 0.01 * before.position.x;"));
@@ -87,7 +111,7 @@ TEST(ProgramTouch, BoundsHoldWhateverIsReturned) {
         {"after.force = -before.force;", {0.0, 0.0, 0.0}},
         {"after.force = vec3(1.0, 0.0, -5.0);", {1.0, 0.0, 0.0}},
         {"after.force = before.force * 1e30;", {0.0, 0.0, kMaxProgramGain * 1.2}},
-        {"after.position.z += 1.0;", {0.0, 0.0, 2.4}}, // |h| <= d
+        {"after.position.z += 1.0;", {0.0, 0.0, 4.8}}, // U = k/2 (2 d)^2
         {"after.position.z -= 1.0;", {0.0, 0.0, 0.0}},
         {"after.stiffness = -1.0;", {0.0, 0.0, 0.0}},
         {"after.stiffness = 1e9;", {0.0, 0.0, 6.0}}, // the device's 3000 N/m

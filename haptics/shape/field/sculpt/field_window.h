@@ -18,6 +18,9 @@ struct FieldWindow {
     std::vector<float> before; ///< as in the grid; the first axis fastest
     std::vector<float> value;
 
+    [[nodiscard]] uint64_t nodes() const noexcept {
+        return uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
+    }
     [[nodiscard]] size_t index(const glm::ivec3& at) const noexcept {
         return static_cast<size_t>(at.x) +
                static_cast<size_t>(size.x) *
@@ -49,6 +52,13 @@ struct SculptZone {
         return glm::dot(away, away) <= (radius + margin) * (radius + margin);
     }
 };
+
+/// True where a ball (object frame) has no place in common with the grid.
+[[nodiscard]] bool ballMisses(const FieldGrid& grid, const glm::dvec3& centre, double radius) noexcept;
+
+/// The first part of fillWindow: where the window lies, without its nodes. Throws the same Error.
+void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
+                 double margin);
 
 /// Fills a window with the grid's nodes within `margin` voxels of a ball (object frame); keeps its memory.
 /// Returns the ball in it. Throws Error where there would be more than kMostWindowNodes.

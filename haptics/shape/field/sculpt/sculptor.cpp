@@ -60,20 +60,42 @@ void Sculptor::beginStroke() {
     }
 }
 
-DabReport Sculptor::apply(const Dab& dab) {
+std::vector<Dab> Sculptor::partsOf(const Dab& dab) const {
+    if (dab.tool != SculptTool::Drag)
+        return {dab};
+    constexpr double kMostMotion = 0.25; // of the radius: the bell's slope is at most 1.54 a radius
+    const double radius = std::max(dab.radius, 0.1 * base_->layout().voxel); // bounds the number of parts
+    const int count =
+        std::max(1, static_cast<int>(std::ceil(glm::length(dab.motion) / (kMostMotion * radius))));
+    std::vector<Dab> parts(static_cast<size_t>(count), dab);
+    for (int i = 0; i < count; ++i) {
+        Dab& part = parts[static_cast<size_t>(i)];
+        part.motion = dab.motion / static_cast<double>(count);
+        part.centre = dab.centre - dab.motion + part.motion * static_cast<double>(i + 1);
+    }
+    return parts;
+}
+
+double Sculptor::margin() const {
+    return std::max(base_->inside(), base_->outside()) / base_->layout().voxel + 3.0;
+}
+
+void Sculptor::check(const Dab& dab) const {
     checkDab(*base_, dab);
+    FieldWindow window;
+    for (const Dab& part : partsOf(dab)) {
+        const double radius = changedRadius(*base_, part);
+        if (!ballMisses(*base_, part.centre, radius))
+            placeWindow(window, *base_, part.centre, radius, margin());
+    }
+}
+
+DabReport Sculptor::apply(const Dab& dab) {
+    check(dab);
     if (done_ == 0 || done_ < steps_.size())
         beginStroke();
-    if (dab.tool != SculptTool::Drag)
-        return applyOnce(dab);
-    constexpr double kMostMotion = 0.25; // of the radius: the bell's slope is at most 1.54 a radius
-    const int parts =
-        std::max(1, static_cast<int>(std::ceil(glm::length(dab.motion) / (kMostMotion * dab.radius))));
     DabReport all;
-    for (int i = 0; i < parts; ++i) {
-        Dab part = dab;
-        part.motion = dab.motion / static_cast<double>(parts);
-        part.centre = dab.centre - dab.motion + part.motion * static_cast<double>(i + 1);
+    for (const Dab& part : partsOf(dab)) {
         const DabReport one = applyOnce(part);
         all.removed += one.removed;
         all.bricks += one.bricks;
@@ -86,9 +108,10 @@ DabReport Sculptor::apply(const Dab& dab) {
 }
 
 DabReport Sculptor::applyOnce(const Dab& dab) {
-    const double voxel = base_->layout().voxel;
-    const double margin = std::max(base_->inside(), base_->outside()) / voxel + 3.0;
-    const SculptZone zone = fillWindow(window_, *grid(), dab.centre, changedRadius(*base_, dab), margin);
+    const double voxel = base_->layout().voxel, radius = changedRadius(*base_, dab);
+    if (ballMisses(*base_, dab.centre, radius))
+        return {};
+    const SculptZone zone = fillWindow(window_, *grid(), dab.centre, radius, margin());
     const ExactSide exact = applyTool(window_, *base_, dab, zone);
     const NodeBox changed = restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact);
     DabReport report;

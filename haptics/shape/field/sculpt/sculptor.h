@@ -34,8 +34,11 @@ class Sculptor {
     /// The dabs from here to the next call are one step of `undo`. Forgets what was undone.
     void beginStroke();
     /// Begins a stroke where none was begun. A Drag longer than a quarter of the radius is divided, so that
-    /// it folds nothing. Throws Error (checkDab) before anything is changed.
+    /// it folds nothing. Throws Error (check) before anything is changed.
     DabReport apply(const Dab& dab);
+
+    /// Throws Error where `apply` would: checkDab, and more nodes at once than kMostWindowNodes.
+    void check(const Dab& dab) const;
 
     /// Takes back the last stroke that changed something. False where there is none.
     bool undo();
@@ -52,6 +55,8 @@ class Sculptor {
     };
     using Step = std::map<uint32_t, Replaced>;
 
+    [[nodiscard]] std::vector<Dab> partsOf(const Dab& dab) const;
+    [[nodiscard]] double margin() const; ///< voxels around what a dab changes by itself
     DabReport applyOnce(const Dab& dab);
     [[nodiscard]] BrickPtr current(uint32_t number) const;
     void replace(uint32_t number, const BrickPtr& brick);
