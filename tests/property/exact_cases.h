@@ -23,6 +23,9 @@ struct HandCase {
 /// The four hands of a scene: both radii at 0.1 and 1 m/s, or taps.
 [[nodiscard]] std::vector<HandCase> handsOver(const std::string& name, int ticks, double compared = 1.0);
 
+/// The scene with its fields felt as the meshes that they are made of, which is what the oracle knows.
+[[nodiscard]] Scene asMeshes(Scene scene);
+
 /// Strokes in closed form over one of our shapes, for `ticks` ticks.
 [[nodiscard]] ExactFigures runStroke(const StrokeCase& c, int ticks);
 /// Random taps and strokes over a scene.

@@ -154,9 +154,9 @@ void compareFiles(const std::filesystem::path& folder) {
     for (const std::filesystem::path& file : gltfFilesIn(folder)) {
         LoadOptions options;
         options.images = {.visual = false, .haptic = false};
-        const ScenePtr scene = loadScene(file, options);
+        const Scene scene = asMeshes(*loadScene(file, options));
         for (const Precision precision : {Precision::Double, Precision::Single}) {
-            RayFigures f = compare(*scene, Fit::Workspace, precision, 0.1, ticks);
+            RayFigures f = compare(scene, Fit::Workspace, precision, 0.1, ticks);
             report(file.stem().string(), precision, f);
             EXPECT_GT(f.touching, f.ticks / 8) << file;
         }
