@@ -1,6 +1,7 @@
 #include "engine/volume/volume_mesh.h"
 
 #include "engine/core/error.h"
+#include "engine/volume/mesh_corners.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -198,16 +199,7 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
     for (const openvdb::Vec3s& point : points)
         mesh.positions.emplace_back(
             volume.scenePoint(samples.voxel(glm::dvec3(point.x(), point.y(), point.z()))));
-    mesh.corners.reserve(6 * quads.size() + 3 * triangles.size());
-    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
-        mesh.corners.insert(mesh.corners.end(), {a, b, c});
-    };
-    for (const openvdb::Vec4I& quad : quads) {
-        add(quad[0], quad[1], quad[2]);
-        add(quad[0], quad[2], quad[3]);
-    }
-    for (const openvdb::Vec3I& triangle : triangles)
-        add(triangle[0], triangle[1], triangle[2]);
+    mesh.corners = triangleCorners(quads, triangles);
     mesh.normals.assign(points.size(), glm::vec3(0.0f));
     for (size_t at = 0; at < mesh.corners.size(); at += 3) {
         const uint32_t* const corner = &mesh.corners[at];

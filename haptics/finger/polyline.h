@@ -56,6 +56,8 @@ class Polyline {
                                   long apartFrom = -1) const noexcept;
     /// The depth to which the finger reaches into the edges of a patch, as deepest() sees them.
     [[nodiscard]] double depthOf(long patch, const ArcFinger& finger, const FingerPose& pose) const noexcept;
+    /// The patch of a place; not where there is none.
+    [[nodiscard]] size_t patchOf(double u) const noexcept;
     /// The place u in the middle of an edge.
     [[nodiscard]] double middleOf(size_t edge) const noexcept;
 
@@ -67,7 +69,6 @@ class Polyline {
         double length;
     };
 
-    [[nodiscard]] size_t patchOf(double u) const noexcept;
     [[nodiscard]] bool belongsTo(size_t edge, long patch) const noexcept;
     [[nodiscard]] static double depthIn(const Edge& edge, const ArcFinger& finger, const FingerPose& pose,
                                         const glm::dvec2& centre) noexcept;

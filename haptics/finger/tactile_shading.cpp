@@ -36,12 +36,9 @@ double TactileShading::solvedPlace(double from, const FingerPose& pose) const no
 /// depend on the place on the curve, so a hand that rests cannot go to and fro between two of them.
 void TactileShading::switchToDeeper(const FingerPose& pose) noexcept {
     constexpr double kMargin = 1e-6; // m
-    const auto patches = static_cast<double>(polyline_.patches().size());
-    if (patches == 0.0)
+    if (polyline_.patches().empty())
         return;
-    const double patch = std::floor(felt_.place);
-    const auto index = static_cast<long>(std::clamp(
-        polyline_.closed() ? patch - patches * std::floor(patch / patches) : patch, 0.0, patches - 1.0));
+    const auto index = static_cast<long>(polyline_.patchOf(felt_.place));
     const double own = polyline_.depthOf(index, finger_, pose);
     const Polyline::Deepest other = polyline_.deepest(finger_, pose, std::max(own, 0.0) + kMargin, index);
     if (other.found)

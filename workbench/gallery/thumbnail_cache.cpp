@@ -1,5 +1,6 @@
 #include "workbench/gallery/thumbnail_cache.h"
 
+#include "engine/core/cache_folder.h"
 #include "engine/core/checksum.h"
 
 #include <algorithm>
@@ -52,23 +53,12 @@ std::filesystem::path ThumbnailCache::pictureOf(const std::filesystem::path& mod
 }
 
 bool ThumbnailCache::makeRoom() const {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error)
+    const auto kept = cachedFiles(folder_, ".png");
+    if (!kept)
         return false;
-    struct Kept {
-        std::filesystem::file_time_type time;
-        std::filesystem::path file;
-    };
-    std::vector<Kept> kept;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
-        if (entry.path().extension() == ".png")
-            kept.push_back({entry.last_write_time(error), entry.path()});
-    if (kept.size() >= kMax) {
-        std::ranges::sort(kept, std::greater<>{}, &Kept::time);
-        for (size_t i = kMax - 1; i < kept.size(); ++i)
-            std::filesystem::remove(kept[i].file, error);
-    }
+    std::error_code error;
+    for (size_t i = 0; i + kMax <= kept->size(); ++i) // and one place for the next
+        std::filesystem::remove((*kept)[i].file, error);
     return true;
 }
 

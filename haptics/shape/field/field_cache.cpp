@@ -1,5 +1,6 @@
 #include "haptics/shape/field/field_cache.h"
 
+#include "engine/core/cache_folder.h"
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
@@ -169,33 +170,16 @@ std::shared_ptr<const FieldGrid> FieldCache::find(uint64_t key) const {
 bool FieldCache::makeRoom(uint64_t bytes) const {
     if (bytes > mostBytes_ / 4)
         return false;
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error)
+    const auto kept = cachedFiles(folder_, kCachedEnding);
+    if (!kept)
         return false;
-    struct Kept {
-        std::filesystem::file_time_type time;
-        uint64_t bytes;
-        std::filesystem::path file;
-    };
-    std::vector<Kept> kept;
     uint64_t all = bytes;
-    std::filesystem::directory_iterator entry(folder_, error);
-    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-        std::error_code unknown; // a folder, or removed meanwhile: not ours to count
-        if (entry->path().extension() != kCachedEnding || !entry->is_regular_file(unknown))
-            continue;
-        const auto time = entry->last_write_time(unknown);
-        const uintmax_t size = unknown ? 0 : entry->file_size(unknown);
-        if (unknown)
-            continue;
-        kept.push_back({time, size, entry->path()});
-        all += size;
-    }
-    std::ranges::sort(kept, std::less<>{}, &Kept::time);
-    for (size_t i = 0; i < kept.size() && all > mostBytes_; ++i) {
-        if (std::filesystem::remove(kept[i].file, error); !error)
-            all -= kept[i].bytes;
+    for (const CachedFile& one : *kept)
+        all += one.bytes;
+    std::error_code error;
+    for (size_t i = 0; i < kept->size() && all > mostBytes_; ++i) {
+        if (std::filesystem::remove((*kept)[i].file, error); !error)
+            all -= (*kept)[i].bytes;
     }
     return true;
 }

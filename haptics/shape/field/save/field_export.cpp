@@ -1,6 +1,7 @@
 #include "haptics/shape/field/save/field_export.h"
 
 #include "engine/core/error.h"
+#include "engine/volume/mesh_corners.h"
 #include "haptics/shape/field/field_shape.h"
 
 #include <openvdb/io/Stream.h>
@@ -78,15 +79,7 @@ SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Sim
         mesh.positions.emplace_back(sceneFromObject.point(place));
         mesh.normals.emplace_back(glm::dot(normal, normal) > 0.0 ? normal : glm::dvec3(0.0, 1.0, 0.0));
     }
-    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
-        mesh.corners.insert(mesh.corners.end(), {a, b, c});
-    };
-    for (const openvdb::Vec4I& quad : quads) {
-        add(quad[0], quad[1], quad[2]);
-        add(quad[0], quad[2], quad[3]);
-    }
-    for (const openvdb::Vec3I& triangle : triangles)
-        add(triangle[0], triangle[1], triangle[2]);
+    mesh.corners = triangleCorners(quads, triangles);
     return mesh;
 }
 
