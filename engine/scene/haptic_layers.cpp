@@ -1,5 +1,7 @@
 #include "engine/scene/haptic_layers.h"
 
+#include "engine/core/error.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -12,6 +14,17 @@ template <class T>
 void offer(HapticMaterial::Field<T>& field, const std::optional<T>& value, HapticSource source) {
     if (!field.value && value)
         field = {value, source};
+}
+
+/// None where the program has a flaw; the import has reported it.
+MaterialProgram feltProgram(const HapticStatement& ours) {
+    if (ours.program == nullptr)
+        return {};
+    try {
+        return materialProgram(ours.program, ours.shader);
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
@@ -30,7 +43,8 @@ void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     haptic.sides = ours.sides.value_or(SideChoice::Both);
     haptic.implicit = ours.implicit.value_or(false);
     haptic.voxelSize = ours.voxelSize.value_or(0.0f);
-    if (!ours.shader.is_null())
+    haptic.program = feltProgram(ours);
+    if (!ours.shader.is_null() && !haptic.program)
         haptic.unavailable["shader"] = ours.shader;
     if (ours.forceShading == ShadingChoice::Bezier)
         haptic.unavailable["forceShading"] = KeptJson("bezier");

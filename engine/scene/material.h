@@ -1,12 +1,14 @@
 #pragma once
 // Appearance of a surface (glTF's metallic-roughness) and its haptic properties (docs/materials.md).
 
+#include "engine/program/surface_program.h"
 #include "engine/scene/kept_json.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -73,9 +75,10 @@ struct HapticMaterial {
     Field<FactorMap> friction, stiffnessMap, dampingMap;
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
-    bool implicit = false;  ///< representation: felt as a distance field
-    float voxelSize = 0.0f; ///< of the field, model metres; 0: chosen from the object's size
-    KeptFields unavailable; ///< fields reserved for later, for `inspect`
+    bool implicit = false;   ///< representation: felt as a distance field
+    float voxelSize = 0.0f;  ///< of the field, model metres; 0: chosen from the object's size
+    MaterialProgram program; ///< what a touched place of it feels like; none: the fields above alone
+    KeptFields unavailable;  ///< fields that are not felt, for `inspect`
     bool operator==(const HapticMaterial&) const = default;
 };
 
@@ -90,6 +93,8 @@ struct HapticStatement {
     std::optional<bool> implicit;   ///< representation: "implicit", else "mesh"
     std::optional<float> voxelSize; ///< model metres
     KeptJson shader;                ///< as in the file; null: none
+    /// Compiled from shader's source; null without one, and where it could not be read or compiled.
+    std::shared_ptr<const SurfaceProgram> program;
     bool operator==(const HapticStatement&) const = default;
 };
 

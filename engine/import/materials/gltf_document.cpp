@@ -72,7 +72,8 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
 
 GltfDocument makeDocument(ImportContext& context, const GltfFile& file) {
     BufferStore buffers(context, file);
-    return {file.json, typedModel(context, file.json), std::move(buffers), findMpegMaterials(context, file)};
+    return {file.json, typedModel(context, file.json), std::move(buffers), findMpegMaterials(context, file),
+            file.folder};
 }
 
 } // namespace touchstone

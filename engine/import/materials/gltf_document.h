@@ -4,6 +4,8 @@
 #include "engine/import/file/gltf_buffers.h"
 #include "engine/import/file/tinygltf.h"
 
+#include <filesystem>
+
 namespace touchstone {
 
 /// MPEG's haptic materials: an array of objects, and its place in the file, for messages.
@@ -19,6 +21,7 @@ struct GltfDocument {
     tinygltf::Model model;
     BufferStore buffers;
     MpegMaterials mpeg;
+    std::filesystem::path folder; ///< base of its URIs
 };
 
 /// tinygltf gets only the validated core of the JSON: no buffers, no images, no extras, no extensions. So it

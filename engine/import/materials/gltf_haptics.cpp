@@ -75,22 +75,11 @@ std::optional<FactorMap> factorField(ImportContext& context, const GltfDocument&
     return map.texture ? std::optional(map) : std::nullopt;
 }
 
-void checkShader(ImportContext& context, const json& shader, const std::string& place) {
-    if (!shader.is_object() || !shader.contains("source") || !shader["source"].is_string())
-        context.fail(place, "should be an object with a source", "correct the value in the file");
-    if (shader.contains("parameters") && !shader["parameters"].is_object())
-        context.fail(place + ".parameters", "should be an object of values by name",
-                     "correct the value in the file");
-    warnOfUnknown(context, shader, {"source", "parameters"}, place);
-}
-
 /// Fields reserved for later are kept for saving and for `inspect`.
 void tellUnavailable(ImportContext& context, const HapticStatement& ours, const std::string& place) {
     const auto tell = [&](const char* name, const std::string& what) {
         context.warn(place + "." + name, what + " is not yet available; felt without it");
     };
-    if (!ours.shader.is_null())
-        tell("shader", "a haptic shader");
     if (ours.voxelSize && !ours.implicit.value_or(false))
         context.warn(place + ".voxelSize", "has no meaning without representation \"implicit\"");
     if (ours.forceShading == ShadingChoice::Bezier)
@@ -175,7 +164,8 @@ std::vector<int> nearestMeshNodes(const tinygltf::Model& model) {
 
 } // namespace
 
-HapticStatement readStatement(ImportContext& context, const GltfDocument& document, size_t material) {
+HapticStatement readStatement(ImportContext& context, const GltfDocument& document, size_t material,
+                              ShaderReader& shaders) {
     HapticStatement ours;
     const std::string owner = element("materials", material);
     const json* found = extensionOf(context, document.json["materials"][material], kOurs, owner);
@@ -197,10 +187,8 @@ HapticStatement readStatement(ImportContext& context, const GltfDocument& docume
     ours.stiffnessMap = factorField(context, document, object, "stiffnessTexture", place);
     ours.dampingMap = factorField(context, document, object, "dampingTexture", place);
     readChoices(context, object, place, ours);
-    if (object.contains("shader")) {
-        checkShader(context, object["shader"], place + ".shader");
-        ours.shader = KeptJson(object["shader"]);
-    }
+    if (object.contains("shader"))
+        shaders.read(object["shader"], place + ".shader", ours);
     ours.voxelSize = number("voxelSize", 1e-30, kUnbounded);
     tellUnavailable(context, ours, place);
     warnOfUnknown(context, object,

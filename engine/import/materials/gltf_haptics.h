@@ -19,7 +19,7 @@ inline constexpr float kPhysicsFriction = 0.6f;
 
 /// The statement of TOUCHSTONE_materials_haptic for a material of the file. Throws Error where it is invalid.
 [[nodiscard]] HapticStatement readStatement(ImportContext& context, const GltfDocument& document,
-                                            size_t material);
+                                            size_t material, ShaderReader& shaders);
 
 /// Adds physics material `index`; a broken one costs a warning.
 void readPhysics(ImportContext& context, const GltfDocument& document, size_t index, HapticLayers& says);

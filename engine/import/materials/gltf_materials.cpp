@@ -152,7 +152,7 @@ std::vector<SceneTexture> readTextures(ImportContext& context, const GltfDocumen
 }
 
 MaterialTable::MaterialTable(ImportContext& context, const GltfDocument& document)
-    : context_(context), document_(document) {
+    : context_(context), document_(document), shaders_(context, document) {
     for (size_t i = 0; i < document.model.materials.size(); ++i) {
         context.stopIfCancelled();
         (void)indexOf({static_cast<int>(i), -1, -1});
@@ -170,7 +170,7 @@ int MaterialTable::indexOf(const SurfaceKey& key) {
         const auto index = static_cast<size_t>(key.material);
         (void)context_.attempt("the material is drawn without it",
                                [&] { readLook(context_, document_, index, material); });
-        material.says.ours = readStatement(context_, document_, index);
+        material.says.ours = readStatement(context_, document_, index, shaders_);
     }
     material.fileIndex = key.material;
     if (key.mpeg >= 0) {

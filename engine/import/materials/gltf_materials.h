@@ -2,6 +2,7 @@
 // Materials: appearance, and (gltf_haptics.h) haptic properties.
 
 #include "engine/import/materials/gltf_document.h"
+#include "engine/import/materials/gltf_shaders.h"
 
 #include <map>
 #include <tuple>
@@ -40,6 +41,7 @@ class MaterialTable {
     const GltfDocument& document_;
     std::vector<Material> materials_;
     std::map<SurfaceKey, int> made_;
+    ShaderReader shaders_;
     std::map<int, HapticLayers> mpeg_; ///< by index: read once, with shared JSON
 };
 

@@ -53,6 +53,13 @@ std::string complaint(const json& root, const json& rule, const json& value, con
     for (const json& name : rule.value("required", json::array()))
         if (!value.contains(name))
             return place + " misses " + name.dump();
+    if (rule.contains("oneOf")) {
+        int met = 0;
+        for (const json& choice : rule["oneOf"])
+            met += complaint(root, choice, value, place).empty() ? 1 : 0;
+        if (met != 1)
+            return place + " meets " + std::to_string(met) + " of " + rule["oneOf"].dump();
+    }
     if (!value.is_object())
         return {};
     for (const auto& [name, field] : value.items()) {
@@ -84,10 +91,10 @@ void eachRule(const json& rule, const std::string& place,
 }
 
 TEST(MaterialSchema, SaysNothingThatTheTestsDoNotCheckAndLeavesNoObjectOpen) {
-    const std::set<std::string> checked{"type",    "enum",     "minimum",    "maximum",
-                                        "$ref",    "required", "properties", "exclusiveMinimum",
-                                        "$schema", "$id",      "title",      "additionalProperties",
-                                        "$defs",   "default",  "description"};
+    const std::set<std::string> checked{"type",    "enum",     "minimum",     "maximum",
+                                        "$ref",    "required", "properties",  "exclusiveMinimum",
+                                        "$schema", "$id",      "title",       "additionalProperties",
+                                        "$defs",   "default",  "description", "oneOf"};
     int rules = 0;
     eachRule(schema(), "", [&](const json& rule, const std::string& place) {
         ++rules;
@@ -124,43 +131,49 @@ constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticF
     "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
     "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
     "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
-    "representation": "implicit", "voxelSize": 0.001, "shader": {"source": "wood.glsl", "parameters": {"a": 1}},
+    "representation": "implicit", "voxelSize": 0.001, "shader": {"source": "wood.glsl", "parameters": {"a": 1},
+    "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5}},
     "sides": "front", "extras": 3})";
-constexpr const char* kWrong[] = {R"({"stiffness": 0})",
-                                  R"({"stiffness": "hard"})",
-                                  R"({"stiffness": null})",
-                                  R"({"damping": -1})",
-                                  R"({"damping": [1]})",
-                                  R"({"staticFriction": -0.1})",
-                                  R"({"dynamicFriction": -0.1})",
-                                  R"({"viscousFriction": -0.1})",
-                                  R"({"normalTextureInfluence": 1.5})",
-                                  R"({"normalTextureInfluence": -0.5})",
-                                  R"({"heightTexture": 0})",
-                                  R"({"heightTexture": {"index": 0}})",
-                                  R"({"heightTexture": {"scale": 0.001}})",
-                                  R"({"heightTexture": {"index": -1, "scale": 0.001}})",
-                                  R"({"heightTexture": {"index": 0, "scale": "1 mm"}})",
-                                  R"({"heightTexture": {"index": 0, "scale": 0.001, "midLevel": 1.1}})",
-                                  R"({"heightTexture": {"index": 0, "scale": 0.001, "strength": 1}})",
-                                  R"({"frictionTexture": {"index": 0.5}})",
-                                  R"({"frictionTexture": {"index": 0, "texCoord": -1}})",
-                                  R"({"frictionTexture": {"min": 0.5}})",
-                                  R"({"stiffnessTexture": {"index": 0, "min": -0.5}})",
-                                  R"({"dampingTexture": {"index": 0, "max": -0.5}})",
-                                  R"({"dampingTexture": {"index": 0, "scale": 2}})",
-                                  R"({"forceShading": "phong"})",
-                                  R"({"forceShading": 1})",
-                                  R"({"representation": "voxels"})",
-                                  R"({"representation": "implicit", "voxelSize": 0})",
-                                  R"({"sides": "back"})",
-                                  R"({"shader": {}})",
-                                  R"({"shader": "wood.glsl"})",
-                                  R"({"shader": {"source": 1}})",
-                                  R"({"shader": {"source": "wood.glsl", "parameters": 3}})",
-                                  R"({"shader": {"source": "wood.glsl", "language": "c"}})",
-                                  R"({"friction": 0.5})",
-                                  R"(7)"};
+constexpr const char* kWrong[] = {
+    R"({"stiffness": 0})",
+    R"({"stiffness": "hard"})",
+    R"({"stiffness": null})",
+    R"({"damping": -1})",
+    R"({"damping": [1]})",
+    R"({"staticFriction": -0.1})",
+    R"({"dynamicFriction": -0.1})",
+    R"({"viscousFriction": -0.1})",
+    R"({"normalTextureInfluence": 1.5})",
+    R"({"normalTextureInfluence": -0.5})",
+    R"({"heightTexture": 0})",
+    R"({"heightTexture": {"index": 0}})",
+    R"({"heightTexture": {"scale": 0.001}})",
+    R"({"heightTexture": {"index": -1, "scale": 0.001}})",
+    R"({"heightTexture": {"index": 0, "scale": "1 mm"}})",
+    R"({"heightTexture": {"index": 0, "scale": 0.001, "midLevel": 1.1}})",
+    R"({"heightTexture": {"index": 0, "scale": 0.001, "strength": 1}})",
+    R"({"frictionTexture": {"index": 0.5}})",
+    R"({"frictionTexture": {"index": 0, "texCoord": -1}})",
+    R"({"frictionTexture": {"min": 0.5}})",
+    R"({"stiffnessTexture": {"index": 0, "min": -0.5}})",
+    R"({"dampingTexture": {"index": 0, "max": -0.5}})",
+    R"({"dampingTexture": {"index": 0, "scale": 2}})",
+    R"({"forceShading": "phong"})",
+    R"({"forceShading": 1})",
+    R"({"representation": "voxels"})",
+    R"({"representation": "implicit", "voxelSize": 0})",
+    R"({"sides": "back"})",
+    R"({"shader": {}})",
+    R"({"shader": "wood.glsl"})",
+    R"({"shader": {"source": 1}})",
+    R"({"shader": {"source": "wood.glsl", "bufferView": 0}})",
+    R"({"shader": {"bufferView": -1}})",
+    R"({"shader": {"source": "a", "persistentTexture": {"width": 2}}})",
+    R"({"shader": {"source": "a", "persistentTexture": {"width": 2, "height": 4096}}})",
+    R"({"shader": {"source": "wood.glsl", "parameters": 3}})",
+    R"({"shader": {"source": "wood.glsl", "language": "c"}})",
+    R"({"friction": 0.5})",
+    R"(7)"};
 
 TEST(MaterialSchema, AcceptsEveryFieldAndRefusesWhatIsWrong) {
     const json every = json::parse(kEveryField);
