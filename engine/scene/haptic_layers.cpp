@@ -1,6 +1,7 @@
 #include "engine/scene/haptic_layers.h"
 
 #include "engine/core/error.h"
+#include "engine/scene/haptic_numbers.h"
 
 #include <algorithm>
 #include <utility>
@@ -29,12 +30,9 @@ MaterialProgram feltProgram(const HapticStatement& ours) {
 
 void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     constexpr auto source = HapticSource::Touchstone;
-    offer(haptic.stiffness, ours.stiffness, source);
-    offer(haptic.damping, ours.damping, source);
-    offer(haptic.staticFriction, ours.staticFriction, source);
-    offer(haptic.dynamicFriction, ours.dynamicFriction, source);
-    offer(haptic.viscousFriction, ours.viscousFriction, source);
-    offer(haptic.normalTextureInfluence, ours.normalTextureInfluence, source);
+    for (const HapticNumber& number : hapticNumbers())
+        if (number.settled != nullptr)
+            offer(haptic.*number.settled, ours.*number.stated, source);
     offer(haptic.height, ours.height, source);
     offer(haptic.friction, ours.friction, source);
     offer(haptic.stiffnessMap, ours.stiffnessMap, source);

@@ -9,17 +9,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr float kLargest = 1e30f;
-
-template <auto Member>
-std::optional<float> getNumber(const HapticStatement& statement) {
-    return statement.*Member;
-}
-template <auto Member>
-bool setNumber(HapticStatement& statement, std::optional<float> value) {
-    statement.*Member = value;
-    return true;
-}
+constexpr float kLargest = kLargestHapticNumber;
 
 template <auto Map, auto Part>
 std::optional<float> getPart(const HapticStatement& statement) {
@@ -86,7 +76,6 @@ void setChoice(HapticStatement& statement, std::optional<size_t> value) {
     statement.*Member = value ? std::optional(static_cast<Enum>(*value)) : std::nullopt;
 }
 
-#define TOUCHSTONE_NUMBER(member) getNumber<&HapticStatement::member>, setNumber<&HapticStatement::member>
 #define TOUCHSTONE_PART(map, Kind, part)                                                                     \
     getPart<&HapticStatement::map, &Kind::part>, setPart<&HapticStatement::map, &Kind::part>
 #define TOUCHSTONE_SET(map) getSet<&HapticStatement::map>, setSet<&HapticStatement::map>
@@ -94,51 +83,48 @@ void setChoice(HapticStatement& statement, std::optional<size_t> value) {
 constexpr std::string_view kTexCoord = "which set of texture coordinates";
 constexpr std::string_view kBlack = "factor where the map is black", kWhite = "factor where the map is white";
 
-constexpr std::array kNumbers{
-    NumberField{"stiffness", "stiffness", "N/m", 1e-30f, kLargest, 20.0f, 3000.0f, true,
-                "the device's recommendation", "force per depth; above the device's limit it is cut to that",
-                TOUCHSTONE_NUMBER(stiffness)},
-    NumberField{"damping", "damping", "N·s/m", 0.0f, kLargest, 0.0f, 10.0f, false, "0",
-                "force per velocity along the normal while pressed in", TOUCHSTONE_NUMBER(damping)},
-    NumberField{"staticFriction", "static friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
-                "coefficient that holds a resting contact", TOUCHSTONE_NUMBER(staticFriction)},
-    NumberField{"dynamicFriction", "dynamic friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
-                "coefficient while sliding; above the static one it is cut to it",
-                TOUCHSTONE_NUMBER(dynamicFriction)},
-    NumberField{"viscousFriction", "viscous friction", "N·s/m", 0.0f, kLargest, 0.0f, 10.0f, false, "0",
-                "force per velocity along the surface", TOUCHSTONE_NUMBER(viscousFriction)},
-    NumberField{"normalTextureInfluence", "felt normal map", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "1",
-                "share of the normal map that is felt; 0 leaves it to the eye",
-                TOUCHSTONE_NUMBER(normalTextureInfluence)},
-    NumberField{"heightTexture.scale", "height", "m", -kLargest, kLargest, -0.02f, 0.02f, false, "0.001",
-                "from black to white, model metres", TOUCHSTONE_PART(height, HeightMap, scale)},
-    NumberField{"heightTexture.midLevel", "mid level", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0.5",
-                "the value that lies on the mesh", TOUCHSTONE_PART(height, HeightMap, midLevel)},
-    NumberField{"heightTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
+constexpr std::array kMapParts{
+    NumberField{{"heightTexture.scale", "height", "m", -kLargest, kLargest, -0.02f, 0.02f, false, "0.001",
+                 "from black to white, model metres"},
+                nullptr,
+                TOUCHSTONE_PART(height, HeightMap, scale)},
+    NumberField{{"heightTexture.midLevel", "mid level", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0.5",
+                 "the value that lies on the mesh"},
+                nullptr,
+                TOUCHSTONE_PART(height, HeightMap, midLevel)},
+    NumberField{{"heightTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord},
+                nullptr,
                 TOUCHSTONE_SET(height)},
-    NumberField{"frictionTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack,
+    NumberField{{"frictionTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack},
+                nullptr,
                 TOUCHSTONE_PART(friction, FactorMap, min)},
-    NumberField{"frictionTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite,
+    NumberField{{"frictionTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite},
+                nullptr,
                 TOUCHSTONE_PART(friction, FactorMap, max)},
-    NumberField{"frictionTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
-                TOUCHSTONE_SET(friction)},
-    NumberField{"stiffnessTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack,
+    NumberField{
+        {"frictionTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord},
+        nullptr,
+        TOUCHSTONE_SET(friction)},
+    NumberField{{"stiffnessTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack},
+                nullptr,
                 TOUCHSTONE_PART(stiffnessMap, FactorMap, min)},
-    NumberField{"stiffnessTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite,
+    NumberField{{"stiffnessTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite},
+                nullptr,
                 TOUCHSTONE_PART(stiffnessMap, FactorMap, max)},
-    NumberField{"stiffnessTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
-                TOUCHSTONE_SET(stiffnessMap)},
-    NumberField{"dampingTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack,
+    NumberField{
+        {"stiffnessTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord},
+        nullptr,
+        TOUCHSTONE_SET(stiffnessMap)},
+    NumberField{{"dampingTexture.min", "black", "", 0.0f, kLargest, 0.0f, 3.0f, false, "0", kBlack},
+                nullptr,
                 TOUCHSTONE_PART(dampingMap, FactorMap, min)},
-    NumberField{"dampingTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite,
+    NumberField{{"dampingTexture.max", "white", "", 0.0f, kLargest, 0.0f, 3.0f, false, "1", kWhite},
+                nullptr,
                 TOUCHSTONE_PART(dampingMap, FactorMap, max)},
-    NumberField{"dampingTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord,
-                TOUCHSTONE_SET(dampingMap)},
-    NumberField{"voxelSize", "voxel size", "m", 1e-30f, kLargest, 0.0001f, 0.1f, true, "none",
-                "of the distance field, model metres; none: a 128th of the object's longest side",
-                TOUCHSTONE_NUMBER(voxelSize)}};
+    NumberField{{"dampingTexture.texCoord", "coordinates", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "0", kTexCoord},
+                nullptr,
+                TOUCHSTONE_SET(dampingMap)}};
 
-#undef TOUCHSTONE_NUMBER
 #undef TOUCHSTONE_PART
 #undef TOUCHSTONE_SET
 
@@ -254,7 +240,23 @@ std::string setMapField(const MapField& field, HapticStatement& statement, const
 } // namespace
 
 std::span<const NumberField> numberFields() {
-    return kNumbers;
+    static const std::vector<NumberField> fields = [] {
+        std::vector<NumberField> all;
+        for (const HapticNumber& number : hapticNumbers())
+            all.push_back({number, number.stated, nullptr, nullptr});
+        all.insert(all.end(), kMapParts.begin(), kMapParts.end());
+        return all;
+    }();
+    return fields;
+}
+std::optional<float> NumberField::get(const HapticStatement& statement) const {
+    return stated != nullptr ? statement.*stated : getPart(statement);
+}
+bool NumberField::set(HapticStatement& statement, std::optional<float> value) const {
+    if (stated == nullptr)
+        return setPart(statement, value);
+    statement.*stated = value;
+    return true;
 }
 std::span<const ChoiceField> choiceFields() {
     return kChoices;
@@ -266,7 +268,7 @@ std::span<const MapField> mapFields() {
 std::string setHapticField(HapticStatement& statement, const Scene& scene, std::string_view name,
                            std::string_view value) {
     std::string problem;
-    if (const NumberField* number = find(kNumbers, name)) {
+    if (const NumberField* number = find(numberFields(), name)) {
         problem = setNumberField(*number, statement, value);
     } else if (const MapField* map = find(kMaps, name)) {
         problem = setMapField(*map, statement, scene, value);
@@ -283,7 +285,7 @@ std::string setHapticField(HapticStatement& statement, const Scene& scene, std::
 bool resetHapticField(HapticStatement& statement, std::string_view name) {
     if (name == kShader)
         statement.shader = nullptr;
-    else if (const NumberField* number = find(kNumbers, name))
+    else if (const NumberField* number = find(numberFields(), name))
         number->set(statement, std::nullopt);
     else if (const MapField* map = find(kMaps, name))
         map->set(statement, {});
@@ -303,7 +305,7 @@ std::string hapticFieldProblem(std::string_view name) {
 
 std::string hapticValueProblem(std::string_view name, std::string_view value) {
     float ignored = 0.0f;
-    if (const NumberField* number = find(kNumbers, name))
+    if (const NumberField* number = find(numberFields(), name))
         return ofField(name, readNumber(*number, value, ignored));
     if (const ChoiceField* choice = find(kChoices, name))
         return ofField(name, choiceProblem(*choice, value));
@@ -312,7 +314,7 @@ std::string hapticValueProblem(std::string_view name, std::string_view value) {
 
 std::vector<std::string_view> hapticFieldNames() {
     std::vector<std::string_view> names;
-    for (const NumberField& field : kNumbers)
+    for (const NumberField& field : numberFields())
         names.push_back(field.name);
     for (const MapField& field : kMaps)
         names.push_back(field.name);
@@ -328,7 +330,7 @@ std::string hapticFieldHelp() {
         entry.resize(std::max<size_t>(entry.size() + 2, 30), ' ');
         text += entry + what + "\n";
     };
-    for (const NumberField& field : kNumbers)
+    for (const NumberField& field : numberFields())
         line(field.name, std::string(field.unit) + (field.unit.empty() ? "" : ", ") +
                              std::string(field.meaning) + " [" + std::string(field.unset) + "]");
     for (const MapField& field : kMaps)

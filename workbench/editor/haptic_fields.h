@@ -1,6 +1,7 @@
 #pragma once
 // The fields of TOUCHSTONE_materials_haptic as data: for panel, command line and documentation.
 
+#include "engine/scene/haptic_numbers.h"
 #include "engine/scene/scene.h"
 
 #include <optional>
@@ -11,17 +12,15 @@
 
 namespace touchstone {
 
-/// A number. `map.part` names a part of a map, which exists only with the map.
-struct NumberField {
-    std::string_view name, label, unit;
-    float least, most;      ///< range of the extension
-    float low, high;        ///< ends of a slider; a value beyond them can be typed
-    bool logarithmic;       ///< slider
-    std::string_view unset; ///< effective value where it is not stated
-    std::string_view meaning;
-    std::optional<float> (*get)(const HapticStatement&);
+/// A number: one of hapticNumbers(), or `map.part`, a part of a map, which exists only with the map.
+struct NumberField : HapticNumberText {
+    std::optional<float> HapticStatement::*stated; ///< null: a part of a map
+    std::optional<float> (*getPart)(const HapticStatement&);
+    bool (*setPart)(HapticStatement&, std::optional<float>);
+
+    [[nodiscard]] std::optional<float> get(const HapticStatement& statement) const;
     /// False: the map that it belongs to is missing. Nullopt resets to the default.
-    bool (*set)(HapticStatement&, std::optional<float>);
+    bool set(HapticStatement& statement, std::optional<float> value) const;
 };
 [[nodiscard]] std::span<const NumberField> numberFields();
 

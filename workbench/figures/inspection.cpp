@@ -3,6 +3,7 @@
 #include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "engine/scene/haptic_numbers.h"
 #include "engine/time/samples.h"
 #include "engine/volume/volume.h"
 #include "haptics/servo/realtime_thread.h"
@@ -61,17 +62,14 @@ std::string shown(const Scene& scene, const FactorMap& map) {
 /// The haptic fields from the file or its PBR material, each with its origin.
 Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
     Json fields = Json::object();
-    const auto add = [&](const char* name, const auto& field, const char* unit) {
+    const auto add = [&](std::string_view name, const auto& field, std::string_view unit) {
         if (field.value)
-            fields[name] = {
+            fields[std::string(name)] = {
                 {"value", shown(scene, *field.value)}, {"unit", unit}, {"source", sourceName(field.source)}};
     };
-    add("stiffness", haptic.stiffness, "N/m");
-    add("damping", haptic.damping, "N s/m");
-    add("staticFriction", haptic.staticFriction, "");
-    add("dynamicFriction", haptic.dynamicFriction, "");
-    add("viscousFriction", haptic.viscousFriction, "N s/m");
-    add("normalTextureInfluence", haptic.normalTextureInfluence, "");
+    for (const HapticNumber& number : hapticNumbers())
+        if (number.settled != nullptr)
+            add(number.name, haptic.*number.settled, number.unit);
     add("heightTexture", haptic.height, "");
     add("frictionTexture", haptic.friction, "");
     add("stiffnessTexture", haptic.stiffnessMap, "");

@@ -1,6 +1,7 @@
 #include "workbench/panels/material_panel.h"
 
 #include "engine/scene/haptic_layers.h"
+#include "engine/scene/haptic_numbers.h"
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
 #include "workbench/figures/quantity.h"
@@ -40,17 +41,8 @@ const char* originOf(HapticSource source) {
 }
 
 const HapticMaterial::Field<float>* settledField(const HapticMaterial& haptic, std::string_view name) {
-    const std::array<std::pair<std::string_view, const HapticMaterial::Field<float>*>, 6> fields{
-        {{"stiffness", &haptic.stiffness},
-         {"damping", &haptic.damping},
-         {"staticFriction", &haptic.staticFriction},
-         {"dynamicFriction", &haptic.dynamicFriction},
-         {"viscousFriction", &haptic.viscousFriction},
-         {"normalTextureInfluence", &haptic.normalTextureInfluence}}};
-    for (const auto& [known, field] : fields)
-        if (known == name)
-            return field;
-    return nullptr;
+    const HapticNumber* number = findHapticNumber(name);
+    return number != nullptr && number->settled != nullptr ? &(haptic.*number->settled) : nullptr;
 }
 
 class MaterialPanel {

@@ -2,19 +2,21 @@
 
 #include "engine/import/file/json_fields.h"
 #include "engine/import/materials/gltf_mpeg.h"
+#include "engine/scene/haptic_numbers.h"
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kUnbounded = 1e30;
+constexpr double kUnbounded = kLargestHapticNumber;
 constexpr const char* kOurs = "TOUCHSTONE_materials_haptic";
 constexpr const char* kPhysics = "KHR_physics_rigid_bodies";
 
@@ -36,7 +38,7 @@ std::optional<Choice> choiceField(const ImportContext& context, const json& obje
 }
 
 /// Warns of unknown fields, so that a misspelt field does not pass unnoticed.
-void warnOfUnknown(ImportContext& context, const json& object, std::initializer_list<std::string_view> known,
+void warnOfUnknown(ImportContext& context, const json& object, std::span<const std::string_view> known,
                    const std::string& place) {
     for (const auto& [name, value] : object.items())
         if (name != "extensions" && name != "extras" &&
@@ -57,7 +59,8 @@ std::optional<HeightMap> heightField(ImportContext& context, const GltfDocument&
         context.fail(at, "property 'scale' is missing", "give the height from black to white in metres");
     map.scale = *scale;
     map.midLevel = numberField(context, *found, "midLevel", at, 0.0, 1.0).value_or(map.midLevel);
-    warnOfUnknown(context, *found, {"index", "texCoord", "scale", "midLevel"}, at);
+    warnOfUnknown(context, *found, std::array<std::string_view, 4>{"index", "texCoord", "scale", "midLevel"},
+                  at);
     return map.texture ? std::optional(map) : std::nullopt;
 }
 
@@ -71,7 +74,7 @@ std::optional<FactorMap> factorField(ImportContext& context, const GltfDocument&
     map.texture = readTexture(context, document, *found, at);
     map.min = numberField(context, *found, "min", at, 0.0, kUnbounded).value_or(map.min);
     map.max = numberField(context, *found, "max", at, 0.0, kUnbounded).value_or(map.max);
-    warnOfUnknown(context, *found, {"index", "texCoord", "min", "max"}, at);
+    warnOfUnknown(context, *found, std::array<std::string_view, 4>{"index", "texCoord", "min", "max"}, at);
     return map.texture ? std::optional(map) : std::nullopt;
 }
 
@@ -173,15 +176,14 @@ HapticStatement readStatement(ImportContext& context, const GltfDocument& docume
         return ours;
     const json& object = *found;
     const std::string place = owner + ".extensions." + kOurs;
-    const auto number = [&](const char* name, double low, double high) {
-        return numberField(context, object, name, place, low, high);
-    };
-    ours.stiffness = number("stiffness", 1e-30, kUnbounded);
-    ours.damping = number("damping", 0.0, kUnbounded);
-    ours.staticFriction = number("staticFriction", 0.0, kUnbounded);
-    ours.dynamicFriction = number("dynamicFriction", 0.0, kUnbounded);
-    ours.viscousFriction = number("viscousFriction", 0.0, kUnbounded);
-    ours.normalTextureInfluence = number("normalTextureInfluence", 0.0, 1.0);
+    std::vector<std::string_view> known{
+        "heightTexture", "frictionTexture", "stiffnessTexture", "dampingTexture",
+        "forceShading",  "representation",  "shader",           "sides"};
+    for (const HapticNumber& number : hapticNumbers()) {
+        ours.*number.stated =
+            numberField(context, object, number.name.data(), place, number.least, number.most);
+        known.push_back(number.name);
+    }
     ours.height = heightField(context, document, object, place);
     ours.friction = factorField(context, document, object, "frictionTexture", place);
     ours.stiffnessMap = factorField(context, document, object, "stiffnessTexture", place);
@@ -189,13 +191,8 @@ HapticStatement readStatement(ImportContext& context, const GltfDocument& docume
     readChoices(context, object, place, ours);
     if (object.contains("shader"))
         shaders.read(object["shader"], place + ".shader", ours);
-    ours.voxelSize = number("voxelSize", 1e-30, kUnbounded);
     tellUnavailable(context, ours, place);
-    warnOfUnknown(context, object,
-                  {"stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction",
-                   "normalTextureInfluence", "heightTexture", "frictionTexture", "stiffnessTexture",
-                   "dampingTexture", "forceShading", "representation", "voxelSize", "shader", "sides"},
-                  place);
+    warnOfUnknown(context, object, known, place);
     return ours;
 }
 

@@ -1,6 +1,7 @@
 #include "assets/scenes.h"
 #include "engine/core/error.h"
 #include "engine/load/scene_loader.h"
+#include "engine/scene/haptic_numbers.h"
 #include "tests/support/gltf_maker.h"
 #include "tests/unit/assets/glb_reader.h"
 
@@ -108,6 +109,20 @@ TEST(MaterialSchema, SaysNothingThatTheTestsDoNotCheckAndLeavesNoObjectOpen) {
         }
     });
     EXPECT_GT(rules, 25);
+}
+
+TEST(MaterialSchema, HasEveryNumberOfTheTableWithItsRange) {
+    const json properties = schema()["properties"];
+    for (const HapticNumber& number : hapticNumbers()) {
+        const std::string name(number.name);
+        ASSERT_TRUE(properties.contains(name)) << name;
+        const json& rule = properties[name];
+        EXPECT_EQ(rule["type"], "number") << name;
+        EXPECT_EQ(rule.contains("exclusiveMinimum") ? rule["exclusiveMinimum"] : rule["minimum"], 0.0)
+            << name;
+        EXPECT_EQ(rule.contains("exclusiveMinimum"), number.least > 0.0f) << name;
+        EXPECT_EQ(rule.contains("maximum"), number.most < kLargestHapticNumber) << name;
+    }
 }
 
 TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {

@@ -1,4 +1,5 @@
 #include "engine/import/materials/gltf_haptics.h"
+#include "engine/scene/haptic_numbers.h"
 #include "tests/unit/engine/load_support.h"
 
 namespace touchstone {
@@ -32,6 +33,24 @@ GltfMaker withOurs(const json& ours) {
 HapticMaterial hapticOf(const GltfMaker& maker) {
     const ScenePtr scene = load(maker);
     return scene->materials.at(static_cast<size_t>(scene->meshes.at(0).material)).haptic;
+}
+
+TEST(GltfHaptics, EveryNumberOfTheTableIsReadSettledAndBounded) {
+    for (const HapticNumber& number : hapticNumbers()) {
+        const std::string name(number.name);
+        const ScenePtr scene = load(withOurs({{name, 0.5}}));
+        const Material& material = scene->materials.at(0);
+        EXPECT_EQ(material.says.ours.*number.stated, 0.5f) << name;
+        if (number.settled != nullptr) {
+            EXPECT_EQ((material.haptic.*number.settled).value, 0.5f) << name;
+            EXPECT_EQ((material.haptic.*number.settled).source, HapticSource::Touchstone) << name;
+        }
+        EXPECT_REFUSED(withOurs({{name, -1.0}}),
+                       "materials[0].extensions.TOUCHSTONE_materials_haptic." + name, "out of range");
+        EXPECT_REFUSED(withOurs({{name, "much"}}),
+                       "materials[0].extensions.TOUCHSTONE_materials_haptic." + name, "should be a number");
+    }
+    EXPECT_EQ(findHapticNumber("nosuch"), nullptr);
 }
 
 TEST(GltfHaptics, OurExtensionIsReadWhole) {

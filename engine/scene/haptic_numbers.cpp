@@ -1,0 +1,56 @@
+#include "engine/scene/haptic_numbers.h"
+
+#include <algorithm>
+#include <array>
+
+namespace touchstone {
+
+namespace {
+
+constexpr float kLargest = kLargestHapticNumber;
+/// A power of two: no text of a file falls below it by its conversion to float.
+constexpr float kSmallest = 0x1p-100f;
+
+constexpr std::array kNumbers{
+    HapticNumber{{"stiffness", "stiffness", "N/m", kSmallest, kLargest, 20.0f, 3000.0f, true,
+                  "the device's recommendation",
+                  "force per depth; above the device's limit it is cut to that"},
+                 &HapticStatement::stiffness,
+                 &HapticMaterial::stiffness},
+    HapticNumber{{"damping", "damping", "N·s/m", 0.0f, kLargest, 0.0f, 10.0f, false, "0",
+                  "force per velocity along the normal while pressed in"},
+                 &HapticStatement::damping,
+                 &HapticMaterial::damping},
+    HapticNumber{{"staticFriction", "static friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
+                  "coefficient that holds a resting contact"},
+                 &HapticStatement::staticFriction,
+                 &HapticMaterial::staticFriction},
+    HapticNumber{{"dynamicFriction", "dynamic friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
+                  "coefficient while sliding; above the static one it is cut to it"},
+                 &HapticStatement::dynamicFriction,
+                 &HapticMaterial::dynamicFriction},
+    HapticNumber{{"viscousFriction", "viscous friction", "N·s/m", 0.0f, kLargest, 0.0f, 10.0f, false, "0",
+                  "force per velocity along the surface"},
+                 &HapticStatement::viscousFriction,
+                 &HapticMaterial::viscousFriction},
+    HapticNumber{{"normalTextureInfluence", "felt normal map", "", 0.0f, 1.0f, 0.0f, 1.0f, false, "1",
+                  "share of the normal map that is felt; 0 leaves it to the eye"},
+                 &HapticStatement::normalTextureInfluence,
+                 &HapticMaterial::normalTextureInfluence},
+    HapticNumber{{"voxelSize", "voxel size", "m", kSmallest, kLargest, 0.0001f, 0.1f, true, "none",
+                  "of the distance field, model metres; none: a 128th of the object's longest side"},
+                 &HapticStatement::voxelSize,
+                 nullptr}};
+
+} // namespace
+
+std::span<const HapticNumber> hapticNumbers() {
+    return kNumbers;
+}
+
+const HapticNumber* findHapticNumber(std::string_view name) {
+    const auto found = std::ranges::find(kNumbers, name, &HapticNumber::name);
+    return found == kNumbers.end() ? nullptr : &*found;
+}
+
+} // namespace touchstone
