@@ -67,6 +67,7 @@ struct HapticMaterial {
     };
     Field<float> stiffness;              ///< N/m
     Field<float> damping;                ///< N·s/m
+    Field<float> retardationTime;        ///< s, damping over stiffness of a Kelvin-Voigt material
     Field<float> staticFriction;         ///< 1
     Field<float> dynamicFriction;        ///< 1
     Field<float> viscousFriction;        ///< N·s/m
@@ -84,8 +85,8 @@ struct HapticMaterial {
 
 /// The statements of TOUCHSTONE_materials_haptic about a material, field by field; an empty one is left out.
 struct HapticStatement {
-    std::optional<float> stiffness, damping, staticFriction, dynamicFriction, viscousFriction,
-        normalTextureInfluence;
+    std::optional<float> stiffness, damping, retardationTime, staticFriction, dynamicFriction,
+        viscousFriction, normalTextureInfluence;
     std::optional<HeightMap> height;
     std::optional<FactorMap> friction, stiffnessMap, dampingMap;
     std::optional<ShadingChoice> forceShading;

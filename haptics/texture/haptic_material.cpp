@@ -72,6 +72,17 @@ ShadingMode shadingOf(ShadingChoice choice) {
     return ShadingMode::TwoPass;
 }
 
+/// Stated, or that of a Kelvin-Voigt material: stiffness times retardation time. NaN: neither.
+double dampingOf(const HapticMaterial& haptic, const std::string& place, std::vector<Warning>& warnings) {
+    const double time = numberOr(haptic.retardationTime, 0.0);
+    if (haptic.damping.value || !(time > 0.0))
+        return numberOr(haptic.damping, NAN);
+    if (haptic.stiffness.value)
+        return static_cast<double>(*haptic.stiffness.value) * time;
+    warnings.push_back({place, "a retardation time has no effect without a stiffness; felt without damping"});
+    return NAN;
+}
+
 } // namespace
 
 HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& material, size_t index,
@@ -81,7 +92,7 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& mater
     const std::string place = "materials[" + std::to_string(index) + "]";
     HapticMaterialData data;
     data.stiffness = numberOr(haptic.stiffness, NAN);
-    data.damping = numberOr(haptic.damping, NAN);
+    data.damping = dampingOf(haptic, place, warnings);
     data.staticFriction = numberOr(haptic.staticFriction, 0.0);
     data.dynamicFriction = numberOr(haptic.dynamicFriction, data.staticFriction);
     data.viscousFriction = numberOr(haptic.viscousFriction, 0.0);

@@ -268,6 +268,19 @@ TEST(EffectPlan, CoefficientsOfTheMaterialAloneTurnTheirEffectOn) {
                },
                "static 0.5, dynamic 0.25"},
           Case{Effect::Damping, [&](HapticMaterial& m) { m.damping = stated(2.5); }, "2.5 N s/m"},
+          Case{Effect::Damping,
+               [&](HapticMaterial& m) {
+                   m.stiffness = stated(500.0);
+                   m.retardationTime = stated(0.004);
+               },
+               "2 N s/m"},
+          Case{Effect::Damping,
+               [&](HapticMaterial& m) {
+                   m.stiffness = stated(500.0);
+                   m.damping = stated(3.0);
+                   m.retardationTime = stated(0.004);
+               },
+               "3 N s/m"},
           Case{Effect::ViscousFriction, [&](HapticMaterial& m) { m.viscousFriction = stated(1.5); },
                "1.5 N s/m"}}) {
         Scene source = plainPlane();
@@ -279,6 +292,15 @@ TEST(EffectPlan, CoefficientsOfTheMaterialAloneTurnTheirEffectOn) {
         EXPECT_EQ(scene->plan.plainSample, c.effect == Effect::Damping)
             << "damping is a constant of a plain tick";
     }
+}
+
+TEST(EffectPlan, ARetardationTimeWithoutStiffnessIsAWarningAndNoDamping) {
+    Scene source = plainPlane();
+    source.materials[0].haptic.retardationTime = {0.004f, HapticSource::Touchstone};
+    const auto scene = compiled(source);
+    EXPECT_FALSE(planned(*scene, Effect::Damping).on);
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_EQ(scene->warnings[0].place, "materials[0]");
 }
 
 TEST(EffectPlan, NamesEverythingThatAnEffectReads) {
