@@ -26,6 +26,7 @@ pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
 pkg_check_modules(jack REQUIRED IMPORTED_TARGET jack)
 pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(xcb REQUIRED IMPORTED_TARGET xcb)
+pkg_check_modules(dbus REQUIRED IMPORTED_TARGET dbus-1)
 
 # OpenVDB's own CMake module looks for packages that only its tools need.
 find_package(TBB REQUIRED)

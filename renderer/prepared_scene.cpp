@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace touchstone {
 
@@ -28,6 +29,16 @@ SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
     for (int c = 0; c < 4; ++c)
         vertex.color[static_cast<size_t>(c)] = static_cast<uint16_t>(std::lround(65535.0f * color[c]));
     return vertex;
+}
+
+/// Of the triangles that every three of `indices` are.
+double meanEdge(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
+    double sum = 0.0;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3)
+        for (size_t corner = 0; corner < 3; ++corner)
+            sum += static_cast<double>(
+                glm::distance(positions[indices[i + corner]], positions[indices[i + (corner + 1) % 3]]));
+    return indices.empty() ? 0.0 : sum / static_cast<double>(indices.size());
 }
 
 /// Repeatedly halves the number of triangles. The error of a step is relative to the previous level and as
@@ -58,19 +69,10 @@ void simplify(const Mesh& mesh, const PrepareOptions& options, const Progress& p
         current.resize(count);
         meshopt_optimizeVertexCache(current.data(), coarser.data(), count, mesh.positions.size());
         squared += scale * scale * static_cast<double>(step) * static_cast<double>(step);
-        out.levels.push_back(
-            {static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(count), std::sqrt(squared)});
+        out.levels.push_back({static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(count),
+                              std::sqrt(squared), meanEdge(mesh.positions, current)});
         indices.insert(indices.end(), current.begin(), current.end());
     }
-}
-
-double meanEdge(const Mesh& mesh) {
-    double sum = 0.0;
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        for (size_t corner = 0; corner < 3; ++corner)
-            sum += static_cast<double>(glm::distance(mesh.positions[mesh.indices[i + corner]],
-                                                     mesh.positions[mesh.indices[i + (corner + 1) % 3]]));
-    return mesh.indices.empty() ? 0.0 : sum / static_cast<double>(mesh.indices.size());
 }
 
 void prepareMesh(const Mesh& mesh, const PrepareOptions& options, const Progress& progress,
@@ -91,10 +93,10 @@ void prepareMesh(const Mesh& mesh, const PrepareOptions& options, const Progress
         prepared.radius =
             std::max(prepared.radius, glm::length(glm::dvec3(mesh.positions[i]) - prepared.centre));
     }
-    prepared.levels.push_back(
-        {static_cast<uint32_t>(out.indices.size()), static_cast<uint32_t>(mesh.indices.size()), 0.0});
+    prepared.levels.push_back({static_cast<uint32_t>(out.indices.size()),
+                               static_cast<uint32_t>(mesh.indices.size()), 0.0,
+                               meanEdge(mesh.positions, mesh.indices)});
     out.indices.insert(out.indices.end(), mesh.indices.begin(), mesh.indices.end());
-    prepared.meanEdge = meanEdge(mesh);
     if (!mesh.indices.empty())
         simplify(mesh, options, progress.part(0.1, 1.0), out.indices, prepared);
     out.meshes.push_back(std::move(prepared));

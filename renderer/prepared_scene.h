@@ -19,6 +19,7 @@ namespace touchstone {
 struct DrawLevel {
     uint32_t firstIndex = 0, indexCount = 0;
     double error = 0.0;
+    double meanEdge = 0.0; ///< of its triangles, mesh units
 };
 
 struct PreparedMesh {
@@ -26,7 +27,6 @@ struct PreparedMesh {
     glm::dvec3 centre{0.0};        ///< mesh frame; the packed positions are relative to it
     double radius = 0.0;           ///< of a ball about the centre that contains all vertices
     glm::dvec3 halfSize{0.0};      ///< of the box about the centre, mesh axes
-    double meanEdge = 0.0;         ///< of the full mesh's triangles, mesh units
     std::vector<DrawLevel> levels; ///< the full mesh, then successively coarser ones
     /// Line segments or points: two vertices or one each, from strokeVertex on, without indices.
     uint32_t strokeVertex = 0, strokes = 0;

@@ -151,9 +151,9 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         const double allowed = view.allowedError > 0.0 && nearest > 0.0 && stretch > 0.0
                                    ? view.allowedError * nearest / (pixelsAtUnitDepth * stretch)
                                    : 0.0;
-        item.edge = mesh.meanEdge * stretch * pixelsAtUnitDepth /
-                    (view.orthographic() ? 1.0 : std::max(glm::length(origin), 1e-300));
         const DrawLevel& level = levelWithin(mesh, allowed);
+        item.edge = level.meanEdge * stretch * pixelsAtUnitDepth /
+                    (view.orthographic() ? 1.0 : std::max(glm::length(origin), 1e-300));
         item.firstIndex = strokes ? 0 : level.firstIndex;
         item.indexCount = strokes ? mesh.strokes : level.indexCount;
         if (blended)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <system_error>
@@ -16,6 +17,7 @@ namespace touchstone {
 namespace {
 
 constexpr double kSeen = 0.3;         // s: nobody cancels a dialog sooner
+constexpr int kNoPortal = 3;          // status of touchstone_file_portal (ChooserAnswer::End::Absent)
 constexpr uint64_t kMaxAnswer = 8192; // bytes
 
 std::string variable(const char* name) {
@@ -35,6 +37,19 @@ std::filesystem::path inPath(const std::string& program) {
         at = end + 1;
     }
     return {};
+}
+
+/// The program beside this one that asks the portal; nothing in a session without a bus, which no portal is
+/// on.
+std::filesystem::path portalProgram() {
+    std::error_code problem;
+    const std::string runtime = variable("XDG_RUNTIME_DIR");
+    if (variable("DBUS_SESSION_BUS_ADDRESS").empty() &&
+        (runtime.empty() || !std::filesystem::is_socket(runtime + "/bus", problem)))
+        return {};
+    const std::filesystem::path file =
+        std::filesystem::read_symlink("/proc/self/exe", problem).parent_path() / "touchstone_file_portal";
+    return access(file.c_str(), X_OK) == 0 ? file : std::filesystem::path();
 }
 
 /// "*.glb *.GLB *.gltf *.GLTF": the dialogs distinguish cases.
@@ -60,23 +75,34 @@ std::string startOf(const FileRequest& request) {
 
 } // namespace
 
-std::optional<DialogProgram> installedDialog() {
+std::vector<DialogProgram> installedDialogs() {
     using enum DialogProgram::Kind;
     const std::string wanted = variable("TOUCHSTONE_FILE_DIALOG");
     const bool kde = variable("XDG_CURRENT_DESKTOP").find("KDE") != std::string::npos;
-    const DialogProgram::Kind order[] = {kde ? Kdialog : Zenity, kde ? Zenity : Kdialog};
+    const DialogProgram::Kind order[] = {Portal, kde ? Kdialog : Zenity, kde ? Zenity : Kdialog};
+    std::vector<DialogProgram> found;
     for (const DialogProgram::Kind kind : order) {
-        const char* name = kind == Zenity ? "zenity" : "kdialog";
+        const char* name = kind == Portal ? "portal" : kind == Zenity ? "zenity" : "kdialog";
         if (!wanted.empty() && wanted != name)
             continue;
-        if (const std::filesystem::path file = inPath(name); !file.empty())
-            return DialogProgram{kind, file};
+        if (const std::filesystem::path file = kind == Portal ? portalProgram() : inPath(name); !file.empty())
+            found.push_back({kind, file});
     }
-    return std::nullopt;
+    return found;
 }
 
 std::vector<std::string> dialogArguments(DialogProgram::Kind kind, const FileRequest& request) {
     std::vector<std::string> arguments;
+    const auto withPatterns = [](const FileKind& each) {
+        return std::string(each.name) + " | " + patternsOf(each);
+    };
+    if (kind == DialogProgram::Kind::Portal) {
+        arguments = {"touchstone_file_portal", request.saves() ? "save" : "open", titleOf(request),
+                     request.folder.string(), request.name};
+        if (!request.saves())
+            std::ranges::transform(kFileKinds, std::back_inserter(arguments), withPatterns);
+        return arguments;
+    }
     if (kind == DialogProgram::Kind::Zenity) {
         arguments = {"zenity",         "--file-selection", "--title",
                      titleOf(request), "--filename",       startOf(request)};
@@ -84,8 +110,7 @@ std::vector<std::string> dialogArguments(DialogProgram::Kind kind, const FileReq
             arguments.insert(arguments.end(), {"--save", "--confirm-overwrite"});
         else
             for (const FileKind& each : kFileKinds)
-                arguments.insert(arguments.end(),
-                                 {"--file-filter", std::string(each.name) + " | " + patternsOf(each)});
+                arguments.insert(arguments.end(), {"--file-filter", withPatterns(each)});
         return arguments;
     }
     arguments = {"kdialog", "--title", titleOf(request),
@@ -105,6 +130,8 @@ DialogAnswer answerOf(const ProcessAnswer& answer, double seconds) {
         return {};
     if (answer.end == NotStarted)
         return {{}, "The desktop's file dialog could not be started."};
+    if (answer.end == Exited && answer.status == kNoPortal)
+        return {{}, "There is no desktop portal that shows a file dialog.", true};
     if (answer.end != Exited || answer.status > 1 || (answer.status == 1 && seconds < kSeen))
         return {{}, "The desktop's file dialog ended without an answer."};
     if (answer.status == 1)

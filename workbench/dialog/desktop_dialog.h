@@ -1,6 +1,7 @@
 #pragma once
-// The desktop's own file dialog, by the programs that desktops have for scripts: zenity (GNOME and others)
-// and kdialog (KDE). It is a process of its own, so that neither its toolkit nor a hang of it is ours.
+// The desktop's own file dialog: xdg-desktop-portal's, asked by a small program of ours (dialog/portal), or
+// the programs that desktops have for scripts, zenity (GNOME and others) and kdialog (KDE). Each is a process
+// of its own, so that neither its toolkit nor a hang of it is ours.
 
 #include "engine/process/process_answer.h"
 #include "workbench/dialog/file_request.h"
@@ -14,13 +15,14 @@
 namespace touchstone {
 
 struct DialogProgram {
-    enum class Kind : uint8_t { Zenity, Kdialog } kind = Kind::Zenity;
+    enum class Kind : uint8_t { Portal, Zenity, Kdialog } kind = Kind::Zenity;
     std::filesystem::path file;
 };
 
-/// The one in PATH that fits the desktop (kdialog first on KDE). TOUCHSTONE_FILE_DIALOG=zenity or kdialog
-/// chooses one, any other value none: the window's own browser then.
-[[nodiscard]] std::optional<DialogProgram> installedDialog();
+/// In the order in which they are asked: the portal where the session has a bus, then those in PATH, kdialog
+/// first on KDE. TOUCHSTONE_FILE_DIALOG=portal, zenity or kdialog leaves one, any other value none: the
+/// window's own browser then.
+[[nodiscard]] std::vector<DialogProgram> installedDialogs();
 
 /// Its command line, the program's name first.
 [[nodiscard]] std::vector<std::string> dialogArguments(DialogProgram::Kind kind, const FileRequest& request);
@@ -28,10 +30,11 @@ struct DialogProgram {
 struct DialogAnswer {
     std::filesystem::path path; ///< absolute; empty: none was chosen
     std::string problem;        ///< why the program gave no answer; empty: it gave one, or was cancelled
+    bool absent = false;        ///< nobody answers for the portal: the next dialog is asked instead
 };
 
-/// What the program's end means. `seconds`: how long it ran; one that ends unsuccessfully before anybody
-/// could have cancelled it was never seen.
+/// What the program's end means; status 3 that there is no portal. `seconds`: how long it ran; one that ends
+/// unsuccessfully before anybody could have cancelled it was never seen.
 [[nodiscard]] DialogAnswer answerOf(const ProcessAnswer& answer, double seconds);
 
 /// One dialog at a time. Main thread; only the destructor waits, some 20 ms.

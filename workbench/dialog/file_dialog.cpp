@@ -8,8 +8,9 @@ namespace touchstone {
 void FileDialog::ask(FileRequest request) {
     close();
     request_ = std::move(request);
-    waiting_ = installedDialog();
-    if (waiting_)
+    waiting_ = installedDialogs();
+    asks_ = !waiting_.empty();
+    if (asks_)
         stage_ = Stage::Desktop;
     else
         browse();
@@ -17,7 +18,7 @@ void FileDialog::ask(FileRequest request) {
 
 void FileDialog::close() {
     desktop_.close();
-    waiting_.reset();
+    waiting_.clear();
     choice_.reset();
     note_.clear();
     stage_ = Stage::Closed;
@@ -25,7 +26,7 @@ void FileDialog::close() {
 
 void FileDialog::browse() {
     desktop_.close();
-    waiting_.reset();
+    waiting_.clear();
     stage_ = Stage::Browser;
     browser_.open(request_);
 }
@@ -33,8 +34,11 @@ void FileDialog::browse() {
 std::optional<FileChoice> FileDialog::update(double now) {
     if (const std::optional<DialogAnswer> answer = desktop_.take())
         takeAnswer(*answer);
-    if (waiting_ && !desktop_.busy())
-        desktop_.open(*std::exchange(waiting_, std::nullopt), request_);
+    if (asks_ && !desktop_.busy()) {
+        asks_ = false;
+        desktop_.open(waiting_.front(), request_);
+        waiting_.erase(waiting_.begin());
+    }
     if (stage_ == Stage::Browser)
         browser_.update(now);
     return std::exchange(choice_, std::nullopt);
@@ -43,7 +47,11 @@ std::optional<FileChoice> FileDialog::update(double now) {
 void FileDialog::takeAnswer(const DialogAnswer& answer) {
     if (stage_ != Stage::Desktop)
         return;
-    if (!answer.problem.empty()) {
+    if (answer.absent && !waiting_.empty()) {
+        asks_ = true;
+    } else if (answer.absent && std::getenv("TOUCHSTONE_FILE_DIALOG") == nullptr) {
+        browse(); // as where there is no dialog at all
+    } else if (!answer.problem.empty()) {
         note_ = answer.problem;
         browse();
     } else if (answer.path.empty()) {

@@ -50,7 +50,8 @@ class FileDialog {
 
     FileRequest request_;
     Stage stage_ = Stage::Closed;
-    std::optional<DialogProgram> waiting_; ///< opened once the one before has ended
+    std::vector<DialogProgram> waiting_; ///< those that are asked if the one before is absent, in this order
+    bool asks_ = false;                  ///< the first of them, once the one before has ended
     DesktopDialog desktop_;
     FileBrowser browser_;
     std::filesystem::path target_;

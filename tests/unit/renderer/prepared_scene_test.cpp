@@ -55,6 +55,25 @@ TEST(PreparedScene, EachLevelHasHalfTheTrianglesAndTellsItsErrorHonestly) {
     }
 }
 
+TEST(PreparedScene, EachLevelTellsTheMeanOfItsOwnEdges) {
+    const auto prepared = prepareScene(torus(324, 100), {.coarsest = 500});
+    const PreparedMesh& mesh = prepared->meshes.at(0);
+    for (size_t l = 0; l < mesh.levels.size(); ++l) {
+        const DrawLevel& level = mesh.levels[l];
+        double sum = 0.0;
+        for (uint32_t i = 0; i < level.indexCount; ++i) {
+            const uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
+            const auto at = [&](uint32_t k) {
+                return glm::dvec3(prepared->vertices.at(prepared->indices.at(level.firstIndex + k)).position);
+            };
+            sum += glm::distance(at(i), at(next));
+        }
+        EXPECT_NEAR(level.meanEdge, sum / level.indexCount, 1e-6 * level.meanEdge) << "level " << l;
+        const double finer = l > 0 ? mesh.levels[l - 1].meanEdge : 0.0;
+        EXPECT_GT(level.meanEdge, 1.2 * finer) << "half of the triangles";
+    }
+}
+
 TEST(PreparedScene, SmallMeshesAndUnwantedLevelsStayAsTheyAre) {
     EXPECT_EQ(prepareScene(torus(10, 10))->meshes[0].levels.size(), 1u);
     EXPECT_EQ(prepareScene(torus(324, 100), {.coarsest = 0})->meshes[0].levels.size(), 1u);

@@ -19,19 +19,31 @@ ProcessAnswer ended(End end, int status, const std::string& output = "") {
 TEST(DesktopDialog, IsTheOneOfTheDesktop) {
     Scripts scripts;
     setenv("PATH", scripts.add("kdialog", "exit 1").parent_path().c_str(), 1);
-    ASSERT_TRUE(installedDialog());
-    EXPECT_EQ(installedDialog()->kind, DialogProgram::Kind::Kdialog);
+    using enum DialogProgram::Kind;
+    using Kinds = std::vector<DialogProgram::Kind>;
+    const auto found = [] {
+        Kinds kinds;
+        for (const DialogProgram& program : installedDialogs())
+            kinds.push_back(program.kind);
+        return kinds;
+    };
+    EXPECT_EQ(found(), Kinds{Kdialog});
     scripts.add("zenity", "exit 1");
-    EXPECT_EQ(installedDialog()->kind, DialogProgram::Kind::Zenity);
+    EXPECT_EQ(found(), (Kinds{Zenity, Kdialog}));
     setenv("XDG_CURRENT_DESKTOP", "KDE", 1);
-    EXPECT_EQ(installedDialog()->kind, DialogProgram::Kind::Kdialog);
+    EXPECT_EQ(found(), (Kinds{Kdialog, Zenity}));
+    setenv("DBUS_SESSION_BUS_ADDRESS", "unix:path=/no such bus", 1);
+    EXPECT_EQ(found(), (Kinds{Portal, Kdialog, Zenity}));
     setenv("TOUCHSTONE_FILE_DIALOG", "zenity", 1);
-    EXPECT_EQ(installedDialog()->kind, DialogProgram::Kind::Zenity);
+    EXPECT_EQ(found(), Kinds{Zenity});
+    setenv("TOUCHSTONE_FILE_DIALOG", "portal", 1);
+    EXPECT_EQ(found(), Kinds{Portal});
     setenv("TOUCHSTONE_FILE_DIALOG", "window", 1);
-    EXPECT_FALSE(installedDialog());
+    EXPECT_EQ(found(), Kinds{});
     unsetenv("TOUCHSTONE_FILE_DIALOG");
+    unsetenv("DBUS_SESSION_BUS_ADDRESS");
     setenv("PATH", "::relative:/no such folder", 1);
-    EXPECT_FALSE(installedDialog());
+    EXPECT_EQ(found(), Kinds{});
 }
 
 TEST(DesktopDialog, IsGivenTheFolderAndTheKinds) {

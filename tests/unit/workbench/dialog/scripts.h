@@ -15,6 +15,8 @@ class Scripts {
         setenv("PATH", (folder_.path().string() + ":/usr/bin:/bin").c_str(), 1);
         unsetenv("TOUCHSTONE_FILE_DIALOG");
         unsetenv("XDG_CURRENT_DESKTOP");
+        unsetenv("XDG_RUNTIME_DIR"); // no portal
+        unsetenv("DBUS_SESSION_BUS_ADDRESS");
     }
     ~Scripts() {
         setenv("PATH", before_.c_str(), 1);
