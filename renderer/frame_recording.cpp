@@ -42,8 +42,8 @@ void SceneRenderer::Impl::drawOverlay(const vk::raii::CommandBuffer& commands, c
         for (const OverlayDraw::Batch& batch : draw.batches) {
             if (pass != OverlayPass::Hidden && batch.translucent != (pass == OverlayPass::Translucent))
                 continue;
-            commands.setCullMode(batch.shape == Shape::Disc ? vk::CullModeFlagBits::eNone
-                                                            : vk::CullModeFlagBits::eBack);
+            commands.setCullMode(batch.shape == OverlayShape::Disc ? vk::CullModeFlagBits::eNone
+                                                                   : vk::CullModeFlagBits::eBack);
             const ShapeMeshes::Range& range = shapes_.ranges[static_cast<size_t>(batch.shape)];
             commands.drawIndexed(range.indexCount, batch.count, range.firstIndex, 0, batch.first);
             ++statistics.drawCalls;

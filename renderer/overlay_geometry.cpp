@@ -17,7 +17,7 @@ class ShapeBuilder {
   public:
     explicit ShapeBuilder(ShapeMeshes& meshes) : meshes_(meshes) {}
 
-    void begin(Shape shape) {
+    void begin(OverlayShape shape) {
         shape_ = static_cast<size_t>(shape);
         meshes_.ranges[shape_].firstIndex = static_cast<uint32_t>(meshes_.indices.size());
     }
@@ -68,7 +68,7 @@ class ShapeBuilder {
 
 void buildSphere(ShapeBuilder& builder) {
     constexpr int kStacks = kSides / 2;
-    builder.begin(Shape::Sphere);
+    builder.begin(OverlayShape::Sphere);
     int below = -1;
     for (int stack = 0; stack <= kStacks; ++stack) {
         const double latitude = glm::pi<double>() * (static_cast<double>(stack) / kStacks - 0.5);
@@ -94,7 +94,7 @@ bool finite(const glm::dvec3& v) {
 
 /// One shape with its distance from the eye.
 struct Item {
-    Shape shape;
+    OverlayShape shape;
     ShapeInstance instance;
     double distance;
 };
@@ -104,7 +104,7 @@ class ShapeLayout {
     explicit ShapeLayout(const glm::dvec3& eye) : eye_(eye) {}
 
     /// Columns x, y, z of the map and its origin, workspace.
-    void add(Shape shape, const glm::dmat3& axes, const glm::dvec3& origin, const glm::vec4& color) {
+    void add(OverlayShape shape, const glm::dmat3& axes, const glm::dvec3& origin, const glm::vec4& color) {
         const glm::dvec3 t = origin - eye_;
         Item item{shape, {}, glm::length(t)};
         for (int row = 0; row < 3; ++row)
@@ -156,8 +156,8 @@ void addArrow(ShapeLayout& layout, const Overlay::Arrow& arrow) {
         return glm::dmat3(frame[0] * radius, frame[1] * height, frame[2] * radius);
     };
     if (shrink >= 1.0 && length > head)
-        layout.add(Shape::Cylinder, scaled(arrow.radius, length - head), arrow.from, arrow.color);
-    layout.add(Shape::Cone, scaled(headRadius, head), arrow.to - head * frame[1], arrow.color);
+        layout.add(OverlayShape::Cylinder, scaled(arrow.radius, length - head), arrow.from, arrow.color);
+    layout.add(OverlayShape::Cone, scaled(headRadius, head), arrow.to - head * frame[1], arrow.color);
 }
 
 } // namespace
@@ -166,7 +166,7 @@ ShapeMeshes makeShapeMeshes() {
     ShapeMeshes meshes;
     ShapeBuilder builder(meshes);
     buildSphere(builder);
-    builder.begin(Shape::Cylinder);
+    builder.begin(OverlayShape::Cylinder);
     {
         const int lower = builder.ring(0.0, 1.0, 0.0);
         const int upper = builder.ring(1.0, 1.0, 0.0);
@@ -175,7 +175,7 @@ ShapeMeshes makeShapeMeshes() {
     builder.cap(0.0, -1.0);
     builder.cap(1.0, 1.0);
     builder.end();
-    builder.begin(Shape::Cone);
+    builder.begin(OverlayShape::Cone);
     {
         const int lower = builder.ring(0.0, 1.0, 0.5);
         const int tip = builder.ring(1.0, 0.0, 0.5);
@@ -183,7 +183,7 @@ ShapeMeshes makeShapeMeshes() {
     }
     builder.cap(0.0, -1.0);
     builder.end();
-    builder.begin(Shape::Disc);
+    builder.begin(OverlayShape::Disc);
     builder.cap(0.0, 1.0);
     builder.end();
     return meshes;
@@ -193,7 +193,7 @@ OverlayDraw layOut(const Overlay& overlay, const glm::dvec3& eye) {
     ShapeLayout layout(eye);
     for (const Overlay::Sphere& sphere : overlay.spheres)
         if (finite(sphere.centre) && sphere.radius > 0.0)
-            layout.add(Shape::Sphere, glm::dmat3(sphere.radius), sphere.centre, sphere.color);
+            layout.add(OverlayShape::Sphere, glm::dmat3(sphere.radius), sphere.centre, sphere.color);
     for (const Overlay::Arrow& arrow : overlay.arrows)
         addArrow(layout, arrow);
     for (const Overlay::Disc& disc : overlay.discs) {
@@ -201,7 +201,7 @@ OverlayDraw layOut(const Overlay& overlay, const glm::dvec3& eye) {
         if (!finite(disc.centre) || !(disc.radius > 0.0) || !(length > 0.0))
             continue;
         const glm::dmat3 frame = frameAlong(disc.normal / length);
-        layout.add(Shape::Disc, disc.radius * frame, disc.centre, disc.color);
+        layout.add(OverlayShape::Disc, disc.radius * frame, disc.centre, disc.color);
     }
     OverlayDraw draw = layout.finish();
     const auto addLines = [&](const std::vector<Overlay::Line>& lines) {

@@ -13,7 +13,7 @@ namespace touchstone {
 
 /// Sphere: radius 1 about the origin. Cylinder: radius 1, from y = 0 to 1. Cone: base at y = 0 with radius 1,
 /// tip at y = 1. Disc: radius 1 in the plane y = 0. Outsides are counter-clockwise.
-enum class Shape : uint8_t { Sphere, Cylinder, Cone, Disc };
+enum class OverlayShape : uint8_t { Sphere, Cylinder, Cone, Disc };
 inline constexpr size_t kShapeCount = 4;
 
 struct ShapeVertex {
@@ -46,7 +46,7 @@ struct LineInstance {
 /// Items with a non-finite value, or without size, are left out.
 struct OverlayDraw {
     struct Batch {
-        Shape shape = Shape::Sphere;
+        OverlayShape shape = OverlayShape::Sphere;
         bool translucent = false;
         uint32_t first = 0, count = 0;
     };

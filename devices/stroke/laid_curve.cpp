@@ -70,7 +70,7 @@ std::vector<double> lengthsAlong(std::span<const glm::dvec3> points) {
 LaidCurve::LaidCurve(const glm::dvec3& point, const glm::dvec3& normal, double depth)
     : pressed_{point - depth * normal}, normals_{normal}, lengths_{0.0} {}
 
-std::optional<LaidCurve> LaidCurve::over(const TriangleSource& triangles, const View& view,
+std::optional<LaidCurve> LaidCurve::over(const TriangleSource& triangles, const ProbeView& view,
                                          std::span<const glm::dvec2> points, double depth, double soft,
                                          double ceiling) {
     const std::vector<std::optional<SurfaceHit>> hits = probe(triangles, view, points, ceiling);
@@ -109,7 +109,7 @@ std::optional<LaidCurve> LaidCurve::acrossEdge(const TriangleSource& triangles, 
         line.emplace_back(reach * static_cast<double>(i) / static_cast<double>(legPoints), 0.0);
     std::array<std::optional<LaidCurve>, 2> legs;
     for (size_t side = 0; side < 2; ++side) {
-        View view;
+        ProbeView view;
         view.centre = site.point;
         view.towards = site.normal[side];
         view.right = site.inward[side];

@@ -28,7 +28,7 @@ class LaidCurve {
     /// The curve through `points` (m, right and up in `view`), `depth` m under the surface, none of which is
     /// higher than `ceiling` (m over the view's centre). Nullopt where it meets a gap, a step or a wall. The
     /// outward direction is smoothed over `soft` m, so that the hand rounds sharp features.
-    [[nodiscard]] static std::optional<LaidCurve> over(const TriangleSource& triangles, const View& view,
+    [[nodiscard]] static std::optional<LaidCurve> over(const TriangleSource& triangles, const ProbeView& view,
                                                        std::span<const glm::dvec2> points, double depth,
                                                        double soft, double ceiling);
     /// A closed curve over an edge: over the first surface, `depth` m under it, straight on past the edge,

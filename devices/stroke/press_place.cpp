@@ -107,7 +107,7 @@ bool isSupported(const TriangleSource& near, const PressPlace& place) {
     constexpr double kBeside = 0.02; // of the depth
     Bounds point;
     point.include(place.point);
-    const View view = viewOf(point, place.normal);
+    const ProbeView view = viewOf(point, place.normal);
     const double beside = kBeside * place.depth;
     const std::array<glm::dvec2, 4> around{glm::dvec2(beside, 0.0), glm::dvec2(-beside, 0.0),
                                            glm::dvec2(0.0, beside), glm::dvec2(0.0, -beside)};

@@ -126,7 +126,7 @@ std::vector<size_t> showing(const TriangleSource& triangles, std::span<const Bou
             all.include(box.high);
         }
     const double length = glm::length(request.front);
-    const View view =
+    const ProbeView view =
         viewOf(all, length > 0.0 && std::isfinite(length) ? request.front / length : glm::dvec3(0, 0, 1));
     std::vector<glm::dvec2> points;
     for (int i = 0; i < kSide * kSide; ++i)

@@ -34,7 +34,7 @@ glm::dvec2 seed(int i, int count) {
 StrokeSite siteAt(const TriangleSource& triangles, const Bounds& bounds, const SurfaceHit& hit) {
     Bounds point;
     point.include(hit.point);
-    const View flat = viewOf(point, hit.normal);
+    const ProbeView flat = viewOf(point, hit.normal);
     const double around = std::min(kAround, kAroundOfModel * bounds.diagonal());
     constexpr int kRing = 24;
     std::vector<glm::dvec2> ring;
@@ -53,7 +53,7 @@ StrokeSite siteAt(const TriangleSource& triangles, const Bounds& bounds, const S
 /// Touchable hits, nearest the centre and facing the viewer first, at a minimum distance from each other.
 std::vector<SurfaceHit> hitsFacing(const TriangleSource& triangles, const Bounds& bounds,
                                    const glm::dvec3& front) {
-    const View view = viewOf(bounds, front);
+    const ProbeView view = viewOf(bounds, front);
     std::vector<glm::dvec2> points;
     for (int i = 0; i < kCandidates; ++i)
         points.push_back(seed(i, kCandidates) * glm::dvec2(view.half));
@@ -102,7 +102,7 @@ std::optional<SurfaceHit> hitAt(const TriangleSource& triangles, const StrokePla
         return std::nullopt;
     Bounds point;
     point.include(place.point);
-    const View view = viewOf(point, place.normal / length);
+    const ProbeView view = viewOf(point, place.normal / length);
     const std::array<glm::dvec2, 1> middle{glm::dvec2(0.0)};
     const std::optional<SurfaceHit> hit = probe(triangles, view, middle, kNear)[0];
     return hit && view.viewed(hit->point).z >= -kNear ? hit : std::nullopt;

@@ -9,7 +9,7 @@ namespace touchstone {
 
 /// A view onto the place of a stroke: its centre is on the surface, its axis points out of it.
 struct StrokeSite {
-    View view;
+    ProbeView view;
     double ceiling = 0.0; ///< m over the centre: higher surface belongs to another part of the model
 };
 

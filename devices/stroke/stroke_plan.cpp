@@ -36,7 +36,7 @@ constexpr double kDeepestPlanned = 0.1;  ///< of the model's diagonal: limit for
 constexpr int kRepairs = 16;             ///< repairs of a tour before another side is tried
 
 struct Stroke {
-    View view;
+    ProbeView view;
     Hits hits;                 ///< none where there is nothing
     std::vector<double> walls; ///< height of a wall beside the hit, which the hand avoids; else -infinity
     std::vector<bool> overTop; ///< the hop that lands on this hit clears the whole model
@@ -60,7 +60,7 @@ struct Stroke {
     }
 };
 
-std::vector<glm::dvec2> wavyEllipse(const View& view, double spacing) {
+std::vector<glm::dvec2> wavyEllipse(const ProbeView& view, double spacing) {
     const double a = std::min(view.half.x, kLargestHalfAxis), b = std::min(view.half.y, kLargestHalfAxis);
     const double longest = 2.0 * std::numbers::pi * std::max(a, b);
     const auto count = static_cast<size_t>(std::max(64.0, std::ceil(longest / spacing)));
@@ -123,7 +123,7 @@ struct Waypoint {
 /// the wall, and the proxy would correctly stay at the foot of it, where the force grows without bound.
 std::vector<Waypoint> waypointsAlong(const Stroke& stroke, double depth, double clearance) {
     const size_t count = stroke.hits.size();
-    const View& view = stroke.view;
+    const ProbeView& view = stroke.view;
     // Start behind a gap if there is one, so that no run of contact is cut in two.
     size_t start = 0;
     for (size_t i = 0; i < count; ++i)

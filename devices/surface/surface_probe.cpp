@@ -65,7 +65,7 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 
 /// Not inlined, so that equal corners give equal bits: inlined twice, a compiler may contract the products
 /// differently.
-[[gnu::noinline]] glm::dvec3 viewedFrom(const View& view, const glm::dvec3& p) {
+[[gnu::noinline]] glm::dvec3 viewedFrom(const ProbeView& view, const glm::dvec3& p) {
     return view.viewed(p);
 }
 
@@ -75,7 +75,7 @@ struct ViewedTriangle {
     glm::dvec2 a2, b2, c2;
     double area; ///< twice the area, in the plane of the view; its sign is exact
 
-    ViewedTriangle(const View& view, const SurfaceTriangle& t)
+    ViewedTriangle(const ProbeView& view, const SurfaceTriangle& t)
         : a(viewedFrom(view, t.a)), b(viewedFrom(view, t.b)), c(viewedFrom(view, t.c)), a2(a), b2(b), c2(c),
           area(orientation(a2, b2, c2)) {}
 
@@ -122,8 +122,8 @@ constexpr double kFree = 0.25;
 
 } // namespace
 
-View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
-    View view;
+ProbeView viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
+    ProbeView view;
     view.centre = bounds.centre();
     view.towards = towardsViewer;
     const glm::dvec3 upright = std::abs(towardsViewer.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
@@ -135,7 +135,7 @@ View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer) {
     return view;
 }
 
-std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const View& view,
+std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, const ProbeView& view,
                                              std::span<const glm::dvec2> points, double ceiling) {
     std::vector<std::optional<SurfaceHit>> hits(points.size());
     if (points.empty())
@@ -169,7 +169,7 @@ std::vector<std::optional<SurfaceHit>> probe(const TriangleSource& triangles, co
     return hits;
 }
 
-std::vector<double> wallsBeside(const TriangleSource& triangles, const View& view,
+std::vector<double> wallsBeside(const TriangleSource& triangles, const ProbeView& view,
                                 std::span<const glm::dvec2> points,
                                 std::span<const std::optional<SurfaceHit>> hits, double reach) {
     std::vector<double> highest(points.size(), -std::numeric_limits<double>::infinity());
@@ -210,7 +210,7 @@ std::vector<double> wallsBeside(const TriangleSource& triangles, const View& vie
     return highest;
 }
 
-bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to, double tolerance) {
+bool breaksOff(const ProbeView& view, const SurfaceHit& from, const SurfaceHit& to, double tolerance) {
     const glm::dvec3 way = view.viewed(to.point) - view.viewed(from.point);
     const auto predicted = [&](const SurfaceHit& hit) {
         const glm::dvec3 normal = view.viewed(view.centre + hit.normal);

@@ -15,7 +15,7 @@ namespace touchstone {
 
 /// An orthographic view of given bounds. Coordinates (right, up, height) are m from the centre of the bounds,
 /// height towards the viewer.
-struct View {
+struct ProbeView {
     glm::dvec3 centre{0.0};
     glm::dvec3 right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, towards{0.0, 0.0, 1.0}; ///< unit, perpendicular
     glm::dvec3 half{0.0}; ///< half the bounds' extent along right, up, towards
@@ -29,7 +29,7 @@ struct View {
 };
 
 /// `towardsViewer`: unit. Up is as near to +y as possible, else to -z.
-[[nodiscard]] View viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer);
+[[nodiscard]] ProbeView viewOf(const Bounds& bounds, const glm::dvec3& towardsViewer);
 
 struct SurfaceHit {
     glm::dvec3 point;    ///< m
@@ -42,20 +42,20 @@ struct SurfaceHit {
 /// vertices too. Passes through the triangles once and stores none, so that a model of ten million needs no
 /// memory here.
 [[nodiscard]] std::vector<std::optional<SurfaceHit>>
-probe(const TriangleSource& triangles, const View& view, std::span<const glm::dvec2> points,
+probe(const TriangleSource& triangles, const ProbeView& view, std::span<const glm::dvec2> points,
       double ceiling = std::numeric_limits<double>::infinity());
 
 /// For each of `points`, the height of the highest wall within `reach` m of its hit, or minus infinity. A
 /// wall is a triangle, however low, that rises beside the surface at over 75 degrees or overhangs it. A proxy
 /// that is pressed in does not climb it.
-[[nodiscard]] std::vector<double> wallsBeside(const TriangleSource& triangles, const View& view,
+[[nodiscard]] std::vector<double> wallsBeside(const TriangleSource& triangles, const ProbeView& view,
                                               std::span<const glm::dvec2> points,
                                               std::span<const std::optional<SurfaceHit>> hits, double reach);
 
 /// True if the surface is discontinuous between two neighbouring hits: the height of the second relative to
 /// the first differs by more than `tolerance` m from both planes and from everything between them (as over a
 /// crease).
-[[nodiscard]] bool breaksOff(const View& view, const SurfaceHit& from, const SurfaceHit& to,
+[[nodiscard]] bool breaksOff(const ProbeView& view, const SurfaceHit& from, const SurfaceHit& to,
                              double tolerance);
 
 } // namespace touchstone

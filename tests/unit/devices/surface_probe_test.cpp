@@ -28,7 +28,7 @@ Bounds boundsOf(const Triangles& corners) {
 TEST(SurfaceProbe, MeetsTheDiagonalOfAFace) {
     // A cube of 150 mm, seen face-on: the tour crosses its diagonals, and a ray there went straight through.
     const Triangles cube = cornersOf(assets::boxWithSharedCorners(glm::dvec3(0.15)));
-    const View view = viewOf(boundsOf(cube), {0.0, 0.0, 1.0});
+    const ProbeView view = viewOf(boundsOf(cube), {0.0, 0.0, 1.0});
     std::vector<glm::dvec2> points;
     for (int i = -1000; i <= 1000; ++i) {
         const double x = 0.0749 * i / 1000.0;
@@ -71,7 +71,7 @@ TEST(SurfaceProbe, NothingSlipsThroughEdgesAndVertices) {
                                      ? glm::dvec3(0, 0, 1)
                                      : glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)));
         const Bounds bounds = boundsOf(ball);
-        const View view = viewOf(bounds, front);
+        const ProbeView view = viewOf(bounds, front);
         std::vector<glm::dvec2> points;
         std::vector<double> heights; // of the place on the surface that the ray goes through
         const auto aim = [&](const glm::dvec3& p) {
@@ -128,7 +128,7 @@ TEST(SurfaceProbe, SliversAndTrianglesSeenEdgeOnLeaveNoGap) {
                              c = corner(cuts[i + 1], 1.0), d = corner(cuts[i], 1.0);
             square.insert(square.end(), {a, b, c, a, c, d});
         }
-        View view;
+        ProbeView view;
         view.half = glm::dvec3(1.0);
         std::vector<glm::dvec2> points;
         for (int i = 0; i < 300; ++i) {
@@ -147,7 +147,7 @@ TEST(SurfaceProbe, SliversAndTrianglesSeenEdgeOnLeaveNoGap) {
 
 TEST(SurfaceProbe, LooksThroughTheBackOfWhatIsFeltFromItsFront) {
     std::vector<SurfaceTriangle> sheets{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}};
-    View view;
+    ProbeView view;
     view.half = glm::dvec3(1.0);
     const std::vector<glm::dvec2> middle{{0.0, 0.0}};
     for (const int front : {0, 1, -1}) {
