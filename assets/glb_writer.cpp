@@ -12,7 +12,7 @@ namespace touchstone::assets {
 namespace {
 
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
-constexpr int kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr int kPackedBuffer = 0, kFallbackBuffer = 1;
 
@@ -198,6 +198,63 @@ int GlbWriter::addStrokes(const std::string& name, int mode, const std::vector<g
     return static_cast<int>(gltf_["meshes"].size()) - 1;
 }
 
+int GlbWriter::addSkinnedMesh(const std::string& name, const Shape& shape, const Influences& influences,
+                              int material) {
+    const size_t count = shape.positions.size();
+    if (packing_ != Packing::Plain || influences.joints.size() != count || influences.weights.size() != count)
+        throw std::logic_error("a skin is written plain, with influences for each vertex");
+    Json primitive = addPrimitive(shape, material);
+    primitive["attributes"]["JOINTS_0"] =
+        addAccessor(influences.joints.data(), {count, 4, kVertexTarget}, kUint8, "VEC4");
+    primitive["attributes"]["WEIGHTS_0"] =
+        addAccessor(influences.weights.data(), {count, sizeof(glm::vec4), kVertexTarget}, kFloat, "VEC4");
+    gltf_["meshes"].push_back({{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
+    return static_cast<int>(gltf_["meshes"].size()) - 1;
+}
+
+int GlbWriter::addMorphMesh(const std::string& name, const Shape& shape, const std::vector<Shape>& targets,
+                            int material) {
+    if (packing_ != Packing::Plain)
+        throw std::logic_error("morph targets are written plain");
+    Json primitive = addPrimitive(shape, material);
+    const auto displacement = [](const std::vector<glm::vec3>& from, const std::vector<glm::vec3>& to) {
+        std::vector<glm::vec3> way;
+        for (size_t v = 0; v < from.size(); ++v)
+            way.push_back(to.at(v) - from[v]);
+        return way;
+    };
+    for (const Shape& target : targets) {
+        const std::vector<glm::vec3> normals = displacement(shape.normals, target.normals);
+        Json made{{"POSITION", addPositions(displacement(shape.positions, target.positions))}};
+        made["NORMAL"] =
+            addAccessor(normals.data(), {normals.size(), sizeof(glm::vec3), kVertexTarget}, kFloat, "VEC3");
+        primitive["targets"].push_back(std::move(made));
+    }
+    gltf_["meshes"].push_back({{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
+    return static_cast<int>(gltf_["meshes"].size()) - 1;
+}
+
+int GlbWriter::addJoint(const std::string& name, int parent, const glm::dvec3& translation) {
+    gltf_["nodes"].push_back({{"name", name}, {"translation", numbers(translation)}});
+    const int index = static_cast<int>(gltf_["nodes"].size()) - 1;
+    if (parent < 0)
+        gltf_["scenes"][0]["nodes"].push_back(index);
+    else
+        gltf_["nodes"][static_cast<size_t>(parent)]["children"].push_back(index);
+    return index;
+}
+
+void GlbWriter::addSkin(int node, const std::vector<int>& joints, const std::vector<glm::dvec3>& heads) {
+    std::vector<std::array<float, 16>> inverses;
+    for (const glm::dvec3& head : heads) {
+        const glm::vec3 back(-head);
+        inverses.push_back({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, back.x, back.y, back.z, 1});
+    }
+    const int matrices = addAccessor(inverses.data(), {inverses.size(), 64, 0}, kFloat, "MAT4");
+    gltf_["skins"].push_back({{"joints", joints}, {"inverseBindMatrices", matrices}});
+    gltf_["nodes"][static_cast<size_t>(node)]["skin"] = gltf_["skins"].size() - 1;
+}
+
 int GlbWriter::addNode(const std::string& name, int mesh, const glm::dvec3& translation) {
     Json node{{"name", name}, {"mesh", mesh}};
     if (translation != glm::dvec3(0.0))
@@ -211,15 +268,17 @@ int GlbWriter::addNode(const std::string& name, int mesh, const glm::dvec3& tran
 void GlbWriter::animate(const Track& track) {
     if (packing_ != Packing::Plain)
         throw std::logic_error("an animation is written plain");
-    const size_t components = std::string_view(track.path) == "rotation" ? 4 : 3;
+    const std::string_view path = track.path;
+    const size_t components = path == "rotation" ? 4 : path == "weights" ? 1 : 3;
+    constexpr std::array<const char*, 5> kTypes{"", "SCALAR", "", "VEC3", "VEC4"};
     const int input =
         addAccessor(track.times.data(), {track.times.size(), sizeof(float), 0}, kFloat, "SCALAR");
     gltf_["accessors"].back()["min"] = Json::array({static_cast<double>(track.times.front())});
     gltf_["accessors"].back()["max"] = Json::array({static_cast<double>(track.times.back())});
     const View keys{track.values.size() / components, components * sizeof(float), 0};
-    const int output = addAccessor(track.values.data(), keys, kFloat, components == 4 ? "VEC4" : "VEC3");
-    Json& animation = gltf_["animations"][0];
-    animation["name"] = gltf_["scenes"][0]["name"];
+    const int output = addAccessor(track.values.data(), keys, kFloat, kTypes[components]);
+    Json& animation = gltf_["animations"][track.animation];
+    animation["name"] = track.name != nullptr ? Json(track.name) : gltf_["scenes"][0]["name"];
     animation["samplers"].push_back(
         {{"input", input}, {"interpolation", track.interpolation}, {"output", output}});
     animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},

@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,15 +38,31 @@ class GlbWriter {
     /// Packing::Plain.
     int addStrokes(const std::string& name, int mode, const std::vector<glm::vec3>& positions,
                    const std::vector<glm::vec3>& colors, int material);
+    /// The joints that move each vertex, by their place in the skin, and their weights; four of each.
+    struct Influences {
+        std::vector<std::array<uint8_t, 4>> joints;
+        std::vector<glm::vec4> weights;
+    };
+    /// A mesh for a node with a skin. Only with Packing::Plain, as what follows.
+    int addSkinnedMesh(const std::string& name, const Shape& shape, const Influences& influences, int material);
+    /// A mesh with a morph target for each of `targets`: the shape with other positions and normals.
+    int addMorphMesh(const std::string& name, const Shape& shape, const std::vector<Shape>& targets,
+                     int material);
+    /// A node without a mesh; `parent` -1: at the root.
+    int addJoint(const std::string& name, int parent, const glm::dvec3& translation);
+    /// Gives a node a skin whose joints stand at `heads` (mesh frame) where it does not deform.
+    void addSkin(int node, const std::vector<int>& joints, const std::vector<glm::dvec3>& heads);
     /// A node at the root of the scene, m.
     int addNode(const std::string& name, int mesh, const glm::dvec3& translation = glm::dvec3(0.0));
-    /// Animation of a node: one channel of the scene's only animation. Only with Packing::Plain.
+    /// Animation of a node: one channel. Only with Packing::Plain.
     struct Track {
         int node;
-        const char* path;          ///< "translation" (m) or "rotation" (x, y, z, w)
+        const char* path;          ///< "translation" (m), "rotation" (x, y, z, w) or "weights"
         const char* interpolation; ///< "LINEAR", or "CUBICSPLINE" with in-tangent, value, out-tangent per key
         std::vector<float> times;  ///< s, ascending
         std::vector<float> values;
+        size_t animation = 0;       ///< index; a new one is the next
+        const char* name = nullptr; ///< of the animation; null: that of the scene
     };
     void animate(const Track& track);
     /// A line of description, as asset.extras.description.

@@ -26,6 +26,9 @@ struct SceneFile {
 [[nodiscard]] SceneFile effects();
 /// A box that rises over a plate, turns once about the vertical and sinks again, in a loop of 4 s.
 [[nodiscard]] SceneFile moving();
+/// A stalk that bends by a skin and a ball that breathes by a morph target, over a plate; a second animation
+/// twists the stalk.
+[[nodiscard]] SceneFile breathing();
 
 /// Spheres, lines and points before a plate: all supported appearances.
 [[nodiscard]] SceneFile materials();

@@ -87,6 +87,8 @@ void SceneRenderer::Impl::record(FrameSlot& slot, const View& view, const Overla
                                  const OverlayDraw& draw, const KeptPicture* kept) {
     const vk::raii::CommandBuffer& commands = slot.commands;
     beginCommands(slot);
+    if (scene_)
+        deformed_.record(gpu, commands, slot.deformed, scene_->vertices());
     if (kept != nullptr)
         kept->copyTo(commands, slot);
     else

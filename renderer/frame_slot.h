@@ -14,7 +14,7 @@ struct FrameSlot {
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence done{nullptr};
     vk::raii::QueryPool timestamps{nullptr};
-    GpuBuffer uniforms, overlay;
+    GpuBuffer uniforms, overlay, deformed;
     vk::raii::DescriptorPool pool{nullptr};
     vk::DescriptorSet frameSet;
     GpuImage color, depth;

@@ -32,6 +32,12 @@ class GpuScene {
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const DrawnMesh& mesh(int index) const { return meshes_[static_cast<size_t>(index)]; }
+    /// Of a mesh whose vertices moved: about its centre, mesh frame.
+    void setBounds(int index, double radius, const glm::dvec3& halfSize) {
+        PreparedMesh& mesh = meshes_[static_cast<size_t>(index)].mesh;
+        mesh.radius = radius;
+        mesh.halfSize = halfSize;
+    }
     [[nodiscard]] vk::DescriptorSet material(int index) const {
         return materialSets_[static_cast<size_t>(index)];
     }

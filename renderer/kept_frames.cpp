@@ -37,7 +37,7 @@ PictureState SceneRenderer::Impl::renderKept(const View& view, const Overlay& ov
         pictureKey(view, {static_cast<int>(extent.width), static_cast<int>(extent.height)}, content_);
     if (key.content != kept_.key().content)
         moving_.forget();
-    const bool begins = moving_.update(poses);
+    const bool begins = moving_.update(poses, revisions_);
     if (begins || key != kept_.key()) {
         moving_.begin();
         kept_.restart(key);

@@ -29,7 +29,8 @@ class MovingInstances {
   public:
     /// Poses of the next frame. True when an instance that rested moves: the picture shows it in its old
     /// place. Another number of poses: all rest.
-    [[nodiscard]] bool update(std::span<const glm::dmat4> poses);
+    /// `revisions`: of the instances' vertices, which move an instance as its pose does; empty: none changes.
+    [[nodiscard]] bool update(std::span<const glm::dmat4> poses, std::span<const uint64_t> revisions = {});
     /// The picture is begun: what did not move into this frame rests.
     void begin() { moves_ = movesNow_; }
     /// The poses are those of another scene: all rest.
@@ -38,6 +39,7 @@ class MovingInstances {
 
   private:
     std::vector<glm::dmat4> last_;
+    std::vector<uint64_t> lastRevisions_;
     std::vector<bool> moves_, movesNow_;
 };
 

@@ -16,21 +16,6 @@ namespace {
 
 constexpr int kLargestTexture = 16384; // of any device; smaller ones omit the largest levels
 
-SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
-    SceneVertex vertex{};
-    vertex.position = glm::vec3(glm::dvec3(mesh.positions[i]) - centre);
-    vertex.normal = mesh.normals.empty() ? glm::vec3(0.0f, 0.0f, 1.0f) : mesh.normals[i];
-    vertex.tangent = mesh.tangents.empty() ? glm::vec4(1.0f, 0.0f, 0.0f, 1.0f) : mesh.tangents[i];
-    if (!mesh.uv0.empty())
-        vertex.uv0 = mesh.uv0[i];
-    if (!mesh.uv1.empty())
-        vertex.uv1 = mesh.uv1[i];
-    const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : glm::clamp(mesh.colors[i], 0.0f, 1.0f);
-    for (int c = 0; c < 4; ++c)
-        vertex.color[static_cast<size_t>(c)] = static_cast<uint16_t>(std::lround(65535.0f * color[c]));
-    return vertex;
-}
-
 /// Of the triangles that every three of `indices` are.
 double meanEdge(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
     double sum = 0.0;
@@ -130,6 +115,21 @@ void prepareTextures(const PrepareOptions& options, PreparedScene& out) {
 }
 
 } // namespace
+
+SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre) {
+    SceneVertex vertex{};
+    vertex.position = glm::vec3(glm::dvec3(mesh.positions[i]) - centre);
+    vertex.normal = mesh.normals.empty() ? glm::vec3(0.0f, 0.0f, 1.0f) : mesh.normals[i];
+    vertex.tangent = mesh.tangents.empty() ? glm::vec4(1.0f, 0.0f, 0.0f, 1.0f) : mesh.tangents[i];
+    if (!mesh.uv0.empty())
+        vertex.uv0 = mesh.uv0[i];
+    if (!mesh.uv1.empty())
+        vertex.uv1 = mesh.uv1[i];
+    const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : glm::clamp(mesh.colors[i], 0.0f, 1.0f);
+    for (int c = 0; c < 4; ++c)
+        vertex.color[static_cast<size_t>(c)] = static_cast<uint16_t>(std::lround(65535.0f * color[c]));
+    return vertex;
+}
 
 bool usableTexture(const Scene& scene, const TextureRef& reference) {
     if (!reference || static_cast<size_t>(reference.image) >= scene.images.size())

@@ -57,6 +57,9 @@ struct PrepareOptions {
 [[nodiscard]] std::shared_ptr<const PreparedScene> prepareScene(ScenePtr scene,
                                                                 const PrepareOptions& options = {});
 
+/// Vertex `i` of a mesh as the device has it.
+[[nodiscard]] SceneVertex packVertex(const Mesh& mesh, size_t i, const glm::dvec3& centre);
+
 /// The coarsest level whose error stays within `allowed`, mesh units.
 [[nodiscard]] const DrawLevel& levelWithin(const PreparedMesh& mesh, double allowed);
 

@@ -56,6 +56,8 @@ void SceneRenderer::Impl::clear() {
     scene_.reset();
     coming_.reset();
     poses.clear();
+    deformed_.clear();
+    revisions_.clear();
     draws_.clear();
     keptDraws_.clear();
     ++content_;
@@ -94,9 +96,20 @@ bool SceneRenderer::Impl::continueScene(double seconds) {
     scene_ = std::move(ready);
     for (const Instance& instance : scene_->scene().instances)
         poses.push_back(instance.sceneFromMesh);
+    revisions_.assign(poses.size(), 0);
     statistics.triangles = scene_->scene().triangleCount();
     statistics.deviceBytes = scene_->deviceBytes();
     return true;
+}
+
+void SceneRenderer::Impl::setMeshVertices(int mesh, const DrawnVertices& vertices) {
+    if (!scene_)
+        return;
+    deformed_.set(*scene_, mesh, vertices);
+    const std::vector<Instance>& instances = scene_->scene().instances;
+    for (size_t i = 0; i < revisions_.size(); ++i)
+        if (instances[i].mesh == mesh)
+            revisions_[i] = deformed_.revision(mesh);
 }
 
 void SceneRenderer::Impl::setMaterialColors(std::vector<glm::vec3> colors) {
@@ -252,6 +265,10 @@ void SceneRenderer::setInstancePoses(std::span<const glm::dmat4> sceneFromMesh) 
     if (sceneFromMesh.size() != impl_->poses.size())
         throw std::invalid_argument("setInstancePoses wants one pose for each instance of the scene");
     impl_->poses.assign(sceneFromMesh.begin(), sceneFromMesh.end());
+}
+
+void SceneRenderer::setMeshVertices(int mesh, const DrawnVertices& vertices) {
+    impl_->setMeshVertices(mesh, vertices);
 }
 
 void SceneRenderer::setMaterialColors(std::vector<glm::vec3> colors) {

@@ -1,6 +1,7 @@
 #pragma once
 // Draws a Scene and an Overlay into its own image. Shared by headless rendering and the window.
 
+#include "engine/scene/mesh_deformation.h"
 #include "engine/scene/scene.h"
 #include "renderer/environment.h"
 #include "renderer/false_color.h"
@@ -60,6 +61,9 @@ class SceneRenderer {
     /// Current poses, one `sceneFromMesh` for each of Scene::instances; valid until the next call. Throws
     /// std::invalid_argument for another count.
     void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
+
+    /// Current vertices of a deforming mesh (Scene::meshes); valid until the next call. Ignores another count.
+    void setMeshVertices(int mesh, const DrawnVertices& vertices);
 
     /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Valid
     /// until the next call.

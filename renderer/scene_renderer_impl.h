@@ -1,6 +1,7 @@
 #pragma once
 // Implementation of SceneRenderer; for renderer/ only.
 
+#include "renderer/deformed_meshes.h"
 #include "renderer/frame_slot.h"
 #include "renderer/frustum.h"
 #include "renderer/gpu_scene.h"
@@ -53,6 +54,7 @@ struct SceneRenderer::Impl {
     [[nodiscard]] PictureState renderKept(const View& view, const Overlay& overlay, const glm::ivec2& coarse,
                                           const glm::ivec2& full);
     void setMaterialColors(std::vector<glm::vec3> colors);
+    void setMeshVertices(int mesh, const DrawnVertices& vertices);
     void setEnvironment(std::shared_ptr<const Environment> environment);
     [[nodiscard]] PixelData readPixels();
     /// The last frame of the main eye was no frame of a window: its time does not count.
@@ -125,6 +127,8 @@ struct SceneRenderer::Impl {
     FrameSlot warm_;                         ///< for frames that compile pipelines and are not shown
     KeptPicture kept_, warmKept_;
     MovingInstances moving_;
+    DeformedMeshes deformed_;
+    std::vector<uint64_t> revisions_; ///< of the instances' vertices
     uint64_t content_ = 0;   ///< PictureKey::content
     std::vector<Cold> cold_; ///< of `coming_`, not used yet
     std::vector<glm::vec3> materialColors_;

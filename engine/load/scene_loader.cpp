@@ -45,12 +45,12 @@ std::shared_ptr<Scene> importGltf(ImportContext& context, GltfFile file, const F
     NodeForest forest = readNodes(context, document);
     scene->nodes = std::move(forest.nodes);
     MaterialTable materials(context, document);
+    scene->animations = readAnimations(context, document, forest, scene->nodes); // they tell what deforms
     buildMeshesAndInstances(context, document, forest, materials, *scene);
     scene->materials = materials.take();
     scene->textures = readTextures(context, document);
-    scene->animations = readAnimations(context, document, forest, scene->nodes);
     scene->cameras = readCameras(context, document, forest, scene->nodes);
-    warnOfStillSkins(context, document, forest, *scene);
+    scene->animation = chosenAnimation(context, scene->animations);
     context.enter(context.progress().part(0.8, 0.85));
     scene->bounds = sceneBounds(context, *scene);
 

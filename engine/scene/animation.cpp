@@ -1,5 +1,7 @@
 #include "engine/scene/animation.h"
 
+#include "engine/scene/mesh_deformation.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -37,38 +39,64 @@ glm::dvec4 slerp(const glm::dvec4& from, const glm::dvec4& to, double t) noexcep
 
 } // namespace
 
+namespace {
+
+/// Where a time lies among a channel's keys: between two, or at one where it lies before or behind all.
+struct KeySpan {
+    size_t last = 0, next = 0;
+    double t = 0.0, seconds = 0.0; // fraction and length of the span
+};
+
+KeySpan keysAt(const AnimationChannel& channel, double time) noexcept {
+    const std::vector<float>& times = channel.times;
+    const auto after = std::upper_bound(times.begin(), times.end(), time,
+                                        [](double t, float key) { return t < static_cast<double>(key); });
+    if (after == times.begin())
+        return {};
+    const size_t next = static_cast<size_t>(after - times.begin()), last = next - 1;
+    if (after == times.end())
+        return {last, last, 0.0, 0.0};
+    const double begin = times[last], seconds = static_cast<double>(times[next]) - begin;
+    return {last, next, (time - begin) / seconds, seconds};
+}
+
+/// Appendix C.5: cubic Hermite with tangents per second, scaled by the key interval.
+template <class T>
+T hermite(const KeySpan& at, const T& from, const T& out, const T& in, const T& to) noexcept {
+    const double t = at.t, t2 = t * t, t3 = t2 * t;
+    return (2.0 * t3 - 3.0 * t2 + 1.0) * from + (t3 - 2.0 * t2 + t) * (at.seconds * out) +
+           (-2.0 * t3 + 3.0 * t2) * to + (t3 - t2) * (at.seconds * in);
+}
+
+} // namespace
+
 glm::dvec4 sampleChannel(const AnimationChannel& channel, double time) noexcept {
     const bool cubic = channel.interpolation == Interpolation::CubicSpline;
     const bool rotation = channel.path == AnimatedPath::Rotation;
     const auto value = [&](size_t key) { return glm::dvec4(channel.values[cubic ? 3 * key + 1 : key]); };
     const auto finished = [&](const glm::dvec4& v) { return rotation ? unit(v) : v; };
+    const KeySpan at = keysAt(channel, time);
+    if (at.last == at.next || channel.interpolation == Interpolation::Step)
+        return finished(value(at.last));
+    if (!cubic)
+        return rotation ? slerp(unit(value(at.last)), unit(value(at.next)), at.t)
+                        : glm::mix(value(at.last), value(at.next), at.t);
+    return finished(hermite(at, value(at.last), glm::dvec4(channel.values[3 * at.last + 2]),
+                            glm::dvec4(channel.values[3 * at.next]), value(at.next)));
+}
 
-    const std::vector<float>& times = channel.times;
-    const auto after = std::upper_bound(times.begin(), times.end(), time,
-                                        [](double t, float key) { return t < static_cast<double>(key); });
-    if (after == times.begin())
-        return finished(value(0));
-    if (after == times.end())
-        return finished(value(times.size() - 1));
-    const size_t next = static_cast<size_t>(after - times.begin()), last = next - 1;
-    const double begin = times[last], span = static_cast<double>(times[next]) - begin;
-    const double t = (time - begin) / span;
-
-    switch (channel.interpolation) {
-    case Interpolation::Step:
-        return finished(value(last));
-    case Interpolation::Linear:
-        return rotation ? slerp(unit(value(last)), unit(value(next)), t)
-                        : glm::mix(value(last), value(next), t);
-    case Interpolation::CubicSpline:
-        break;
-    }
-    // Appendix C.5: cubic Hermite with tangents per second, scaled by the key interval.
-    const glm::dvec4 out = span * glm::dvec4(channel.values[3 * last + 2]),
-                     in = span * glm::dvec4(channel.values[3 * next]);
-    const double t2 = t * t, t3 = t2 * t;
-    return finished((2.0 * t3 - 3.0 * t2 + 1.0) * value(last) + (t3 - 2.0 * t2 + t) * out +
-                    (-2.0 * t3 + 3.0 * t2) * value(next) + (t3 - t2) * in);
+double sampleWeight(const AnimationChannel& channel, size_t target, double time) noexcept {
+    const bool cubic = channel.interpolation == Interpolation::CubicSpline;
+    const auto number = [&](size_t value) {
+        return static_cast<double>(channel.weights[value * channel.targets + target]);
+    };
+    const auto value = [&](size_t key) { return number(cubic ? 3 * key + 1 : key); };
+    const KeySpan at = keysAt(channel, time);
+    if (at.last == at.next || channel.interpolation == Interpolation::Step)
+        return value(at.last);
+    if (!cubic)
+        return glm::mix(value(at.last), value(at.next), at.t);
+    return hermite(at, value(at.last), number(3 * at.last + 2), number(3 * at.next), value(at.next));
 }
 
 glm::dmat4 parentFromNode(const Node& node) noexcept {
@@ -87,14 +115,41 @@ std::vector<glm::dmat4> sceneFromNodes(const std::vector<Node>& nodes) {
 
 ScenePose::ScenePose(const Scene& scene)
     : local_(scene.nodes.size()), sceneFromNode_(scene.nodes.size()), sceneFromMesh_(scene.instances.size()) {
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels) {
+            const bool known = std::ranges::any_of(
+                nodeWeights_, [&](const NodeWeights& own) { return own.node == channel.node; });
+            if (channel.path != AnimatedPath::Weights || known)
+                continue;
+            nodeWeights_.push_back({channel.node, weights_.size(), channel.targets, false});
+            weights_.resize(weights_.size() + channel.targets);
+        }
     evaluate(scene, nullptr, 0.0);
+}
+
+std::span<const double> ScenePose::weightsOf(int node) const noexcept {
+    for (const NodeWeights& own : nodeWeights_)
+        if (own.node == node && own.driven)
+            return std::span(weights_).subspan(own.first, own.count);
+    return {};
 }
 
 void ScenePose::evaluate(const Scene& scene, const Animation* animation, double time) noexcept {
     for (size_t i = 0; i < scene.nodes.size(); ++i)
         local_[i] = {scene.nodes[i].translation, scene.nodes[i].scale, scene.nodes[i].rotation};
+    for (NodeWeights& own : nodeWeights_)
+        own.driven = false;
     if (animation != nullptr)
         for (const AnimationChannel& channel : animation->channels) {
+            if (channel.path == AnimatedPath::Weights) {
+                for (NodeWeights& own : nodeWeights_)
+                    if (own.node == channel.node) {
+                        own.driven = true;
+                        for (size_t t = 0; t < own.count; ++t)
+                            weights_[own.first + t] = sampleWeight(channel, t, time);
+                    }
+                continue;
+            }
             const glm::dvec4 value = sampleChannel(channel, time);
             LocalPose& local = local_[static_cast<size_t>(channel.node)];
             switch (channel.path) {
@@ -106,6 +161,8 @@ void ScenePose::evaluate(const Scene& scene, const Animation* animation, double 
                 break;
             case AnimatedPath::Rotation:
                 local.rotation = glm::dquat(value.w, value.x, value.y, value.z);
+                break;
+            case AnimatedPath::Weights:
                 break;
             }
         }
@@ -134,17 +191,27 @@ std::vector<glm::dmat4> sceneFromMeshAt(const Scene& scene, const Animation* ani
 
 namespace {
 
-/// False for an animation of joints, cameras and empty nodes alone.
+/// False for an animation of cameras and empty nodes alone.
 bool movesAnInstance(const Scene& scene, const Animation& animation) {
     const std::vector<bool> moved = movedNodes(scene, animation);
     return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-        return instance.followsNode && instance.node >= 0 && moved[static_cast<size_t>(instance.node)];
+        return animates(scene, animation, moved, instance);
     });
 }
 
 } // namespace
 
+bool animates(const Scene& scene, const Animation& animation, const std::vector<bool>& moved,
+              const Instance& instance) {
+    if (instance.followsNode && instance.node >= 0 && moved[static_cast<size_t>(instance.node)])
+        return true;
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    return mesh.deformation != nullptr && mesh.deformation->drivenBy(animation, moved);
+}
+
 const Animation* playedAnimation(const Scene& scene) {
+    if (scene.animation >= 0)
+        return &scene.animations[static_cast<size_t>(scene.animation)];
     const Animation* first = nullptr;
     for (const Animation& animation : scene.animations) {
         if (animation.channels.empty())
@@ -159,7 +226,8 @@ const Animation* playedAnimation(const Scene& scene) {
 std::vector<bool> movedNodes(const Scene& scene, const Animation& animation) {
     std::vector<bool> moved(scene.nodes.size(), false);
     for (const AnimationChannel& channel : animation.channels)
-        moved[static_cast<size_t>(channel.node)] = true;
+        if (channel.path != AnimatedPath::Weights)
+            moved[static_cast<size_t>(channel.node)] = true;
     // Parents precede children.
     for (size_t n = 0; n < scene.nodes.size(); ++n)
         if (const int parent = scene.nodes[n].parent; parent >= 0 && moved[static_cast<size_t>(parent)])

@@ -1,6 +1,7 @@
 #include "engine/scene/mesh_vertices.h"
 
 #include "engine/core/error.h"
+#include "engine/scene/mesh_deformation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,8 @@ uint32_t duplicateVertex(Mesh& mesh, uint32_t v) {
         const auto value = array[v]; // push_back may reallocate what array[v] refers to
         array.push_back(value);
     });
+    if (!mesh.sources.empty())
+        mesh.sources.push_back(uint32_t(mesh.sources[v]));
     return static_cast<uint32_t>(mesh.positions.size() - 1);
 }
 
@@ -42,6 +45,12 @@ void selectVertices(Mesh& mesh, std::span<const uint32_t> from) {
             selected[i] = array[from[i]];
         array = std::move(selected);
     });
+    if (mesh.sources.empty())
+        return;
+    std::vector<uint32_t> sources(from.size());
+    for (size_t i = 0; i < from.size(); ++i)
+        sources[i] = mesh.sources[from[i]];
+    mesh.sources = std::move(sources);
 }
 
 void dropUnusedVertices(Mesh& mesh) {
@@ -93,6 +102,12 @@ std::optional<std::string> meshFault(const Mesh& mesh) {
     });
     if (fault)
         return fault;
+    if (mesh.deformation != nullptr) {
+        const size_t all = mesh.deformation->positions.size();
+        if (mesh.sources.size() != count ||
+            std::any_of(mesh.sources.begin(), mesh.sources.end(), [&](uint32_t v) { return v >= all; }))
+            return "the sources of its deformation are not those of its vertices";
+    }
     if (mesh.indices.size() % 3 != 0)
         return std::to_string(mesh.indices.size()) + " indices are no triangles";
     if (mesh.lineIndices.size() % 2 != 0)

@@ -24,14 +24,16 @@ struct VertexArray {
 };
 
 /// The VertexArrays of a Mesh or const Mesh as a tuple, `positions` first. Each of them is empty or has one
-/// entry per vertex. Does not compile while a member of Mesh is neither listed as a vertex array nor as
+/// entry per vertex, and can be interpolated (`sources` cannot: who makes new vertices between others drops
+/// the deformation). Does not compile while a member of Mesh is neither listed as a vertex array nor as
 /// something else.
 template <class AnyMesh>
 requires std::is_same_v<std::remove_const_t<AnyMesh>, Mesh>
 auto vertexArrays(AnyMesh& mesh) {
     // The binding fails to compile if Mesh gains or loses a member, the count if one is bound and not listed.
     auto& [name, positions, normals, tangents, uv0, uv1, colors, stiffness, damping, friction, heights,
-           indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile] = mesh;
+           indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile, deformation,
+           sources] = mesh;
     const auto array = [](const char* label, auto& values) {
         return VertexArray<std::remove_reference_t<decltype(values)>>{label, values};
     };
@@ -42,8 +44,8 @@ auto vertexArrays(AnyMesh& mesh) {
         array("positions", positions), array("normals", normals), array("tangents", tangents),
         array("uv0", uv0), array("uv1", uv1), array("colors", colors), array("stiffness", stiffness),
         array("damping", damping), array("friction", friction), array("heights", heights));
-    const auto others =
-        other(name, indices, lineIndices, pointIndices, material, normalsFromFile, tangentsFromFile);
+    const auto others = other(name, indices, lineIndices, pointIndices, material, normalsFromFile,
+                              tangentsFromFile, deformation, sources);
     static_assert(std::tuple_size_v<std::remove_const_t<decltype(arrays)>> + decltype(others)::value ==
                       memberCount<Mesh>(),
                   "list every member of Mesh here: as a vertex array, or as something else");

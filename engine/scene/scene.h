@@ -18,6 +18,8 @@
 
 namespace touchstone {
 
+struct MeshDeformation; // engine/scene/mesh_deformation.h
+
 /// One glTF primitive in its mesh frame (model metres, float as in the file): an indexed triangle list, or
 /// line segments or points, which are drawn but not felt. Of the three index arrays at most one has entries.
 /// All vertex arrays have `positions.size()` entries or are empty. Indices are in range, positions finite.
@@ -36,6 +38,10 @@ struct Mesh {
     std::vector<uint32_t> pointIndices;              ///< 1 per point
     int material = 0;                                ///< index into Scene::materials, always valid
     bool normalsFromFile = false, tangentsFromFile = false;
+    /// Null unless an animation of the file drives the skin or the morph targets; the arrays above are then
+    /// the static pose.
+    std::shared_ptr<const MeshDeformation> deformation;
+    std::vector<uint32_t> sources; ///< by vertex: its vertex in `deformation`; empty without
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] size_t lineCount() const { return lineIndices.size() / 2; }
@@ -65,7 +71,7 @@ struct Instance {
 };
 
 enum class Interpolation : uint8_t { Step, Linear, CubicSpline };
-enum class AnimatedPath : uint8_t { Translation, Rotation, Scale };
+enum class AnimatedPath : uint8_t { Translation, Rotation, Scale, Weights };
 
 struct AnimationChannel {
     int node = -1;
@@ -73,6 +79,8 @@ struct AnimationChannel {
     Interpolation interpolation = Interpolation::Linear;
     std::vector<float> times;      ///< s, strictly increasing
     std::vector<glm::vec4> values; ///< xyz(w); 3 per key for CubicSpline (in-tangent, value, out-tangent)
+    size_t targets = 0;            ///< of Weights: morph targets of the node's mesh
+    std::vector<float> weights;    ///< of Weights, instead of `values`: `targets` per value
 };
 
 struct Animation {
@@ -119,6 +127,7 @@ struct Scene {
     std::vector<SceneTexture> textures;
     std::vector<Image> images;
     std::vector<Animation> animations;
+    int animation = -1; ///< index of the one that was chosen; -1: the first that moves something
     std::vector<SceneCamera> cameras; ///< in the order of Scene::nodes
     std::vector<Warning> warnings;
     std::vector<std::string> extensionsUsed;

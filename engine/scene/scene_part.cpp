@@ -144,6 +144,7 @@ ScenePtr sceneOf(const ScenePtr& whole, const ScenePart& part) {
     scene->nodes = whole->nodes;
     scene->materials = whole->materials;
     scene->animations = whole->animations;
+    scene->animation = whole->animation;
     scene->bounds = whole->bounds;
     const std::vector<bool> hidden = hiddenInstances(*whole, part);
     std::map<int, int> shared; // the whole's meshes that are kept as they are

@@ -22,7 +22,7 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
     const double rounding = 4e-7 * (1.0 + glm::length(local));
     const std::span<TriangleTree::Near> found(found_.data(), kCapacity - count_);
     const size_t near =
-        object.tree.collect(glm::vec3(local), static_cast<float>(localRadius + rounding), found);
+        treeOf(object).collect(glm::vec3(local), static_cast<float>(localRadius + rounding), found);
     if (near == found.size())
         return false;
     // The float gradient of a box is good to 1e-6 of the ball.

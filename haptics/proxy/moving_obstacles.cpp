@@ -17,9 +17,15 @@
 // half a step is tried. Steps are also short enough for an object to turn by little, because a copy moves
 // along the chord of what is an arc in its object's frame: with turns of 1/8 rad chord and arc differ by
 // 0.0017 of the object's longest side at most. Every chord is still a path clear of the object.
+//
+// An object whose vertices move (HapticObject::instant) carries its copy nowhere by itself. Its copy stays where
+// the step begins, and a place is reached when the straight way there, in the time of the step, is clear of all
+// triangles while they move (staysClear). A triangle that is in the way gives its half-space at the step's end,
+// linearised where the copy would be had the triangle carried it along: on the side where it was.
 
 #include "haptics/proxy/moving_obstacles.h"
 
+#include "haptics/contact/moving_triangle.h"
 #include "haptics/contact/near_contacts.h"
 #include "haptics/contact/sweep.h"
 #include "haptics/proxy/proxy_solver.h"
@@ -50,6 +56,9 @@ constexpr int kSweepBudget = 512;
 constexpr int kFollowRounds = 8;
 /// Once a jammed object has moved on by this distance (its longest side is 1), touch begins again.
 constexpr double kGivenUp = 0.5;
+/// Of the distance that the proxy keeps: what a moving triangle leaves it within a step. At the step's end it is
+/// the whole distance.
+constexpr double kLeftInStep = 0.5;
 
 class MovingObstacles {
   public:
@@ -72,8 +81,16 @@ class MovingObstacles {
         Triangle triangle;
         const Shape* shape = nullptr;
         FeatureId feature = 0;
+        bool moving = false;   ///< the triangle, at the step's end, of an object that deforms
+        glm::dvec3 at{0.0};    ///< then: where it is linearised
 
         [[nodiscard]] FeatureDistance from(const glm::dvec3& place) const noexcept {
+            if (moving) { // as if measured at `place`: the plane is what counts
+                const TriangleDistance d = distanceTo(triangle, at);
+                return {.distance = d.distance + glm::dot(d.gradient, place - at),
+                        .gradient = d.gradient,
+                        .closest = d.closest};
+            }
             if (shape != nullptr)
                 return shape->distanceFrom(feature, place);
             const TriangleDistance d = distanceTo(triangle, place);
@@ -87,13 +104,22 @@ class MovingObstacles {
         return *scene_.objects[index(copy.object)];
     }
     bool moves(size_t k) const;
+    [[nodiscard]] const MeshInstant* instantOf(const MovingObstacle& copy) const {
+        return objectOf(copy).instant;
+    }
+    [[nodiscard]] MovingTriangle movingTriangle(const MovingObstacle& copy, uint32_t index) const noexcept;
+    bool gatherMoving(const MovingObstacle& copy, const glm::dvec3& to) noexcept;
+    bool sweepMoving(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept;
+    void noteMoving(size_t copy, const MovingObstacle& object, uint32_t index, const MovingTriangle& triangle,
+                    const glm::dvec3& to) noexcept;
+    [[nodiscard]] glm::dvec3 carried(const MovingObstacle& copy) noexcept;
     bool isNear(size_t k, double within) const;
     bool settleJumps() noexcept;
     bool blockedAt(size_t k, const glm::dvec3& place) noexcept;
     bool listNear() noexcept;
     void startStep(double from, double to) noexcept;
     bool solve(const glm::dvec3& target) noexcept;
-    glm::dvec3 target(double step) const noexcept;
+    glm::dvec3 target(double step) noexcept;
     void advance() noexcept;
     void pinch(double from) noexcept;
     bool advanceWith(size_t holder, bool commit) noexcept;
@@ -120,6 +146,10 @@ class MovingObstacles {
     std::array<Hit, kMaxHit> hit_;
     std::array<ConstraintPlane, kMaxHit> planes_;
     size_t struckCount_ = 0;
+    bool revised_ = false; // a moving triangle was linearised again in this round
+    bool deforming_ = false; // some object near does
+    double from_ = 0.0, to_ = 0.0; // of the step, in ticks
+    glm::dvec3 drift_{0.0}, stepDrift_{0.0}; // of the reference object's deforming surface at the proxy
     int pusher_ = -1; // object whose plane held the last place that was pushed
     bool anchorPushes_ = false;
 };
@@ -129,6 +159,8 @@ bool same(const Similarity& a, const Similarity& b) {
 }
 
 bool MovingObstacles::moves(size_t k) const {
+    if (const MeshInstant* instant = scene_.objects[k]->instant; instant != nullptr && instant->travel > 0.0)
+        return !motions_[k].jumped;
     return !motions_[k].jumped && !same(motions_[k].before, motions_[k].workspaceFromObject);
 }
 
@@ -199,6 +231,7 @@ bool MovingObstacles::listNear() noexcept {
         copy.object = object;
         copy.path = ObjectPath(motion);
         copy.bounding = scene_.objects[k]->boundingRadius;
+        deforming_ |= scene_.objects[k]->instant != nullptr && !motion.jumped;
         unit_ = std::min(unit_, motion.workspaceFromObject.scale);
         largestAngle_ = std::max(largestAngle_, copy.path.angle());
     }
@@ -206,6 +239,8 @@ bool MovingObstacles::listNear() noexcept {
 }
 
 void MovingObstacles::startStep(double from, double to) noexcept {
+    from_ = from;
+    to_ = to;
     for (MovingObstacle& copy : std::span(state_.carried).first(near_)) {
         const Similarity start = copy.path.at(from);
         copy.place = copy.origin = start.inversePoint(place_);
@@ -244,6 +279,8 @@ bool MovingObstacles::sweep(size_t copy, MovingObstacle& object, const glm::dvec
     constexpr int kPieces = 64;
     const glm::dvec3 from = object.place, move = to - from;
     const double length = glm::length(move);
+    if (instantOf(object) != nullptr)
+        return sweepMoving(copy, object, to);
     if (length <= kNoMove)
         return true;
     const double nearest = std::clamp(-glm::dot(from, move) / (length * length), 0.0, 1.0);
@@ -316,6 +353,7 @@ bool MovingObstacles::solve(const glm::dvec3& target) noexcept {
         if (!nearestPlace(copies, target, unit_, place) || glm::length(place - start_) > room_ - radius_)
             return false;
         const size_t known = struckCount_;
+        revised_ = false;
         bool together = true;
         for (size_t i = 0; i < near_; ++i)
             together &= sweep(i, copies[i], copies[i].pose.inversePoint(place));
@@ -323,19 +361,120 @@ bool MovingObstacles::solve(const glm::dvec3& target) noexcept {
             place_ = place;
             return true;
         }
-        if (struckCount_ == known || struckCount_ == kMaxHit)
+        if ((struckCount_ == known && !revised_) || struckCount_ == kMaxHit)
             return false;
     }
     return false;
 }
 
+/// A triangle's way through the step, object frame.
+MovingTriangle MovingObstacles::movingTriangle(const MovingObstacle& copy, uint32_t index) const noexcept {
+    const HapticObject& object = objectOf(copy);
+    const MeshInstant& instant = *object.instant;
+    const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
+    const auto at = [&](size_t k, double time) {
+        const glm::dvec3 now = instant.now.at(corner[k]);
+        if (time >= 1.0)
+            return now;
+        const glm::dvec3 before = instant.before.at(corner[k]);
+        return before + time * (now - before);
+    };
+    return {Triangle(at(0, from_), at(1, from_), at(2, from_)), Triangle(at(0, to_), at(1, to_), at(2, to_))};
+}
+
+/// Lists the triangles that may come near a copy on its way to `to`. From any time of the step to the tick's
+/// end, whose places the tree knows, no vertex moves farther than `travel`.
+bool MovingObstacles::gatherMoving(const MovingObstacle& copy, const glm::dvec3& to) noexcept {
+    const glm::dvec3 half = 0.5 * (to - copy.origin);
+    const double ball = glm::length(half) + copy.reach + kObstacleGap + (1.0 - from_) * instantOf(copy)->travel;
+    CandidateCache& cache = state_.obstacleCandidates;
+    const auto k = index(copy.object);
+    cache.standsClearBy(INFINITY);
+    if (cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
+                     std::span(scene_.boundingRadii).subspan(k, 1), 0, copy.origin + half, ball))
+        return true;
+    flags_ = flags_ | TickFlag::CandidatesFull;
+    return false;
+}
+
+/// Moves a copy straight from the step's start to `to` (object frame) while the triangles move; true when
+/// nothing is in the way and it ends as far away as it should.
+bool MovingObstacles::sweepMoving(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept {
+    ++sweeps_;
+    object.place = object.origin;
+    if (!gatherMoving(object, to))
+        return false;
+    const CandidateCache& cache = state_.obstacleCandidates;
+    bool clear = true;
+    for (size_t i = 0; i < cache.count(); ++i) {
+        const uint32_t index = cache.item(i).index;
+        const MovingTriangle triangle = movingTriangle(object, index);
+        const double stands = distanceTo(triangle.start, object.origin).distance,
+                     ends = distanceTo(triangle.end, to).distance;
+        // A proxy that is nearer than its reach (its radius grew) may stay so near.
+        const double enough = std::min(object.reach - 0.5 * kObstacleGap, stands);
+        if (ends >= enough &&
+            staysClear(triangle, object.origin, to, kLeftInStep * std::min(object.reach, stands)))
+            continue;
+        clear = false;
+        noteMoving(copy, object, index, triangle, to);
+    }
+    if (clear)
+        object.place = to;
+    return clear;
+}
+
+/// Stores the triangle; one that is known is linearised again where its plane led to, if that is free.
+void MovingObstacles::noteMoving(size_t copy, const MovingObstacle& object, uint32_t index,
+                                 const MovingTriangle& triangle, const glm::dvec3& to) noexcept {
+    for (size_t i = 0; i < struckCount_; ++i) {
+        Hit& hit = hit_[i];
+        if (!hit.moving || hit.copy != copy || hit.feature != index)
+            continue;
+        const double keep =
+            kLeftInStep * std::min(object.reach, distanceTo(triangle.start, object.origin).distance);
+        if (hit.at != to && staysClear(triangle, object.origin, to, keep)) {
+            hit.at = to;
+            revised_ = true;
+        }
+        return;
+    }
+    if (struckCount_ < kMaxHit)
+        hit_[struckCount_++] = {.copy = copy,
+                                .triangle = triangle.end,
+                                .shape = nullptr,
+                                .feature = index,
+                                .moving = true,
+                                .at = carriedAlong(triangle, object.origin)};
+}
+
+/// Where the surface nearest to a copy takes it through the step, object frame.
+glm::dvec3 MovingObstacles::carried(const MovingObstacle& copy) noexcept {
+    if (!gatherMoving(copy, copy.origin))
+        return copy.origin;
+    const CandidateCache& cache = state_.obstacleCandidates;
+    double least = INFINITY;
+    glm::dvec3 to = copy.origin;
+    for (size_t i = 0; i < cache.count(); ++i) {
+        const MovingTriangle triangle = movingTriangle(copy, cache.item(i).index);
+        const double distance = distanceTo(triangle.start, copy.origin).distance;
+        if (distance < least) {
+            least = distance;
+            to = carriedAlong(triangle, copy.origin);
+        }
+    }
+    return to;
+}
+
 /// The proxy's place without obstacles: its present place, or the place to which a surface that it sticks to
 /// takes it; no farther than friction can hold it back.
-glm::dvec3 MovingObstacles::target(double step) const noexcept {
+glm::dvec3 MovingObstacles::target(double step) noexcept {
     if (state_.friction == FrictionState::Free)
         return place_;
-    for (const MovingObstacle& copy : std::span(state_.carried).first(near_))
+    for (MovingObstacle& copy : std::span(state_.carried).first(near_))
         if (copy.object == state_.reference) {
+            if (instantOf(copy) != nullptr)
+                stepDrift_ = (copy.place = carried(copy)) - copy.origin;
             const glm::dvec3 drag = copy.pose.point(copy.place) - place_;
             const double length = glm::length(drag), most = 2.0 * step * glm::length(start_ - state_.hip);
             return length > most ? place_ + most / length * drag : place_ + drag;
@@ -371,6 +510,12 @@ bool MovingObstacles::advanceWith(size_t holder, bool commit) noexcept {
 /// where a slide between many facets is too long for one tick; else the proxy stays with the one touched
 /// last.
 void MovingObstacles::pinch(double from) noexcept {
+    // No rigid frame to stay with: touch begins again where there is room.
+    if (deforming_) {
+        flags_ = flags_ | TickFlag::Jammed;
+        state_.mustLeave = true;
+        return lose();
+    }
     std::array<int, 4> touched{-1, -1, -1, -1};
     size_t count = 0, holder = near_;
     for (size_t i = 0; i < near_; ++i)
@@ -398,8 +543,10 @@ void MovingObstacles::advance() noexcept {
     while (time < 1.0) {
         const double end = time + step > 1.0 - 0.5 * kShortestStep ? 1.0 : time + step;
         startStep(time, end);
+        stepDrift_ = glm::dvec3(0.0);
         if (solve(target(end - time))) {
             time = end;
+            drift_ += stepDrift_;
             step = std::min(2.0 * step, longest);
             continue;
         }
@@ -461,6 +608,9 @@ void MovingObstacles::finish() noexcept {
         flags_ = flags_ | TickFlag::Jammed;
         return lose();
     }
+    // What the proxy sticks to moves along.
+    state_.stictionPoint += drift_;
+    state_.frictionless += drift_;
     if (pusher >= 0)
         changeReference(state_, motions_, pusher);
     state_.proxy = motions_[index(state_.reference)].workspaceFromObject.inversePoint(place_);
@@ -479,6 +629,8 @@ void MovingObstacles::run() noexcept {
         pushed = true;
         byReferenceOnly &= static_cast<int>(k) == state_.reference;
         way = std::max(way, ObjectPath(motions_[k]).longestWay(scene_.objects[k]->boundingRadius));
+        if (const MeshInstant* instant = scene_.objects[k]->instant)
+            way += instant->travel * motions_[k].workspaceFromObject.scale;
         largest = std::max(largest, motions_[k].workspaceFromObject.scale);
     }
     if (!pushed)
@@ -490,7 +642,7 @@ void MovingObstacles::run() noexcept {
         flags_ = flags_ | TickFlag::CandidatesFull;
         return lose();
     }
-    if (byReferenceOnly && near_ == 1 && state_.jammed.count == 0)
+    if (byReferenceOnly && near_ == 1 && state_.jammed.count == 0 && !deforming_)
         return; // the proxy moves with the reference object, as with a single object
     advance();
     if (state_.placed)
@@ -516,7 +668,7 @@ void sweepMovingObstacles(const HapticScene& scene, ObjectMotions motions, doubl
     }
     if (scene.plan.oneSided)
         shrinkClearance(motions[static_cast<size_t>(state.reference)], state);
-    if (scene.objects.size() < 2 && !motions[0].jumped)
+    if (scene.objects.size() < 2 && !motions[0].jumped && scene.objects[0]->instant == nullptr)
         return;
     MovingObstacles(scene, motions, radius, state, flags).run();
     state.candidates.ignore(state.jammed.ignored());

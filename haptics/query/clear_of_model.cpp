@@ -36,7 +36,7 @@ bool isNear(const HapticObject& object, const Similarity& pose, const glm::dvec3
         return object.shape->near(point, reach, any) > 0;
     }
     std::array<TriangleTree::Near, kLookedAt> boxes;
-    const size_t count = object.tree.collect(glm::vec3(point), static_cast<float>(reach), boxes);
+    const size_t count = treeOf(object).collect(glm::vec3(point), static_cast<float>(reach), boxes);
     if (count == boxes.size())
         return true;
     return std::any_of(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(count),

@@ -37,7 +37,9 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 
 double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& point,
                        double within) {
-    scene.buildRays();
+    const auto moves = [](const auto& object) { return object->instant != nullptr; };
+    if (!std::ranges::all_of(scene.objects, moves))
+        scene.buildRays();
     if (motions.empty())
         motions = scene.restMotions;
     for (size_t k = 0; k < scene.objects.size(); ++k) {
@@ -48,6 +50,14 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
             const size_t count = shape->near(nearest.point, start, found);
             for (const FeatureDistance& d : std::span(found).first(count))
                 within = std::min(within, std::abs(d.distance) * motions[k].workspaceFromObject.scale);
+            continue;
+        }
+        if (scene.objects[k]->instant != nullptr) {
+            const HapticObject& object = *scene.objects[k];
+            for (uint32_t t = 0; t < object.triangleCount(); ++t)
+                nearest.distance =
+                    std::min(nearest.distance, distanceTo(triangleOf(object, t), nearest.point).distance);
+            within = std::min(within, nearest.distance * motions[k].workspaceFromObject.scale);
             continue;
         }
         // Embree rounds to float: a slightly larger ball loses nothing, the double distance decides.

@@ -197,6 +197,7 @@ void Replayer::step(const RecordedTick& tick) {
     std::ranges::fill(traces_, StageTrace{});
     int64_t stepNs = 0;
     uint32_t poses = 0;
+    double animated = tick.time;
     if (Touched* const touched = this->touched(tick.scene)) {
         const HapticScene& scene = *touched->scene.haptic;
         // Data for the neighbourhood watch and rays became available when built, in the middle of the run.
@@ -212,7 +213,9 @@ void Replayer::step(const RecordedTick& tick) {
             if (limits)
                 samples_[hand].limits = *limits;
         }
-        touched->world.advance(tick.time);
+        animated = animationTime(settings->second, tick.time);
+        // A replay has its vertices in time: it stands still where the servo did.
+        touched->world.advance(animated, has(tick.flags, TickFlag::DeformationHeld));
         poses = touched->world.poseHash();
         const TickInput input{
             .tick = tick.tick, .time = tick.time, .dt = tick.dt, .late = tick.late, .hands = samples_};
@@ -222,7 +225,7 @@ void Replayer::step(const RecordedTick& tick) {
         stepNs = monotonicNs() - begin;
         report_.seconds += report_.replayed > 0 ? tick.dt : 0.0;
     }
-    previousTime_ = tick.time;
+    previousTime_ = animated;
     ++report_.replayed;
     if (change_) {
         if (each_ != nullptr && *each_)

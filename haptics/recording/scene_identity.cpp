@@ -3,6 +3,7 @@
 #include "engine/core/checksum.h"
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/scene/animation.h"
+#include "engine/scene/mesh_deformation.h"
 
 #include <fstream>
 #include <system_error>
@@ -87,7 +88,24 @@ void add(Hash64& hash, const Animation& animation) {
         hash.add(channel.interpolation);
         hash.addBytes(channel.times);
         hash.addBytes(channel.values);
+        if (channel.path == AnimatedPath::Weights)
+            hash.addBytes(channel.weights);
     }
+}
+
+void add(Hash64& hash, const MeshDeformation& deformation) {
+    hash.addBytes(deformation.positions);
+    hash.addBytes(deformation.normals);
+    for (const MorphTarget& target : deformation.targets) {
+        hash.addBytes(target.positions);
+        hash.addBytes(target.normals);
+    }
+    hash.addBytes(deformation.weights);
+    hash.add(deformation.weightsNode);
+    hash.addBytes(deformation.joints);
+    hash.addBytes(deformation.jointFromMesh);
+    hash.addBytes(deformation.vertexJoints);
+    hash.addBytes(deformation.vertexWeights);
 }
 
 void add(Hash64& hash, const Node& node) {
@@ -132,6 +150,9 @@ uint64_t feltHash(const HapticScene& scene, const Scene& source) {
         add(hash, *animation);
         for (const Node& node : source.nodes)
             add(hash, node);
+        for (const Mesh& mesh : source.meshes)
+            if (mesh.deformation != nullptr)
+                add(hash, *mesh.deformation);
     }
     return hash.value();
 }

@@ -101,6 +101,9 @@ void ServoLoop::start() {
         return;
     stopping_.store(false, std::memory_order_relaxed);
     scheduled_.store(false, std::memory_order_relaxed);
+    if (waiting_ != nullptr)
+        waiting_->world.publishAhead(animationTime(offeredSettings_.back().settings, 0.0));
+    waiting_.reset();
     thread_ = std::thread([this] { run(); });
     scheduled_.wait(false, std::memory_order_acquire);
 }
@@ -117,11 +120,20 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         ++offeredGeometry_;
     if (scene == nullptr) {
         scene_.offer(nullptr);
+        waiting_.reset();
         return 0;
     }
     WorldState world(std::move(source), *scene);
-    scene_.offer(std::make_shared<const Offer>(std::move(scene), std::move(world), ++offeredScenes_,
-                                               offeredGeometry_));
+    auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), ++offeredScenes_,
+                                               offeredGeometry_);
+    // A stepped loop computes the vertices itself, so that it is deterministic.
+    if (thread_.joinable())
+        offer->world.publishAhead(
+            animationTime(offeredSettings_.back().settings,
+                          1e-9 * static_cast<double>(monotonicNs() - startedNs_.load(std::memory_order_relaxed))));
+    else
+        waiting_ = offer;
+    scene_.offer(std::move(offer));
     return offeredScenes_;
 }
 
@@ -231,7 +243,8 @@ void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
 /// Poses of this tick, then the sample of every hand: one that the program moves follows them.
 void ServoLoop::sampleHands(Touch& touch, const TickRecord& record) noexcept {
     const ObjectMotions poses =
-        touch.offer != nullptr ? touch.offer->world.advance(record.time) : ObjectMotions();
+        touch.offer != nullptr ? touch.offer->world.advance(animationTime(*touch.settings, record.time))
+                               : ObjectMotions();
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         const DevicePort& port = ports_[hand];
         if (port.feel != nullptr) {
@@ -268,7 +281,7 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         hapticStep(*touch.offer->scene, *touch.settings, input, world, touch.devices, touch.outputs, tracer);
         record.stepNs = saturated(monotonicNs() - begin);
         std::ranges::transform(clock.nanoseconds, record.stageNs.begin(), saturated);
-        touch.previousTime = record.time;
+        touch.previousTime = animationTime(*touch.settings, record.time);
     }
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         if (touch.offer != nullptr)

@@ -173,6 +173,7 @@ class ServoLoop {
     // Owner thread:
     std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may still name
     uint32_t offeredScenes_ = 0, offeredGeometry_ = 0;
+    std::shared_ptr<const Offer> waiting_; // the scene that was offered before `start`
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;

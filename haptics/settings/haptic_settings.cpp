@@ -78,6 +78,10 @@ constexpr std::array kFields{
     wordField<&S::passivity>(
         "passivity", kPassivity,
         "energy given to the hand: counted, or also damped away where it is more than was taken"),
+    numberField<&S::animationSpeed>("animationSpeed", "", -100.0, 100.0,
+                                    "seconds of the scene's animation in one second; 0: it stands still"),
+    numberField<&S::animationOffset>("animationOffset", "s", -1e9, 1e9,
+                                     "time of the animation at the start"),
     numberField<&S::forceScale>("forceScale", "", 0.0, 1.0,
                                 "fraction of the contact's force that the device gets"),
     switchField<&S::forceEnabled>("forceEnabled", "off: contact goes on, the device gets no force"),

@@ -68,6 +68,8 @@ struct HapticSettings {
     /// Proxy moves a tick; fewer is safe, but touch feels sticky [000 §7].
     int iterationBudget = 64;
     PassivityMode passivity = PassivityMode::Observe;
+    /// Of the scene's animation: its seconds in one, and s that it is ahead. See animationTime.
+    double animationSpeed = 1.0, animationOffset = 0.0;
     /// 0..1, the fraction of the contact's force that the safety stage passes on to the device.
     double forceScale = 1.0;
     /// false: the force-off key; contact continues, commands are zero.
@@ -75,6 +77,11 @@ struct HapticSettings {
 
     bool operator==(const HapticSettings&) const = default;
 };
+
+/// The animation's time in a tick at `time`, s; any sign, not wrapped.
+[[nodiscard]] constexpr double animationTime(const HapticSettings& settings, double time) {
+    return settings.animationOffset + settings.animationSpeed * time;
+}
 
 /// The radius of touch, m: 0 for all methods but the sweep, whatever proxyRadius is.
 [[nodiscard]] constexpr double feltRadius(const HapticSettings& settings) {

@@ -20,10 +20,8 @@ struct SmoothFacet {
 
     SmoothFacet(const HapticObject& object, uint32_t triangle) {
         const size_t first = 3 * static_cast<size_t>(triangle);
-        const auto corner = [&](size_t k) { return glm::dvec3(object.vertices[object.indices[first + k]]); };
-        const auto normalAt = [&](size_t k) {
-            return glm::dvec3(object.normals[object.sourceIndices[first + k]]);
-        };
+        const auto corner = [&](size_t k) { return vertexOf(object, object.indices[first + k]); };
+        const auto normalAt = [&](size_t k) { return normalOf(object, object.sourceIndices[first + k]); };
         a = corner(0);
         const glm::dvec3 b = corner(1) - a, c = corner(2) - a, area = glm::cross(b, c);
         const double squared = glm::dot(area, area);

@@ -85,9 +85,9 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
 glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point) {
     const size_t first = 3 * static_cast<size_t>(triangle);
     const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
-    return weight.x * glm::dvec3(object.normals[object.sourceIndices[first]]) +
-           weight.y * glm::dvec3(object.normals[object.sourceIndices[first + 1]]) +
-           weight.z * glm::dvec3(object.normals[object.sourceIndices[first + 2]]);
+    return weight.x * normalOf(object, object.sourceIndices[first]) +
+           weight.y * normalOf(object, object.sourceIndices[first + 1]) +
+           weight.z * normalOf(object, object.sourceIndices[first + 2]);
 }
 
 /// True where stage 3 came to rest at the place that the first goal predicted, held by that facet alone: a

@@ -22,8 +22,8 @@ struct TouchCheckpoint {
     uint64_t tick = 0;  ///< the next tick
     uint32_t hand = 0;  ///< TickRecord::hand
     uint32_t scene = 0; ///< TickRecord::scene of that tick
-    /// s, TickRecord::time of the preceding tick in the same scene, at which moving objects had their
-    /// previous poses; NaN where there was none.
+    /// s, animationTime of the preceding tick in the same scene, at which moving objects had their previous
+    /// poses; NaN where there was none.
     double previousTime = std::numeric_limits<double>::quiet_NaN();
     uint32_t size = 0;
     std::array<std::byte, kCapacity> bytes{};

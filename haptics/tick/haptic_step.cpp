@@ -242,15 +242,18 @@ void limitForce(const HapticSettings& settings, const TickInput& input, const De
 } // namespace
 
 template <class Stopwatch>
-void hapticStep(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
+void hapticStep(const HapticScene& compiled, const HapticSettings& settings, const TickInput& input,
                 WorldState& world, std::span<DeviceState> states, std::span<HapticOutput> outputs,
                 Stopwatch& stopwatch) noexcept {
     stopwatch.start();
+    const HapticScene& scene = world.touched(compiled);
     if (world.collectsReactions())
         world.clearReactions();
     for (size_t i = 0; i < states.size(); ++i) {
         stopwatch.hand(i);
         feelHand(scene, settings, input, input.hands[i], world, states[i], outputs[i], stopwatch);
+        if (world.held()) [[unlikely]]
+            outputs[i].flags = outputs[i].flags | TickFlag::DeformationHeld;
     }
     for (size_t i = 0; i < states.size(); ++i) {
         stopwatch.hand(i);

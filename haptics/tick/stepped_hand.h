@@ -24,10 +24,10 @@ struct SteppedHand {
         : scene(&touched), world(std::move(source), touched) {}
 
     /// Begins the tick at `now` (s): the objects' poses. May be omitted where nothing moves: `time` then
-    /// stays.
-    void advance(double now) noexcept {
+    /// stays. `settings`: those of the animation.
+    void advance(double now, const HapticSettings& settings = {}) noexcept {
         time = now;
-        world.advance(now);
+        world.advance(animationTime(settings, now));
     }
     /// The tick itself, `dt` s long. Apart from `advance`, so that a study can time it alone.
     template <class Stopwatch>
@@ -41,7 +41,7 @@ struct SteppedHand {
     const HapticOutput& tick(const HapticSettings& settings, const DeviceSample& sample, double now,
                              double dt) noexcept {
         NoStopwatch none;
-        advance(now);
+        advance(now, settings);
         return step(settings, sample, dt, none);
     }
 

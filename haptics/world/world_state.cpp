@@ -61,10 +61,12 @@ WorldState::WorldState(ScenePtr source, const HapticScene& haptic)
             continue;
         movers_.push_back({k, instance, glm::inverse(objectFromMesh)});
     }
+    deforming_ = DeformingObjects::of(scene_, haptic);
+    if (moving())
+        motions_ = haptic.restMotions;
     if (movers_.empty())
         return;
     ScenePose& pose = pose_.emplace_back(*scene_);
-    motions_ = haptic.restMotions;
     const glm::dmat4 workspaceFromScene = matrixOf(workspaceFromScene_);
     const auto posesAt = [&](double time) {
         pose.evaluate(*scene_, animation_, time);
@@ -80,9 +82,22 @@ WorldState::WorldState(ScenePtr source, const HapticScene& haptic)
         movers_[m].jumps = !meet(first[m], last[m]);
 }
 
-ObjectMotions WorldState::advance(double time) noexcept {
-    if (movers_.empty())
+ObjectMotions WorldState::advance(double time, bool hold) noexcept {
+    if (!moving())
         return poses_;
+    if (!movers_.empty())
+        movePoses(time);
+    if (deforming_ != nullptr) [[unlikely]] {
+        if (movers_.empty())
+            for (ObjectMotion& motion : motions_)
+                motion.jumped = false;
+        deforming_->advance(time, !sampled_, hold, motions_);
+    }
+    sampled_ = true;
+    return poses_ = motions_;
+}
+
+void WorldState::movePoses(double time) noexcept {
     ScenePose& pose = pose_.front();
     pose.evaluate(*scene_, animation_, loopedTime(*animation_, time));
     const double lap = animation_->duration > 0.0 ? std::floor(time / animation_->duration) : 0.0;
@@ -98,14 +113,14 @@ ObjectMotions WorldState::advance(double time) noexcept {
         if (!sampled_)
             motion.before = motion.workspaceFromObject;
     }
-    sampled_ = true;
-    return poses_ = motions_;
 }
 
 uint32_t WorldState::poseHash() const noexcept {
-    if (movers_.empty())
+    if (!moving())
         return 0;
     Hash64 hash;
+    if (deforming_ != nullptr)
+        deforming_->addTo(hash);
     for (const Mover& mover : movers_) {
         const ObjectMotion& motion = motions_[mover.object];
         const Similarity& pose = motion.workspaceFromObject;

@@ -6,10 +6,12 @@
 #include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/world/deforming_objects.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -41,11 +43,25 @@ class WorldState {
     WorldState(WorldState&&) = default;
     WorldState& operator=(WorldState&&) = default;
 
-    [[nodiscard]] bool moving() const { return !movers_.empty(); }
+    [[nodiscard]] bool moving() const { return !movers_.empty() || deforming_ != nullptr; }
 
-    /// Moves the objects to their poses at `time` (s since the start of the animation, any). Where the
-    /// animation restarts at another pose than its last, the object has `jumped`. Returns `poses`.
-    ObjectMotions advance(double time) noexcept;
+    /// Moves the objects to their poses and places at `time` (s since the start of the animation, any). Where
+    /// the animation restarts at another pose than its last, the object has `jumped`. Returns `poses`. `hold`:
+    /// deforming objects stand still, as they did where a tick has TickFlag::DeformationHeld.
+    ObjectMotions advance(double time, bool hold = false) noexcept;
+    /// `scene`, from which the world was made, or its copy with the vertices of this tick where some deform:
+    /// what all queries of this tick read.
+    [[nodiscard]] const HapticScene& touched(const HapticScene& scene) const noexcept {
+        return deforming_ != nullptr ? deforming_->scene() : scene;
+    }
+    /// The deforming objects stand still in this tick, for want of a publication.
+    [[nodiscard]] bool held() const noexcept { return deforming_ != nullptr && deforming_->held(); }
+    /// Off the servo, before it gets the world: another thread evaluates vertices ahead of `advance`, which is
+    /// about to be called with `time`. For real time only.
+    void publishAhead(double time) const {
+        if (deforming_ != nullptr)
+            deforming_->publishAhead(time);
+    }
     /// Poses of this tick and of the preceding one; empty: every object is at rest where HapticScene placed
     /// it.
     [[nodiscard]] ObjectMotions poses() const noexcept { return poses_; }
@@ -73,6 +89,8 @@ class WorldState {
     }
 
   private:
+    void movePoses(double time) noexcept;
+
     struct Mover {
         size_t object;                  // HapticScene::objects
         size_t instance;                // Scene::instances
@@ -86,6 +104,7 @@ class WorldState {
     Similarity workspaceFromScene_;
     std::vector<Mover> movers_;
     std::vector<ObjectMotion> motions_;
+    std::unique_ptr<DeformingObjects> deforming_; // null: none
     ObjectMotions poses_;
     std::vector<ObjectReaction> reactions_;
     double lap_ = 0.0; // of the animation, in the preceding tick

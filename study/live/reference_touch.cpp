@@ -102,7 +102,8 @@ bool ReferenceTouch::compare(const TickRecord& record, const HapticSettings& set
         follows_ = false;
     }
     nextStep_ = record.step + 1;
-    const ObjectMotions moved = world_.advance(record.time);
+    const ObjectMotions moved = world_.advance(animationTime(settings, record.time),
+                                               has(record.output.flags, TickFlag::DeformationHeld));
     if (!std::exchange(follows_, true)) {
         adopt(record, settings, moved.empty() ? ObjectMotions(scene_->restMotions) : moved);
         return false;

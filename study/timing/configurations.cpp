@@ -120,7 +120,7 @@ class Turn {
         {
             const realtime::TickScope scope;
             const long long start = monotonicNs();
-            hand_.advance(time);
+            hand_.advance(time, configuration_.settings);
             begin = monotonicNs();
             posed = begin - start;
             (void)hand_.step(configuration_.settings, sample, kTick, stopwatch);

@@ -1,5 +1,7 @@
 // What a loaded scene shows against what the specification says it shows.
 
+#include "engine/scene/animation.h"
+#include "engine/scene/mesh_deformation.h"
 #include "tests/support/pose_truth.h"
 
 #include <algorithm>
@@ -49,6 +51,27 @@ PoseDifference difference(const TruthObject& truth, const TruthObject& found) {
 }
 
 } // namespace
+
+Scene sceneAt(const Scene& scene, const Animation* animation, double time) {
+    Scene shown = scene;
+    ScenePose pose(scene), still(scene);
+    pose.evaluate(scene, animation, time);
+    for (size_t i = 0; i < shown.instances.size(); ++i)
+        shown.instances[i].sceneFromMesh = pose.sceneFromMesh()[i];
+    for (Mesh& mesh : shown.meshes) {
+        if (mesh.deformation == nullptr)
+            continue;
+        DeformedVertices vertices(*mesh.deformation), rest(*mesh.deformation);
+        vertices.pose(pose);
+        rest.pose(still);
+        DrawnVertices drawn;
+        deform(mesh, vertices, rest, drawn);
+        mesh.positions = drawn.positions;
+        mesh.normals = drawn.normals;
+        mesh.tangents = drawn.tangents;
+    }
+    return shown;
+}
 
 std::vector<TruthObject> objectsOf(const Scene& scene) {
     std::vector<TruthObject> objects;

@@ -46,6 +46,8 @@ class Evaluation {
         return std::move(objects_);
     }
 
+    [[nodiscard]] std::vector<Real> numbers(size_t accessor) const { return read(accessor).all; }
+
   private:
     void descend(size_t node, const Affine& sceneFromParent, const auto& visit) {
         sceneFromNode_[node] = sceneFromParent * parentFromNode(json_["nodes"][node]);
@@ -308,6 +310,10 @@ TruthFile readTruthFile(const std::filesystem::path& path) {
     if (bytes.size() > 28 + length)
         file.buffers.emplace_back(text + length + 8, bytes.end());
     return file;
+}
+
+std::vector<Real> truthNumbers(const TruthFile& file, size_t accessor) {
+    return Evaluation(file).numbers(accessor);
 }
 
 std::vector<TruthObject> evaluatePose(const TruthFile& file) {

@@ -38,8 +38,18 @@ struct TruthFile {
 /// A .gltf with its buffers in files beside it, or a .glb. Throws std::runtime_error.
 [[nodiscard]] TruthFile readTruthFile(const std::filesystem::path& path);
 
+/// All numbers of an accessor, normalised integers divided.
+[[nodiscard]] std::vector<Real> truthNumbers(const TruthFile& file, size_t accessor);
+
+/// The file with its nodes as its animation `animation` has them at `time` (s, clamped to the keys of each
+/// channel): section 3.11 and appendix C, in long double.
+[[nodiscard]] TruthFile animated(const TruthFile& file, size_t animation, Real time);
+
 /// Every object of the default scene (the first without one), in no order that counts.
 [[nodiscard]] std::vector<TruthObject> evaluatePose(const TruthFile& file);
+
+/// The scene as it is shown at `time` of an animation: poses and vertices.
+[[nodiscard]] Scene sceneAt(const Scene& scene, const Animation* animation, double time);
 
 /// The same objects as a loaded scene has them.
 [[nodiscard]] std::vector<TruthObject> objectsOf(const Scene& scene);

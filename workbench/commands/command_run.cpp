@@ -67,9 +67,11 @@ class TickReader final : public TickSubscriber {
     void take(const TickRecord& record, const HapticSettings&) override {
         TickStatistics& own = statistics[record.hand];
         own.addLive(record);
+        const ObjectMotions motions = world_.advance(animationTime(options_.settings, record.time),
+                                                     has(record.output.flags, TickFlag::DeformationHeld));
         if (record.output.contacts > 0)
             own.addProxyGap(
-                proxyGap(*model_.haptic, world_.advance(record.time), record.output, options_.settings));
+                proxyGap(world_.touched(*model_.haptic), motions, record.output, options_.settings));
         if (record.hand < rows_.size())
             appendTickRow(rows_[record.hand], record.time, record.output, record.stepNs);
         if (record.hand > 0)
@@ -133,7 +135,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
         overlay.clear();
         drawTick(tick, options.settings, lookOf(tick, options.settings, model), overlay);
         view.probe = probeShadow(tick, options.settings);
-        poseAt(tick.time, *model.scene, renderer);
+        poseAt(animationTime(options.settings, tick.time), *model.scene, renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);
         frames.smallest = glm::min(frames.smallest, size);
         renderer.render(view, overlay, size.x, size.y);
@@ -245,7 +247,7 @@ void writeScreenshot(const RunOptions& options, const Model& model, const TickRe
     drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
     View view = firstView(model, options.size);
     view.probe = probeShadow(shown, options.settings);
-    poseAt(shown.time, *model.scene, renderer);
+    poseAt(animationTime(options.settings, shown.time), *model.scene, renderer);
     writePicture(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
 }
 

@@ -213,7 +213,7 @@ class OfflineTouch {
     void step(const PlannedTick& planned, OfflineTick& tick) {
         path_.next.position = planned.hip;
         path_.next.valid = true;
-        touch_.advance(planned.time);
+        touch_.advance(planned.time, settings_);
         tick.sample = sampleWithLimits(hand_, planned.time);
         tick.number = touch_.number;
         tick.time = planned.time;
@@ -247,6 +247,7 @@ class OfflineTouch {
     }
     /// After the last step.
     [[nodiscard]] ObjectMotions objects() const { return touch_.world.poses(); }
+    [[nodiscard]] const HapticScene& scene() const { return touch_.world.touched(*model_.haptic); }
     [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
 
   private:
@@ -358,7 +359,7 @@ int touchCommand(const TouchOptions& options) {
                 touch.take(*(model.haptic = sculpt->scene()));
             touch.step(planned[begin + i], block[i]);
             if (changes && report && block[i].output.contacts > 0)
-                block[i].gap = proxyGap(*model.haptic, touch.objects(), block[i].output, options.settings);
+                block[i].gap = proxyGap(touch.scene(), touch.objects(), block[i].output, options.settings);
         }
         if (report)
             timeFloorRays(*model.haptic, block, rays);

@@ -17,6 +17,7 @@ constexpr std::array<std::pair<TickFlag, std::string_view>, 16> kFlagNames{{
     {TickFlag::BudgetReached, "budget_reached"},
     {TickFlag::Jammed, "pinched"},
     {TickFlag::ObjectJumped, "object_jumped"},
+    {TickFlag::DeformationHeld, "deformation_held"},
     {TickFlag::CandidatesFull, "candidates_full"},
     {TickFlag::ShadingNotConverged, "shading_not_converged"},
     {TickFlag::TiltCompressed, "tilt_compressed"},

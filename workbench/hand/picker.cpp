@@ -67,7 +67,7 @@ std::optional<PointedSurface> Picker::look(const Ray& ray, double time, const Ha
     if (limits_ != limits)
         hardest_ = hardestOf(*scene_, limits_ = limits);
     const ObjectMotions motions = world_.advance(time);
-    const auto hit = pickSurface(*scene_, motions, ray.origin, ray.direction);
+    const auto hit = pickSurface(world_.touched(*scene_), motions, ray.origin, ray.direction);
     if (!hit)
         return std::nullopt;
     const double own = scene_->materials[static_cast<size_t>(hit->material)].stiffness;
@@ -86,7 +86,8 @@ std::optional<PointedSurface> Picker::look(const Ray& ray, double time, const Ha
 int Picker::instanceAt(const Ray& ray, double time) {
     if (scene_ == nullptr)
         return -1;
-    const auto hit = pickSurface(*scene_, world_.advance(time), ray.origin, ray.direction);
+    const ObjectMotions motions = world_.advance(time);
+    const auto hit = pickSurface(world_.touched(*scene_), motions, ray.origin, ray.direction);
     return hit ? scene_->objects[static_cast<size_t>(hit->object)]->instance : -1;
 }
 

@@ -68,7 +68,7 @@ class LiveTouch {
 
     /// The first surface on a ray of the workspace now.
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
-        return picker_.look(ray, tick().time, settings, tick().sample.limits);
+        return picker_.look(ray, animationTime(settings, tick().time), settings, tick().sample.limits);
     }
     /// The node (Scene::nodes) of that surface; -1: there is none.
     [[nodiscard]] int nodeAt(const Ray& ray);

@@ -26,6 +26,8 @@ struct LoadOptions {
     std::string edits;
     /// Of a volume: the value at its surface; none: that of the edits, else Volume::defaultIso.
     std::optional<double> iso;
+    /// The animation that plays, by its name or index in the file; none: the first that moves something.
+    std::optional<std::string> animation;
     /// The volume of the file, where it has been read before: it is not read again. May be null.
     std::shared_ptr<const Volume> volume;
     /// Set it to stop: loadScene then throws Error with problem "cancelled". May be null.

@@ -3,6 +3,7 @@
 #include "engine/import/geometry/gltf_accessors.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -21,6 +22,8 @@ std::optional<AnimatedPath> pathOf(const std::string& name) {
         return AnimatedPath::Rotation;
     if (name == "scale")
         return AnimatedPath::Scale;
+    if (name == "weights")
+        return AnimatedPath::Weights;
     return std::nullopt;
 }
 
@@ -116,6 +119,36 @@ std::vector<glm::vec4> readKeys(ImportContext& context, const GltfDocument& docu
     return keys;
 }
 
+/// The most morph targets of a primitive of the node's mesh.
+size_t targetsOf(const GltfDocument& document, int gltfNode) {
+    const int mesh = document.model.nodes[static_cast<size_t>(gltfNode)].mesh;
+    size_t most = 0;
+    if (mesh >= 0)
+        for (const tinygltf::Primitive& primitive : document.model.meshes[static_cast<size_t>(mesh)].primitives)
+            most = std::max(most, primitive.targets.size());
+    return most;
+}
+
+std::vector<float> readWeights(ImportContext& context, const GltfDocument& document, int accessor,
+                               const AnimationChannel& channel, const KeyTimes& at,
+                               const std::string& place) {
+    const size_t perKey = (channel.interpolation == Interpolation::CubicSpline ? 3 : 1) * channel.targets;
+    if (accessorComponents(document, accessor) != 1)
+        context.fail(place, "should be a SCALAR accessor");
+    if (accessorCount(document, accessor) != at.stated * perKey)
+        context.fail(place, "has " + std::to_string(accessorCount(document, accessor)) + " values where " +
+                                std::to_string(at.stated * perKey) + " are needed");
+    const std::vector<float> values = readFloats(context, document, accessor, place);
+    if (std::any_of(values.begin(), values.end(), [](float value) { return !std::isfinite(value); }))
+        context.fail(place, "has a weight that is not finite");
+    std::vector<float> keys;
+    keys.reserve(at.keys.size() * perKey);
+    for (const size_t key : at.keys)
+        keys.insert(keys.end(), values.begin() + static_cast<std::ptrdiff_t>(key * perKey),
+                    values.begin() + static_cast<std::ptrdiff_t>((key + 1) * perKey));
+    return keys;
+}
+
 std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDocument& document,
                                             const NodeForest& forest, const std::vector<Node>& nodes,
                                             const tinygltf::Animation& animation, size_t index,
@@ -127,9 +160,7 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
     const auto path = pathOf(gltf.target_path);
     if (!path)
         context.warn(channelPlace + ".target.path",
-                     gltf.target_path == "weights"
-                         ? "morph weights are not animated: the mesh keeps its static pose"
-                         : "\"" + gltf.target_path.substr(0, 40) + "\" cannot be animated");
+                     "\"" + gltf.target_path.substr(0, 40) + "\" cannot be animated");
     const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<size_t>(gltf.sampler)];
     const std::string samplerPlace = place + "." + element("samplers", static_cast<size_t>(gltf.sampler));
     if (!accessorHasData(document, sampler.input) || !accessorHasData(document, sampler.output)) {
@@ -143,11 +174,20 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
         return std::nullopt;
     channel.node = forest.nodeOfGltf[static_cast<size_t>(gltf.target_node)];
     channel.path = *path;
-    if (nodes[static_cast<size_t>(channel.node)].hasMatrix)
+    if (channel.path == AnimatedPath::Weights) {
+        channel.targets = targetsOf(document, gltf.target_node);
+        if (channel.targets == 0) {
+            context.warn(channelPlace + ".target", "animates the weights of a node without morph targets");
+            return std::nullopt;
+        }
+    } else if (nodes[static_cast<size_t>(channel.node)].hasMatrix)
         context.fail(channelPlace + ".target.node", "animates a node that has a matrix",
                      "export the node with translation, rotation and scale");
     channel.interpolation = interpolationOf(context, sampler.interpolation, samplerPlace);
-    channel.values = readKeys(context, document, sampler.output, channel, at, samplerPlace + ".output");
+    if (channel.path == AnimatedPath::Weights)
+        channel.weights = readWeights(context, document, sampler.output, channel, at, samplerPlace + ".output");
+    else
+        channel.values = readKeys(context, document, sampler.output, channel, at, samplerPlace + ".output");
     channel.times = std::move(at.times);
     return channel;
 }
@@ -182,6 +222,26 @@ std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument
         animations.push_back(std::move(animation));
     }
     return animations;
+}
+
+int chosenAnimation(const ImportContext& context, const std::vector<Animation>& animations) {
+    const auto& wanted = context.options().animation;
+    if (!wanted)
+        return -1;
+    const auto named = std::ranges::find(animations, *wanted, &Animation::name);
+    if (named != animations.end())
+        return static_cast<int>(named - animations.begin());
+    size_t index = 0;
+    const char* const end = wanted->data() + wanted->size();
+    const auto [stop, fault] = std::from_chars(wanted->data(), end, index);
+    if (!wanted->empty() && fault == std::errc() && stop == end && index < animations.size())
+        return static_cast<int>(index);
+    constexpr size_t kListed = 20;
+    std::string known;
+    for (size_t a = 0; a < std::min(animations.size(), kListed); ++a)
+        known += (a > 0 ? ", " : "") + std::to_string(a) + " '" + animations[a].name.substr(0, 40) + "'";
+    context.fail("animations", "there is no animation '" + wanted->substr(0, 40) + "'",
+                 animations.empty() ? "the file has none" : "choose one of: " + known);
 }
 
 } // namespace touchstone

@@ -5,11 +5,16 @@
 #include "engine/import/geometry/morph.h"
 #include "engine/import/geometry/primitive_restart.h"
 #include "engine/import/geometry/vertex_attributes.h"
+#include "engine/scene/mesh_deformation.h"
 #include "engine/scene/mesh_vertices.h"
 #include "engine/scene/tangent_space.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
 
 namespace touchstone {
 namespace {
@@ -175,6 +180,62 @@ void settleTangents(ImportContext& context, Mesh& mesh, const Material& material
     generateTangents(mesh, map.texCoord, context.part().silent()); // the estimate reports
 }
 
+/// The displacements of `attribute` by a target; empty where it has none. MorphTargets::displace refuses what
+/// it cannot use, which here costs the displacement alone: the static pose is right without it.
+std::vector<glm::vec3> displacements(ImportContext& context, const GltfDocument& document,
+                                     const std::map<std::string, int>& target, const char* attribute,
+                                     size_t vertices, const std::string& place) {
+    const auto found = target.find(attribute);
+    if (found == target.end() || !accessorHasData(document, found->second))
+        return {};
+    const std::string at = place + "." + attribute;
+    std::vector<glm::vec3> result;
+    (void)context.attempt("it does not move", [&] {
+        if (accessorComponents(document, found->second) != 3)
+            context.fail(at, "has no three components");
+        if (accessorCount(document, found->second) != vertices)
+            context.fail(at, "has " + std::to_string(accessorCount(document, found->second)) +
+                                 " vertices where the attribute has " + std::to_string(vertices));
+        const std::vector<float> values = readFloats(context, document, found->second, at);
+        if (std::any_of(values.begin(), values.end(), [](float value) { return !std::isfinite(value); }))
+            context.fail(at, "has a number that is not finite");
+        context.spendGeometry(vertices * sizeof(glm::vec3), at);
+        result.resize(vertices);
+        for (size_t v = 0; v < vertices; ++v)
+            result[v] = {values[3 * v], values[3 * v + 1], values[3 * v + 2]};
+    });
+    return result;
+}
+
+/// What moves the primitive's vertices: those of the file, undisplaced and unposed. Null where nothing does.
+std::shared_ptr<MeshDeformation> deformationOf(ImportContext& context, const GltfDocument& document,
+                                               const tinygltf::Primitive& primitive,
+                                               std::optional<DracoPrimitive> draco, const MeshPose& pose,
+                                               const std::string& place) {
+    const bool bends = pose.skin != nullptr && pose.skin->driven;
+    const bool morphs = pose.weightsNode >= 0 && !primitive.targets.empty();
+    if (!bends && !morphs)
+        return nullptr;
+    auto deformation = std::make_shared<MeshDeformation>();
+    Mesh base;
+    readVertexAttributes(context, document, primitive, draco ? &*draco : nullptr,
+                         MorphTargets(context, document, primitive, {}, place), place, base);
+    const size_t vertices = base.positions.size();
+    deformation->positions = std::move(base.positions);
+    deformation->normals = std::move(base.normals);
+    for (size_t t = 0; t < primitive.targets.size(); ++t) {
+        const std::string at = place + "." + element("targets", t);
+        const auto& target = primitive.targets[t];
+        deformation->weights.push_back(t < pose.weights.size() ? pose.weights[t] : 0.0);
+        deformation->targets.push_back(
+            {displacements(context, document, target, "POSITION", vertices, at),
+             deformation->normals.empty() ? std::vector<glm::vec3>()
+                                          : displacements(context, document, target, "NORMAL", vertices, at)});
+    }
+    deformation->weightsNode = morphs ? pose.weightsNode : -1;
+    return deformation;
+}
+
 bool hasData(const GltfDocument& document, const tinygltf::Primitive& primitive) {
     return (primitive.indices < 0 || accessorHasData(document, primitive.indices)) &&
            std::all_of(primitive.attributes.begin(), primitive.attributes.end(),
@@ -205,6 +266,8 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
     PosedMesh posed;
     Mesh& mesh = posed.mesh;
     mesh.name = gltf.name;
+    std::shared_ptr<MeshDeformation> deformation =
+        deformationOf(context, document, primitive, draco, pose, place);
     const MorphTargets morph(context, document, primitive, pose.weights, place);
     readVertexAttributes(context, document, primitive, draco ? &*draco : nullptr, morph, place, mesh);
     if (mesh.positions.empty()) {
@@ -221,10 +284,26 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
     else
         mesh.indices = triangleList(context, std::move(drawn), draco ? TINYGLTF_MODE_TRIANGLES : mode, place);
     // Flat, repaired and generated normals and tangents are those of the posed surface.
+    bool skinned = false;
     if (pose.skin != nullptr)
-        if (const auto influences = readInfluences(context, document, primitive, draco ? &*draco : nullptr,
-                                                   *pose.skin, mesh.positions.size(), place))
+        if (auto influences = readInfluences(context, document, primitive, draco ? &*draco : nullptr,
+                                             *pose.skin, mesh.positions.size(), place)) {
             posed.origin = poseVertices(context, *influences, *pose.skin, place, mesh);
+            skinned = true;
+            if (deformation != nullptr) {
+                deformation->joints = pose.skin->joints;
+                deformation->jointFromMesh = pose.skin->jointFromMesh;
+                deformation->perVertex = influences->perVertex;
+                deformation->vertexJoints = std::move(influences->joints);
+                deformation->vertexWeights = std::move(influences->weights);
+                deformation->sceneFromSkin = *posed.origin;
+            }
+        }
+    if (deformation != nullptr && (skinned || deformation->weightsNode >= 0)) {
+        mesh.sources.resize(mesh.positions.size());
+        std::iota(mesh.sources.begin(), mesh.sources.end(), 0u);
+        mesh.deformation = std::move(deformation);
+    }
     // An unused vertex would affect the frame of the touched object, its tolerances and its rounding; and
     // placed meshes count by what they draw.
     dropUnusedVertices(mesh);

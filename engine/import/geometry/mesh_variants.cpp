@@ -49,7 +49,8 @@ int MeshVariants::materialFor(const ShownMesh& shown, size_t primitive) {
 
 std::vector<MeshVariant> MeshVariants::buildAll(const ShownMesh& shown) {
     const MeshPose pose{shown.weights,
-                        shown.skin >= 0 ? &skins_.get(static_cast<size_t>(shown.skin)) : nullptr};
+                        shown.skin >= 0 ? &skins_.get(static_cast<size_t>(shown.skin)) : nullptr,
+                        shown.weightsNode};
     std::vector<MeshVariant> variants;
     const Progress all = context_.part();
     const size_t primitives = document_.model.meshes[shown.gltfMesh].primitives.size();

@@ -17,6 +17,7 @@ struct ShownMesh {
     size_t gltfMesh = 0;
     int skin = -1;               ///< of the file; -1: rigid
     std::vector<double> weights; ///< of the morph targets (morphWeights)
+    int weightsNode = -1;        ///< Scene::nodes: whose animation drives them; -1: none does
     int physics = -1;            ///< the node's physics material; -1: none
 
     [[nodiscard]] std::partial_ordering operator<=>(const ShownMesh&) const = default;

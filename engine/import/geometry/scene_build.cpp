@@ -128,7 +128,16 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
                              MaterialTable& materials, Scene& scene) {
     const std::vector<int> physics = physicsMaterialOfNodes(context, document);
     const std::vector<glm::dmat4> sceneFromNode = sceneFromNodes(scene.nodes);
-    SkinPoses skins(context, document, forest, scene.nodes, sceneFromNode);
+    std::vector<bool> driven(scene.nodes.size(), false), weighted(scene.nodes.size(), false);
+    for (const Animation& animation : scene.animations) {
+        const std::vector<bool> moved = movedNodes(scene, animation);
+        for (size_t n = 0; n < moved.size(); ++n)
+            driven[n] = driven[n] || moved[n];
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.path == AnimatedPath::Weights)
+                weighted[static_cast<size_t>(channel.node)] = true;
+    }
+    SkinPoses skins(context, document, forest, scene.nodes, sceneFromNode, driven);
     MeshVariants variants(context, document, materials, skins, scene);
     Placement placement(context, document, scene);
     const std::vector<size_t> targets = morphTargetCounts(context, document);
@@ -144,7 +153,7 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
         const ShownMesh shown{
             gltfMesh, node.skin,
             morphWeights(context, document, gltfMesh, targets[gltfMesh], static_cast<int>(gltfNode)),
-            physics[gltfNode]};
+            weighted[n] ? static_cast<int>(n) : -1, physics[gltfNode]};
         placement.place(n, gltfNode, sceneFromNode[n], variants.get(shown));
     }
     // Meshes that no node places are checked as well: whether a broken file is refused does not depend on the
@@ -154,7 +163,7 @@ void buildMeshesAndInstances(ImportContext& context, const GltfDocument& documen
         context.enter(
             others.part(share(m, document.model.meshes.size()), share(m + 1, document.model.meshes.size())));
         if (!variants.has(m))
-            (void)variants.get({m, -1, morphWeights(context, document, m, targets[m], -1), -1});
+            (void)variants.get({m, -1, morphWeights(context, document, m, targets[m], -1), -1, -1});
     }
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <set>
 
 namespace touchstone {
 namespace {
@@ -150,14 +149,17 @@ const SkinPose& SkinPoses::get(size_t skin) {
     const std::vector<size_t> joints = stated["joints"];
     if (joints.empty())
         context_.fail(pose.place + ".joints", "is empty: the mesh has nothing to follow");
-    context_.spendGeometry(joints.size() * (sizeof(glm::dmat4) + sizeof(size_t)), pose.place);
+    context_.spendGeometry(joints.size() * (sizeof(glm::dmat4) + sizeof(glm::mat4) + 2 * sizeof(size_t)), pose.place);
     checkJoints(joints, pose.place);
-    const std::vector<glm::mat4> jointFromMesh = inverseBinds(stated, pose.place);
+    pose.jointFromMesh = inverseBinds(stated, pose.place);
     pose.sceneFromMesh.resize(joints.size());
     for (size_t j = 0; j < joints.size(); ++j) {
-        const glm::dmat4& sceneFromJoint = sceneFromNode_[static_cast<size_t>(forest_.nodeOfGltf[joints[j]])];
+        const int node = forest_.nodeOfGltf[joints[j]];
+        pose.joints.push_back(node);
+        pose.driven = pose.driven || driven_[static_cast<size_t>(node)];
+        const glm::dmat4& sceneFromJoint = sceneFromNode_[static_cast<size_t>(node)];
         pose.sceneFromMesh[j] =
-            jointFromMesh.empty() ? sceneFromJoint : sceneFromJoint * glm::dmat4(jointFromMesh[j]);
+            pose.jointFromMesh.empty() ? sceneFromJoint : sceneFromJoint * glm::dmat4(pose.jointFromMesh[j]);
     }
     return pose;
 }
@@ -292,31 +294,6 @@ glm::dvec3 poseVertices(ImportContext& context, const VertexInfluences& influenc
         mesh.tangentsFromFile = false;
     }
     return origin;
-}
-
-void warnOfStillSkins(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
-                      const Scene& scene) {
-    std::set<size_t> skins;
-    for (const Instance& instance : scene.instances)
-        if (!instance.followsNode)
-            skins.insert(static_cast<size_t>(
-                document.model
-                    .nodes[static_cast<size_t>(forest.gltfOfNode[static_cast<size_t>(instance.node)])]
-                    .skin));
-    std::vector<bool> moves(scene.nodes.size(), false);
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            moves[static_cast<size_t>(channel.node)] = true;
-    for (size_t n = 0; n < scene.nodes.size(); ++n)
-        if (scene.nodes[n].parent >= 0 && moves[static_cast<size_t>(scene.nodes[n].parent)])
-            moves[n] = true;
-    for (const size_t skin : skins)
-        for (const nlohmann::json& joint : document.json["skins"][skin]["joints"])
-            if (moves[static_cast<size_t>(forest.nodeOfGltf[joint.get<size_t>()])]) {
-                context.warn("animations",
-                             "joints of skinned meshes are animated; these meshes keep their static pose");
-                return;
-            }
 }
 
 } // namespace touchstone

@@ -1,5 +1,5 @@
 #pragma once
-// Skins in the pose of their joints in the file (glTF 2.0, section 3.7.3): the weighted mean of
+// Skins in the pose of their joints in the file, and what is needed to move them (glTF 2.0, section 3.7.3): the weighted mean of
 // sceneFromJoint * inverseBind transforms the vertices of a skinned mesh to the scene, and its node's
 // transform is ignored. Reading (SkinPoses, readInfluences) and posing (poseVertices) are separate, so that a
 // skin can be posed again.
@@ -17,17 +17,22 @@ namespace touchstone {
 struct SkinPose {
     std::string place;                     ///< "skins[2]"
     std::vector<glm::dmat4> sceneFromMesh; ///< by joint; not finite where the file's numbers are not
+    std::vector<int> joints;               ///< Scene::nodes
+    std::vector<glm::mat4> jointFromMesh;  ///< by joint; empty: the identity
+    bool driven = false;                   ///< an animation of the file moves a joint
 };
 
 /// The skins of a file, each read on first use.
 class SkinPoses {
   public:
     /// `nodes` are those of the forest, which may have been moved out of it; `sceneFromNode` has the same
-    /// order. Refers to all of its arguments, which outlive it.
+    /// order, as has `driven`: whether an animation of the file moves the node. Refers to all of its
+    /// arguments, which outlive it.
     SkinPoses(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
-              std::span<const Node> nodes, std::span<const glm::dmat4> sceneFromNode)
+              std::span<const Node> nodes, std::span<const glm::dmat4> sceneFromNode,
+              const std::vector<bool>& driven)
         : context_(context), document_(document), forest_(forest), nodes_(nodes),
-          sceneFromNode_(sceneFromNode) {}
+          sceneFromNode_(sceneFromNode), driven_(driven) {}
 
     /// skins[skin] of the file. Missing inverse bind matrices are the identity. Throws Error where there are
     /// fewer of them than joints; warns of joints outside the scene or without a common root and of matrices
@@ -44,6 +49,7 @@ class SkinPoses {
     const NodeForest& forest_;
     std::span<const Node> nodes_;
     std::span<const glm::dmat4> sceneFromNode_;
+    const std::vector<bool>& driven_;
     std::vector<int> rootOf_; ///< by index in `nodes`; computed on first use
     std::map<size_t, SkinPose> made_;
 };
@@ -71,9 +77,5 @@ readInfluences(ImportContext& context, const GltfDocument& document, const tinyg
 /// Spends geometry memory.
 [[nodiscard]] glm::dvec3 poseVertices(ImportContext& context, const VertexInfluences& influences,
                                       const SkinPose& skin, const std::string& place, Mesh& mesh);
-
-/// One warning if an animation moves a joint of a shown skinned mesh. Needs scene.nodes and scene.animations.
-void warnOfStillSkins(ImportContext& context, const GltfDocument& document, const NodeForest& forest,
-                      const Scene& scene);
 
 } // namespace touchstone

@@ -1,13 +1,17 @@
 #include "haptics/shape/mesh/haptic_object.h"
 
+#include "engine/core/checksum.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/scene/mesh_deformation.h"
 #include "engine/scene/mesh_vertices.h"
 #include "haptics/shape/mesh/weld.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace touchstone {
 
@@ -104,9 +108,41 @@ void addGradients(const ObjectUse& use, HapticObject& object, const Progress& pr
     }
 }
 
+/// What moves a vertex of a deforming mesh, apart from its place: equal for vertices that move together.
+uint64_t motionOf(const MeshDeformation& deformation, size_t vertex) {
+    Hash64 hash;
+    for (size_t k = vertex * deformation.perVertex; k < (vertex + 1) * deformation.perVertex; ++k) {
+        hash.add(deformation.vertexWeights[k] > 0.0f ? deformation.vertexJoints[k] : 0u);
+        hash.add(deformation.vertexWeights[k]);
+    }
+    for (const MorphTarget& target : deformation.targets)
+        if (!target.positions.empty())
+            for (int c = 0; c < 3; ++c)
+                hash.add(target.positions[vertex][c]);
+    return hash.value();
+}
+
+/// Parts the clusters whose vertices an animation moves apart: lips that are closed in the static pose.
+void partClusters(const Mesh& mesh, const std::vector<glm::vec3>& local, WeldResult& weld) {
+    std::map<std::pair<uint32_t, uint64_t>, uint32_t> clusters;
+    std::vector<glm::vec3> vertices;
+    for (uint32_t v = 0; v < weld.remap.size(); ++v) {
+        const auto [found, fresh] =
+            clusters.emplace(std::pair(weld.remap[v], motionOf(*mesh.deformation, mesh.sources[v])),
+                             static_cast<uint32_t>(vertices.size()));
+        if (fresh)
+            vertices.push_back(local[v]);
+        weld.remap[v] = found->second;
+    }
+    weld.vertices = std::move(vertices);
+}
+
 /// Welds `local`, fills the index buffers and counts welded vertices and dropped triangles.
-void weldGeometry(std::vector<glm::vec3> local, HapticObject& object, const Progress& progress) {
+void weldGeometry(const Mesh& mesh, std::vector<glm::vec3> local, HapticObject& object,
+                  const Progress& progress) {
     WeldResult weld = weldVertices(local, kWeldTolerance * object.diagonal, progress.part(0.0, 0.5));
+    if (mesh.deformation != nullptr)
+        partClusters(mesh, local, weld);
     local = {};
     object.vertices = std::move(weld.vertices);
     object.weldedVertices = weld.merged;
@@ -208,7 +244,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     object->name = mesh.name;
     object->instance = instanceIndex;
     object->material = mesh.material;
-    object->oneSided = use.oneSided;
+    object->oneSided = use.oneSided && mesh.deformation == nullptr;
 
     std::vector<glm::vec3> local =
         placeVertices(mesh, instance.sceneFromMesh, workspaceFromScene, *object, progress.part(0.0, 0.05));
@@ -219,11 +255,16 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
         for (size_t t = 0; t + 2 < object->sourceIndices.size(); t += 3)
             std::swap(object->sourceIndices[t + 1], object->sourceIndices[t + 2]);
 
-    weldGeometry(std::move(local), *object, progress.part(0.05, 0.25));
+    weldGeometry(mesh, std::move(local), *object, progress.part(0.05, 0.25));
     copyAttributes(mesh, linear, mirrored, use, *object, progress.part(0.25, 0.29));
     object->smooth.assign(object->triangleCount(), 0);
     if (use.normals)
         markSmoothTriangles(*object, progress.part(0.29, 0.34));
+    if (use.normals && mesh.deformation != nullptr && mesh.normalsFromFile) {
+        // A facet that is flat in the static pose may bend.
+        std::ranges::fill(object->smooth, uint8_t{1});
+        object->anySmooth = true;
+    }
     addGradients(use, *object, progress.part(0.34, 0.35));
     if (!object->anySmooth)
         object->normals = {};

@@ -3,6 +3,7 @@
 
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
+#include "haptics/shape/mesh/mesh_instant.h"
 #include "haptics/shape/mesh/ray_tree.h"
 #include "haptics/shape/mesh/triangle.h"
 #include "haptics/shape/mesh/triangle_tree.h"
@@ -78,6 +79,9 @@ struct HapticObject {
     bool oneSided = false; ///< the material's `sides` is front: felt only from outside
     RayTree rays;          ///< Embree's, for rays; built on demand
     TriangleTree tree;     ///< for proximity queries
+    /// Null but in a world's own copy of an object that deforms (world/deforming_objects.h): then the vertices
+    /// of this tick, instead of `vertices`, `normals` and `tree`, which are those of the static pose.
+    const MeshInstant* instant = nullptr;
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     /// Nothing is left of it (scene/scene_parts.h): no query meets it.
@@ -86,11 +90,29 @@ struct HapticObject {
     [[nodiscard]] AttributeBytes attributeBytes() const; ///< part of memoryBytes
 };
 
+/// Vertex `index` of the object, object frame.
+[[nodiscard]] inline glm::dvec3 vertexOf(const HapticObject& object, uint32_t index) noexcept {
+    if (object.instant != nullptr) [[unlikely]]
+        return object.instant->now.at(index);
+    return glm::dvec3(object.vertices[index]);
+}
+
+/// The normal of source vertex `index`, where the object has any; object frame.
+[[nodiscard]] inline glm::dvec3 normalOf(const HapticObject& object, uint32_t index) noexcept {
+    if (object.instant != nullptr && object.instant->normals.from != nullptr) [[unlikely]]
+        return object.instant->normals.at(index);
+    return glm::dvec3(object.normals[index]);
+}
+
+/// The tree whose boxes hold the object's triangles.
+[[nodiscard]] inline const TriangleTree& treeOf(const HapticObject& object) noexcept {
+    return object.instant != nullptr ? *object.instant->tree : object.tree;
+}
+
 /// Triangle `index` of the object, object frame.
 [[nodiscard]] inline Triangle triangleOf(const HapticObject& object, uint32_t index) noexcept {
     const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
-    return {glm::dvec3(object.vertices[corner[0]]), glm::dvec3(object.vertices[corner[1]]),
-            glm::dvec3(object.vertices[corner[2]])};
+    return {vertexOf(object, corner[0]), vertexOf(object, corner[1]), vertexOf(object, corner[2])};
 }
 
 /// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails, and

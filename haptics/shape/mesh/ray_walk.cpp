@@ -20,8 +20,8 @@ namespace {
 [[gnu::noinline]] bool passesLeft(const HapticObject& object, uint32_t a, uint32_t b, const glm::dvec3& from,
                                   const glm::dvec3& direction) noexcept {
     const bool swapped = a > b;
-    const glm::dvec3 low = glm::dvec3(object.vertices[swapped ? b : a]) - from,
-                     high = glm::dvec3(object.vertices[swapped ? a : b]) - from;
+    const glm::dvec3 low = vertexOf(object, swapped ? b : a) - from,
+                     high = vertexOf(object, swapped ? a : b) - from;
     return (glm::dot(direction, glm::cross(low, high)) >= 0.0) != swapped;
 }
 
@@ -35,7 +35,7 @@ double crossingAt(const HapticObject& object, uint32_t triangle, const glm::dvec
     if (passesLeft(object, v[1], v[2], from, direction) != left ||
         passesLeft(object, v[2], v[0], from, direction) != left)
         return kNone;
-    const glm::dvec3 a(object.vertices[v[0]]), b(object.vertices[v[1]]), c(object.vertices[v[2]]);
+    const glm::dvec3 a = vertexOf(object, v[0]), b = vertexOf(object, v[1]), c = vertexOf(object, v[2]);
     const glm::dvec3 area = glm::cross(b - a, c - a);
     const double rate = glm::dot(direction, area);
     back = rate > 0.0;
@@ -70,7 +70,7 @@ std::optional<RayCrossing> firstCrossing(const HapticObject& object, const glm::
         return first;
     double end = stretch.end - stretch.begin;
     const glm::dvec3 start = from + stretch.begin * direction;
-    object.tree.walkRay(start, direction, end, [&](uint32_t triangle) {
+    treeOf(object).walkRay(start, direction, end, [&](uint32_t triangle) {
         bool back = false;
         const double t = crossingAt(object, triangle, start, direction, back);
         if (t > 0.0 && !(back && frontsOnly) && (!first || t < end)) {
@@ -91,7 +91,7 @@ std::optional<uint32_t> crossings(const HapticObject& object, const glm::dvec3& 
     const double end = stretch.end - stretch.begin;
     const glm::dvec3 start = from + stretch.begin * direction;
     uint32_t count = 0, left = kMaxTriangles;
-    object.tree.walkRay(start, direction, end, [&](uint32_t triangle) {
+    treeOf(object).walkRay(start, direction, end, [&](uint32_t triangle) {
         bool back = false;
         count += crossingAt(object, triangle, start, direction, back) > 0.0 ? 1 : 0;
         return --left > 0;

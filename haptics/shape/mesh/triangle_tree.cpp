@@ -209,7 +209,9 @@ struct TriangleTree::Flattener {
     }
 };
 
-void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> vertices, std::span<const uint32_t> indices) {
+void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
+                        std::span<const uint32_t> indices) noexcept {
+    const bool moves = a.data() != b.data();
     // Outwards by more than float rounding at magnitude one, in packing and in unpacking.
     constexpr double kOutwards = 4e-7;
     std::array<std::array<double, kLeafSize>, 3> low, high;
@@ -217,8 +219,12 @@ void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> vertices, std::sp
         const uint32_t* corner = &indices[size_t{3} * leaf.triangle[i]];
         for (size_t axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<glm::length_t>(axis);
-            const auto [least, most] =
-                std::minmax({vertices[corner[0]][k], vertices[corner[1]][k], vertices[corner[2]][k]});
+            auto [least, most] = std::minmax({a[corner[0]][k], a[corner[1]][k], a[corner[2]][k]});
+            if (moves) {
+                const auto [low2, high2] = std::minmax({b[corner[0]][k], b[corner[1]][k], b[corner[2]][k]});
+                least = std::min(least, low2);
+                most = std::max(most, high2);
+            }
             low[axis][i] = static_cast<double>(least) - kOutwards;
             high[axis][i] = static_cast<double>(most) + kOutwards;
         }
@@ -270,9 +276,36 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> vertices, std::span<const 
         for (size_t i = begin; i < end; ++i) {
             leaves_[i].count = unpacked[i]->count;
             std::copy_n(unpacked[i]->triangle.begin(), unpacked[i]->count, leaves_[i].triangle.begin());
-            pack(leaves_[i], vertices, indices);
+            pack(leaves_[i], vertices, vertices, indices);
         }
     });
+}
+
+void TriangleTree::refit(std::span<const glm::vec3> a, std::span<const glm::vec3> b,
+                         std::span<const uint32_t> indices) noexcept {
+    for (Leaf& leaf : leaves_)
+        pack(leaf, a, b, indices);
+    // Parents come before children. A leaf's own boxes are those that its bytes unpack to.
+    for (size_t n = nodes_.size(); n-- > 0;) {
+        Node& node = nodes_[n];
+        for (size_t i = 0; i < kWidth; ++i) {
+            if (node.low[0][i] > node.high[0][i])
+                continue; // unused
+            const bool isLeaf = (node.child[i] & kLeafBit) != 0;
+            for (size_t axis = 0; axis < 3; ++axis) {
+                if (isLeaf) {
+                    const auto k = static_cast<glm::length_t>(axis);
+                    const Leaf& leaf = leaves_[node.child[i] & ~kLeafBit];
+                    node.low[axis][i] = leaf.origin[k];
+                    node.high[axis][i] = leaf.origin[k] + 256.0f * leaf.step[k];
+                } else {
+                    const Node& child = nodes_[node.child[i]];
+                    node.low[axis][i] = *std::min_element(child.low[axis].begin(), child.low[axis].end());
+                    node.high[axis][i] = *std::max_element(child.high[axis].begin(), child.high[axis].end());
+                }
+            }
+        }
+    }
 }
 
 namespace {

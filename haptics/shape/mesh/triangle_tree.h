@@ -34,6 +34,11 @@ class TriangleTree {
     TriangleTree(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
                  const Progress& progress = {});
 
+    /// Fits the boxes to other vertices: each holds its triangles in `a`, in `b` and on every straight way
+    /// between. Neither allocates nor throws; O(n). Coordinates of magnitude one.
+    void refit(std::span<const glm::vec3> a, std::span<const glm::vec3> b,
+               std::span<const uint32_t> indices) noexcept;
+
     /// Writes all triangles whose boxes meet the ball; at most a few that do not. Returns their number, or
     /// `out.size()` when more may meet it than fit. Deterministic; safe on the servo thread.
     [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept;
@@ -68,7 +73,8 @@ class TriangleTree {
         glm::vec3 origin, step;
         uint32_t count;
     };
-    static void pack(Leaf& leaf, std::span<const glm::vec3> vertices, std::span<const uint32_t> indices);
+    static void pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
+                     std::span<const uint32_t> indices) noexcept;
     size_t collectLeaf(const Leaf& leaf, const glm::vec3& centre, float radiusSquared,
                        std::span<Near> out) const noexcept;
 

@@ -72,6 +72,7 @@ TEST(Scenes, HaveTheSurfacesThatTheirNamesPromise) {
         {"virtual_bump.glb", {2, 4, false, 1}},
         {"field_torus.glb", {3328, 1664, true, 0}},
         {"moving.glb", {12 + 48, 8 + 26, true, 4}},
+        {"breathing.glb", {12 + 2 * 31 * 24 + 2 * 23 * 32, 8 + 31 * 24 + 2 + 23 * 32 + 2, true, 6}},
         {"swatches.glb", {2 * (2 * 11 * 5 + 2 * 11 + 2 * 5), 2 * 12 * 6, true, 2}},
         {"effects.glb", {2 * (2 * 7 * 3 + 2 * 7 + 2 * 3) + 2 * 7 + 2 * 5, 2 * 8 * 4 + 2 * 7, true, 4}},
     };

@@ -208,7 +208,7 @@ TEST(Animation, OneThatMovesNoInstanceGivesWayToOneThatDoes) {
     EXPECT_EQ(playedAnimation(*alone), &alone->animations.at(0));
 }
 
-TEST(Animation, MorphWeightsAreLeftOutWithAWarning) {
+TEST(Animation, WeightsOfANodeWithoutTargetsAreLeftOutWithAWarning) {
     const ScenePtr scene = load(animated({0, 1}, {0, 1}, "SCALAR", "weights"));
     EXPECT_TRUE(scene->animations.at(0).channels.empty());
     EXPECT_TRUE(test::warns(*scene, "animations[0]", "morph"));
