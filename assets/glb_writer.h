@@ -44,7 +44,8 @@ class GlbWriter {
         std::vector<glm::vec4> weights;
     };
     /// A mesh for a node with a skin. Only with Packing::Plain, as what follows.
-    int addSkinnedMesh(const std::string& name, const Shape& shape, const Influences& influences, int material);
+    int addSkinnedMesh(const std::string& name, const Shape& shape, const Influences& influences,
+                       int material);
     /// A mesh with a morph target for each of `targets`: the shape with other positions and normals.
     int addMorphMesh(const std::string& name, const Shape& shape, const std::vector<Shape>& targets,
                      int material);

@@ -9,14 +9,14 @@ namespace touchstone::assets {
 
 namespace {
 
-const glm::dvec3 kPlate{0.17, 0.006, 0.09};                        // m
-const glm::dvec3 kStalk{-0.04, 0.0, 0.0}, kBall{0.045, 0.0, 0.0};  // m, centres
-constexpr double kPlateY = -0.066;                                 // m, centre
-constexpr double kThick = 0.018, kLong = 0.058;                    // m, half axes of the stalk
-constexpr double kBallRadius = 0.026;                              // m
-const glm::dvec3 kSwollen{1.35, 0.80, 1.35};                       // the ball's axes when it has breathed in
-constexpr std::array<double, 3> kJoints{-0.058, -0.018, 0.018};    // m, heights of the joints
-constexpr float kBend = 0.7f;                                      // rad, of each upper joint
+const glm::dvec3 kPlate{0.17, 0.006, 0.09};                       // m
+const glm::dvec3 kStalk{-0.04, 0.0, 0.0}, kBall{0.045, 0.0, 0.0}; // m, centres
+constexpr double kPlateY = -0.066;                                // m, centre
+constexpr double kThick = 0.018, kLong = 0.058;                   // m, half axes of the stalk
+constexpr double kBallRadius = 0.026;                             // m
+const glm::dvec3 kSwollen{1.35, 0.80, 1.35};                      // the ball's axes when it has breathed in
+constexpr std::array<double, 3> kJoints{-0.058, -0.018, 0.018};   // m, heights of the joints
+constexpr float kBend = 0.7f;                                     // rad, of each upper joint
 
 Json paint(const char* name, std::array<double, 3> color, double roughness, double friction) {
     Json material{{"name", name},
@@ -59,8 +59,9 @@ GlbWriter::Influences influencesOf(const Shape& shape) {
 std::vector<float> turnsAboutZ(const std::vector<float>& angles) {
     std::vector<float> values;
     for (const float angle : angles)
-        values.insert(values.end(), {0.0f, 0.0f, static_cast<float>(std::sin(0.5 * static_cast<double>(angle))),
-                                     static_cast<float>(std::cos(0.5 * static_cast<double>(angle)))});
+        values.insert(values.end(),
+                      {0.0f, 0.0f, static_cast<float>(std::sin(0.5 * static_cast<double>(angle))),
+                       static_cast<float>(std::cos(0.5 * static_cast<double>(angle)))});
     return values;
 }
 
@@ -87,21 +88,36 @@ SceneFile breathing() {
     glb.addSkin(stalkNode, joints, heads);
 
     const Shape unit = sphere(1.0, 23, 32);
-    const Shape ball = ellipsoid(unit, glm::dvec3(kBallRadius)), swollen = ellipsoid(unit, kBallRadius * kSwollen);
+    const Shape ball = ellipsoid(unit, glm::dvec3(kBallRadius)),
+                swollen = ellipsoid(unit, kBallRadius * kSwollen);
     const int ballMesh = glb.addMorphMesh("ball", ball, {swollen},
                                           glb.addMaterial(paint("coral", {0.85, 0.40, 0.32}, 0.6, 0.4)));
     const int ballNode = glb.addNode("ball", ballMesh, kBall + glm::dvec3(0.0, -0.02, 0.0));
 
     for (const int joint : {joints[1], joints[2]})
-        glb.animate({joint, "rotation", "LINEAR", {0.0f, 1.0f, 2.0f, 3.0f, 4.0f},
-                     turnsAboutZ({0.0f, kBend, 0.0f, -kBend, 0.0f}), 0, "bend and breathe"});
+        glb.animate({joint,
+                     "rotation",
+                     "LINEAR",
+                     {0.0f, 1.0f, 2.0f, 3.0f, 4.0f},
+                     turnsAboutZ({0.0f, kBend, 0.0f, -kBend, 0.0f}),
+                     0,
+                     "bend and breathe"});
     // In and out, at rest at both ends.
-    glb.animate({ballNode, "weights", "CUBICSPLINE", {0.0f, 2.0f, 4.0f}, {0, 0, 0, 0, 1, 0, 0, 0, 0}, 0,
+    glb.animate({ballNode,
+                 "weights",
+                 "CUBICSPLINE",
+                 {0.0f, 2.0f, 4.0f},
+                 {0, 0, 0, 0, 1, 0, 0, 0, 0},
+                 0,
                  "bend and breathe"});
-    glb.animate({joints[1], "rotation", "LINEAR", {0.0f, 0.5f, 1.0f, 1.5f, 2.0f},
-                 {0, 0, 0, 1, 0, 0.70710678f, 0, 0.70710678f, 0, 0, 0, 1, 0, -0.70710678f, 0, 0.70710678f, 0, 0,
-                  0, 1},
-                 1, "twist"});
+    glb.animate({joints[1],
+                 "rotation",
+                 "LINEAR",
+                 {0.0f, 0.5f, 1.0f, 1.5f, 2.0f},
+                 {0,           0, 0, 1, 0, 0.70710678f, 0, 0.70710678f, 0, 0, 0, 1, 0, -0.70710678f, 0,
+                  0.70710678f, 0, 0, 0, 1},
+                 1,
+                 "twist"});
     return {"breathing.glb", glb.finish()};
 }
 

@@ -61,7 +61,8 @@ void DeformedMeshes::record(const Gpu::Impl& gpu, const vk::raii::CommandBuffer&
     // Earlier frames read the vertices that this one overwrites.
     const auto barrier = [&](vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
                              vk::PipelineStageFlags2 after, vk::AccessFlags2 access) {
-        const vk::MemoryBarrier2 memory{before, written, after, access};
+        const vk::MemoryBarrier2 memory{
+            .srcStageMask = before, .srcAccessMask = written, .dstStageMask = after, .dstAccessMask = access};
         commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
     };
     barrier(Stage::eVertexAttributeInput, {}, Stage::eCopy, Access::eTransferWrite);
@@ -71,7 +72,8 @@ void DeformedMeshes::record(const Gpu::Impl& gpu, const vk::raii::CommandBuffer&
             continue;
         const vk::DeviceSize size = packed.vertices.size() * sizeof(SceneVertex);
         std::memcpy(staging.mapped + at, packed.vertices.data(), size);
-        commands.copyBuffer(*staging.buffer, vertices, vk::BufferCopy{at, packed.offset, size});
+        commands.copyBuffer(*staging.buffer, vertices,
+                            vk::BufferCopy{.srcOffset = at, .dstOffset = packed.offset, .size = size});
         at += size;
         packed.due = false;
     }

@@ -13,8 +13,8 @@ namespace touchstone {
 
 class GpuScene;
 
-/// Vertices are evaluated by the CPU, as the hand's are, and copied to the device's own buffer at the start of
-/// the next frame.
+/// Vertices are evaluated by the CPU, as the hand's are, and copied to the device's own buffer at the start
+/// of the next frame.
 class DeformedMeshes {
   public:
     void clear() { meshes_.clear(); }

@@ -62,7 +62,8 @@ class SceneRenderer {
     /// std::invalid_argument for another count.
     void setInstancePoses(std::span<const glm::dmat4> sceneFromMesh);
 
-    /// Current vertices of a deforming mesh (Scene::meshes); valid until the next call. Ignores another count.
+    /// Current vertices of a deforming mesh (Scene::meshes); valid until the next call. Ignores another
+    /// count.
     void setMeshVertices(int mesh, const DrawnVertices& vertices);
 
     /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Valid

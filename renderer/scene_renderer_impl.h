@@ -129,8 +129,8 @@ struct SceneRenderer::Impl {
     MovingInstances moving_;
     DeformedMeshes deformed_;
     std::vector<uint64_t> revisions_; ///< of the instances' vertices
-    uint64_t content_ = 0;   ///< PictureKey::content
-    std::vector<Cold> cold_; ///< of `coming_`, not used yet
+    uint64_t content_ = 0;            ///< PictureKey::content
+    std::vector<Cold> cold_;          ///< of `coming_`, not used yet
     std::vector<glm::vec3> materialColors_;
     std::vector<DrawItem> draws_;     ///< a member, to reuse its memory between frames
     std::vector<DrawItem> keptDraws_; ///< of the picture being refined

@@ -31,7 +31,8 @@ void WorkbenchWindow::draw() {
 
     if (hasModel()) {
         showMaterials();
-        poseAt(animationTime(shownSettings(), shownTick().time), *touch_.shown().model.scene, screen_.renderer());
+        poseAt(animationTime(shownSettings(), shownTick().time), *touch_.shown().model.scene,
+               screen_.renderer());
     }
     const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{

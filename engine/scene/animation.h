@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-/// The animation that plays in a loop, for the hand and for the eye: Scene::animation, else the first one that
-/// moves or deforms an instance, else the first one that moves a node (a camera). Null: nothing moves.
+/// The animation that plays in a loop, for the hand and for the eye: Scene::animation, else the first one
+/// that moves or deforms an instance, else the first one that moves a node (a camera). Null: nothing moves.
 [[nodiscard]] const Animation* playedAnimation(const Scene& scene);
 
 /// By node: whether the animation moves it, by itself or through a parent.

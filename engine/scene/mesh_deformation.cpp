@@ -115,7 +115,8 @@ glm::vec4 carried(const glm::vec4& tangent, const glm::dmat3& linear, const glm:
     const glm::dvec3 along = linear * (glm::inverse(restLinear) * glm::dvec3(tangent));
     const glm::dvec3 level = along - glm::dot(along, normal) * normal;
     const double length = glm::length(level);
-    return length > 1e-30 && std::isfinite(length) ? glm::vec4(glm::vec3(level / length), tangent.w) : tangent;
+    return length > 1e-30 && std::isfinite(length) ? glm::vec4(glm::vec3(level / length), tangent.w)
+                                                   : tangent;
 }
 
 void turnToFaces(const Mesh& mesh, DrawnVertices& drawn) {

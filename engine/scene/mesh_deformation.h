@@ -27,11 +27,11 @@ struct MeshDeformation {
     std::vector<double> weights; ///< of the static pose, one per target
     int weightsNode = -1;        ///< Scene::nodes: whose channel of weights drives `targets`; -1: none
     std::vector<int> joints;     ///< Scene::nodes; empty: no skin
-    std::vector<glm::mat4> jointFromMesh;      ///< inverse bind matrices; empty: the identity
-    size_t perVertex = 0;                      ///< influences of a vertex
-    std::vector<uint32_t> vertexJoints;        ///< perVertex each, below joints.size()
-    std::vector<float> vertexWeights;          ///< perVertex each, at least 0, with a positive sum
-    glm::dvec3 sceneFromSkin{0.0};             ///< m: a skinned mesh's frame is the scene's, moved here
+    std::vector<glm::mat4> jointFromMesh; ///< inverse bind matrices; empty: the identity
+    size_t perVertex = 0;                 ///< influences of a vertex
+    std::vector<uint32_t> vertexJoints;   ///< perVertex each, below joints.size()
+    std::vector<float> vertexWeights;     ///< perVertex each, at least 0, with a positive sum
+    glm::dvec3 sceneFromSkin{0.0};        ///< m: a skinned mesh's frame is the scene's, moved here
 
     [[nodiscard]] uint64_t memoryBytes() const;
     /// True where `animation` moves a vertex. `moved`: movedNodes.
@@ -71,8 +71,8 @@ struct DrawnVertices {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec4> tangents; ///< without displacements of their own
 };
-/// `rest`: the same deformation in the static pose, whose tangents the mesh has. Normals of a mesh without any
-/// in the file are those of its triangles. Allocates where `drawn` is of another size.
+/// `rest`: the same deformation in the static pose, whose tangents the mesh has. Normals of a mesh without
+/// any in the file are those of its triangles. Allocates where `drawn` is of another size.
 void deform(const Mesh& mesh, const DeformedVertices& vertices, const DeformedVertices& rest,
             DrawnVertices& drawn);
 

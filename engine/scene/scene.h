@@ -40,8 +40,8 @@ struct Mesh {
     bool normalsFromFile = false, tangentsFromFile = false;
     /// Null unless an animation of the file drives the skin or the morph targets; the arrays above are then
     /// the static pose.
-    std::shared_ptr<const MeshDeformation> deformation;
-    std::vector<uint32_t> sources; ///< by vertex: its vertex in `deformation`; empty without
+    std::shared_ptr<const MeshDeformation> deformation{};
+    std::vector<uint32_t> sources{}; ///< by vertex: its vertex in `deformation`; empty without
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] size_t lineCount() const { return lineIndices.size() / 2; }
@@ -80,7 +80,7 @@ struct AnimationChannel {
     std::vector<float> times;      ///< s, strictly increasing
     std::vector<glm::vec4> values; ///< xyz(w); 3 per key for CubicSpline (in-tangent, value, out-tangent)
     size_t targets = 0;            ///< of Weights: morph targets of the node's mesh
-    std::vector<float> weights;    ///< of Weights, instead of `values`: `targets` per value
+    std::vector<float> weights{};  ///< of Weights, instead of `values`: `targets` per value
 };
 
 struct Animation {

@@ -28,8 +28,8 @@ bool separated(const End& first, const End& last, double keep) {
     const glm::dvec3 &n0 = first.distance.gradient, &n1 = last.distance.gradient;
     const std::array<glm::dvec3, 3> w0 = towards(first), w1 = towards(last);
     for (size_t v = 0; v < 3; ++v) {
-        const double least = std::min({glm::dot(n0, w0[v]), 0.5 * (glm::dot(n0, w1[v]) + glm::dot(n1, w0[v])),
-                                       glm::dot(n1, w1[v])});
+        const double least = std::min(
+            {glm::dot(n0, w0[v]), 0.5 * (glm::dot(n0, w1[v]) + glm::dot(n1, w0[v])), glm::dot(n1, w1[v])});
         if (!(least >= keep))
             return false;
     }
@@ -90,7 +90,8 @@ bool staysClear(const MovingTriangle& triangle, const glm::dvec3& from, const gl
 glm::dvec3 carriedAlong(const MovingTriangle& triangle, const glm::dvec3& point) noexcept {
     const TriangleDistance here = distanceTo(triangle.start, point);
     const glm::dvec3 weight = barycentric(triangle.start, here.closest);
-    const glm::dvec3 closest = weight.x * triangle.end.a + weight.y * triangle.end.b + weight.z * triangle.end.c;
+    const glm::dvec3 closest =
+        weight.x * triangle.end.a + weight.y * triangle.end.b + weight.z * triangle.end.c;
     const glm::dvec3 offset = point - here.closest;
     const glm::dmat3 before = axesOf(triangle.start), after = axesOf(triangle.end);
     const bool turns = before[0] != glm::dvec3(0.0) && after[0] != glm::dvec3(0.0);

@@ -18,10 +18,11 @@
 // along the chord of what is an arc in its object's frame: with turns of 1/8 rad chord and arc differ by
 // 0.0017 of the object's longest side at most. Every chord is still a path clear of the object.
 //
-// An object whose vertices move (HapticObject::instant) carries its copy nowhere by itself. Its copy stays where
-// the step begins, and a place is reached when the straight way there, in the time of the step, is clear of all
-// triangles while they move (staysClear). A triangle that is in the way gives its half-space at the step's end,
-// linearised where the copy would be had the triangle carried it along: on the side where it was.
+// An object whose vertices move (HapticObject::instant) carries its copy nowhere by itself. Its copy stays
+// where the step begins, and a place is reached when the straight way there, in the time of the step, is
+// clear of all triangles while they move (staysClear). A triangle that is in the way gives its half-space at
+// the step's end, linearised where the copy would be had the triangle carried it along: on the side where it
+// was.
 
 #include "haptics/proxy/moving_obstacles.h"
 
@@ -56,8 +57,8 @@ constexpr int kSweepBudget = 512;
 constexpr int kFollowRounds = 8;
 /// Once a jammed object has moved on by this distance (its longest side is 1), touch begins again.
 constexpr double kGivenUp = 0.5;
-/// Of the distance that the proxy keeps: what a moving triangle leaves it within a step. At the step's end it is
-/// the whole distance.
+/// Of the distance that the proxy keeps: what a moving triangle leaves it within a step. At the step's end it
+/// is the whole distance.
 constexpr double kLeftInStep = 0.5;
 
 class MovingObstacles {
@@ -81,8 +82,8 @@ class MovingObstacles {
         Triangle triangle;
         const Shape* shape = nullptr;
         FeatureId feature = 0;
-        bool moving = false;   ///< the triangle, at the step's end, of an object that deforms
-        glm::dvec3 at{0.0};    ///< then: where it is linearised
+        bool moving = false; ///< the triangle, at the step's end, of an object that deforms
+        glm::dvec3 at{0.0};  ///< then: where it is linearised
 
         [[nodiscard]] FeatureDistance from(const glm::dvec3& place) const noexcept {
             if (moving) { // as if measured at `place`: the plane is what counts
@@ -146,11 +147,11 @@ class MovingObstacles {
     std::array<Hit, kMaxHit> hit_;
     std::array<ConstraintPlane, kMaxHit> planes_;
     size_t struckCount_ = 0;
-    bool revised_ = false; // a moving triangle was linearised again in this round
-    bool deforming_ = false; // some object near does
-    double from_ = 0.0, to_ = 0.0; // of the step, in ticks
+    bool revised_ = false;                   // a moving triangle was linearised again in this round
+    bool deforming_ = false;                 // some object near does
+    double from_ = 0.0, to_ = 0.0;           // of the step, in ticks
     glm::dvec3 drift_{0.0}, stepDrift_{0.0}; // of the reference object's deforming surface at the proxy
-    int pusher_ = -1; // object whose plane held the last place that was pushed
+    int pusher_ = -1;                        // object whose plane held the last place that was pushed
     bool anchorPushes_ = false;
 };
 
@@ -386,7 +387,8 @@ MovingTriangle MovingObstacles::movingTriangle(const MovingObstacle& copy, uint3
 /// end, whose places the tree knows, no vertex moves farther than `travel`.
 bool MovingObstacles::gatherMoving(const MovingObstacle& copy, const glm::dvec3& to) noexcept {
     const glm::dvec3 half = 0.5 * (to - copy.origin);
-    const double ball = glm::length(half) + copy.reach + kObstacleGap + (1.0 - from_) * instantOf(copy)->travel;
+    const double ball =
+        glm::length(half) + copy.reach + kObstacleGap + (1.0 - from_) * instantOf(copy)->travel;
     CandidateCache& cache = state_.obstacleCandidates;
     const auto k = index(copy.object);
     cache.standsClearBy(INFINITY);

@@ -124,13 +124,13 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         return 0;
     }
     WorldState world(std::move(source), *scene);
-    auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), ++offeredScenes_,
-                                               offeredGeometry_);
+    auto offer =
+        std::make_shared<const Offer>(std::move(scene), std::move(world), ++offeredScenes_, offeredGeometry_);
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
-        offer->world.publishAhead(
-            animationTime(offeredSettings_.back().settings,
-                          1e-9 * static_cast<double>(monotonicNs() - startedNs_.load(std::memory_order_relaxed))));
+        offer->world.publishAhead(animationTime(
+            offeredSettings_.back().settings,
+            1e-9 * static_cast<double>(monotonicNs() - startedNs_.load(std::memory_order_relaxed))));
     else
         waiting_ = offer;
     scene_.offer(std::move(offer));
@@ -242,9 +242,9 @@ void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
 
 /// Poses of this tick, then the sample of every hand: one that the program moves follows them.
 void ServoLoop::sampleHands(Touch& touch, const TickRecord& record) noexcept {
-    const ObjectMotions poses =
-        touch.offer != nullptr ? touch.offer->world.advance(animationTime(*touch.settings, record.time))
-                               : ObjectMotions();
+    const ObjectMotions poses = touch.offer != nullptr
+                                    ? touch.offer->world.advance(animationTime(*touch.settings, record.time))
+                                    : ObjectMotions();
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         const DevicePort& port = ports_[hand];
         if (port.feel != nullptr) {

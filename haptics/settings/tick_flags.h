@@ -23,10 +23,10 @@ enum class TickFlag : uint32_t {
         1u << 11,             ///< the contact method lacks its data, or does not handle an object: swept
     SafetyLatched = 1u << 10, ///< after a fault or late ticks: no force until it is switched off and on again
     Jammed = 1u << 12, ///< moving objects left the proxy no room: it stays with one, the others are not felt
-    EnergyGiven = 1u << 14,  ///< the device gave more energy than it took, by more than kNoticedEnergy
-    EnergyDamped = 1u << 15, ///< passivity=control: a damper took some of it back
+    EnergyGiven = 1u << 14,     ///< the device gave more energy than it took, by more than kNoticedEnergy
+    EnergyDamped = 1u << 15,    ///< passivity=control: a damper took some of it back
     DeformationHeld = 1u << 16, ///< vertices were not published in time: the deforming objects stood still
-    ObjectJumped = 1u << 13, ///< an object was placed elsewhere (an animation restarted) and swept nothing
+    ObjectJumped = 1u << 13,    ///< an object was placed elsewhere (an animation restarted) and swept nothing
 };
 [[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) {
     return flags | static_cast<uint32_t>(flag);

@@ -28,14 +28,15 @@ std::unique_ptr<DeformingObjects> DeformingObjects::of(const ScenePtr& source, c
         const auto& deformation = source->meshes[mesh].deformation;
         return deformation != nullptr && deformation->drivenBy(*animation, moved);
     });
-    return any ? std::unique_ptr<DeformingObjects>(new DeformingObjects(source, *animation, haptic)) : nullptr;
+    return any ? std::unique_ptr<DeformingObjects>(new DeformingObjects(source, *animation, haptic))
+               : nullptr;
 }
 
 DeformingObjects::DeformingObjects(ScenePtr source, const Animation& animation, const HapticScene& haptic)
     : source_(std::move(source)), animation_(&animation), scene_(copyOf(haptic)), pose_(*source_) {
     const std::vector<bool> moved = movedNodes(*source_, animation);
-    intervals_ = std::max<int64_t>(
-        static_cast<int64_t>(std::ceil(animation.duration * kPublicationRate - 1e-9)), 1);
+    intervals_ =
+        std::max<int64_t>(static_cast<int64_t>(std::ceil(animation.duration * kPublicationRate - 1e-9)), 1);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         const HapticObject& object = *haptic.objects[k];
         if (object.instance < 0 || object.shape != nullptr || object.indices.empty())
@@ -89,9 +90,8 @@ void DeformingObjects::addSlots(size_t count) {
         auto slot = std::make_unique<Slot>();
         for (const Deformed& deformed : deformed_) {
             Part& part = slot->parts.emplace_back();
-            const size_t normals = deformed.own->anySmooth && deformed.mesh->normalsFromFile
-                                       ? deformed.own->normals.size()
-                                       : 0;
+            const size_t normals =
+                deformed.own->anySmooth && deformed.mesh->normalsFromFile ? deformed.own->normals.size() : 0;
             for (auto* positions : {&part.from, &part.to})
                 positions->resize(deformed.source.size());
             for (auto* directions : {&part.normalsFrom, &part.normalsTo})
@@ -224,8 +224,8 @@ void DeformingObjects::stepTo(const Moment& moment, bool jumps, bool begins,
         const Part &part = now_->parts[p], &was = before_->parts[p];
         const bool still = begins || (jumps && deformed.jumps);
         instant.now = {part.from.data(), part.to.data(), moment_.fraction};
-        instant.before = still ? instant.now
-                               : VertexBlend{was.from.data(), was.to.data(), previous_.fraction};
+        instant.before =
+            still ? instant.now : VertexBlend{was.from.data(), was.to.data(), previous_.fraction};
         instant.normals = part.normalsFrom.empty()
                               ? VertexBlend{}
                               : VertexBlend{part.normalsFrom.data(), part.normalsTo.data(), moment_.fraction};

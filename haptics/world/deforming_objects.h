@@ -1,7 +1,7 @@
 #pragma once
 // The objects of a world whose vertices an animation moves: skins and morph targets. Their vertices are
-// evaluated on a fixed grid of the animation's time and published with a fitted search tree; a tick blends two
-// publications. So a tick is a pure function of its times, and a replay needs no vertices.
+// evaluated on a fixed grid of the animation's time and published with a fitted search tree; a tick blends
+// two publications. So a tick is a pure function of its times, and a replay needs no vertices.
 
 #include "engine/core/checksum.h"
 #include "engine/math/object_motion.h"
@@ -19,8 +19,8 @@
 
 namespace touchstone {
 
-/// Publications in a second of the animation. Between two of them a vertex moves straight; a limb that turns at
-/// 2 revolutions/s deviates by 1e-4 of its length.
+/// Publications in a second of the animation. Between two of them a vertex moves straight; a limb that turns
+/// at 2 revolutions/s deviates by 1e-4 of its length.
 inline constexpr double kPublicationRate = 240.0;
 
 /// Construct off the servo (it allocates). One thread calls `advance`; a thread of its own may publish ahead.
@@ -108,8 +108,8 @@ class DeformingObjects {
     double lap_ = 0.0;
     bool held_ = false;
     bool placed_ = true; // the vertices have been where the animation has them since the last beginning
-    std::atomic<int64_t> wanted_{0};  // interval of the servo
-    std::atomic<int> direction_{1};   // in which it goes
+    std::atomic<int64_t> wanted_{0}; // interval of the servo
+    std::atomic<int> direction_{1};  // in which it goes
     std::atomic<bool> ahead_{false};
     std::jthread publisher_; // last: it uses all of the above
 };

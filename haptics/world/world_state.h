@@ -46,8 +46,8 @@ class WorldState {
     [[nodiscard]] bool moving() const { return !movers_.empty() || deforming_ != nullptr; }
 
     /// Moves the objects to their poses and places at `time` (s since the start of the animation, any). Where
-    /// the animation restarts at another pose than its last, the object has `jumped`. Returns `poses`. `hold`:
-    /// deforming objects stand still, as they did where a tick has TickFlag::DeformationHeld.
+    /// the animation restarts at another pose than its last, the object has `jumped`. Returns `poses`.
+    /// `hold`: deforming objects stand still, as they did where a tick has TickFlag::DeformationHeld.
     ObjectMotions advance(double time, bool hold = false) noexcept;
     /// `scene`, from which the world was made, or its copy with the vertices of this tick where some deform:
     /// what all queries of this tick read.
@@ -56,8 +56,8 @@ class WorldState {
     }
     /// The deforming objects stand still in this tick, for want of a publication.
     [[nodiscard]] bool held() const noexcept { return deforming_ != nullptr && deforming_->held(); }
-    /// Off the servo, before it gets the world: another thread evaluates vertices ahead of `advance`, which is
-    /// about to be called with `time`. For real time only.
+    /// Off the servo, before it gets the world: another thread evaluates vertices ahead of `advance`, which
+    /// is about to be called with `time`. For real time only.
     void publishAhead(double time) const {
         if (deforming_ != nullptr)
             deforming_->publishAhead(time);

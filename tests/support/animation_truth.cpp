@@ -78,9 +78,9 @@ TruthFile animated(const TruthFile& file, size_t animation, Real time) {
             continue;
         const nlohmann::json& sampler = stated["samplers"][channel["sampler"].get<size_t>()];
         const std::string path = channel["target"]["path"];
-        const Numbers value = sampled(
-            truthNumbers(file, sampler["input"]), truthNumbers(file, sampler["output"]),
-            sampler.value("interpolation", std::string("LINEAR")), path == "rotation", time);
+        const Numbers value =
+            sampled(truthNumbers(file, sampler["input"]), truthNumbers(file, sampler["output"]),
+                    sampler.value("interpolation", std::string("LINEAR")), path == "rotation", time);
         posed.json["nodes"][channel["target"]["node"].get<size_t>()][path] =
             std::vector<double>(value.begin(), value.end());
     }

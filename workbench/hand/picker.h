@@ -18,8 +18,8 @@ class Picker {
   public:
     /// `source`: its animation moves the objects.
     void show(std::shared_ptr<const HapticScene> scene, ScenePtr source);
-    /// The first hit of a line of sight (workspace) at `time` (s, of the animation: animationTime), its stiffness, and the
-    /// maximum stiffness and friction of the scene. `limits` of the hand in use.
+    /// The first hit of a line of sight (workspace) at `time` (s, of the animation: animationTime), its
+    /// stiffness, and the maximum stiffness and friction of the scene. `limits` of the hand in use.
     [[nodiscard]] std::optional<PointedSurface>
     look(const Ray& ray, double time, const HapticSettings& settings, const DeviceLimits& limits);
     /// Scene::instances of the first hit at `time`; -1: none.

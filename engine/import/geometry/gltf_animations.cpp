@@ -124,7 +124,8 @@ size_t targetsOf(const GltfDocument& document, int gltfNode) {
     const int mesh = document.model.nodes[static_cast<size_t>(gltfNode)].mesh;
     size_t most = 0;
     if (mesh >= 0)
-        for (const tinygltf::Primitive& primitive : document.model.meshes[static_cast<size_t>(mesh)].primitives)
+        for (const tinygltf::Primitive& primitive :
+             document.model.meshes[static_cast<size_t>(mesh)].primitives)
             most = std::max(most, primitive.targets.size());
     return most;
 }
@@ -185,7 +186,8 @@ std::optional<AnimationChannel> readChannel(ImportContext& context, const GltfDo
                      "export the node with translation, rotation and scale");
     channel.interpolation = interpolationOf(context, sampler.interpolation, samplerPlace);
     if (channel.path == AnimatedPath::Weights)
-        channel.weights = readWeights(context, document, sampler.output, channel, at, samplerPlace + ".output");
+        channel.weights =
+            readWeights(context, document, sampler.output, channel, at, samplerPlace + ".output");
     else
         channel.values = readKeys(context, document, sampler.output, channel, at, samplerPlace + ".output");
     channel.times = std::move(at.times);

@@ -7,8 +7,8 @@
 namespace touchstone {
 
 /// Node animations: times finite, not negative and strictly increasing, values finite and as many as the
-/// interpolation needs, rotations of unit length, weights of meshes that have morph targets. Unknown paths are
-/// left out with a warning.
+/// interpolation needs, rotations of unit length, weights of meshes that have morph targets. Unknown paths
+/// are left out with a warning.
 [[nodiscard]] std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument& document,
                                                     const NodeForest& forest, const std::vector<Node>& nodes);
 

@@ -229,8 +229,9 @@ std::shared_ptr<MeshDeformation> deformationOf(ImportContext& context, const Glt
         deformation->weights.push_back(t < pose.weights.size() ? pose.weights[t] : 0.0);
         deformation->targets.push_back(
             {displacements(context, document, target, "POSITION", vertices, at),
-             deformation->normals.empty() ? std::vector<glm::vec3>()
-                                          : displacements(context, document, target, "NORMAL", vertices, at)});
+             deformation->normals.empty()
+                 ? std::vector<glm::vec3>()
+                 : displacements(context, document, target, "NORMAL", vertices, at)});
     }
     deformation->weightsNode = morphs ? pose.weightsNode : -1;
     return deformation;

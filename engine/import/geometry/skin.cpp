@@ -149,7 +149,8 @@ const SkinPose& SkinPoses::get(size_t skin) {
     const std::vector<size_t> joints = stated["joints"];
     if (joints.empty())
         context_.fail(pose.place + ".joints", "is empty: the mesh has nothing to follow");
-    context_.spendGeometry(joints.size() * (sizeof(glm::dmat4) + sizeof(glm::mat4) + 2 * sizeof(size_t)), pose.place);
+    context_.spendGeometry(joints.size() * (sizeof(glm::dmat4) + sizeof(glm::mat4) + 2 * sizeof(size_t)),
+                           pose.place);
     checkJoints(joints, pose.place);
     pose.jointFromMesh = inverseBinds(stated, pose.place);
     pose.sceneFromMesh.resize(joints.size());

@@ -1,8 +1,8 @@
 #pragma once
-// Skins in the pose of their joints in the file, and what is needed to move them (glTF 2.0, section 3.7.3): the weighted mean of
-// sceneFromJoint * inverseBind transforms the vertices of a skinned mesh to the scene, and its node's
-// transform is ignored. Reading (SkinPoses, readInfluences) and posing (poseVertices) are separate, so that a
-// skin can be posed again.
+// Skins in the pose of their joints in the file, and what is needed to move them (glTF 2.0, section 3.7.3):
+// the weighted mean of sceneFromJoint * inverseBind transforms the vertices of a skinned mesh to the scene,
+// and its node's transform is ignored. Reading (SkinPoses, readInfluences) and posing (poseVertices) are
+// separate, so that a skin can be posed again.
 
 #include "engine/import/geometry/gltf_nodes.h"
 #include "engine/import/geometry/vertex_attributes.h"

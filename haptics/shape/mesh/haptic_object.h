@@ -79,8 +79,9 @@ struct HapticObject {
     bool oneSided = false; ///< the material's `sides` is front: felt only from outside
     RayTree rays;          ///< Embree's, for rays; built on demand
     TriangleTree tree;     ///< for proximity queries
-    /// Null but in a world's own copy of an object that deforms (world/deforming_objects.h): then the vertices
-    /// of this tick, instead of `vertices`, `normals` and `tree`, which are those of the static pose.
+    /// Null but in a world's own copy of an object that deforms (world/deforming_objects.h): then the
+    /// vertices of this tick, instead of `vertices`, `normals` and `tree`, which are those of the static
+    /// pose.
     const MeshInstant* instant = nullptr;
 
     [[nodiscard]] size_t triangleCount() const { return indices.size() / 3; }

@@ -76,8 +76,8 @@ TEST(MeshDeformation, BendsTheBeamAsTheSpecificationSays) {
     const ScenePtr scene = test::load(beam.maker);
     for (const double time : {0.0, 0.25, 0.5, 0.9, 1.0}) {
         const auto truth = test::evaluatePose(test::animated(test::truthFile(beam.maker), 0, time));
-        const auto off = test::compare(
-            truth, test::objectsOf(test::sceneAt(*scene, &scene->animations[0], time)));
+        const auto off =
+            test::compare(truth, test::objectsOf(test::sceneAt(*scene, &scene->animations[0], time)));
         EXPECT_EQ(off.problem, "");
         EXPECT_LT(off.position, 1e-6L) << time;
         EXPECT_LT(off.normal, 1e-6L) << time;
@@ -93,10 +93,10 @@ test::GltfMaker liftedTriangle(const nlohmann::json& sampler, size_t& times) {
     const size_t lift = maker.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     maker.json["accessors"][lift]["min"] = {0.0, 0.0, 1.0};
     maker.json["accessors"][lift]["max"] = {0.0, 0.0, 1.0};
-    maker.append("meshes", {{"primitives",
-                             {{{"attributes", {{"POSITION", positions}}},
-                               {"targets", {{{"POSITION", lift}}}}}}},
-                            {"weights", {0.25}}});
+    maker.append(
+        "meshes",
+        {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"targets", {{{"POSITION", lift}}}}}}},
+         {"weights", {0.25}}});
     maker.show(0);
     maker.append("nodes", {{"mesh", 0}});
     maker.json["scenes"][0]["nodes"].push_back(1);
@@ -129,8 +129,8 @@ TEST(MeshDeformation, WeightsFollowACubicSpline) {
     const ScenePtr scene = test::load(maker);
     for (const double time : {0.0, 0.3, 0.8}) {
         const auto truth = test::evaluatePose(test::animated(test::truthFile(maker), 0, time));
-        const auto off = test::compare(
-            truth, test::objectsOf(test::sceneAt(*scene, &scene->animations[0], time)));
+        const auto off =
+            test::compare(truth, test::objectsOf(test::sceneAt(*scene, &scene->animations[0], time)));
         EXPECT_LT(off.position, 1e-6L) << time;
     }
 }
@@ -146,15 +146,24 @@ TEST(MeshDeformation, BrokenWeightsLeaveTheStaticPose) {
         EXPECT_EQ(scene->meshes[0].deformation, nullptr) << message;
         EXPECT_TRUE(test::warns(*scene, "animations[0]", message)) << message;
     };
-    broken([](test::GltfMaker& m) { m.json["animations"][0]["samplers"][0]["output"] =
-                                  m.addAccessor<float>({0.0f, 1.0f, 2.0f}, "SCALAR"); },
-           "values where");
-    broken([](test::GltfMaker& m) { m.json["animations"][0]["samplers"][0]["output"] =
-                                  m.addAccessor<float>({0.0f, INFINITY}, "SCALAR"); },
-           "not finite");
-    broken([](test::GltfMaker& m) { m.json["meshes"][0]["primitives"][0].erase("targets");
-                              m.json["meshes"][0].erase("weights"); },
-           "without morph targets");
+    broken(
+        [](test::GltfMaker& m) {
+            m.json["animations"][0]["samplers"][0]["output"] =
+                m.addAccessor<float>({0.0f, 1.0f, 2.0f}, "SCALAR");
+        },
+        "values where");
+    broken(
+        [](test::GltfMaker& m) {
+            m.json["animations"][0]["samplers"][0]["output"] =
+                m.addAccessor<float>({0.0f, INFINITY}, "SCALAR");
+        },
+        "not finite");
+    broken(
+        [](test::GltfMaker& m) {
+            m.json["meshes"][0]["primitives"][0].erase("targets");
+            m.json["meshes"][0].erase("weights");
+        },
+        "without morph targets");
 }
 
 TEST(MeshDeformation, AnAnimationIsChosenByNameOrNumber) {
