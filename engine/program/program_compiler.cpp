@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
+#include "engine/process/helper_program.h"
 #include "engine/process/process_answer.h"
 
 #include <signal.h>
@@ -103,9 +104,7 @@ std::string remedyFor(std::string_view message) {
 
 ProgramCompiler installedProgramCompiler() {
     ProgramCompiler compiler;
-    std::error_code problem;
-    compiler.program = std::filesystem::read_symlink("/proc/self/exe", problem).parent_path() /
-                       "touchstone_program_compiler";
+    compiler.program = helperProgram("touchstone_program_compiler");
     compiler.limits.processorSeconds = 5;
     compiler.limits.seconds = 30;
     compiler.limits.memory = std::max(kMaxMemory / 2, uint64_t{1} << 30);

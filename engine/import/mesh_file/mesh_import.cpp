@@ -2,6 +2,7 @@
 
 #include "engine/import/file/gltf_kind.h"
 #include "engine/import/mesh_file/flat_glb.h"
+#include "engine/process/helper_program.h"
 #include "engine/process/process_answer.h"
 
 #include <signal.h>
@@ -81,10 +82,7 @@ void checkMeshBytes(const std::string& shownAs, uint64_t bytes, MeshFormat forma
 
 MeshReader installedMeshReader(uint64_t bytes) {
     MeshReader reader;
-    // The link is that of a running program even where another build has replaced its file.
-    std::error_code problem;
-    reader.program =
-        std::filesystem::read_symlink("/proc/self/exe", problem).parent_path() / "touchstone_mesh_reader";
+    reader.program = helperProgram("touchstone_mesh_reader");
     reader.limits.processorSeconds = 5 + static_cast<unsigned>(bytes / 1'000'000);
     reader.limits.seconds = 10 * reader.limits.processorSeconds;
     reader.limits.memory = std::max(kMaxMemory, uint64_t{4} << 30);

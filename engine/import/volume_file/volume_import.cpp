@@ -2,6 +2,7 @@
 
 #include "engine/core/input_file.h"
 #include "engine/import/volume_file/flat_volume_format.h"
+#include "engine/process/helper_program.h"
 #include "engine/process/mapped_file.h"
 #include "engine/process/process_answer.h"
 
@@ -246,10 +247,7 @@ VolumeFacts factsOf(const FlatVolumeHead& head, VolumeFormat format) {
 
 VolumeReader installedVolumeReader(uint64_t bytes) {
     VolumeReader reader;
-    // The link is that of a running program even where another build has replaced its file.
-    std::error_code problem;
-    reader.program =
-        std::filesystem::read_symlink("/proc/self/exe", problem).parent_path() / "touchstone_volume_reader";
+    reader.program = helperProgram("touchstone_volume_reader");
     reader.limits.processorSeconds = 10 + static_cast<unsigned>(bytes / 4'000'000);
     reader.limits.seconds = 10 * reader.limits.processorSeconds;
     reader.limits.memory = std::max(kMaxMemory, uint64_t{4} << 30);

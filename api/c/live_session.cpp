@@ -1,0 +1,302 @@
+#include "api/c/live_session.h"
+
+#include "api/c/calls.h"
+#include "devices/choice/device_choice.h"
+#include "devices/stroke/stroke_library.h"
+#include "engine/time/seconds_now.h"
+#include "session/device_port.h"
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace touchstone::api {
+
+namespace {
+
+constexpr const char* kStroke = "stroke";
+
+double limitOr(double given, double usual, const char* member) {
+    if (given == 0.0)
+        return usual;
+    if (!std::isfinite(given) || given < 0.0)
+        refuseArgument(std::string("options.own.") + member, "is not finite and above 0");
+    return given;
+}
+
+void setVector(double (&out)[3], const glm::dvec3& value) {
+    for (int axis = 0; axis < 3; ++axis)
+        out[axis] = value[axis];
+}
+
+/// The stroke that `device` names; empty: it names a device.
+std::string strokeOf(const char* device) {
+    const std::string text = device != nullptr ? device : "";
+    if (text != kStroke && !text.starts_with("stroke:"))
+        return {};
+    const std::string name = text == kStroke ? "tour" : text.substr(7);
+    if (const std::string problem = strokeProblem(name); !problem.empty())
+        refuseArgument("options.device", problem);
+    return name;
+}
+
+} // namespace
+
+CallersDevice::CallersDevice(const ts_device& device) : device_(device) {
+    if (device_.sample == nullptr)
+        refuseArgument("options.own.sample", "is null");
+    if (device_.apply == nullptr)
+        refuseArgument("options.own.apply", "is null");
+    limits_.maxForce = limitOr(device_.max_force, limits_.maxForce, "max_force");
+    limits_.maxForceRate = limitOr(device_.max_force_rate, limits_.maxForceRate, "max_force_rate");
+    limits_.recommendedStiffness = limitOr(device_.stiffness, limits_.recommendedStiffness, "stiffness");
+    limits_.maxStiffness = limitOr(device_.max_stiffness, limits_.maxStiffness, "max_stiffness");
+    limits_.staleAge = limitOr(device_.stale_age, limits_.staleAge, "stale_age");
+}
+
+DeviceSample CallersDevice::sample(double time) noexcept {
+    ts_reading reading{};
+    reading.size = sizeof reading;
+    device_.sample(device_.context, time, &reading);
+    DeviceSample sample;
+    sample.position = {reading.position[0], reading.position[1], reading.position[2]};
+    const glm::dquat turned{reading.orientation[0], reading.orientation[1], reading.orientation[2],
+                            reading.orientation[3]};
+    if (const double length = glm::length(turned); std::isfinite(length) && length > 1e-6)
+        sample.orientation = turned / length;
+    sample.age = reading.age;
+    sample.buttons = reading.buttons;
+    sample.valid = reading.valid != 0;
+    return sample;
+}
+
+void CallersDevice::apply(const DeviceCommand& command) noexcept {
+    const glm::dvec3& force = command.force();
+    const double array[3]{force.x, force.y, force.z};
+    device_.apply(device_.context, array);
+}
+
+LiveSession::LiveSession(const ts_session_options& options)
+    : rate_(options.rate != 0.0 ? options.rate : 1000.0), keep_(options.keep) {
+    constexpr size_t kMostKept = 10'000'000;
+    if (!(rate_ >= kMinServoRate && rate_ <= kMaxServoRate))
+        refuseArgument("options.rate", "is not within 100 .. 4000 Hz");
+    if (keep_ > kMostKept)
+        refuseArgument("options.keep", "is above " + std::to_string(kMostKept));
+    if ((options.device == nullptr) == (options.own == nullptr))
+        refuseArgument("options.device", "give either a device or `own`");
+    if (options.own != nullptr)
+        own_ = std::make_unique<CallersDevice>(structOf(options.own, "options.own"));
+    else if (stroke_ = strokeOf(options.device); stroke_.empty()) {
+        linked_ = openDevice(options.device, "stroke (a simulated hand)");
+        if (linked_ == nullptr)
+            throw Refused(TS_INPUT, "options.device: no device is plugged in that may be used");
+    }
+}
+
+LiveSession::~LiveSession() {
+    if (session_ != nullptr && running_)
+        session_->stop();
+}
+
+void LiveSession::requireOpen() const {
+    if (closed_.load(std::memory_order_acquire))
+        throw Refused(TS_CLOSED, "session: this handle was closed");
+}
+
+Device& LiveSession::simulatedHand() {
+    StrokeRequest request;
+    request.name = stroke_;
+    const auto stroke = std::make_shared<StrokePath>(
+        layStroke(*scene_->source(), scene_->haptic()->workspaceFromScene, request));
+    path_ = std::make_unique<SimulatedHand>(stroke);
+    yielding_ = std::make_unique<HandImpedance>(*path_);
+    mapped_ = std::make_unique<MappedDevice>(*yielding_, 1.0, stroke->place());
+    return *mapped_;
+}
+
+void LiveSession::makeSession() {
+    Device* device = own_.get();
+    if (linked_ != nullptr) {
+        mapped_ = std::make_unique<MappedDevice>(*linked_, 1.0, glm::dvec3(0.0));
+        device = mapped_.get();
+    } else if (device == nullptr) {
+        device = &simulatedHand();
+    }
+    session_ =
+        std::make_unique<Session>(std::vector<DevicePort>{portOf(*device)}, ServoConfig{.rateHz = rate_});
+    recorder_.emplace(session_->servo());
+    session_->subscribe(*this);
+    session_->set(settings_);
+}
+
+void LiveSession::touch(std::shared_ptr<TouchedScene> scene) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    scene->prepareFor(settings_);
+    scene_ = std::move(scene);
+    if (session_ == nullptr || (!running_ && !stroke_.empty())) {
+        recorder_.reset();
+        session_.reset();
+        makeSession();
+    }
+    (void)session_->touch(scene_->haptic(), scene_->source(), scene_->identity());
+}
+
+void LiveSession::set(std::string_view name, std::string_view value) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    if (const std::string problem = setSetting(settings_, name, value); !problem.empty())
+        refuseArgument("value", problem);
+    if (scene_ != nullptr)
+        scene_->prepareFor(settings_);
+    if (session_ != nullptr)
+        session_->set(settings_);
+}
+
+void LiveSession::force(bool on) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    if (session_ == nullptr)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    ForceSwitch& force = session_->forceSwitch();
+    if (on)
+        (void)force.giveBack(force.state());
+    else
+        force.takeAway(false);
+}
+
+void LiveSession::record(const char* file) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    if (!recorder_)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    if (file != nullptr) {
+        recorder_->start(file, "api");
+        return;
+    }
+    if (running_)
+        session_->pump(secondsNow());
+    recorder_->stop();
+    if (const std::string problem = recorder_->takeProblem(); !problem.empty())
+        throw Refused(TS_INPUT, problem);
+}
+
+void LiveSession::start() {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    if (session_ == nullptr)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    if (!running_)
+        session_->start();
+    running_ = true;
+}
+
+void LiveSession::stop() {
+    const std::lock_guard lock(mutex_);
+    if (session_ == nullptr || !running_)
+        return;
+    session_->stop();
+    running_ = false;
+    session_->pump(secondsNow());
+}
+
+ts_state LiveSession::state() const {
+    ts_state state{};
+    const TickRecord& tick = session_->tick();
+    const ServoLoop::Counters counters = session_->servo().counters();
+    state.touching = session_->touching() ? 1 : 0;
+    state.tick = tick.tick;
+    state.time = tick.time;
+    setVector(state.hip, tick.output.hip);
+    setVector(state.proxy, tick.output.proxy);
+    setVector(state.normal, tick.output.normal);
+    setVector(state.force, tick.output.force);
+    setVector(state.command, tick.output.commandInWorkspace);
+    state.penetration = tick.output.penetration;
+    state.contacts = tick.output.contacts;
+    state.friction = static_cast<uint32_t>(tick.output.friction);
+    state.flags = tick.output.flags;
+    state.object = tick.output.object;
+    state.ticks = counters.ticks;
+    state.missed = counters.missed;
+    state.skipped = counters.skipped;
+    state.dropped = counters.droppedRecords;
+    state.realtime = running_ && session_->servo().scheduling().policy.starts_with("SCHED_FIFO") ? 1 : 0;
+    return state;
+}
+
+ts_state LiveSession::pump() {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    if (session_ == nullptr)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    session_->pump(secondsNow());
+    return state();
+}
+
+void LiveSession::run(double seconds, double rate, Callback callback, void* context) {
+    if (!(seconds >= 0.0 && seconds <= 1e9))
+        refuseArgument("seconds", "is not within 0 .. 1e9");
+    if (rate != 0.0 && !(rate >= 1.0 && rate <= 1000.0))
+        refuseArgument("rate", "is not within 1 .. 1000 Hz");
+    if (callback == nullptr)
+        refuseArgument("callback", "is null");
+    bool starts = false;
+    {
+        const std::lock_guard lock(mutex_);
+        starts = !running_;
+        start();
+    }
+    using Clock = std::chrono::steady_clock;
+    const auto period = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(1.0 / (rate != 0.0 ? rate : 60.0)));
+    const Clock::time_point begin = Clock::now();
+    const Clock::time_point end =
+        begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    for (Clock::time_point next = begin + period; Clock::now() < end; next += period) {
+        next = std::max(next, Clock::now()); // late callbacks do not come in bursts
+        std::this_thread::sleep_until(std::min(next, end));
+        ts_state now = pump();
+        now.size = sizeof now;
+        if (callback(context, &now) != 0)
+            break;
+    }
+    if (starts)
+        stop();
+    requireOpen();
+}
+
+size_t LiveSession::takeKept(const TickArrays& ticks) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    const size_t count = std::min(kept_.size(), ticks.capacity());
+    for (size_t i = 0; i < count; ++i)
+        ticks.put(i, kept_[i]);
+    kept_.erase(kept_.begin(), kept_.begin() + static_cast<ptrdiff_t>(count));
+    return count;
+}
+
+void LiveSession::closed() {
+    closed_.store(true, std::memory_order_release);
+    stop();
+}
+
+void LiveSession::sceneOffered(const OfferedScene& scene) {
+    recorder_->sceneOffered(scene.number, scene.identity);
+}
+
+void LiveSession::take(const TickRecord& record, const HapticSettings&) {
+    recorder_->take(record);
+    if (keep_ == 0)
+        return;
+    if (kept_.size() == keep_)
+        kept_.pop_front();
+    kept_.push_back(rowOf(record.time, record.output, record.stepNs));
+}
+
+void LiveSession::flush(double) {
+    recorder_->flush();
+}
+
+} // namespace touchstone::api

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "api/c/tick_arrays.h"
+#include "api/c/touched_scene.h"
+#include "devices/device/mapped_device.h"
+#include "devices/link/linked_device.h"
+#include "devices/plant/hand_impedance.h"
+#include "devices/simulated/simulated_hand.h"
+#include "haptics/recording/servo_recorder.h"
+#include "session/session.h"
+
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace touchstone::api {
+
+/// A device of the caller's: two functions.
+class CallersDevice final : public Device {
+  public:
+    /// Throws Refused.
+    explicit CallersDevice(const ts_device& device);
+    [[nodiscard]] std::string name() const override { return "own device"; }
+    [[nodiscard]] DeviceLimits limits() const override { return limits_; }
+    [[nodiscard]] DeviceSample sample(double time) noexcept override;
+    void apply(const DeviceCommand& command) noexcept override;
+
+  private:
+    ts_device device_;
+    DeviceLimits limits_;
+};
+
+/// What a ts_session names. Every function may be called from any thread and waits for the others, but for
+/// `run`, which lets them in between two pumps.
+class LiveSession final : public Object, private TickSubscriber {
+  public:
+    /// Throws Refused, and Error where the device cannot be opened.
+    explicit LiveSession(const ts_session_options& options);
+    ~LiveSession() override;
+
+    void touch(std::shared_ptr<TouchedScene> scene);
+    void set(std::string_view name, std::string_view value);
+    void force(bool on);
+    void record(const char* file);
+    void start();
+    void stop();
+    [[nodiscard]] ts_state pump();
+    using Callback = int (*)(void* context, const ts_state* state);
+    void run(double seconds, double rate, Callback callback, void* context);
+    [[nodiscard]] size_t takeKept(const TickArrays& ticks);
+    void closed() override;
+
+  private:
+    void sceneOffered(const OfferedScene& scene) override;
+    void take(const TickRecord& record, const HapticSettings& settings) override;
+    void flush(double now) override;
+
+    void requireOpen() const;
+    void makeSession();
+    [[nodiscard]] Device& simulatedHand();
+    [[nodiscard]] ts_state state() const;
+
+    mutable std::recursive_mutex mutex_;
+    double rate_;
+    std::string stroke_; // of a simulated hand; empty: a device
+    std::unique_ptr<CallersDevice> own_;
+    std::unique_ptr<LinkedDevice> linked_;
+    std::unique_ptr<SimulatedHand> path_;
+    std::unique_ptr<HandImpedance> yielding_;
+    std::unique_ptr<MappedDevice> mapped_;
+    std::unique_ptr<Session> session_; // null: no scene yet
+    std::optional<ServoRecorder> recorder_;
+    std::shared_ptr<TouchedScene> scene_;
+    HapticSettings settings_;
+    bool running_ = false;
+    std::atomic<bool> closed_{false};
+    size_t keep_;
+    std::deque<TickRow> kept_;
+};
+
+} // namespace touchstone::api

@@ -1,0 +1,192 @@
+// ts_scene_*, ts_setting*, ts_touch, ts_hand_* and ts_stroke.
+
+#include "api/c/calls.h"
+#include "api/c/named_settings.h"
+#include "api/c/offline_hand.h"
+#include "api/c/scene_arrays.h"
+#include "devices/stroke/stroke_library.h"
+#include "engine/load/scene_loader.h"
+
+#include <cmath>
+
+namespace touchstone::api {
+
+namespace {
+
+constexpr const char* kScene = "scene";
+
+LoadOptions loadOptions(const ts_scene_options& options) {
+    LoadOptions loading;
+    loading.images.visual = false;
+    if (options.iso_given != 0) {
+        if (!std::isfinite(options.iso))
+            refuseArgument("options.iso", "is not finite");
+        loading.iso = options.iso;
+    }
+    return loading;
+}
+
+Fit fitOf(const ts_scene_options& options) {
+    if (options.fit != TS_FIT_NONE && options.fit != TS_FIT_WORKSPACE)
+        refuseArgument("options.fit", std::to_string(options.fit) + " is no ts_fit");
+    return options.fit == TS_FIT_NONE ? Fit::None : Fit::Workspace;
+}
+
+/// A scene that `load` reads with the options.
+template <class Load>
+ts_status makeScene(const ts_scene_options* given_, ts_scene* out, const Load& load) {
+    return call([&] {
+        (void)given(out, kScene);
+        const ts_scene_options options = structOf(given_, "options");
+        const Fit fit = fitOf(options);
+        give(std::make_shared<TouchedScene>(load(loadOptions(options)), fit), out);
+    });
+}
+
+std::vector<uint8_t> bytesOf(const void* bytes, size_t count) {
+    if (count > 0 && bytes == nullptr)
+        refuseArgument("bytes", "is null");
+    const auto* begin = static_cast<const uint8_t*>(bytes);
+    return {begin, begin + count};
+}
+
+std::shared_ptr<OfflineHand> newHand(ts_scene scene, ts_settings settings) {
+    return std::make_shared<OfflineHand>(take<TouchedScene>(scene, kScene), settingsOf(settings));
+}
+
+[[noreturn]] void cancelled(size_t done, size_t count) {
+    throw Refused(TS_CANCELLED, "path.progress: stopped after " + std::to_string(done) + " of " +
+                                    std::to_string(count) + " ticks");
+}
+
+void touchPath(OfflineHand& hand, const ts_path* path, const ts_ticks* ticks, size_t* done) {
+    (void)given(path, "path");
+    const ts_path whole = structOf(path, "path");
+    const size_t made = hand.touch(whole, TickArrays(ticks, whole.count));
+    if (done != nullptr)
+        *done = made;
+    if (made < whole.count)
+        cancelled(made, whole.count);
+}
+
+void layPath(const TouchedScene& scene, const StrokeRequest& request, double rate, double* positions,
+             size_t capacity, size_t& rows) {
+    if (!(rate >= 1.0 && rate <= 1e6))
+        refuseArgument("rate", "is not within 1 .. 1e6 Hz");
+    if (const std::string problem = strokeProblem(request.name); !problem.empty())
+        refuseArgument("name", problem);
+    if (positions == nullptr && capacity > 0)
+        refuseArgument("positions", "is null, and its capacity is not 0");
+    const StrokePath stroke = layStroke(*scene.source(), scene.haptic()->workspaceFromScene, request);
+    rows = static_cast<size_t>(std::floor(stroke.period() * rate * (1.0 + 1e-12))) + 1;
+    for (size_t i = 0; i < std::min(rows, capacity); ++i) {
+        const double time = static_cast<double>(i) / rate;
+        const glm::dvec3 place = stroke.positionIn(time, time);
+        for (int axis = 0; axis < 3; ++axis)
+            positions[3 * i + static_cast<size_t>(axis)] = place[axis];
+    }
+}
+
+} // namespace
+} // namespace touchstone::api
+
+using namespace touchstone;
+using namespace touchstone::api;
+
+extern "C" {
+
+void ts_material_init(ts_material* material) {
+    if (material != nullptr)
+        *material = {sizeof(ts_material), nullptr, NAN, NAN, NAN, NAN, NAN};
+}
+
+ts_status ts_scene_load(const char* file, const ts_scene_options* options, ts_scene* scene) {
+    return makeScene(options, scene,
+                     [&](const LoadOptions& loading) { return loadScene(textOf(file, "file"), loading); });
+}
+
+ts_status ts_scene_load_memory(const void* bytes, size_t count, const char* folder,
+                               const ts_scene_options* options, ts_scene* scene) {
+    return makeScene(options, scene, [&](const LoadOptions& loading) {
+        return loadSceneFromMemory(bytesOf(bytes, count), folder != nullptr ? folder : "", loading);
+    });
+}
+
+ts_status ts_scene_create(const ts_mesh* meshes, size_t mesh_count, const ts_material* materials,
+                          size_t material_count, const ts_scene_options* options, ts_scene* scene) {
+    return makeScene(options, scene, [&](const LoadOptions& loading) {
+        return loadSceneFromMemory(api::glbOf(arraysOf(meshes, mesh_count, materials, material_count)), "",
+                                   loading);
+    });
+}
+
+ts_status ts_scene_get_info(ts_scene scene, ts_scene_info* info) {
+    return call([&] {
+        const std::shared_ptr<TouchedScene> touched = take<TouchedScene>(scene, kScene);
+        ts_scene_info known{};
+        known.objects = touched->haptic()->objects.size();
+        known.triangles = touched->source()->triangleCount();
+        known.materials = touched->source()->materials.size();
+        const Bounds bounds = touched->bounds();
+        for (int axis = 0; axis < 3; ++axis) {
+            known.low[axis] = bounds.low[axis];
+            known.high[axis] = bounds.high[axis];
+        }
+        known.moves = touched->moves() ? 1 : 0;
+        known.warnings = touched->warnings().size();
+        giveStruct(known, info, "info");
+    });
+}
+
+ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t capacity, size_t* needed) {
+    return call([&] {
+        const std::shared_ptr<TouchedScene> touched = take<TouchedScene>(scene, kScene);
+        if (index >= touched->warnings().size())
+            refuseArgument("index", std::to_string(index) + ", and there are " +
+                                        std::to_string(touched->warnings().size()) + " warnings");
+        giveText(touched->warnings()[index], text, capacity, needed);
+    });
+}
+
+ts_status ts_scene_close(ts_scene scene) {
+    return call([&] { close<TouchedScene>(scene, kScene); });
+}
+
+ts_status ts_touch(ts_scene scene, ts_settings settings, const ts_path* path, const ts_ticks* ticks) {
+    return call([&] { touchPath(*newHand(scene, settings), path, ticks, nullptr); });
+}
+
+ts_status ts_hand_create(ts_scene scene, ts_settings settings, ts_hand* hand) {
+    return call([&] {
+        (void)given(hand, "hand");
+        give(newHand(scene, settings), hand);
+    });
+}
+
+ts_status ts_hand_set(ts_hand hand, const char* name, const char* value) {
+    return call([&] { take<OfflineHand>(hand, "hand")->set(textOf(name, "name"), textOf(value, "value")); });
+}
+
+ts_status ts_hand_touch(ts_hand hand, const ts_path* path, const ts_ticks* ticks, size_t* done) {
+    return call([&] { touchPath(*take<OfflineHand>(hand, "hand"), path, ticks, done); });
+}
+
+ts_status ts_hand_close(ts_hand hand) {
+    return call([&] { close<OfflineHand>(hand, "hand"); });
+}
+
+ts_status ts_stroke(ts_scene scene, const char* name, double speed, double depth, double rate,
+                    double* positions, size_t capacity, size_t* rows) {
+    return call([&] {
+        const std::shared_ptr<TouchedScene> touched = take<TouchedScene>(scene, kScene);
+        size_t all = 0;
+        StrokeRequest request;
+        request.name = textOf(name, "name");
+        request.speed = speed;
+        request.depth = depth;
+        layPath(*touched, request, rate, positions, capacity, all);
+        given(rows, "rows") = all;
+    });
+}
+
+} // extern "C"

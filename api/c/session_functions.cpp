@@ -1,0 +1,102 @@
+// ts_session_* and ts_recording_*.
+
+#include "api/c/calls.h"
+#include "api/c/live_session.h"
+#include "api/c/read_recording.h"
+
+namespace touchstone::api {
+namespace {
+
+std::shared_ptr<LiveSession> live(ts_session session) {
+    return take<LiveSession>(session, "session");
+}
+
+std::shared_ptr<ReadRecording> recorded(ts_recording recording) {
+    return take<ReadRecording>(recording, "recording");
+}
+
+} // namespace
+} // namespace touchstone::api
+
+using namespace touchstone::api;
+
+extern "C" {
+
+ts_status ts_session_create(const ts_session_options* options, ts_session* session) {
+    return call([&] {
+        (void)given(session, "session");
+        (void)given(options, "options");
+        give(std::make_shared<LiveSession>(structOf(options, "options")), session);
+    });
+}
+
+ts_status ts_session_touch(ts_session session, ts_scene scene) {
+    return call([&] { live(session)->touch(take<TouchedScene>(scene, "scene")); });
+}
+
+ts_status ts_session_set(ts_session session, const char* name, const char* value) {
+    return call([&] { live(session)->set(textOf(name, "name"), textOf(value, "value")); });
+}
+
+ts_status ts_session_force(ts_session session, int on) {
+    return call([&] { live(session)->force(on != 0); });
+}
+
+ts_status ts_session_record(ts_session session, const char* file) {
+    return call([&] { live(session)->record(file); });
+}
+
+ts_status ts_session_start(ts_session session) {
+    return call([&] { live(session)->start(); });
+}
+
+ts_status ts_session_stop(ts_session session) {
+    return call([&] { live(session)->stop(); });
+}
+
+ts_status ts_session_pump(ts_session session, ts_state* state) {
+    return call([&] { giveStruct(live(session)->pump(), state, "state"); });
+}
+
+ts_status ts_session_run(ts_session session, double seconds, double rate,
+                         int (*callback)(void* context, const ts_state* state), void* context) {
+    return call([&] { live(session)->run(seconds, rate, callback, context); });
+}
+
+ts_status ts_session_take(ts_session session, const ts_ticks* ticks, size_t* count) {
+    return call([&] {
+        (void)given(count, "count");
+        (void)given(ticks, "ticks");
+        *count = live(session)->takeKept(TickArrays(ticks, 0));
+    });
+}
+
+ts_status ts_session_close(ts_session session) {
+    return call([&] { close<LiveSession>(session, "session"); });
+}
+
+ts_status ts_recording_open(const char* file, ts_recording* recording) {
+    return call([&] {
+        (void)given(recording, "recording");
+        give(std::make_shared<ReadRecording>(textOf(file, "file")), recording);
+    });
+}
+
+ts_status ts_recording_read(ts_recording recording, const ts_ticks* ticks, size_t* count) {
+    return call([&] {
+        (void)given(count, "count");
+        (void)given(ticks, "ticks");
+        *count = recorded(recording)->read(TickArrays(ticks, 0));
+    });
+}
+
+ts_status ts_recording_text(ts_recording recording, const char* what, char* text, size_t capacity,
+                            size_t* needed) {
+    return call([&] { giveText(recorded(recording)->text(textOf(what, "what")), text, capacity, needed); });
+}
+
+ts_status ts_recording_close(ts_recording recording) {
+    return call([&] { close<ReadRecording>(recording, "recording"); });
+}
+
+} // extern "C"

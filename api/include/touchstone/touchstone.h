@@ -1,0 +1,298 @@
+/* Touchstone's C interface (docs/api.md). SI units; the workspace is right-handed, y up. Every array is row
+ * by row.
+ *
+ * Handles are numbers in the form of pointers: they are never dereferenced, and never used again after they
+ * are closed. A call with a handle that was closed, or that is of another kind, returns TS_CLOSED. Every
+ * function may be called from any thread; calls on one hand or session wait for each other.
+ *
+ * Functions that return ts_status write nothing through their pointers unless they return TS_OK (or, where
+ * stated, TS_CANCELLED), and leave a sentence for ts_last_error otherwise.
+ *
+ * Each struct begins with its size in bytes, as the caller was compiled (TS_STRUCT): later versions append
+ * members, and those that a caller does not know keep their defaults. */
+#ifndef TOUCHSTONE_TOUCHSTONE_H
+#define TOUCHSTONE_TOUCHSTONE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define TS_VERSION_MAJOR 0
+#define TS_VERSION_MINOR 1
+#define TS_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define TS_API __attribute__((visibility("default")))
+#else
+#define TS_API
+#endif
+
+/* A struct whose size is filled in and whose other members are zero: ts_path path = TS_STRUCT(ts_path); */
+#ifdef __cplusplus
+#define TS_STRUCT(type) ::touchstone_c::sized<type>()
+namespace touchstone_c {
+template <class T>
+inline T sized() {
+    T value = T();
+    value.size = sizeof(T);
+    return value;
+}
+} // namespace touchstone_c
+extern "C" {
+#else
+#define TS_STRUCT(type)                                                                                      \
+    { sizeof(type) }
+#endif
+
+typedef enum ts_status {
+    TS_OK = 0,
+    TS_ARGUMENT = 1,  /* an argument is wrong: the message names it */
+    TS_CLOSED = 2,    /* a handle was closed, or is none of its kind */
+    TS_INPUT = 3,     /* a file or a device is missing, broken or not usable: the message has the remedy */
+    TS_STATE = 4,     /* not now: the session runs, or does not */
+    TS_CANCELLED = 5, /* a callback asked to stop */
+    TS_MEMORY = 6,
+    TS_INTERNAL = 7 /* a fault of the library */
+} ts_status;
+
+/* A static name of the status: "TS_OK". */
+TS_API const char* ts_status_name(ts_status status);
+/* Of the library that is loaded: "0.1.0". */
+TS_API const char* ts_version(void);
+/* What the last call on this thread that failed said; empty before. Valid until the next one. */
+TS_API const char* ts_last_error(void);
+
+/* ---- Scenes: immutable; any number of threads may touch one. ---- */
+
+typedef struct ts_scene_s* ts_scene;
+
+typedef enum ts_fit {
+    TS_FIT_NONE = 0,     /* scene metres are workspace metres */
+    TS_FIT_WORKSPACE = 1 /* centred, its longest side 0.15 m */
+} ts_fit;
+
+typedef struct ts_scene_options {
+    size_t size;
+    int fit; /* ts_fit */
+    /* Of a volume: the value at its surface, where `iso_given` is not 0; else Otsu's threshold. */
+    int iso_given;
+    double iso;
+} ts_scene_options;
+
+/* Triangles in model metres. NULL: the array is missing (optional ones only). */
+typedef struct ts_mesh {
+    size_t size;
+    const char* name;        /* UTF-8; NULL: "mesh N" */
+    const float* positions;  /* 3 per vertex, m, finite */
+    size_t vertex_count;     /* at least 3 */
+    const uint32_t* indices; /* 3 per triangle, counter-clockwise seen from outside, below vertex_count */
+    size_t triangle_count;   /* at least 1 */
+    const float* normals;    /* optional, 3 per vertex, finite; without it each facet is flat */
+    const float* texture;    /* optional, 2 per vertex, finite */
+    uint32_t material;       /* index into the materials; 0 where there are none */
+} ts_mesh;
+
+/* What a surface feels like (docs/materials.md). NaN: not stated. */
+typedef struct ts_material {
+    size_t size;
+    const char* name;        /* UTF-8; NULL: "material N" */
+    double stiffness;        /* N/m */
+    double damping;          /* N s/m */
+    double static_friction;  /* 1 */
+    double dynamic_friction; /* 1 */
+    double viscous_friction; /* N s/m */
+} ts_material;
+/* A material that states nothing. */
+TS_API void ts_material_init(ts_material* material);
+
+typedef struct ts_scene_info {
+    size_t size;
+    uint64_t objects, triangles, materials;
+    double low[3], high[3]; /* m, the bounds at rest in the workspace; low > high where it is empty */
+    int moves;              /* 1: an animation moves objects */
+    uint64_t warnings;      /* see ts_scene_warning */
+} ts_scene_info;
+
+/* Reads any file that the program opens. `options` may be NULL. */
+TS_API ts_status ts_scene_load(const char* file, const ts_scene_options* options, ts_scene* scene);
+/* The same for a glTF file in memory; its URIs are relative to `folder`, which may be NULL where it has none.
+ */
+TS_API ts_status ts_scene_load_memory(const void* bytes, size_t count, const char* folder,
+                                      const ts_scene_options* options, ts_scene* scene);
+/* Copies the arrays. Without materials (NULL and 0) the surface states nothing. */
+TS_API ts_status ts_scene_create(const ts_mesh* meshes, size_t mesh_count, const ts_material* materials,
+                                 size_t material_count, const ts_scene_options* options, ts_scene* scene);
+TS_API ts_status ts_scene_get_info(ts_scene scene, ts_scene_info* info);
+/* Text `index` of the scene's warnings, cut to `capacity` bytes with its zero; `needed` (may be NULL) gets
+ * the bytes that it needs with it. */
+TS_API ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t capacity,
+                                  size_t* needed);
+/* What touches it goes on. NULL: nothing happens. */
+TS_API ts_status ts_scene_close(ts_scene scene);
+
+/* ---- Settings by name: those of `--set`, with the same words, ranges and messages. ---- */
+
+typedef struct ts_setting_info {
+    size_t size;
+    /* Static texts. */
+    const char *name, *unit, *meaning;
+    const char* allowed; /* "sweep, rays" or "0 .. 0.05" */
+    const char* initial; /* value of a new set of settings */
+} ts_setting_info;
+TS_API size_t ts_setting_count(void);
+TS_API ts_status ts_setting_get_info(size_t index, ts_setting_info* info);
+
+typedef struct ts_settings_s* ts_settings;
+TS_API ts_status ts_settings_create(ts_settings* settings);
+TS_API ts_status ts_settings_set(ts_settings settings, const char* name, const char* value);
+/* As ts_scene_warning. */
+TS_API ts_status ts_settings_get(ts_settings settings, const char* name, char* text, size_t capacity,
+                                 size_t* needed);
+TS_API ts_status ts_settings_close(ts_settings settings);
+
+/* ---- Ticks: arrays of the caller, one entry (or row) a tick; a NULL one is not written. ---- */
+
+typedef struct ts_ticks {
+    size_t size;
+    size_t capacity;     /* entries of every array that is not NULL */
+    double* time;        /* s */
+    double* hip;         /* 3, m, workspace: haptic interface point */
+    double* proxy;       /* 3, m, workspace */
+    double* normal;      /* 3, unit, workspace; zero without contact */
+    double* force;       /* 3, N, workspace, before safety */
+    double* command;     /* 3, N, workspace, after safety */
+    double* penetration; /* m */
+    uint32_t* contacts;  /* touching features */
+    uint32_t* friction;  /* 0 free, 1 sticks, 2 slides */
+    uint32_t* flags;     /* bits of docs/files.md */
+    int32_t* object;     /* touched object; -1: none */
+    int32_t* triangle;   /* touched triangle of its mesh; -1: none */
+    int64_t* step_ns;    /* ns that the tick took */
+} ts_ticks;
+
+/* ---- Offline touch: deterministic, as fast as it goes; `touchstone touch` to the last bit. ---- */
+
+typedef struct ts_path {
+    size_t size;
+    const double* positions; /* 3 per row, m, finite: of the hand, in the workspace */
+    size_t count;            /* rows; 0: nothing happens */
+    const double* times;     /* s, finite and increasing, one a row; NULL: `rate` applies */
+    double rate;             /* Hz; 0: 1000. The ticks are at n / rate */
+    /* Optional: asked every 4096 ticks on the calling thread; other than 0 stops the call with TS_CANCELLED.
+     */
+    int (*progress)(void* context, size_t done, size_t count);
+    void* context;
+} ts_path;
+
+/* Touches a scene along a path from the beginning. `settings` NULL: the start values. The arrays of `ticks`
+ * hold path->count entries. On TS_CANCELLED those of the ticks made are written. */
+TS_API ts_status ts_touch(ts_scene scene, ts_settings settings, const ts_path* path, const ts_ticks* ticks);
+
+/* A hand that goes on where its last path ended. */
+typedef struct ts_hand_s* ts_hand;
+TS_API ts_status ts_hand_create(ts_scene scene, ts_settings settings, ts_hand* hand);
+/* For the next tick. */
+TS_API ts_status ts_hand_set(ts_hand hand, const char* name, const char* value);
+/* As ts_touch; times go on increasing, and a path without times goes on after the last tick. `done` (may be
+ * NULL) gets the ticks made, also on TS_CANCELLED. */
+TS_API ts_status ts_hand_touch(ts_hand hand, const ts_path* path, const ts_ticks* ticks, size_t* done);
+TS_API ts_status ts_hand_close(ts_hand hand);
+
+/* The positions of a simulated hand that strokes the scene, `rate` a second for one period of the stroke
+ * (`touchstone touch
+ * --stroke`): the first `capacity` rows of 3 in `positions` (may be NULL), all of them counted in `rows`.
+ * `speed` (m/s) and `depth` (m): 0 is the stroke's own. */
+TS_API ts_status ts_stroke(ts_scene scene, const char* name, double speed, double depth, double rate,
+                           double* positions, size_t capacity, size_t* rows);
+
+/* ---- Real time: a servo of its own at 1 kHz. ---- */
+
+typedef struct ts_reading {
+    size_t size;
+    double position[3];    /* m, device frame */
+    double orientation[4]; /* w, x, y, z; zeros: none */
+    double age;            /* s since it was measured */
+    uint32_t buttons;      /* bits */
+    int valid;             /* 0: the position is unknown */
+} ts_reading;
+
+/* A device of the caller's. Its two functions are called by the servo's thread once a tick: they must not
+ * block, allocate or throw. Where the model comes to be around it, nothing is felt until it has left the
+ * model once. Limits of 0 are those of a Phantom Premium 1.5; no command exceeds them. */
+typedef struct ts_device {
+    size_t size;
+    void* context;
+    void (*sample)(void* context, double time, ts_reading* reading);
+    void (*apply)(void* context, const double force[3]); /* N, device frame */
+    double max_force;                                    /* N */
+    double max_force_rate;                               /* N/s */
+    double stiffness;                                    /* N/m, where a material states none */
+    double max_stiffness;                                /* N/m */
+    double stale_age;                                    /* s, after which a reading counts as lost */
+} ts_device;
+
+typedef struct ts_session_options {
+    size_t size;
+    double rate; /* Hz, 100 to 4000; 0: 1000 */
+    /* What is held: "stroke" or "stroke:NAME" (a simulated hand), or what `run --device` takes. NULL: `own`.
+     */
+    const char* device;
+    const ts_device* own; /* copied; its context outlives the session */
+    size_t keep;          /* ticks kept for ts_session_take; 0: none */
+} ts_session_options;
+
+/* The newest tick. */
+typedef struct ts_state {
+    size_t size;
+    int touching; /* 0: the scene has not been taken up yet; then only the counters are valid */
+    uint64_t tick;
+    double time;
+    double hip[3], proxy[3], normal[3], force[3], command[3]; /* as in ts_ticks */
+    double penetration;
+    uint32_t contacts, friction, flags;
+    int32_t object;
+    /* Counters since the start. */
+    uint64_t ticks, missed, skipped, dropped;
+    int realtime; /* 1: the servo has SCHED_FIFO */
+} ts_state;
+
+typedef struct ts_session_s* ts_session;
+TS_API ts_status ts_session_create(const ts_session_options* options, ts_session* session);
+/* From the next tick on. A simulated hand strokes the scene of the last call before the start. */
+TS_API ts_status ts_session_touch(ts_session session, ts_scene scene);
+TS_API ts_status ts_session_set(ts_session session, const char* name, const char* value);
+/* Other than 0: on. Any thread, also while another one is in ts_session_run. */
+TS_API ts_status ts_session_force(ts_session session, int on);
+/* From the next tick on to `file`, for `touchstone replay`; NULL ends the recording. */
+TS_API ts_status ts_session_record(ts_session session, const char* file);
+TS_API ts_status ts_session_start(ts_session session);
+/* The last command is zero. */
+TS_API ts_status ts_session_stop(ts_session session);
+/* Reads what the servo has done: at least every ten seconds while it runs. */
+TS_API ts_status ts_session_pump(ts_session session, ts_state* state);
+/* Starts if need be, and calls `callback` `rate` times a second (0: 60) on this thread for `seconds`; other
+ * than 0 ends the call with TS_OK. The callback may use the session. Stops again if it has started. */
+TS_API ts_status ts_session_run(ts_session session, double seconds, double rate,
+                                int (*callback)(void* context, const ts_state* state), void* context);
+/* The kept ticks since the last call, the oldest first, at most ticks->capacity; `count` gets their number.
+ */
+TS_API ts_status ts_session_take(ts_session session, const ts_ticks* ticks, size_t* count);
+/* Stops it. A thread in ts_session_run returns with TS_CLOSED. */
+TS_API ts_status ts_session_close(ts_session session);
+
+/* ---- Recordings (.tsrec) ---- */
+
+typedef struct ts_recording_s* ts_recording;
+TS_API ts_status ts_recording_open(const char* file, ts_recording* recording);
+/* The next ticks of hand 0, at most ticks->capacity; `count` 0: the end. A recording has no normal,
+ * penetration, friction, object and triangle: these arrays have to be NULL. Damaged places are skipped. */
+TS_API ts_status ts_recording_read(ts_recording recording, const ts_ticks* ticks, size_t* count);
+/* "version", "build", "processor", "command", "date" of the program that made it, "scene" (its path), or
+ * "damage" (a line a place); as ts_scene_warning. What has not been read yet is empty. */
+TS_API ts_status ts_recording_text(ts_recording recording, const char* what, char* text, size_t capacity,
+                                   size_t* needed);
+TS_API ts_status ts_recording_close(ts_recording recording);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

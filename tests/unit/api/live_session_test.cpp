@@ -1,0 +1,172 @@
+// Real time through the library. Times are not asserted: a loaded machine misses deadlines.
+
+#include "tests/support/program.h"
+#include "tests/unit/api/floor.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace touchstone::test {
+namespace {
+
+/// A device that presses 2 mm into the floor, and what it was commanded.
+struct Pressing {
+    std::atomic<int> samples{0};
+    std::atomic<double> force{0.0}, largest{0.0};
+
+    ts_device device() {
+        ts_device device = TS_STRUCT(ts_device);
+        device.context = this;
+        device.sample = [](void* context, double time, ts_reading* reading) {
+            ++static_cast<Pressing*>(context)->samples;
+            const double depth =
+                std::min(0.002, 0.5 * time - 0.15); // a hand that begins near the model must leave it first
+            reading->position[1] = -depth;
+            reading->valid = 1;
+        };
+        device.apply = [](void* context, const double newtons[3]) {
+            auto& self = *static_cast<Pressing*>(context);
+            self.force = newtons[1];
+            self.largest = std::max(self.largest.load(), newtons[1]);
+        };
+        device.max_force = 1.0;
+        return device;
+    }
+};
+
+/// Pumps until `done` holds; false after a minute.
+template <class Done>
+bool pumpUntil(ts::Session& session, const Done& done) {
+    for (int i = 0; i < 6000; ++i) {
+        if (done(session.pump()))
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+TEST(LiveSession, GivesTheForceToAnOwnDeviceWithinItsLimits) {
+    Pressing pressing;
+    {
+        ts::Session session(pressing.device());
+        session.touch(ts::Scene({floorMesh()})); // closed at once: the session goes on touching it
+        session.start();
+        EXPECT_TRUE(
+            pumpUntil(session, [](const ts_state& s) { return s.touching != 0 && s.force[1] > 1.1; }));
+        EXPECT_TRUE(pumpUntil(session, [&](const ts_state&) { return pressing.force > 0.99; }));
+        session.force(false);
+        EXPECT_TRUE(pumpUntil(session, [&](const ts_state&) { return pressing.force == 0.0; }));
+        session.force(true);
+        session.set("stiffness", "100"); // 0.2 N
+        EXPECT_TRUE(pumpUntil(
+            session, [&](const ts_state&) { return pressing.force > 0.19 && pressing.force < 0.21; }));
+        session.stop();
+        EXPECT_EQ(pressing.force, 0.0) << "the last command is zero";
+    }
+    EXPECT_LE(pressing.largest, 1.0 + 1e-12);
+    EXPECT_GT(pressing.samples, 100);
+}
+
+TEST(LiveSession, CallsBackAndRecordsAStroke) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "stroke.tsrec").string();
+    ts_session session = nullptr;
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.device = "stroke:circle";
+    options.keep = 100'000;
+    ts::check(ts_session_create(&options, &session));
+    const ts::Scene scene(TOUCHSTONE_ASSETS "/doughnut.glb", TS_FIT_WORKSPACE);
+    ts::check(ts_session_touch(session, scene.get()));
+    ts::check(ts_session_record(session, file.c_str()));
+    struct Seen {
+        int calls = 0, contacts = 0;
+    } seen;
+    ts::check(ts_session_run(
+        session, 3.0, 60.0,
+        [](void* context, const ts_state* state) {
+            ++static_cast<Seen*>(context)->calls;
+            static_cast<Seen*>(context)->contacts += state->contacts > 0;
+            return 0;
+        },
+        &seen));
+    ts::check(ts_session_record(session, nullptr));
+    EXPECT_GT(seen.calls, 10);
+    EXPECT_GT(seen.contacts, 3);
+    ts::Ticks kept(100'000);
+    ts_ticks arrays = kept.arrays();
+    size_t count = 0;
+    ts::check(ts_session_take(session, &arrays, &count));
+    EXPECT_GT(count, 500u);
+    ts::check(ts_session_close(session));
+
+    // The recording has the same ticks, and the program replays them to the last bit.
+    ts_recording recording = nullptr;
+    ts::check(ts_recording_open(file.c_str(), &recording));
+    ts::Ticks read(100'000);
+    arrays = read.arrays();
+    arrays.normal = nullptr;
+    arrays.penetration = nullptr;
+    size_t recorded = 0;
+    ts::check(ts_recording_read(recording, &arrays, &recorded));
+    ASSERT_EQ(recorded, count);
+    for (size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(read.time[i], kept.time[i]);
+        ASSERT_EQ(read.force[i], kept.force[i]);
+        ASSERT_EQ(read.hip[i], kept.hip[i]);
+    }
+    size_t none = 1;
+    ts::check(ts_recording_read(recording, &arrays, &none));
+    EXPECT_EQ(none, 0u);
+    EXPECT_EQ(ts::text([&](char* out, size_t room, size_t* needed) {
+                  return ts_recording_text(recording, "command", out, room, needed);
+              }),
+              "api");
+    ts::check(ts_recording_close(recording));
+}
+
+TEST(LiveSession, EndsWhereTheCallbackSaysSoOrThrows) {
+    Pressing pressing;
+    ts::Session session(pressing.device());
+    session.touch(ts::Scene({floorMesh()}));
+    int calls = 0;
+    session.run(600.0, [&](const ts_state&) { return ++calls < 3; });
+    EXPECT_EQ(calls, 3);
+    EXPECT_THROW(session.run(600.0, [](const ts_state&) -> bool { throw std::runtime_error("no"); }),
+                 std::runtime_error);
+}
+
+/// Closed by another thread while it runs, and set by a third.
+TEST(LiveSession, MayBeUsedAndClosedByOtherThreads) {
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.own = &device;
+    ts_session session = nullptr;
+    ts::check(ts_session_create(&options, &session));
+    ts::check(ts_session_touch(session, ts::Scene({floorMesh()}).get()));
+    std::atomic<int> calls{0};
+    std::atomic<ts_status> ended{TS_OK};
+    std::thread runner([&] {
+        ended = ts_session_run(
+            session, 600.0, 100.0,
+            [](void* c, const ts_state*) { return (++*static_cast<std::atomic<int>*>(c), 0); }, &calls);
+    });
+    std::thread setter([&] {
+        for (int i = 0; ts_session_set(session, "stiffness", i % 2 != 0 ? "300" : "400") == TS_OK; ++i)
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+    });
+    while (calls < 20)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_EQ(ts_session_close(session), TS_OK);
+    runner.join();
+    setter.join();
+    EXPECT_EQ(ended, TS_CLOSED);
+    EXPECT_EQ(ts_session_close(session), TS_CLOSED);
+    EXPECT_EQ(pressing.force, 0.0);
+}
+
+} // namespace
+} // namespace touchstone::test

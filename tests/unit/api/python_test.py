@@ -1,0 +1,174 @@
+"""The Python module: the program's touch to the last bit, arrays, errors, threads, real time. Run by CTest with PYTHONPATH and the
+arguments PROGRAM SCENES."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy
+
+import touchstone
+
+PROGRAM, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
+
+
+def ticks_of(file):
+    rows = numpy.genfromtxt(file, delimiter=",", names=True)
+    return rows, numpy.stack([rows[f"force_{axis}"] for axis in "xyz"], axis=1)
+
+
+class Offline(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.at = pathlib.Path(self.folder.name)
+
+    def test_is_the_programs_touch(self):
+        model = SCENES / "doughnut.glb"
+        scene = touchstone.Scene(model)
+        positions = scene.stroke("circle")
+        times = numpy.arange(len(positions)) * 1e-3
+        with open(self.at / "hip.csv", "w") as out:
+            out.write("t,x,y,z\n")
+            for t, p in zip(times.tolist(), positions.tolist()):
+                out.write(",".join(map(repr, [t, *p])) + "\n")
+        program = [PROGRAM, "touch", str(model), "--path", str(self.at / "hip.csv"), "--set", "friction=ho"]
+        subprocess.run([*program, "--out", str(self.at / "program.csv")], check=True, stdout=subprocess.DEVNULL)
+        _, force = ticks_of(self.at / "program.csv")
+        ticks = touchstone.touch(scene, positions, times, settings={"friction": "ho"})
+        self.assertTrue(numpy.array_equal(ticks.force, force))
+        self.assertGreater(numpy.abs(force).max(), 0.1)
+        subprocess.run([sys.executable, "-m", "touchstone", *program[1:], "--out", str(self.at / "module.csv")],
+                       check=True, stdout=subprocess.DEVNULL)
+        ours = (self.at / "module.csv").read_text().splitlines()
+        theirs = (self.at / "program.csv").read_text().splitlines()
+        self.assertEqual(ours[0], theirs[0])
+        # Each number is the same, whatever its digits; the time of a step is no result.
+        self.assertEqual(len(ours), len(theirs))
+        for a, b in zip(ours[1:], theirs[1:]):
+            a, b = list(map(float, a.split(","))), list(map(float, b.split(",")))
+            del a[16], b[16]
+            self.assertEqual(a, b)
+
+    def test_takes_any_array_of_numbers(self):
+        scene = floor()
+        path = press(500)
+        wanted = touchstone.touch(scene, path).force
+        self.assertTrue(numpy.array_equal(touchstone.touch(scene, numpy.asfortranarray(path)).force, wanted))
+        self.assertTrue(numpy.array_equal(touchstone.touch(scene, numpy.repeat(path, 2, axis=0)[::2]).force, wanted))
+        self.assertTrue(numpy.array_equal(touchstone.touch(scene, path.tolist()).force, wanted))
+        self.assertEqual(len(touchstone.touch(scene, path.astype(int))), 500)
+        self.assertAlmostEqual(wanted[-1, 1], 800 * 0.005, delta=1e-3)
+        self.assertEqual(len(touchstone.touch(scene, numpy.zeros((0, 3)))), 0)
+
+    def test_names_the_argument(self):
+        scene = floor()
+        good = press(10)
+        bad = good.copy()
+        bad[3, 1] = numpy.nan
+        for call, part in [
+                (lambda: touchstone.touch(scene, bad), "positions[3]"),
+                (lambda: touchstone.touch(scene, good[:, :2]), "positions: its shape is (10, 2)"),
+                (lambda: touchstone.touch(scene, good[0]), "positions: its shape is (3,)"),
+                (lambda: touchstone.touch(scene, good.astype(complex)), "positions: its type is complex128"),
+                (lambda: touchstone.touch(scene, [["a", "b", "c"]]), "positions"),
+                (lambda: touchstone.touch(scene, good, numpy.zeros(9)), "times: has 9"),
+                (lambda: touchstone.touch(scene, good, numpy.zeros(10)), "path.times[1]"),
+                (lambda: touchstone.touch(scene, good, rate=0.001), "rate"),
+                (lambda: touchstone.touch(scene, good, settings={"stiffness": "hard"}), "'hard'"),
+                (lambda: touchstone.touch(scene, good, settings={"nothing": 1}), "there is no setting 'nothing'"),
+                (lambda: touchstone.Scene(SCENES / "box.glb", fit="tight"), "fit"),
+                (lambda: touchstone.Scene.from_arrays(good, [[0, 1, 10]]), "indices[2]"),
+                (lambda: touchstone.Scene.from_arrays(good, [[0, 1, -1]]), "triangles"),
+                (lambda: touchstone.Scene.from_arrays(good, [[0.0, 1.0, 2.0]]), "triangles"),
+                (lambda: touchstone.Scene.from_arrays(good, [[0, 1, 2]], normals=good[:4]), "normals"),
+                (lambda: touchstone.Scene.from_arrays(good, [[0, 1, 2]],
+                                                      material=touchstone.Material(stiffness=-1)), "stiffness"),
+        ]:
+            with self.subTest(part), self.assertRaises(touchstone.ArgumentError) as refused:
+                call()
+            self.assertIn(part, str(refused.exception))
+        with self.assertRaises(touchstone.InputError):
+            touchstone.Scene("/nowhere.glb")
+        with self.assertRaises(OSError):
+            touchstone.Recording(SCENES / "box.glb")
+        with self.assertRaises(TypeError):
+            touchstone.Scene.from_bytes(3.5)
+
+    def test_closed_objects_say_so(self):
+        scene = floor()
+        hand = touchstone.Hand(scene)
+        scene.close()
+        self.assertEqual(len(hand.touch(press(10))), 10)
+        with self.assertRaises(touchstone.ClosedError):
+            touchstone.touch(scene, press(10))
+        hand.close()
+        with self.assertRaises(touchstone.ClosedError):
+            hand.touch(press(10))
+
+    def test_threads_share_a_scene(self):
+        scene = touchstone.Scene(SCENES / "doughnut.glb")
+        path = scene.stroke("circle")
+        wanted = touchstone.touch(scene, path).force
+        equal = []
+        threads = [threading.Thread(target=lambda: equal.append(numpy.array_equal(touchstone.touch(scene, path).force, wanted)))
+                   for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(equal, [True] * 4)
+
+    def test_settings_are_the_programs(self):
+        names = [setting.name for setting in touchstone.settings()]
+        self.assertIn("stiffness", names)
+        text = subprocess.run([PROGRAM, "touch", "--help"], capture_output=True, text=True, check=True).stdout
+        for setting in touchstone.settings():
+            self.assertIn(f"{setting.name}={setting.initial}", text)
+
+
+class Live(unittest.TestCase):
+    def test_calls_back_and_records(self):
+        with tempfile.TemporaryDirectory() as folder, touchstone.Session("stroke:circle", keep=100_000) as session:
+            session.touch(touchstone.Scene(SCENES / "doughnut.glb", fit="workspace"))
+            session.record(f"{folder}/a.tsrec")
+            states = []
+            session.run(3.0, states.append)
+            session.record(None)
+            self.assertGreater(len(states), 10)
+            self.assertGreater(max(state.contacts for state in states), 0)
+            kept = session.take()
+            read = touchstone.Recording(f"{folder}/a.tsrec").read()
+            self.assertTrue(numpy.array_equal(kept.force, read.force))
+            self.assertIsNone(read.normal)
+            replay = subprocess.run([PROGRAM, "replay", f"{folder}/a.tsrec"], capture_output=True, text=True)
+            self.assertEqual(replay.returncode, 0, replay.stderr)
+
+    def test_ends_on_false_and_on_exceptions(self):
+        with touchstone.Session() as session:
+            session.touch(touchstone.Scene(SCENES / "box.glb", fit="workspace"))
+            calls = []
+            session.run(600, lambda state: calls.append(state) or len(calls) < 3)
+            self.assertEqual(len(calls), 3)
+            with self.assertRaises(ZeroDivisionError):
+                session.run(600, lambda state: 1 / 0)
+        with self.assertRaises(touchstone.ClosedError):
+            session.start()
+        with self.assertRaises(touchstone.StateError):
+            touchstone.Session().start()
+
+
+def floor():
+    return touchstone.Scene.from_arrays([[-.1, 0, -.1], [-.1, 0, .1], [.1, 0, .1], [.1, 0, -.1]], [[0, 1, 2], [0, 2, 3]],
+                                        material=touchstone.Material(stiffness=800))
+
+
+def press(rows):
+    return numpy.stack([numpy.full(rows, 0.01), numpy.linspace(0.005, -0.005, rows), numpy.full(rows, 0.003)], axis=1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
