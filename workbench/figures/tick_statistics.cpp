@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::array<std::pair<TickFlag, std::string_view>, 16> kFlagNames{{
+constexpr std::array<std::pair<TickFlag, std::string_view>, 17> kFlagNames{{
     {TickFlag::InputInvalid, "input_invalid"},
     {TickFlag::StartedInside, "started_inside"},
     {TickFlag::BudgetReached, "budget_reached"},

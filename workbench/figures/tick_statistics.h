@@ -56,7 +56,7 @@ class TickStatistics {
     [[nodiscard]] nlohmann::ordered_json flagsJson() const;
 
   private:
-    static constexpr size_t kFlagCount = 16;
+    static constexpr size_t kFlagCount = 17;
     static constexpr size_t kStageWindow = 600'000; // ticks: 38 MB, whatever the length of the run
 
     Samples wake_, period_, step_, stepInContact_;
