@@ -69,6 +69,10 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     defineMerge(*mergeApp, merge);
     CLI::App* devicesApp = app.add_subcommand("devices", "What is plugged in, and a trial of one device");
     defineDevices(*devicesApp, devices);
+    // main starts it where it is the first word; here for --help.
+    app.add_subcommand("serve",
+                       "Touch for other programs and a page in the browser, over a WebSocket (serve --help)")
+        ->parse_complete_callback([] { throw CLI::ValidationError("serve", "has to be the first word"); });
 
     status = 0;
     try {

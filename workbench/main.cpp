@@ -1,10 +1,14 @@
 #include "engine/core/error.h"
+#include "engine/process/helper_program.h"
 #include "haptics/scene/shape_object.h"
 #include "workbench/command_line.h"
+
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 
 namespace {
 
@@ -13,6 +17,14 @@ struct Overloaded : Functions... {
     using Functions::operator()...;
 };
 
+/// `touchstone serve` is a program of its own; it takes this one's place.
+[[noreturn]] void becomeServer(char** argv) {
+    const std::string program = touchstone::helperProgram("touchstone_server").string();
+    (void)execv(program.c_str(), argv);
+    throw touchstone::Error(program, "", "the server cannot be started",
+                            "build it (ninja touchstone_server; it needs libwebsockets-dev)");
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -20,6 +32,8 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit is a write error and must not end the process
     std::signal(SIGCHLD, SIG_DFL); // a parent that ignored it would leave us without our children's status
     try {
+        if (argc > 1 && std::string_view(argv[1]) == "serve")
+            becomeServer(argv + 1);
         keepFieldsIn(FieldCache::usual());
         int status = 0;
         const std::optional<Command> command = parseCommandLine(argc, argv, status);

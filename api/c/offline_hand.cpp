@@ -44,8 +44,12 @@ void OfflineHand::set(std::string_view name, std::string_view value) {
 }
 
 OfflineHand::Moment OfflineHand::moment(const ts_path& path, size_t i) const noexcept {
-    if (path.times == nullptr)
-        return {base_ + static_cast<double>(number_ + i) / rate_, 1.0 / rate_};
+    if (path.times == nullptr) {
+        // As a path whose times are n / rate: a tick lasts from row to row.
+        const size_t n = number_ + i;
+        const double time = base_ + static_cast<double>(n) / rate_;
+        return {time, n > 0 ? time - (base_ + static_cast<double>(n - 1) / rate_) : 1.0 / rate_};
+    }
     const double time = path.times[i];
     if (i > 0)
         return {time, time - path.times[i - 1]};
@@ -93,7 +97,7 @@ size_t OfflineHand::touch(const ts_path& path, const TickArrays& ticks) {
         for (; done < end; ++done) {
             const double* at = path.positions + 3 * done;
             const Moment now = moment(path, done);
-            hand_.advance(now.time);
+            hand_.advance(now.time, settings_);
             StageTrace trace;
             StageTracer tracer(hand_.state, trace);
             const int64_t begin = ticks.timed() ? monotonicNs() : 0;

@@ -50,6 +50,27 @@ std::vector<uint8_t> bytesOf(const void* bytes, size_t count) {
     return {begin, begin + count};
 }
 
+/// Writes the corners of at most `capacity` triangles; returns how many there are.
+size_t trianglesOf(const TouchedScene& scene, float* corners, size_t capacity) {
+    size_t count = 0;
+    for (const Instance& instance : scene.source()->instances) {
+        const Mesh& mesh = scene.source()->meshes[static_cast<size_t>(instance.mesh)];
+        for (size_t corner = 0; corner < mesh.indices.size(); ++corner) {
+            const size_t triangle = count + corner / 3;
+            if (triangle >= capacity)
+                break;
+            const glm::dvec4 place =
+                instance.sceneFromMesh * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[corner]]), 1.0);
+            const glm::dvec3 there = scene.haptic()->workspaceFromScene.point(glm::dvec3(place));
+            for (int axis = 0; axis < 3; ++axis)
+                corners[9 * triangle + 3 * (corner % 3) + static_cast<size_t>(axis)] =
+                    static_cast<float>(there[axis]);
+        }
+        count += mesh.triangleCount();
+    }
+    return count;
+}
+
 std::shared_ptr<OfflineHand> newHand(ts_scene scene, ts_settings settings) {
     return std::make_shared<OfflineHand>(take<TouchedScene>(scene, kScene), settingsOf(settings));
 }
@@ -145,6 +166,16 @@ ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t ca
             refuseArgument("index", std::to_string(index) + ", and there are " +
                                         std::to_string(touched->warnings().size()) + " warnings");
         giveText(touched->warnings()[index], text, capacity, needed);
+    });
+}
+
+ts_status ts_scene_triangles(ts_scene scene, float* corners, size_t capacity, size_t* triangles) {
+    return call([&] {
+        const std::shared_ptr<TouchedScene> touched = take<TouchedScene>(scene, kScene);
+        (void)given(triangles, "triangles");
+        if (corners == nullptr && capacity > 0)
+            refuseArgument("corners", "is null, and its capacity is not 0");
+        *triangles = trianglesOf(*touched, corners, capacity);
     });
 }
 

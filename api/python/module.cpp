@@ -182,6 +182,13 @@ class Scene {
         lay(positions.mutable_data());
         return positions;
     }
+    [[nodiscard]] py::array_t<float> triangles() const {
+        size_t count = 0;
+        ts::check(ts_scene_triangles(handle_.get(), nullptr, 0, &count));
+        py::array_t<float> corners({static_cast<py::ssize_t>(count), py::ssize_t{3}, py::ssize_t{3}});
+        ts::check(ts_scene_triangles(handle_.get(), corners.mutable_data(), count, &count));
+        return corners;
+    }
     void close() { handle_.close(); }
     [[nodiscard]] ts_scene get() const { return handle_.get(); }
 
@@ -451,6 +458,7 @@ PYBIND11_MODULE(_touchstone, m) {
         .def("info", &Scene::info)
         .def("warnings", &Scene::warnings)
         .def("stroke", &Scene::stroke)
+        .def("triangles", &Scene::triangles)
         .def("close", &Scene::close);
     py::class_<Hand>(m, "Hand")
         .def(py::init<const Scene&, const std::map<std::string, std::string>&>())

@@ -3,6 +3,7 @@
 #include "devices/external/external_device.h"
 #include "devices/hid/hid_device.h"
 #include "engine/core/error.h"
+#include "engine/process/helper_program.h"
 
 #include <algorithm>
 #include <cctype>
@@ -166,7 +167,7 @@ std::vector<DeviceFile> deviceFiles() {
     std::vector<DeviceFile> files;
     if (const char* folder = std::getenv("TOUCHSTONE_DEVICES"))
         readFolder(folder, files);
-    readFolder(TOUCHSTONE_DEVICE_FILES, files);
+    readFolder(dataFolder("devices", TOUCHSTONE_DEVICE_FILES), files);
     return files;
 }
 

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <span>
 #include <system_error>
 
 namespace touchstone {
@@ -22,6 +23,16 @@ std::filesystem::path ownFolder() {
     return std::filesystem::read_symlink("/proc/self/exe", problem).parent_path();
 }
 
+/// The first that exists.
+std::filesystem::path firstOf(std::span<const std::filesystem::path> candidates,
+                              const std::filesystem::path& otherwise) {
+    std::error_code problem;
+    for (const std::filesystem::path& candidate : candidates)
+        if (std::filesystem::exists(candidate, problem))
+            return candidate.lexically_normal();
+    return otherwise;
+}
+
 } // namespace
 
 std::filesystem::path helperProgram(const std::string& name) {
@@ -29,11 +40,13 @@ std::filesystem::path helperProgram(const std::string& name) {
     // Beside it; in the build folder, from lib/; from bin/ or lib/; from lib/x86_64-linux-gnu/.
     const std::array candidates{own / name, own / "../bin" / name, own / "../libexec/touchstone" / name,
                                 own / "../../libexec/touchstone" / name};
-    std::error_code problem;
-    for (const std::filesystem::path& candidate : candidates)
-        if (std::filesystem::exists(candidate, problem))
-            return candidate.lexically_normal();
-    return own / name;
+    return firstOf(candidates, own / name);
+}
+
+std::filesystem::path dataFolder(const std::string& name, const std::filesystem::path& otherwise) {
+    const std::filesystem::path own = ownFolder();
+    const std::array candidates{own / "../share/touchstone" / name, own / "../../share/touchstone" / name};
+    return firstOf(candidates, otherwise);
 }
 
 } // namespace touchstone

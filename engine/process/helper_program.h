@@ -10,4 +10,9 @@ namespace touchstone {
 /// the path beside it, so that a message can name a place. Any thread.
 [[nodiscard]] std::filesystem::path helperProgram(const std::string& name);
 
+/// The folder of data `name` in share/touchstone of an installation, or `otherwise`, where the sources have
+/// it. Any thread.
+[[nodiscard]] std::filesystem::path dataFolder(const std::string& name,
+                                               const std::filesystem::path& otherwise);
+
 } // namespace touchstone

@@ -1,5 +1,7 @@
 #include "workbench/model/default_scene.h"
 
+#include "engine/process/helper_program.h"
+
 #include <algorithm>
 #include <system_error>
 
@@ -14,7 +16,8 @@ std::filesystem::path defaultScene() {
         if (std::filesystem::exists(beside, error))
             return std::filesystem::weakly_canonical(beside, error);
     }
-    return TOUCHSTONE_DEFAULT_SCENE;
+    const std::filesystem::path source = TOUCHSTONE_DEFAULT_SCENE;
+    return dataFolder("scenes", source.parent_path()) / source.filename();
 }
 
 std::vector<std::filesystem::path> sampleScenes() {

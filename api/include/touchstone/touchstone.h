@@ -40,7 +40,7 @@ inline T sized() {
 extern "C" {
 #else
 #define TS_STRUCT(type)                                                                                      \
-    { sizeof(type) }
+    { .size = sizeof(type) }
 #endif
 
 typedef enum ts_status {
@@ -126,6 +126,9 @@ TS_API ts_status ts_scene_get_info(ts_scene scene, ts_scene_info* info);
  * the bytes that it needs with it. */
 TS_API ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t capacity,
                                   size_t* needed);
+/* The corners of the first `capacity` triangles at rest, 9 floats each, m, workspace (`corners` may be NULL
+ * where it is 0); all of them are counted in `triangles`. */
+TS_API ts_status ts_scene_triangles(ts_scene scene, float* corners, size_t capacity, size_t* triangles);
 /* What touches it goes on. NULL: nothing happens. */
 TS_API ts_status ts_scene_close(ts_scene scene);
 

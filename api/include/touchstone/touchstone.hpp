@@ -101,6 +101,14 @@ class Scene {
                               handle_.out()));
     }
 
+    /// A glTF file in memory, without files beside it.
+    [[nodiscard]] static Scene fromMemory(const std::string& bytes, ts_fit fit = TS_FIT_NONE) {
+        Scene scene;
+        const ts_scene_options options = optionsOf(fit);
+        check(ts_scene_load_memory(bytes.data(), bytes.size(), nullptr, &options, scene.handle_.out()));
+        return scene;
+    }
+
     [[nodiscard]] ts_scene_info info() const {
         ts_scene_info info = TS_STRUCT(ts_scene_info);
         check(ts_scene_get_info(handle_.get(), &info));
@@ -113,6 +121,14 @@ class Scene {
                 return ts_scene_warning(handle_.get(), i, out, room, needed);
             }));
         return all;
+    }
+    /// Corners of the triangles at rest, 9 floats each, m, workspace.
+    [[nodiscard]] std::vector<float> triangles() const {
+        std::size_t count = 0;
+        check(ts_scene_triangles(handle_.get(), nullptr, 0, &count));
+        std::vector<float> corners(9 * count);
+        check(ts_scene_triangles(handle_.get(), corners.data(), count, &count));
+        return corners;
     }
     /// Positions of a simulated hand, `rate` a second for one period of a stroke.
     [[nodiscard]] std::vector<Vector> stroke(const std::string& name = "tour", double rate = 1000.0,
@@ -128,6 +144,7 @@ class Scene {
     [[nodiscard]] ts_scene get() const noexcept { return handle_.get(); }
 
   private:
+    Scene() = default;
     static ts_scene_options optionsOf(ts_fit fit) {
         ts_scene_options options = TS_STRUCT(ts_scene_options);
         options.fit = fit;

@@ -132,6 +132,11 @@ class Scene:
         """What the program would print about it."""
         return self._scene.warnings()
 
+    @property
+    def triangles(self):
+        """Corners of the triangles at rest: (M, 3, 3) float32, m, workspace."""
+        return self._scene.triangles()
+
     def stroke(self, name="tour", *, rate=1000.0, speed=0.0, depth=0.0):
         """Positions (N, 3) of a simulated hand that strokes it, `rate` a second for one period of the stroke. speed m/s and depth m:
         0 is the stroke's own."""

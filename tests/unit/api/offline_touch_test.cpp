@@ -93,7 +93,8 @@ TEST_P(SameAsTheProgram, InEveryTick) {
     EXPECT_GT(differing(rows, ticks), contact);
 }
 INSTANTIATE_TEST_SUITE_P(OfflineTouch, SameAsTheProgram,
-                         testing::Values("doughnut.glb", "swatches.glb", "field_torus.glb", "moving.glb"));
+                         testing::Values("doughnut.glb", "swatches.glb", "field_torus.glb", "moving.glb",
+                                         "breathing.glb"));
 
 /// The stroke that the library lays is the program's.
 TEST(OfflineTouch, LaysTheProgramsStroke) {
@@ -117,6 +118,9 @@ TEST(OfflineTouch, FeelsAFloorOutOfArrays) {
     stiff.staticFriction = stiff.dynamicFriction = 0.0;
     const ts::Scene scene({floorMesh()}, {stiff});
     EXPECT_EQ(scene.info().triangles, 2u);
+    const std::vector<float> corners = scene.triangles();
+    EXPECT_EQ(corners, (std::vector<float>{-0.1f, 0.0f, -0.1f, -0.1f, 0.0f, 0.1f, 0.1f, 0.0f, 0.1f, //
+                                           -0.1f, 0.0f, -0.1f, 0.1f, 0.0f, 0.1f, 0.1f, 0.0f, -0.1f}));
     const std::vector<ts::Vector> path = press(2001);
     const ts::Ticks ticks = ts::touch(scene, path);
     EXPECT_EQ(ticks.contacts.front(), 0u);

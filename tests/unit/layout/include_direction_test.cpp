@@ -33,6 +33,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"study", {"engine", "haptics", "devices", "assets"}},
     {"session", {"engine", "haptics", "devices"}},
     {"api", {"engine", "haptics", "devices", "session"}},
+    {"server", {}},
     {"workbench", {"engine", "haptics", "renderer", "devices", "sound", "assets", "study", "session"}},
 };
 

@@ -1,0 +1,94 @@
+#pragma once
+// What clients may ask for, whatever carries their messages. docs/server.md is the protocol; change both
+// together.
+
+#include "touchstone/touchstone.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone::server {
+
+inline constexpr int kProtocol = 1;
+
+struct ServeOptions {
+    int port = 0;           ///< on 127.0.0.1; 0 with a socket: none
+    std::string socket;     ///< path of a Unix socket; empty: none
+    std::string root = "."; ///< scenes that clients name lie below it
+    std::string scene;      ///< opened at first; empty: none
+    std::string device = "stroke";
+    bool allowWrite = false;
+    double rate = 1000.0;
+};
+
+/// A message to a client, or to all.
+struct Outgoing {
+    uint64_t client = 0; ///< 0: all that are authenticated
+    bool binary = false;
+    std::string bytes;
+};
+
+/// The session, its driver and its subscribers. One thread; the servo runs on its own and waits for nobody.
+class TouchServer {
+  public:
+    /// Throws ts::Error.
+    TouchServer(const ServeOptions& options, std::string token);
+
+    /// A connection; one from the Unix socket needs no token.
+    void join(uint64_t client, bool trusted);
+    void leave(uint64_t client);
+    /// A whole text message. False: the connection is to be closed.
+    [[nodiscard]] bool receive(uint64_t client, std::string_view text);
+    /// Reads the servo and gives everybody the state: some 60 times a second.
+    void pump();
+    /// The person at the device: the driver is dismissed and the force taken away; again: given back.
+    void takeBack();
+    [[nodiscard]] std::vector<Outgoing> takeOutgoing() { return std::move(outgoing_); }
+    /// Corners of the scene's triangles, 9 floats each, workspace; for the page.
+    [[nodiscard]] const std::vector<float>& triangles() const { return triangles_; }
+    [[nodiscard]] bool mayRead(std::string_view token) const;
+
+  private:
+    using Json = nlohmann::json;
+    struct Client {
+        uint64_t number = 0;
+        bool known = false, ticks = false;
+    };
+    struct Loaded {
+        std::unique_ptr<ts::Scene> scene;
+        std::string error;
+        std::vector<float> triangles;
+    };
+
+    [[nodiscard]] Client* find(uint64_t client);
+    [[nodiscard]] Json answer(Client& client, const std::string& verb, const Json& message);
+    [[nodiscard]] Json load(const Json& message, uint64_t client);
+    void beginLoading(std::function<std::unique_ptr<ts::Scene>()> make, std::string file, uint64_t client);
+    void finishLoading();
+    void requireDriver(const Client& client) const;
+    void tell(const Json& event, uint64_t client = 0);
+    void sendTicks();
+
+    ServeOptions options_;
+    std::string token_;
+    ts::Handle<ts_session, ts_session_close> session_;
+    std::vector<Client> clients_;
+    uint64_t driver_ = 0;
+    bool forceOn_ = true, touching_ = false;
+    std::future<Loaded> loading_;
+    std::string loadingFile_, sceneFile_;
+    uint64_t loader_ = 0, lastTick_ = ~uint64_t{0};
+    std::vector<Outgoing> outgoing_;
+    ts::Ticks ticks_;
+    std::vector<float> triangles_;
+};
+
+} // namespace touchstone::server

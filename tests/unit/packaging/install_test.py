@@ -1,0 +1,108 @@
+"""Strangers' projects against an installed prefix: ten lines of CMake, one file by pkg-config, ten lines of Python; each prints the force
+of `touchstone touch` to the last bit. Arguments: BUILD SCENES CMAKE."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD, SCENES, CMAKE = sys.argv[1:4]
+
+PROJECT = """cmake_minimum_required(VERSION 3.18)
+project(stranger CXX)
+find_package(Touchstone 0.1 REQUIRED)
+add_executable(stranger main.cpp)
+target_compile_features(stranger PRIVATE cxx_std_17)
+target_link_libraries(stranger Touchstone::touchstone)
+"""
+MAIN = """#include <touchstone/touchstone.hpp>
+#include <cstdio>
+int main(int, char** arguments) {
+    const ts::Scene scene(arguments[1]);
+    for (const ts::Vector& force : ts::touch(scene, scene.stroke("circle")).force)
+        std::printf("%a %a %a\\n", force[0], force[1], force[2]);
+}
+"""
+SCRIPT = """import sys, touchstone
+scene = touchstone.Scene(sys.argv[1])
+for force in touchstone.touch(scene, scene.stroke("circle")).force.tolist():
+    print(*map(float.hex, force))
+"""
+
+
+def run(*arguments, env=None):
+    done = subprocess.run(arguments, capture_output=True, text=True, env={**os.environ, **(env or {})})
+    if done.returncode != 0:
+        raise AssertionError(f"{arguments}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def numbers(text):
+    return [tuple(map(float.fromhex, line.split())) for line in text.splitlines()]
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        at = pathlib.Path(cls.folder.name)
+        for component in ("program", "library", "development", "python"):
+            run(CMAKE, "--install", BUILD, "--prefix", str(at / "first"), "--component", component)
+        (at / "first").rename(at / "prefix")  # an installation may be moved
+        cls.prefix = at / "prefix"
+        cls.model = str(cls.prefix / "share/touchstone/scenes/doughnut.glb")
+        run(str(cls.prefix / "bin/touchstone"), "touch", cls.model, "--stroke", "circle", "--out", str(at / "ticks.csv"))
+        rows = [line.split(",") for line in (at / "ticks.csv").read_text().splitlines()]
+        columns = [rows[0].index(f"force_{axis}") for axis in "xyz"]
+        cls.force = [tuple(float(row[i]) for i in columns) for row in rows[1:]]
+        assert max(max(map(abs, force)) for force in cls.force) > 0.1
+        cls.libraries = next(cls.prefix.glob("lib/**/libtouchstone.so")).parent
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_a_project_of_cmake(self):
+        with tempfile.TemporaryDirectory() as project:
+            at = pathlib.Path(project)
+            (at / "CMakeLists.txt").write_text(PROJECT)
+            (at / "main.cpp").write_text(MAIN)
+            run(CMAKE, "-S", project, "-B", f"{project}/build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+            run(CMAKE, "--build", f"{project}/build")
+            self.assertEqual(numbers(run(f"{project}/build/stranger", self.model)), self.force)
+
+    def test_pkg_config(self):
+        example = next(self.prefix.glob("share/doc/libtouchstone-dev/examples/c/stroke.c"))
+        flags = run("pkg-config", "--cflags", "--libs", "touchstone", env={"PKG_CONFIG_PATH": str(self.libraries / "pkgconfig")})
+        with tempfile.TemporaryDirectory() as folder:
+            run("cc", "-Wall", "-Wextra", "-Werror", str(example), *flags.split(), "-lm", "-o", f"{folder}/stroke")
+            out = run(f"{folder}/stroke", self.model, env={"LD_LIBRARY_PATH": str(self.libraries)})
+            live = example.with_name("live.cpp")
+            run("c++", "-std=c++17", "-Wall", "-Wextra", "-Werror", str(live), *flags.split(), "-o", f"{folder}/live")
+        largest = max((x * x + y * y + z * z) ** 0.5 for x, y, z in self.force)
+        self.assertAlmostEqual(float(out.split()[-2]), largest, places=12)
+
+    def test_a_script_of_python(self):
+        out = run(sys.executable, "-B", "-c", SCRIPT, self.model, env={"PYTHONPATH": str(self.prefix / "lib/python3/dist-packages")})
+        self.assertEqual(numbers(out), self.force)
+
+    def test_what_it_needs_is_found(self):
+        program = str(self.prefix / "bin/touchstone")
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            self.assertIn("triangles", run(program, "inspect", f"{folder}/a.obj"))
+        self.assertIn("--allow-write", run(program, "serve", "--help"))
+        manual = (self.prefix / "share/man/man1/touchstone.1").read_text()
+        for name in ("--stroke", "forceShading", "EXIT STATUS", "TOUCHSTONE REPLAY"):
+            self.assertIn(name.replace("-", "\\-"), manual)
+        completion = str(self.prefix / "share/bash-completion/completions/touchstone")
+        words = run("bash", "-c", f'source {completion}; COMP_WORDS=(touchstone touch --plan); COMP_CWORD=2; _touchstone; '
+                    'echo "${COMPREPLY[@]}"; COMP_WORDS=(touchstone touch --set fricti); COMP_CWORD=3; _touchstone 2>/dev/null; echo "${COMPREPLY[@]}"')
+        self.assertEqual(words.split("\n")[0], "--plant")
+        self.assertIn("friction=", words)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,286 @@
+"""`touchstone serve`: who may connect, what clients may do, and that none of them harms the servo. Run by CTest with PYTHONPATH and the
+arguments PROGRAM SCENES [BROWSER]. Loopback only; no time is asserted."""
+
+import base64
+import http.client
+import os
+import pathlib
+import socket
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy
+
+from touchstone.client import Client, ServerError, token_of
+
+PROGRAM, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Server(unittest.TestCase):
+    options = ()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder, self.port = pathlib.Path(folder.name), free_port()
+        os.environ["XDG_RUNTIME_DIR"] = str(self.folder)
+        root = self.folder / "root"
+        root.mkdir()
+        for name in ("doughnut.glb", "box.glb"):
+            (root / name).write_bytes((SCENES / name).read_bytes())
+        (self.folder / "secret.glb").write_bytes((SCENES / "box.glb").read_bytes())
+        (root / "link.glb").symlink_to(self.folder / "secret.glb")
+        self.path = str(self.folder / "touch.sock")
+        self.server = subprocess.Popen([PROGRAM, "serve", str(root / "doughnut.glb"), "--root", str(root), "--port", str(self.port),
+                                        "--socket", self.path, *self.options],
+                                       stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.end)
+        self.assertIn("http://127.0.0.1", self.server.stdout.readline())
+
+    def end(self):
+        self.server.terminate()
+        _, errors = self.server.communicate(timeout=30)
+        self.assertEqual(self.server.returncode, 0, errors)
+
+    def client(self, where=None):
+        client = Client(where or self.port)
+        self.addCleanup(client.close)
+        return client
+
+    def touching(self, client):
+        """A state in contact."""
+        for _ in range(3000):
+            state = client.event("state")
+            if state["contacts"] > 0:
+                return state
+        self.fail("no contact")
+
+    def refused(self, client, part, verb, **members):
+        with self.assertRaises(ServerError) as refusal:
+            client.ask(verb, **members)
+        self.assertIn(part, str(refusal.exception))
+
+
+class Access(Server):
+    def test_needs_the_token_over_tcp(self):
+        file = self.folder / "touchstone" / f"serve-{self.port}.token"
+        self.assertEqual(stat.S_IMODE(file.stat().st_mode), 0o600)
+        self.assertEqual(stat.S_IMODE(file.parent.stat().st_mode), 0o700)
+        self.assertEqual(stat.S_IMODE(os.stat(self.path).st_mode), 0o600)
+        self.assertEqual(len(token_of(self.port)), 64)
+        for token in ("", "0" * 64, token_of(self.port)[:-1]):
+            with self.assertRaises(ServerError):
+                Client(self.port, token)
+        silent = socket.create_connection(("127.0.0.1", self.port))
+        self.addCleanup(silent.close)
+        self.assertEqual(self.client().hello["protocol"], 1)
+        self.assertEqual(self.client(self.path).hello["protocol"], 1)
+
+    def http(self, path, **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        connection.putrequest("GET", path, skip_host="Host" in headers)
+        for name, value in headers.items():
+            connection.putheader(name.replace("_", "-"), value)
+        connection.endheaders()
+        answer = connection.getresponse()
+        body = answer.read()
+        connection.close()
+        return answer.status, body
+
+    def test_checks_host_and_origin(self):
+        upgrade = dict(Upgrade="websocket", Connection="Upgrade", Sec_WebSocket_Key="AAAAAAAAAAAAAAAAAAAAAA==", Sec_WebSocket_Version="13")
+        own = f"127.0.0.1:{self.port}"
+        self.assertEqual(self.http("/")[0], 200)
+        self.assertEqual(self.http("/", Host="evil.example")[0], 403)
+        self.assertEqual(self.http("/", Host=f"evil.example:{self.port}")[0], 403)
+
+        def opens(**headers):
+            """Whether the WebSocket is opened: 101, and else an error or a closed connection."""
+            try:
+                connection = socket.create_connection(("127.0.0.1", self.port), 10)
+                lines = "".join(f"{name.replace('_', '-')}: {value}\r\n" for name, value in {**upgrade, **headers}.items())
+                connection.sendall(f"GET / HTTP/1.1\r\n{lines}\r\n".encode())
+                return b" 101 " in connection.recv(1000)
+            except ConnectionError:
+                return False
+            finally:
+                connection.close()
+
+        self.assertTrue(opens(Host=own))
+        self.assertTrue(opens(Host=own, Origin=f"http://{own}"))
+        self.assertFalse(opens(Host=own, Origin="http://evil.example"))
+        self.assertFalse(opens(Host=own, Origin="null"))
+        self.assertFalse(opens(Host=f"evil.example:{self.port}"))
+        self.assertFalse(opens(Host=f"127.0.0.1.evil.example:{self.port}"))
+
+    def test_gives_the_scene_to_who_has_the_token(self):
+        self.client().event("scene")
+        self.assertEqual(self.http("/scene")[0], 403)
+        self.assertEqual(self.http("/scene?token=" + "0" * 64)[0], 403)
+        status, body = self.http("/scene?token=" + token_of(self.port))
+        corners = numpy.frombuffer(body, "<f4").reshape(-1, 3, 3)
+        self.assertEqual((status, len(corners)), (200, 64800))
+        self.assertAlmostEqual(float(corners.max()), 0.075, places=6)
+        for path in ("/../CMakeLists.txt", "/..%2faccess.cpp", "/%2e%2e/main.cpp", "//etc/passwd", "/scene/../../main.cpp"):
+            self.assertNotIn(self.http(path)[0], (200,), path)
+
+
+class Driving(Server):
+    def test_one_drives_and_the_person_takes_it_back(self):
+        first, second = self.client(), self.client(self.path)
+        self.touching(first)
+        self.refused(first, "you do not drive", "set", name="stiffness", value="900")
+        first.ask("drive")
+        self.refused(second, "another client drives", "drive")
+        first.ask("set", name="stiffness", value="900")
+        self.assertEqual(second.event("setting")["value"], "900")
+        self.refused(first, "'hard' is not a value", "set", name="stiffness", value="hard")
+        second.ask("force", on=False)  # anybody may
+        for _ in range(600):
+            if first.state()["command"] == [0.0, 0.0, 0.0]:
+                break
+        self.assertFalse(first.state()["force_on"])
+        first.ask("force", on=True)
+        self.assertTrue(first.state()["force_on"])
+        self.server.stdin.write(" ")
+        self.server.stdin.flush()
+        event = second.event("driver")
+        while not event.get("taken_back"):
+            event = second.event("driver")
+        self.assertEqual(event, {"event": "driver", "driver": None, "taken_back": True, "force_on": False})
+        self.refused(first, "you do not drive", "set", name="stiffness", value="500")
+        second.ask("drive")
+        second.close()  # who vanishes drives no more
+        for _ in range(600):
+            if first.state()["driver"] is None:
+                break
+        first.ask("drive")
+
+    def test_scenes_lie_below_the_root_and_nothing_is_written(self):
+        client = self.client()
+        client.event("scene")
+        client.ask("drive")
+        for name in ("../secret.glb", "/etc/passwd", "link.glb", "nothing.glb", ".", "", "box.glb\0"):
+            self.refused(client, "below the root", "load", scene=name)
+        client.ask("load", scene="box.glb")
+        self.assertTrue(client.event("scene")["file"].endswith("box.glb"))
+        self.touching(client)
+        client.ask("load", bytes=base64.b64encode((SCENES / "plane.glb").read_bytes()).decode())
+        self.assertEqual(client.event("scene")["file"], "")
+        client.ask("load", bytes=base64.b64encode(b"no model").decode())
+        self.assertIn("error", client.event("error"))
+        self.refused(client, "--allow-write", "record", file="a.tsrec")
+
+    def test_refuses_what_is_no_message(self):
+        client = self.client()
+        client.ask("drive")
+        self.refused(client, "there is no message 'fly'", "fly")
+        self.refused(client, "'name' is missing", "set", value="1")
+        self.refused(client, "'value' is of the wrong type", "set", name="stiffness", value=1)
+        for text in (b"", b"[]", b"nonsense", b"[" * 100_000, b'{"do":3}', b'{"do":"\xff"}', b'{"do":null}'):
+            client.send(text)
+        client.ask("ping")
+        client.send(b"binary", 2)
+        with self.assertRaises((ServerError, OSError)):
+            while True:
+                client.receive()
+
+
+class Recording(Server):
+    options = ("--allow-write",)
+
+    def test_writes_new_files_below_the_root(self):
+        client = self.client()
+        self.touching(client)
+        client.ask("drive")
+        for name in ("../a.tsrec", "box.glb", "/tmp/a.tsrec", "link.glb", "nowhere/a.tsrec"):
+            self.refused(client, "new file below the root", "record", file=name)
+        client.ask("record", file="a.tsrec")
+        time.sleep(0.3)
+        client.ask("record", file="")
+        replay = subprocess.run([PROGRAM, "replay", str(self.folder / "root" / "a.tsrec")], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+
+class Abuse(Server):
+    def test_no_client_stops_the_others_or_the_servo(self):
+        watcher = self.client(self.path)
+        self.touching(watcher)
+        before = watcher.state()
+        sockets = []
+        for i in range(64):  # more than there is room for; each sends something else
+            try:
+                connection = socket.create_connection(("127.0.0.1", self.port), 5)
+                connection.sendall([b"\0" * 1000, b"GET / HTTP/1.1\r\n", b"\x16\x03\x01", os.urandom(4096)][i % 4])
+                sockets.append(connection)
+            except OSError:
+                pass
+        clients = []
+        for _ in range(64):
+            try:
+                clients.append(Client(self.port))
+            except (ServerError, OSError):
+                break
+        self.assertLess(len(clients), 16)
+        self.assertGreater(len(clients), 4)
+        flood, deaf = clients[0], clients[1]
+        deaf.ask("subscribe", ticks=True)  # and never reads
+        with self.assertRaises((ServerError, OSError)):
+            for _ in range(200_000):
+                flood.send(b'{"do":"ping"}')
+            while True:
+                flood.receive()
+        for client in clients[2:]:
+            client._socket.sendall(b"\xc1\x7f" + os.urandom(64))  # no frame
+        for connection in sockets + clients[2:]:
+            connection.close()
+        memory = int(pathlib.Path(f"/proc/{self.server.pid}/statm").read_text().split()[1])
+        time.sleep(1.0)
+        after = watcher.state()
+        self.assertGreater(after["ticks"], before["ticks"] + 500)
+        limit = 8.5 + 1e-9
+        self.assertLessEqual(numpy.linalg.norm(after["command"]), limit)
+        grown = int(pathlib.Path(f"/proc/{self.server.pid}/statm").read_text().split()[1]) - memory
+        self.assertLess(grown * 4096, 64 << 20)
+        self.touching(self.client(self.path))
+
+    def test_streams_every_tick(self):
+        client = self.client()
+        self.touching(client)
+        client.ask("subscribe", ticks=True)
+        while sum(map(len, client.ticks)) < 1000:
+            client.event("state")
+        times = numpy.concatenate(client.ticks)["time"]
+        steps = numpy.diff(times)
+        self.assertTrue((steps > 0).all())
+        self.assertAlmostEqual(float(numpy.median(steps)), 1e-3, places=9)
+
+
+class Page(Server):
+    @unittest.skipUnless(len(sys.argv) > 3 and sys.argv[3], "there is no Chromium")
+    def test_shows_the_model_and_the_force(self):
+        self.touching(self.client(self.path))
+        picture = self.folder / "page.png"
+        browser = subprocess.run([sys.argv[3], "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                        "--enable-unsafe-swiftshader", "--window-size=1200,800", f"--user-data-dir={self.folder}/profile",
+                        "--timeout=15000", f"--screenshot={picture}", "--enable-logging=stderr",
+                        f"http://127.0.0.1:{self.port}/#{token_of(self.port)}"], check=True, capture_output=True, text=True, timeout=120)
+        self.assertNotIn("Uncaught", browser.stderr)
+        self.assertGreater(picture.stat().st_size, 20_000)
+        keep = os.environ.get("TOUCHSTONE_KEEP_PICTURE")
+        if keep:
+            pathlib.Path(keep).write_bytes(picture.read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
