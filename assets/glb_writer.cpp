@@ -117,6 +117,10 @@ int GlbWriter::addView(const void* data, const View& view) {
     return static_cast<int>(gltf_["bufferViews"].size()) - 1;
 }
 
+int GlbWriter::addText(const std::string& text) {
+    return addView(text.data(), {.count = text.size(), .stride = 1, .target = 0});
+}
+
 int GlbWriter::addAccessor(const void* data, const View& view, int componentType, const char* type) {
     gltf_["accessors"].push_back({{"bufferView", addView(data, view)},
                                   {"componentType", componentType},

@@ -28,6 +28,8 @@ class GlbWriter {
 
     /// A texture from a PNG file image in memory, with a repeating, trilinear sampler.
     int addTexture(const std::string& name, const std::vector<std::byte>& png);
+    /// A buffer view that holds a text. Only with Packing::Plain.
+    int addText(const std::string& text);
     int addMaterial(Json material);
     int addMesh(const std::string& name, const Shape& shape, int material);
     /// One mesh of several primitives, each with its own material.

@@ -103,6 +103,10 @@ std::vector<SceneFile> allScenes() {
     scenes.push_back(virtualBump());
     scenes.push_back(fieldTorus());
     scenes.push_back(materials());
+    scenes.push_back(wood());
+    scenes.push_back(programs());
+    scenes.push_back(surfaces());
+    scenes.push_back(heights());
     return scenes;
 }
 

@@ -39,6 +39,13 @@ struct SceneFile {
 /// A torus that is felt as a distance field [002]: 3,328 triangles, voxels of 1.25 mm.
 [[nodiscard]] SceneFile fieldTorus();
 
+/// Haptic programs (docs/programs.md): the beam of [003] Figure 6; the programs of [003]; six more surfaces;
+/// heights h(x, y, z) on shapes without texture coordinates.
+[[nodiscard]] SceneFile wood();
+[[nodiscard]] SceneFile programs();
+[[nodiscard]] SceneFile surfaces();
+[[nodiscard]] SceneFile heights();
+
 /// All of them.
 [[nodiscard]] std::vector<SceneFile> allScenes();
 

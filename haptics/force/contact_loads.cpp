@@ -2,6 +2,7 @@
 
 #include "haptics/force/spring_damper.h"
 #include "haptics/shading/turned_normal.h"
+#include "haptics/surface/program_surface.h"
 
 #include <algorithm>
 #include <span>
@@ -14,19 +15,32 @@ std::span<const ContactLoad> held(const ContactLoads& loads) {
     return {loads.contacts.data(), static_cast<size_t>(loads.count)};
 }
 
-/// f_i. Along a projected normal feel.depth is longer than lambda_i.
-glm::dvec3 contactForce(const ContactLoad& contact) {
+/// The depth for which the force of a contact is made, of which it bears feel.depth.
+double reachOf(const ContactLoad& contact) {
+    return std::max(contact.depth, contact.feel.depth);
+}
+
+/// f_i without a program. Along a projected normal feel.depth is longer than lambda_i.
+glm::dvec3 materialForce(const ContactLoad& contact) {
     const SurfaceSample& feel = contact.feel;
     if (feel.bump != 0.0) {
-        const double below = std::max(contact.depth, feel.depth);
+        const double below = reachOf(contact);
         const double raised = below > 0.0 ? std::max(below + feel.bump, 0.0) / below : 1.0;
         return feel.stiffness * feel.depth * raised * feel.textured;
     }
     if (!feel.hasHeight)
         return feel.stiffness * feel.depth * feel.lengthening * feel.textured;
-    const double reach = std::max(contact.depth, feel.depth);
+    const double reach = reachOf(contact);
     const double tilt = reach > feel.height ? feel.height / reach : 1.0;
     return feel.stiffness * feel.depth * (feel.normal + tilt * (feel.textured - feel.normal));
+}
+
+/// f_i.
+glm::dvec3 contactForce(const ContactLoad& contact) {
+    if (!contact.feel.programmed) [[likely]]
+        return materialForce(contact);
+    const double reach = reachOf(contact);
+    return withProgram(contact.feel, materialForce(contact), reach > 0.0 ? contact.feel.depth / reach : 1.0);
 }
 
 /// -c_i min(1, lambda_i / d_i) (v . n_i) n_i, without pulling.
@@ -42,7 +56,7 @@ bool alike(const ContactLoads& loads) {
         const SurfaceSample& feel = contact.feel;
         return feel.stiffness == loads.contacts[0].feel.stiffness && feel.depth == contact.length &&
                feel.normal == contact.plane && feel.textured == contact.plane && feel.lengthening == 1.0 &&
-               feel.bump == 0.0;
+               feel.bump == 0.0 && !feel.programmed;
     });
 }
 
@@ -51,7 +65,8 @@ bool alike(const ContactLoads& loads) {
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                const DeviceLimits& limits, int reference, const SolveResult& rest, const SubGoal& activeSet,
                bool twoPass, const glm::dvec3& offset, double workspacePerReference,
-               const glm::dvec3& velocity, double zoom, double dt, ContactLoads& loads) noexcept {
+               const glm::dvec3& velocity, double zoom, double dt, ProgramRun* programs,
+               ContactLoads& loads) noexcept {
     loads.count = activeSet.count;
     loads.offset = workspacePerReference * offset;
     loads.loaded = 0;
@@ -68,9 +83,13 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
         const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);
         load.feel = readSurface(scene, motions, settings, limits, reference, contact, turned.normal,
                                 load.length / turned.cosine, speed, dt);
+        if (programs != nullptr)
+            runProgram(scene, motions, settings, limits, reference, contact, reachOf(load), *programs,
+                       load.feel);
         if (zoom > 1.0) {
             const double share = bearableShare(load.feel.stiffness, zoom, settings, limits);
             load.feel.stiffness *= share;
+            load.feel.programForce *= share;
             load.feel.damping *= share;
             load.feel.viscousFriction *= share;
         }

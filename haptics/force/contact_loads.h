@@ -12,6 +12,8 @@
 
 namespace touchstone {
 
+struct ProgramRun; // haptics/surface/program_surface.h
+
 /// One active plane's part in p - h = sum lambda_i n_i (p: proxy without friction, h: HIP). Reference frame,
 /// workspace m.
 struct ContactLoad {
@@ -55,11 +57,12 @@ inline constexpr double kMaxLoad = 20.0;
 /// Reads the surface under every active plane of `hold`; with `twoPass` these are shadedPlanes. `offset`: p -
 /// h, reference object units. `velocity` of the HIP relative to the surface, m/s, reference object frame.
 /// `zoom` as in bearableShare, which limits each contact's stiffness separately: a stiffer plane that joins
-/// without load changes nothing.
+/// without load changes nothing. `programs`: null where no program runs.
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                const DeviceLimits& limits, int reference, const SolveResult& rest, const SubGoal& activeSet,
                bool twoPass, const glm::dvec3& offset, double workspacePerReference,
-               const glm::dvec3& velocity, double zoom, double dt, ContactLoads& loads) noexcept;
+               const glm::dvec3& velocity, double zoom, double dt, ProgramRun* programs,
+               ContactLoads& loads) noexcept;
 
 /// F above, N, reference object frame.
 [[nodiscard]] glm::dvec3 elasticForce(const ContactLoads& loads) noexcept;

@@ -1,5 +1,7 @@
 #include "haptics/force/spring_damper.h"
 
+#include "haptics/surface/program_surface.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +16,10 @@ glm::dvec3 springDamperForce(const SurfaceSample& feel, const glm::dvec3& fricti
     const glm::dvec3& m = feel.textured;
     const double raised = feel.bump == 0.0 ? d : std::max(d + feel.bump, 0.0);
     const glm::dvec3 elastic =
-        feel.stiffness *
-        (feel.hasHeight && d >= height ? (d - height) * n + height * m : feel.lengthening * raised * m);
+        withProgram(feel,
+                    feel.stiffness * (feel.hasHeight && d >= height ? (d - height) * n + height * m
+                                                                    : feel.lengthening * raised * m),
+                    1.0);
     const double into = glm::dot(velocity, n);
     const double wall = glm::dot(elastic, n);
     const double damping = std::max(-feel.damping * into, -std::max(wall, 0.0)); // a wall does not pull

@@ -267,7 +267,7 @@ template <class Registers>
 /// Instructions between two jumps backwards run forwards, so that the cost of each of them counts at most
 /// once: the difference of the running sums bounds what they took.
 template <class Registers>
-RunResult execute(const RegisterProgram& program, Registers& r) {
+RunResult execute(const RegisterProgram& program, Registers& r, uint32_t budget) {
     const Instruction* const first = program.instructions.data();
     size_t from = 0; // of the part of the program that runs since the last jump backwards
     uint32_t spent = 0;
@@ -298,7 +298,7 @@ RunResult execute(const RegisterProgram& program, Registers& r) {
         if (at.c <= i) {
             spent += program.cost[i + 1] - program.cost[from];
             from = at.c;
-            if (spent > kBudget)
+            if (spent > budget)
                 return {Ending::BudgetReached, spent};
         }
         i = size_t{at.c} - 1; // wraps round at 0, and the loop adds 1
@@ -317,13 +317,13 @@ void spoilOutputs(const RegisterProgram& program, Registers& r) {
 } // namespace
 
 RunResult run(const RegisterProgram& program, std::span<const PortValue, kMaxLocations> inputs,
-              std::span<PortValue, kMaxLocations> outputs) noexcept {
+              std::span<PortValue, kMaxLocations> outputs, uint32_t budget) noexcept {
     PlainRegisters r(program);
     for (const Port& port : program.inputs)
         for (size_t i = 0; i < port.count; ++i)
             r.set(port.first + i, inputs[port.location][i]);
     spoilOutputs(program, r);
-    RunResult result = execute(program, r);
+    RunResult result = execute(program, r, budget);
     for (const Port& port : program.outputs)
         for (size_t i = 0; i < port.count; ++i) {
             const float value = r.real(port.first + i);
@@ -335,13 +335,13 @@ RunResult run(const RegisterProgram& program, std::span<const PortValue, kMaxLoc
 }
 
 RunResult runDual(const RegisterProgram& program, std::span<const DualPortValue, kMaxLocations> inputs,
-                  std::span<DualPortValue, kMaxLocations> outputs) noexcept {
+                  std::span<DualPortValue, kMaxLocations> outputs, uint32_t budget) noexcept {
     DualRegisters r(program);
     for (const Port& port : program.inputs)
         for (size_t i = 0; i < port.count; ++i)
             r.set(port.first + i, {inputs[port.location].v[i], inputs[port.location].d[i]});
     spoilOutputs(program, r);
-    RunResult result = execute(program, r);
+    RunResult result = execute(program, r, budget);
     for (const Port& port : program.outputs)
         for (size_t i = 0; i < port.count; ++i) {
             const Dual value = r.real(port.first + i);

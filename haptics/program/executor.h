@@ -12,7 +12,7 @@ namespace touchstone::program {
 /// How a run ended. Only a finished run has outputs.
 enum class Ending : uint8_t {
     Finished,
-    BudgetReached,  ///< kBudget, counted at every jump backwards
+    BudgetReached,  ///< more than the budget, counted at every jump backwards
     BadIndex,       ///< an array index outside of its array
     DivisionByZero, ///< of integers
     Unreachable,
@@ -34,13 +34,15 @@ struct RunResult {
 };
 
 /// Runs the program on inputs and outputs by location (at least kMaxLocations of each; the program reads and
-/// writes those that it declares). Same bits for the same program, inputs and binary.
+/// writes those that it declares). `budget`: at most kBudget. Same bits for the same program, inputs and
+/// binary.
 [[nodiscard]] RunResult run(const RegisterProgram& program, std::span<const PortValue, kMaxLocations> inputs,
-                            std::span<PortValue, kMaxLocations> outputs) noexcept;
+                            std::span<PortValue, kMaxLocations> outputs, uint32_t budget = kBudget) noexcept;
 
 /// The same with derivatives. The values are those of `run` to the bit.
 [[nodiscard]] RunResult runDual(const RegisterProgram& program,
                                 std::span<const DualPortValue, kMaxLocations> inputs,
-                                std::span<DualPortValue, kMaxLocations> outputs) noexcept;
+                                std::span<DualPortValue, kMaxLocations> outputs,
+                                uint32_t budget = kBudget) noexcept;
 
 } // namespace touchstone::program

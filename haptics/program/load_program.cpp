@@ -26,16 +26,21 @@ void setParameters(RegisterProgram& program, const std::vector<ProgramParameter>
     }
 }
 
-RegisterProgram loadProgram(const ProgramSource& source, const ProgramCompiler& compiler,
-                            const std::function<bool()>& stop) {
-    Translation translation = translateSpirv(compileProgram(source, compiler, stop));
+RegisterProgram translated(const ProgramSource& source, std::span<const uint32_t> spirv) {
+    Translation translation = translateSpirv(spirv);
     if (translation.problem) {
         const TranslationProblem& problem = *translation.problem;
         throw Error(source.name, placeInSource(source, problem.place.file, problem.place.line), problem.what,
                     problem.remedy);
     }
-    setParameters(translation.program, source.parameters);
     return std::move(translation.program);
+}
+
+RegisterProgram loadProgram(const ProgramSource& source, const ProgramCompiler& compiler,
+                            const std::function<bool()>& stop) {
+    RegisterProgram program = translated(source, compileProgram(source, compiler, stop));
+    setParameters(program, source.parameters);
+    return program;
 }
 
 } // namespace touchstone::program

@@ -4,9 +4,15 @@
 #include "engine/program/program_compiler.h"
 #include "haptics/program/register_program.h"
 
+#include <cstdint>
 #include <functional>
+#include <span>
 
 namespace touchstone::program {
+
+/// Translates the SPIR-V of a source. Throws Error with the line and a remedy where the executor does not
+/// accept it. Any thread but the servo.
+[[nodiscard]] RegisterProgram translated(const ProgramSource& source, std::span<const uint32_t> spirv);
 
 /// Compiles and translates it, with the defaults of its parameters. Throws Error with the line and a remedy;
 /// Cancelled. `stop` is asked every 20 ms. Any thread but the servo.

@@ -66,7 +66,7 @@ RunResult runWithSlope(const RegisterProgram& program, const ProgramContact& con
         dual[i].v = in[i];
     for (size_t k = 0; k < 3; ++k)
         dual[kPosition].d[k][k] = 1.0f;
-    const RunResult result = runDual(program, dual, dualOut);
+    const RunResult result = runDual(program, dual, dualOut, contact.budget);
     for (size_t i = 0; i <= kOutMaterial; ++i)
         out[i] = dualOut[i].v;
     for (size_t k = 0; k < 3; ++k) {
@@ -81,13 +81,14 @@ RunResult runWithSlope(const RegisterProgram& program, const ProgramContact& con
 
 RunResult runWithDifferences(const RegisterProgram& program, const ProgramContact& contact, const Ports& in,
                              Ports& out, Displacement& displacement) {
-    RunResult result = run(program, in, out);
+    RunResult result = run(program, in, out, contact.budget);
     for (size_t k = 0; k < 3 && result.ending == Ending::Finished; ++k) {
         double difference = 0.0, distance = 0.0;
         for (const double sign : {1.0, -1.0}) {
             Ports beside = in, there{};
             beside[kPosition][k] += static_cast<float>(sign * contact.differenceStep);
-            const RunResult other = run(program, beside, there);
+            const RunResult other =
+                run(program, beside, there, contact.budget - std::min(contact.budget, result.cost));
             result.cost += other.cost;
             if (other.ending != Ending::Finished)
                 result.ending = other.ending;
@@ -157,7 +158,7 @@ ProgramFelt feelProgram(const RegisterProgram& program, ProgramGradient gradient
     const RunResult result =
         gradient == ProgramGradient::Dual      ? runWithSlope(program, contact, in, out, displacement)
         : gradient == ProgramGradient::Central ? runWithDifferences(program, contact, in, out, displacement)
-                                               : run(program, in, out);
+                                               : run(program, in, out, contact.budget);
     felt.ending = result.ending;
     felt.cost = result.cost;
     if (result.ending != Ending::Finished)

@@ -49,6 +49,7 @@ struct ProgramContact {
     double modelPerWorkspace = 1.0; ///< model metres in a workspace metre
     double maxStiffness = 0.0;      ///< N/m that the device can bear
     double differenceStep = 1e-4;   ///< model m, of ProgramGradient::Central
+    uint32_t budget = kBudget;      ///< of all runs, see operation.h; above it the surface is plain
 };
 
 /// What is felt. With another ending than Finished: the plain surface.

@@ -4,6 +4,7 @@
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/mesh_deformation.h"
+#include "haptics/program/felt_program.h"
 
 #include <fstream>
 #include <system_error>
@@ -78,6 +79,8 @@ void add(Hash64& hash, const HapticMaterialData& material) {
         add(hash, *factor);
     hash.add(material.shading);
     hash.add(material.plain);
+    if (material.program != nullptr)
+        hash.add(material.program->identity);
 }
 
 void add(Hash64& hash, const Animation& animation) {
@@ -145,6 +148,8 @@ uint64_t feltHash(const HapticScene& scene, const Scene& source) {
         add(hash, *object);
     for (const HapticMaterialData& material : scene.materials)
         add(hash, material);
+    for (const Similarity& frame : scene.programFromObject)
+        add(hash, frame);
     add(hash, scene.workspaceFromScene);
     if (const Animation* animation = playedAnimation(source)) {
         add(hash, *animation);

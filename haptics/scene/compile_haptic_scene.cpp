@@ -1,6 +1,7 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/plan_effects.h"
 #include "haptics/scene/scene_parts.h"
+#include "haptics/scene/scene_programs.h"
 #include "haptics/scene/shape_object.h"
 
 #include <cmath>
@@ -45,6 +46,7 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     copy->restSpheres = scene.restSpheres;
     copy->boundingRadii = scene.boundingRadii;
     copy->materials = scene.materials;
+    copy->programFromObject = scene.programFromObject;
     copy->plan = scene.plan;
     copy->workspaceFromScene = scene.workspaceFromScene;
     if (scene.hasRays())
@@ -102,6 +104,8 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
         haptic->materials.push_back(
             at.placed ? buildHapticMaterial(scene, scene.materials[m], m, at.sets, haptic->warnings)
                       : HapticMaterialData{});
+        if (at.placed)
+            addProgram(scene.materials[m], m, nullptr, *haptic);
     }
     const uint64_t triangles = scene.triangleCount();
     uint64_t done = 0;
@@ -126,6 +130,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     }
     for (size_t m = 0; m < scene.materials.size(); ++m)
         planMaterial(static_cast<int>(m), scene.materials[m], haptic->materials[m], uses[m], haptic->plan);
+    placePrograms(scene, *haptic);
     settlePlan(*haptic);
     if (options.rays)
         haptic->buildRays(options.progress.part(0.7, 1.0));
@@ -142,9 +147,11 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
     for (const MaterialPlacement& at : materialPlacements(scene)) {
         const size_t m = uses.size();
         uses.emplace_back().placed = at.placed;
-        if (at.placed)
-            haptic->materials[m] = buildHapticMaterial(scene, after[m], m, at.sets, haptic->warnings,
-                                                       {&before[m], &compiled.materials[m]});
+        if (!at.placed)
+            continue;
+        haptic->materials[m] = buildHapticMaterial(scene, after[m], m, at.sets, haptic->warnings,
+                                                   {&before[m], &compiled.materials[m]});
+        addProgram(after[m], m, compiled.materials[m].program.get(), *haptic);
     }
     bool sameMeshes = true;
     for (size_t k = 0; k < haptic->objects.size(); ++k) {
@@ -168,6 +175,7 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
         haptic->buildRays(); // of the rebuilt objects
     for (size_t m = 0; m < after.size(); ++m)
         planMaterial(static_cast<int>(m), after[m], haptic->materials[m], uses[m], haptic->plan);
+    placePrograms(scene, *haptic);
     settlePlan(*haptic);
     return haptic;
 }

@@ -30,6 +30,9 @@ class HapticScene {
     std::vector<glm::dvec4> restSpheres;                      ///< one per object: boundingSphere at rest
     std::vector<double> boundingRadii;         ///< one per object: HapticObject::boundingRadius, side by side
     std::vector<HapticMaterialData> materials; ///< index = Scene material
+    /// One per object where some material has a program, else empty: the frame of programs
+    /// (engine/scene/program_frame.h), from the object's.
+    std::vector<Similarity> programFromObject;
     EffectPlan plan;
     Similarity workspaceFromScene;
     std::vector<Warning> warnings;

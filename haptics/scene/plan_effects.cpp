@@ -1,5 +1,7 @@
 #include "haptics/scene/plan_effects.h"
 
+#include "haptics/program/felt_program.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -98,6 +100,13 @@ Verdict damping(const HapticMaterialData& data, const MaterialUse& use) {
             data.dampingMap.map.empty() ? "none stated" : "a damping map, but no damping for it to multiply"};
 }
 
+Verdict programVerdict(const Material& material, const HapticMaterialData& data) {
+    if (data.program != nullptr)
+        return {true, data.program->name + ", " + std::to_string(data.program->code.instructions.size()) +
+                          " instructions"};
+    return {false, material.says.ours.shader.is_null() ? "none stated" : "the program has a flaw"};
+}
+
 } // namespace
 
 void MaterialUse::add(const HapticObject& object) {
@@ -150,6 +159,11 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
                      factorText("stiffness", data.stiffnessMap)},
                     "one stiffness all over"),
         mapBytes(data.stiffnessMap.map) + use.bytes.stiffness);
+    uint64_t code = 0;
+    if (data.program != nullptr)
+        code = data.program->memoryBytes() +
+               (data.program->usesCoordinates ? std::exchange(coordinates[0], 0) : 0);
+    add(Effect::Program, programVerdict(material, data), code);
 }
 
 const char* effectName(Effect effect) {
@@ -168,6 +182,8 @@ const char* effectName(Effect effect) {
         return "damping";
     case Effect::VaryingStiffness:
         return "varying stiffness";
+    case Effect::Program:
+        return "haptic program";
     }
     return "";
 }
@@ -176,12 +192,12 @@ const char* effectName(Effect effect) {
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
     plan.plainSample = true;
-    plan.dampingMap = plan.oneSided = false;
+    plan.dampingMap = plan.oneSided = plan.programs = false;
     plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
     for (HapticMaterialData& m : scene.materials)
         m.plain = m.normal.empty() && m.height.empty() && m.stiffnessMap.map.empty() &&
                   (m.dampingMap.map.empty() || !(m.damping > 0.0)) && !(m.staticFriction > 0.0) &&
-                  !(m.viscousFriction > 0.0);
+                  !(m.viscousFriction > 0.0) && m.program == nullptr;
     for (const auto& object : scene.objects) {
         HapticMaterialData& m = scene.materials[static_cast<size_t>(object->material)];
         // Zero vertex damping overrides the material's damping.
@@ -190,6 +206,7 @@ void settlePlan(HapticScene& scene) {
             m.plain = false;
         plan.dampingMap |= !m.dampingMap.map.empty();
         plan.oneSided |= object->oneSided;
+        plan.programs |= m.program != nullptr;
         const ShadingMode mode = m.shading;
         const bool shaded = object->anySmooth && mode != ShadingMode::Off;
         plan.anyShading |= shaded;
@@ -227,6 +244,9 @@ void takeOff(Effect effect, HapticMaterialData& material) {
     case Effect::VaryingStiffness:
         material.stiffnessMap = {};
         return;
+    case Effect::Program:
+        material.program = nullptr;
+        return;
     }
 }
 
@@ -244,6 +264,7 @@ std::vector<float>* attributeOf(Effect effect, HapticObject& object) {
     case Effect::ForceShading:
     case Effect::NormalMap:
     case Effect::ViscousFriction:
+    case Effect::Program:
         break;
     }
     return nullptr;

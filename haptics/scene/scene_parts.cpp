@@ -1,6 +1,7 @@
 #include "haptics/scene/scene_parts.h"
 
 #include "engine/scene/clip_mesh.h"
+#include "haptics/program/felt_program.h"
 
 #include <optional>
 #include <utility>
@@ -76,6 +77,8 @@ ObjectUse meshUse(const HapticMaterialData& material, bool oneSided) {
             use.uv[map->layout().texCoord & 1] = true;
     if (!material.height.empty())
         use.uvGradients[material.height.layout().texCoord & 1] = true;
+    if (material.program != nullptr && material.program->usesCoordinates)
+        use.uv[0] = true;
     use.tangents = !material.normal.empty();
     use.normals = material.shading != ShadingMode::Off;
     return use;

@@ -62,6 +62,9 @@ int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> 
     scene.restMotions.push_back({workspaceFromObject, workspaceFromObject});
     scene.restSpheres.push_back(boundingSphere(*object, workspaceFromObject));
     scene.boundingRadii.push_back(object->boundingRadius);
+    if (!scene.programFromObject.empty())
+        scene.programFromObject.push_back(
+            {.scale = scene.workspaceFromScene.inverseTimes(workspaceFromObject).scale});
     scene.objects.push_back(std::move(object));
     settlePlan(scene);
     return static_cast<int>(scene.objects.size()) - 1;

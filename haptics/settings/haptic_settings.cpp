@@ -18,7 +18,7 @@ constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays", "virtual
     kTexture[]{"off", "law", "blinn", "minsky", "blinnMagnitude"},
     kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
     kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold", "kim"},
-    kPassivity[]{"off", "observe", "control"};
+    kPrograms[]{"off", "dual", "central", "noGradient"}, kPassivity[]{"off", "observe", "control"};
 
 constexpr double kDegree = 0.017453292519943295;
 
@@ -41,6 +41,10 @@ constexpr std::array kFields{
         "stiction point with static and dynamic coefficients; zilles: sawtooth; ho: two "
         "states; elastoplastic: creeps before it slips; velocityThreshold: viscous above a speed; kim: the "
         "contact point lags behind the hand, and creeps at rest"),
+    wordField<&S::programs>(
+        "programs", kPrograms,
+        "haptic programs, and where the gradient of a displacement comes from: dual numbers, "
+        "central differences (six more runs), or nowhere; off: surfaces are plain"),
     numberField<&S::proxyRadius>("proxyRadius", "m", 0.0, 0.05,
                                  "radius of the proxy sphere; 0 is the god-object"),
     numberField<&S::stiffness>("stiffness", "N/m", 0.0, 1e5,

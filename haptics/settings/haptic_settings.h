@@ -30,6 +30,9 @@ enum class TextureFilter : uint8_t { Nearest, Bilinear, Bicubic, Mip };
 /// the filter.
 enum class TextureGradient : uint8_t { Central, Precomputed, Analytic };
 enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic, VelocityThreshold, Kim };
+/// Haptic programs (haptics/program). Dual, Central, None: where the gradient of a displacement comes from
+/// (ProgramGradient). Off: surfaces are plain.
+enum class ProgramMode : uint8_t { Off, Dual, Central, NoGradient };
 /// The response of safety to energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
 
@@ -41,6 +44,7 @@ struct HapticSettings {
     ShadingMode forceShading = ShadingMode::Material;
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
+    ProgramMode programs = ProgramMode::Dual;
     /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves. See feltRadius.
     double proxyRadius = 0.0;
     /// N/m; 0: the material's, else the device's recommendation.

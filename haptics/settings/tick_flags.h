@@ -26,6 +26,7 @@ enum class TickFlag : uint32_t {
     EnergyGiven = 1u << 14,     ///< the device gave more energy than it took, by more than kNoticedEnergy
     EnergyDamped = 1u << 15,    ///< passivity=control: a damper took some of it back
     DeformationHeld = 1u << 16, ///< vertices were not published in time: the deforming objects stood still
+    ProgramFailed = 1u << 17,   ///< a haptic program had no result within the budget: its surface was plain
     ObjectJumped = 1u << 13,    ///< an object was placed elsewhere (an animation restarted) and swept nothing
 };
 [[nodiscard]] constexpr uint32_t operator|(uint32_t flags, TickFlag flag) {

@@ -27,6 +27,15 @@ inline constexpr size_t kMaxHands = 4;
 
 enum class FrictionState : uint8_t { Free, Sticking, Sliding };
 
+/// What haptic programs see of the hand's motion besides its velocity. Followed only in scenes with programs.
+struct ToolMotion {
+    bool known = false;           ///< `velocity` is that of the last tick
+    glm::dvec3 velocity{0.0};     ///< DeviceState::velocity of the last tick, m/s, workspace
+    glm::dvec3 acceleration{0.0}; ///< m/s^2, workspace, through the low-pass of the velocity
+    glm::dvec3 direction{0.0};    ///< unit, of the last motion along a surface; 0 before any; workspace
+    double time = 0.0;            ///< s since touch began
+};
+
 /// Construct before the servo starts (it allocates); the step only writes into it.
 struct DeviceState {
     // Stage 1
@@ -69,6 +78,9 @@ struct DeviceState {
     glm::dvec3 stictionPoint{0.0}; ///< a proxy position; with friction=ho on the chord between two
     glm::dvec3 frictionless{0.0};  ///< where the proxy would be without friction; while friction is not Free
 
+    // Haptic programs
+    ToolMotion tool;
+
     // Stage 8
     ForceLimiterState limiter;
 
@@ -79,6 +91,7 @@ struct DeviceState {
         velocity = glm::dvec3(0.0);
         reference = -1;
         friction = FrictionState::Free;
+        tool = {};
         candidates.invalidate();
         jammed.count = 0;
         candidates.ignore({});

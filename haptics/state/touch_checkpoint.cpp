@@ -54,10 +54,17 @@ void eachField(State& s, const Visit& visit) {
     visit(s.limiter.passivity.position);
     visit(s.limiter.passivity.delayed);
     visit(s.limiter.passivity.balance);
+    // Since programs: checkpoints of before end here.
+    visit(s.tool.known);
+    visit(s.tool.velocity);
+    visit(s.tool.acceleration);
+    visit(s.tool.direction);
+    visit(s.tool.time);
 }
 
-static_assert(memberCount<DeviceState>() == 26 && memberCount<ForceLimiterState>() == 9 &&
-                  memberCount<PassivityState>() == 6 && memberCount<WatchState>() == 2,
+static_assert(memberCount<DeviceState>() == 27 && memberCount<ForceLimiterState>() == 9 &&
+                  memberCount<PassivityState>() == 6 && memberCount<WatchState>() == 2 &&
+                  memberCount<ToolMotion>() == 5,
               "a member was added: does it outlive the tick? Then eachField visits it");
 
 /// Only the fields that eachField visits; a copy of the whole DeviceState would be a megabyte.
@@ -79,7 +86,11 @@ struct CarriedFields {
     FrictionState friction = FrictionState::Free;
     glm::dvec3 stictionPoint{0.0}, frictionless{0.0};
     ForceLimiterState limiter;
+    ToolMotion tool;
 };
+
+/// Bytes of ToolMotion's fields, which come last.
+constexpr size_t kToolBytes = sizeof(bool) + 3 * sizeof(glm::dvec3) + sizeof(double);
 
 /// Upper bound of every number that a touch produces, in any unit; Embree takes none above 1.8e18.
 constexpr double kLargest = 1e15;
@@ -134,6 +145,10 @@ template <class State>
 void readFields(std::span<const std::byte> bytes, State& state) {
     size_t at = 0;
     eachField(state, [&](auto& field) {
+        if (at == bytes.size()) {
+            field = {}; // of a version without it
+            return;
+        }
         if constexpr (std::is_same_v<std::remove_reference_t<decltype(field)>, bool>)
             field = bytes[at] != std::byte{0};
         else
@@ -157,7 +172,7 @@ void takeCheckpoint(DeviceState& state, TouchCheckpoint& checkpoint) noexcept {
 
 bool restoreCheckpoint(std::span<const std::byte> bytes, const HapticScene* scene,
                        DeviceState& state) noexcept {
-    if (bytes.size() != checkpointSize())
+    if (bytes.size() != checkpointSize() && bytes.size() != checkpointSize() - kToolBytes)
         return false;
     CarriedFields fields;
     readFields(bytes, fields);

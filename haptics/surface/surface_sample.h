@@ -27,6 +27,10 @@ struct SurfaceSample {
     double stiffness = 0.0; ///< N/m
     double damping = 0.0;   ///< N·s/m
     double staticFriction = 0.0, dynamicFriction = 0.0, viscousFriction = 0.0;
+    /// A haptic program ran: what it adds to the elastic force of the surface with its stiffness, N
+    /// (surface/program_surface.h).
+    bool programmed = false;
+    glm::dvec3 programForce{0.0};
     bool coulomb = false; ///< the coefficients are specified, though a map may make them zero here
 };
 

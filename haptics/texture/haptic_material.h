@@ -7,8 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
 namespace touchstone {
+
+namespace program {
+struct FeltProgram; // haptics/program/felt_program.h
+}
 
 /// A map that scales a factor between `min` (black) and `max` (white).
 struct HapticFactor {
@@ -28,6 +33,7 @@ struct HapticMaterialData {
     double heightScale = 0.0;                           ///< model metres, black to white
     double heightMid = 0.5;                             ///< value of the height map that lies on the mesh
     HapticFactor friction, stiffnessMap, dampingMap;
+    std::shared_ptr<const program::FeltProgram> program; ///< null: none
     /// The material's forceShading, resolved: auto is TwoPass, never Material.
     ShadingMode shading = ShadingMode::TwoPass;
     /// Neither the material nor any of its objects has a map, a vertex attribute, friction or a viscous term:

@@ -1,6 +1,9 @@
 #include "haptics/tick/felt_force.h"
 
+#include "haptics/surface/program_surface.h"
+
 #include <algorithm>
+#include <optional>
 
 namespace touchstone {
 
@@ -19,6 +22,18 @@ void nameContacts(const DeviceState& state, const SubGoal& activeSet, ContactFor
     }
 }
 
+/// Programs of this tick at contacts whose common normal is `normal`.
+ProgramRun beginPrograms(const HandTick& tick, DeviceState& state, const glm::dvec3& normal,
+                         const glm::dvec3& velocity) {
+    followDirection(velocity, normal, tick.motions[static_cast<size_t>(state.reference)].workspaceFromObject,
+                    state.tool);
+    return programRun(state.tool, velocity, tick.zoom, tick.dt);
+}
+
+uint32_t failureOf(const ProgramRun& programs) {
+    return programs.failed ? 0u | TickFlag::ProgramFailed : 0u;
+}
+
 } // namespace
 
 FeltShape turnedShape(const HandTick& tick, int reference, const Contact& facet, const glm::dvec3& offset,
@@ -30,19 +45,34 @@ FeltShape turnedShape(const HandTick& tick, int reference, const Contact& facet,
     return {turned.normal, glm::dot(offset, facet.normal) / turned.cosine};
 }
 
-void feelTexture(const HandTick& tick, const DeviceState& state, const Contact& contact,
-                 const glm::dvec3& normal, double depth, const glm::dvec3& velocity, SurfaceSample& feel) {
+void feelTexture(const HandTick& tick, DeviceState& state, const Contact& contact, const glm::dvec3& normal,
+                 double depth, const glm::dvec3& velocity, SurfaceSample& feel, uint32_t& flags) {
     const double speed = glm::length(velocity - glm::dot(velocity, normal) * normal);
     feel = readSurface(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, contact, normal,
                        depth, speed, tick.dt);
+    if (tick.scene.plan.programs) {
+        ProgramRun programs = beginPrograms(tick, state, normal, velocity);
+        runProgram(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, contact, depth,
+                   programs, feel);
+        flags |= failureOf(programs);
+    }
 }
 
-void feelSeveral(const HandTick& tick, const DeviceState& state, const SubGoal& activeSet,
-                 const glm::dvec3& offset, double workspacePerReference, const glm::dvec3& velocity,
-                 SurfaceSample& feel, SeveralContacts& several) {
+void feelSeveral(const HandTick& tick, DeviceState& state, const SubGoal& activeSet, const glm::dvec3& offset,
+                 double workspacePerReference, const glm::dvec3& velocity, SurfaceSample& feel,
+                 SeveralContacts& several, uint32_t& flags) {
     ContactLoads loads;
+    std::optional<ProgramRun> programs;
+    if (tick.scene.plan.programs) {
+        const double length = glm::length(offset);
+        programs.emplace(
+            beginPrograms(tick, state, length > 0.0 ? offset / length : glm::dvec3(0.0), velocity));
+    }
     readLoads(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, state.rest, activeSet,
-              state.shaded, offset, workspacePerReference, velocity, tick.zoom, tick.dt, loads);
+              state.shaded, offset, workspacePerReference, velocity, tick.zoom, tick.dt,
+              programs ? &*programs : nullptr, loads);
+    if (programs)
+        flags |= failureOf(*programs);
     const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(tick.zoom, 1.0);
     several.force = elastic + dampingForce(loads, felt);
     several.cone = FrictionCone(loads, felt, workspacePerReference);

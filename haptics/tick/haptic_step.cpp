@@ -8,6 +8,7 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/shading/first_goal.h"
 #include "haptics/shading/force_shading.h"
+#include "haptics/surface/program_surface.h"
 #include "haptics/tick/felt_force.h"
 
 #include <cmath>
@@ -192,6 +193,8 @@ void feelHand(const HapticScene& scene, const HapticSettings& settings, const Ti
             ForceLimiter::forgetEnergy(state.limiter); // that of another device, or of before the gap
     }
     const bool sampled = takeSample(sample, input.dt, state, output.flags);
+    if (scene.plan.programs && sampled) [[unlikely]]
+        followTool(state.velocity, input.dt, state.tool);
     output.zoom = sample.mapping.workspaceFromDevice.scale;
     output.hip = output.proxy = state.hip;
     output.hipVelocity = state.velocity;

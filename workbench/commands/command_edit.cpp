@@ -64,7 +64,9 @@ HapticStatement edited(HapticStatement statement, const Scene& scene, const Edit
     if (const MaterialPreset* preset = findPreset(options.preset))
         statement = withPreset(std::move(statement), *preset);
     for (const std::string& name : options.resetFields)
-        resetHapticField(statement, name);
+        if (!resetHapticField(statement, name))
+            throw Error("--reset-field", "", "'" + name + "' is no parameter of the material's program",
+                        "touchstone inspect " + scene.path + " lists them");
     for (const auto& [name, value] : options.fields)
         if (const std::string problem = setHapticField(statement, scene, name, value); !problem.empty())
             throw Error("--field", "", problem, "touchstone edit --help");

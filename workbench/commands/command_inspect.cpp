@@ -34,6 +34,18 @@ void printEffects(const Json& material) {
                     text(effect["effect"]).c_str(), text(effect["memory_bytes"]).c_str(),
                     effect["ns_per_tick"].is_null() ? "?" : text(effect["ns_per_tick"]).c_str(),
                     text(effect["reason"]).c_str());
+    if (material.contains("program")) {
+        const Json& program = material["program"];
+        std::printf("    program %s: %s instructions, %s registers; %s ns, with gradients %s ns, by central "
+                    "differences %s ns; spends %s of its budget of %s%s\n",
+                    text(program["name"]).c_str(), text(program["instructions"]).c_str(),
+                    text(program["registers"]).c_str(), text(program["ns_per_tick"]).c_str(),
+                    text(program["ns_with_gradients"]).c_str(), text(program["ns_with_differences"]).c_str(),
+                    text(program["cost"]).c_str(), text(program["budget"]).c_str(),
+                    program["flagged_share"] > 0.0 ? "; plain at places without a result" : "");
+        for (const auto& [name, value] : program["parameters"].items())
+            print("      %s = %s\n", name, value.dump());
+    }
     if (material.contains("not_yet_available"))
         print("    not yet available: %s\n", material["not_yet_available"].dump());
 }

@@ -1,5 +1,7 @@
 #include "workbench/editor/haptic_fields.h"
 
+#include "engine/core/error.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -155,6 +157,7 @@ constexpr std::array kMaps{
              setMap<&HapticStatement::dampingMap>}};
 
 constexpr std::string_view kShader = "shader";
+constexpr std::string_view kParameter = "shader."; // "shader.NAME": a parameter of the program
 
 template <class Fields>
 auto find(const Fields& fields, std::string_view name) {
@@ -211,6 +214,61 @@ std::string choiceProblem(const ChoiceField& field, std::string_view word) {
 /// A problem with the name of its field.
 std::string ofField(std::string_view name, const std::string& problem) {
     return problem.empty() ? problem : std::string(name) + ": " + problem;
+}
+
+/// "0.5" or "0.1,0.2,0.3"; empty where it is not numbers.
+std::vector<double> numbersOf(std::string_view text) {
+    std::vector<double> numbers;
+    while (true) {
+        const size_t end = std::min(text.find(','), text.size());
+        double number = 0.0;
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + end, number);
+        if (error != std::errc{} || stop != text.data() + end || !std::isfinite(number))
+            return {};
+        numbers.push_back(number);
+        if (end == text.size())
+            return numbers;
+        text.remove_prefix(end + 1);
+    }
+}
+
+constexpr const char* kNumbersProblem = "should be a number, or numbers with commas between them";
+
+std::string setParameterField(HapticStatement& statement, std::string_view name, std::string_view text) {
+    if (statement.program == nullptr)
+        return "the material has no program that compiles";
+    const auto& declared = statement.program->source.parameters;
+    const auto parameter = std::ranges::find(declared, name, &ProgramParameter::name);
+    if (parameter == declared.end()) {
+        std::string known;
+        for (const ProgramParameter& each : declared)
+            known += (known.empty() ? "" : ", ") + each.name;
+        return statement.program->source.name + " declares no such parameter; there are " + known;
+    }
+    const std::vector<double> numbers = numbersOf(text);
+    if (numbers.size() != parameter->components)
+        return "has " + std::to_string(parameter->components) + " components; give as many numbers";
+    std::array<double, 4> value{};
+    std::ranges::copy(numbers, value.begin());
+    const nlohmann::json changed = withParameter(statement.shader, *parameter, value);
+    try {
+        (void)materialProgram(statement.program, changed);
+    } catch (const Error& error) {
+        return error.problem() + "; " + error.remedy();
+    }
+    statement.shader = KeptJson(changed);
+    return {};
+}
+
+bool resetParameterField(HapticStatement& statement, std::string_view name) {
+    if (statement.program == nullptr)
+        return false;
+    const auto& declared = statement.program->source.parameters;
+    const auto parameter = std::ranges::find(declared, name, &ProgramParameter::name);
+    if (parameter == declared.end())
+        return false;
+    statement.shader = KeptJson(withParameter(statement.shader, *parameter, parameter->value));
+    return true;
 }
 
 std::string setMapField(const MapField& field, HapticStatement& statement, const Scene& scene,
@@ -276,6 +334,8 @@ std::string setHapticField(HapticStatement& statement, const Scene& scene, std::
         problem = choiceProblem(*choice, value);
         if (problem.empty())
             choice->set(statement, choiceOf(*choice, value));
+    } else if (name.starts_with(kParameter)) {
+        problem = setParameterField(statement, name.substr(kParameter.size()), value);
     } else {
         return hapticFieldProblem(name);
     }
@@ -283,9 +343,12 @@ std::string setHapticField(HapticStatement& statement, const Scene& scene, std::
 }
 
 bool resetHapticField(HapticStatement& statement, std::string_view name) {
-    if (name == kShader)
+    if (name.starts_with(kParameter))
+        return resetParameterField(statement, name.substr(kParameter.size()));
+    if (name == kShader) {
         statement.shader = nullptr;
-    else if (const NumberField* number = find(numberFields(), name))
+        statement.program = nullptr;
+    } else if (const NumberField* number = find(numberFields(), name))
         number->set(statement, std::nullopt);
     else if (const MapField* map = find(kMaps, name))
         map->set(statement, {});
@@ -309,6 +372,8 @@ std::string hapticValueProblem(std::string_view name, std::string_view value) {
         return ofField(name, readNumber(*number, value, ignored));
     if (const ChoiceField* choice = find(kChoices, name))
         return ofField(name, choiceProblem(*choice, value));
+    if (name.starts_with(kParameter))
+        return ofField(name, numbersOf(value).empty() ? kNumbersProblem : "");
     return hapticFieldProblem(name);
 }
 
@@ -337,6 +402,8 @@ std::string hapticFieldHelp() {
         line(field.name, std::string(field.meaning) + ": index or name of a texture of the file, or none");
     for (const ChoiceField& field : kChoices)
         line(field.name, std::string(field.meaning) + ": " + joined(field.choices));
+    line("shader.PARAMETER", "a parameter of the material's haptic program: a number, or several with commas "
+                             "between them");
     return text;
 }
 

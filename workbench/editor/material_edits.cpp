@@ -66,6 +66,22 @@ void patchMap(const char* name, const std::optional<Map>& from, const std::optio
     patch[name] = std::move(whole);
 }
 
+/// RFC 7396: what turns `from` into `to`; members that `to` lacks are null.
+Json mergePatch(const nlohmann::json& from, const nlohmann::json& to) {
+    if (!from.is_object() || !to.is_object())
+        return Json(to);
+    Json patch = Json::object();
+    for (const auto& [name, value] : from.items())
+        if (!to.contains(name))
+            patch[name] = nullptr;
+    for (const auto& [name, value] : to.items())
+        if (!from.contains(name))
+            patch[name] = value;
+        else if (from[name] != value)
+            patch[name] = mergePatch(from[name], value);
+    return patch;
+}
+
 } // namespace
 
 Json patchBetween(const HapticStatement& from, const HapticStatement& to) {
@@ -81,7 +97,7 @@ Json patchBetween(const HapticStatement& from, const HapticStatement& to) {
         if (field.get(from) != field.get(to))
             patch[std::string(field.name)] = wordOf(field, to);
     if (from.shader != to.shader)
-        patch["shader"] = Json(to.shader);
+        patch["shader"] = mergePatch(from.shader, to.shader);
     return patch;
 }
 

@@ -6,14 +6,17 @@
 #include "engine/scene/haptic_numbers.h"
 #include "engine/time/samples.h"
 #include "engine/volume/volume.h"
+#include "haptics/program/felt_program.h"
 #include "haptics/servo/realtime_thread.h"
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
+#include "workbench/figures/program_figures.h"
 
 #include <array>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -83,6 +86,19 @@ Json costJson(const EffectCost& cost) {
     return *cost.nanoseconds;
 }
 
+Json programJson(const program::FeltProgram& program, const MaterialProgram& material) {
+    Json parameters = Json::object();
+    const auto& declared = material.compiled->source.parameters;
+    for (size_t i = 0; i < declared.size(); ++i)
+        parameters[declared[i].name] = std::vector<double>(
+            material.values[i].begin(),
+            material.values[i].begin() + static_cast<std::ptrdiff_t>(declared[i].components));
+    Json json{{"name", program.name}, {"displaces", program.displaces}};
+    json.update(programFigures(program.code));
+    json["parameters"] = parameters;
+    return json;
+}
+
 Json materialsJson(const Model& model) {
     const std::vector<EffectCost> costs = effectCosts(*model.haptic);
     constexpr std::array kShading{"auto", "off", "twoPass", "projected", "direction", "bezier"};
@@ -108,6 +124,8 @@ Json materialsJson(const Model& model) {
                   {"effects", effects}};
         if (!material.haptic.unavailable.is_null())
             json["not_yet_available"] = material.haptic.unavailable;
+        if (const auto& program = model.haptic->materials[m].program; program != nullptr)
+            json["program"] = programJson(*program, material.haptic.program);
         materials.push_back(std::move(json));
     }
     return materials;

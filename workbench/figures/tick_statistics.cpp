@@ -11,7 +11,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::array<std::pair<TickFlag, std::string_view>, 17> kFlagNames{{
+constexpr std::array<std::pair<TickFlag, std::string_view>, 18> kFlagNames{{
     {TickFlag::InputInvalid, "input_invalid"},
     {TickFlag::StartedInside, "started_inside"},
     {TickFlag::BudgetReached, "budget_reached"},
@@ -29,6 +29,7 @@ constexpr std::array<std::pair<TickFlag, std::string_view>, 17> kFlagNames{{
     {TickFlag::NeighbourhoodMissing, "neighbourhood_missing"},
     {TickFlag::EnergyGiven, "energy_given"},
     {TickFlag::EnergyDamped, "energy_damped"},
+    {TickFlag::ProgramFailed, "program_failed"},
 }};
 
 nlohmann::ordered_json nanoseconds(const Samples& samples) {

@@ -302,7 +302,7 @@ void defineEdit(CLI::App& app, EditOptions& options) {
         ->expected(1)
         ->take_all()
         ->check([](const std::string& name) {
-            return name == "shader" ? std::string() : hapticFieldProblem(name);
+            return name == "shader" || name.starts_with("shader.") ? std::string() : hapticFieldProblem(name);
         });
     addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
                    [&options](std::string_view name, std::string_view value) {

@@ -271,8 +271,12 @@ class MaterialPanel {
     void shader() {
         if (now_.shader.is_null())
             return;
-        label("shader", true, now_.shader != was_.shader, "kept in the file; not yet available");
-        ImGui::TextUnformatted(now_.shader.value("source", "").substr(0, 40).c_str());
+        label("shader", true, now_.shader != was_.shader,
+              now_.program != nullptr ? "haptic program" : "has a flaw: the surface is plain");
+        ImGui::TextUnformatted(
+            (now_.program != nullptr ? now_.program->source.name : now_.shader.value("source", ""))
+                .substr(0, 40)
+                .c_str());
         reset("shader", true);
     }
 

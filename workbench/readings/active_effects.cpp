@@ -68,6 +68,10 @@ Ruling ruling(Effect effect, bool planned, const HapticSettings& settings) {
                    : Ruling{};
     case Effect::Damping:
         return damping(settings, planned);
+    case Effect::Program:
+        return planned && settings.programs == ProgramMode::Off
+                   ? Ruling{State::SwitchedOff, "programs=off in the session"}
+                   : Ruling{};
     case Effect::VaryingStiffness:
         break; // a map scales the session's stiffness, too
     }

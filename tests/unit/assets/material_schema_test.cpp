@@ -138,7 +138,9 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 16) << "ten swatches, three effects, a doughnut, a virtual bump and a field torus";
+    EXPECT_EQ(materials, 30)
+        << "ten swatches, three effects, a doughnut, a virtual bump, a field torus, and 14 "
+           "with programs";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,

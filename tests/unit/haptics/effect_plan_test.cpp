@@ -84,9 +84,9 @@ Scene richPlane() {
     return scene;
 }
 
-constexpr Effect kAll[] = {Effect::ForceShading,    Effect::NormalMap,       Effect::HeightMap,
-                           Effect::Friction,        Effect::ViscousFriction, Effect::Damping,
-                           Effect::VaryingStiffness};
+constexpr Effect kAll[] = {Effect::ForceShading,     Effect::NormalMap,       Effect::HeightMap,
+                           Effect::Friction,         Effect::ViscousFriction, Effect::Damping,
+                           Effect::VaryingStiffness, Effect::Program};
 
 TEST(EffectPlan, APlainSceneHasNoneAndHoldsNothing) {
     const auto scene = compiled(plainPlane());

@@ -1,45 +1,13 @@
 // The programs of [003] in assets/programs, each against its formula in long double.
 
-#include "haptics/program/load_program.h"
 #include "noise_reference.h"
 #include "program_bench.h"
 
 #include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 namespace touchstone::program {
 namespace {
-
-using Vec = std::array<long double, 3>;
-
-/// With the defaults of its parameters.
-RegisterProgram paperProgram(const std::string& name) {
-    std::ifstream file(std::string(TOUCHSTONE_ASSETS) + "/../programs/" + name);
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
-    return loadProgram(readProgramSource(name, text), installedProgramCompiler(), [] { return false; });
-}
-
-void setInteger(RegisterProgram& program, const std::string& name, uint32_t value) {
-    setParameter(program, name, std::bit_cast<float>(value));
-}
-
-/// Places that a stroke meets, float exactly.
-std::array<float, 3> placeOf(int i) {
-    return {static_cast<float>(i % 37) * 0.00131f - 0.02f, static_cast<float>(i % 53) * 0.00093f - 0.025f,
-            static_cast<float>(i % 11) * 0.0021f - 0.01f};
-}
-
-PortValue outputAt(const RegisterProgram& program, const Inputs& in, size_t port) {
-    Inputs out{};
-    EXPECT_EQ(run(program, in, out).ending, Ending::Finished);
-    return out[port];
-}
-
-long double exact(float x) {
-    return static_cast<long double>(x);
-}
 
 TEST(PaperPrograms, WoodIsItsFormula) {
     for (const float edge : {0.0f, 0.15f}) {

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
 #include "haptics/program/executor.h"
+#include "haptics/program/load_program.h"
 #include "haptics/program/translator.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,7 +44,16 @@ using Inputs = std::array<PortValue, kMaxLocations>;
 using DualInputs = std::array<DualPortValue, kMaxLocations>;
 
 /// Locations of shaders/material/interface.glsl.
-enum Location : size_t { kPosition = 0, kNormal = 1, kUv = 4, kForce = 8, kMaterial = 9, kTick = 10 };
+enum Location : size_t {
+    kPosition = 0,
+    kNormal = 1,
+    kUv = 4,
+    kToolDirection = 5,
+    kToolVelocity = 6,
+    kForce = 8,
+    kMaterial = 9,
+    kTick = 10
+};
 enum OutLocation : size_t { kOutPosition = 0, kOutNormal = 1, kOutForce = 2, kOutMaterial = 3 };
 
 inline Inputs inputsAt(float x, float y, float z) {
@@ -67,6 +79,33 @@ inline void setParameter(RegisterProgram& program, const std::string& name, floa
     for (const ParameterSlot& slot : program.parameters)
         if (slot.name == name)
             program.constants[slot.first] = std::bit_cast<uint32_t>(value);
+}
+
+/// With the defaults of its parameters.
+inline RegisterProgram paperProgram(const std::string& name) {
+    std::ifstream file(std::string(TOUCHSTONE_ASSETS) + "/../programs/" + name);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    return loadProgram(readProgramSource(name, text), installedProgramCompiler(), [] { return false; });
+}
+
+inline void setInteger(RegisterProgram& program, const std::string& name, uint32_t value) {
+    setParameter(program, name, std::bit_cast<float>(value));
+}
+
+/// Places that a stroke meets, float exactly.
+inline std::array<float, 3> placeOf(int i) {
+    return {static_cast<float>(i % 37) * 0.00131f - 0.02f, static_cast<float>(i % 53) * 0.00093f - 0.025f,
+            static_cast<float>(i % 11) * 0.0021f - 0.01f};
+}
+
+inline PortValue outputAt(const RegisterProgram& program, const Inputs& in, size_t port) {
+    Inputs out{};
+    EXPECT_EQ(run(program, in, out).ending, Ending::Finished);
+    return out[port];
+}
+
+inline long double exact(float x) {
+    return static_cast<long double>(x);
 }
 
 } // namespace touchstone::program
