@@ -7,7 +7,9 @@
 #include "haptics/program/translator.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace touchstone::program {
 
@@ -20,30 +22,46 @@ const Port* portAt(const std::vector<Port>& ports, size_t location) {
     return found != ports.end() ? &*found : nullptr;
 }
 
-/// False where nothing but copies of the position's components is ever written into the output.
+/// What a register holds, whatever way a run takes: a copy of one of the position's components, or anything.
+constexpr int kNever = -2, kAnything = -1;
+
+int joined(int a, int b) {
+    return a == kNever ? b : b == kNever || a == b ? a : kAnything;
+}
+
+/// One pass over all instructions. True where a register came to hold more.
+bool follow(const RegisterProgram& program, std::vector<int>& holds) {
+    bool changed = false;
+    for (const Instruction& at : program.instructions)
+        for (size_t i = 0; i < std::max<size_t>(at.count, 1) && at.to + i < holds.size(); ++i) {
+            const bool copies = at.operation == Operation::Move && at.a + i < holds.size();
+            int& to = holds[at.to + i];
+            const int next = joined(to, copies ? holds[at.a + i] : kAnything);
+            changed |= next != to;
+            to = next;
+        }
+    return changed;
+}
+
+/// False where nothing but the position that it gets is ever written into the output.
 bool writesPosition(const RegisterProgram& program) {
     const Port* out = portAt(program.outputs, kPosition);
     const Port* in = portAt(program.inputs, kPosition);
-    if (out == nullptr || in == nullptr)
+    const bool indexed = std::ranges::any_of(program.instructions, [](const Instruction& at) {
+        return at.operation == Operation::StoreAt; // into a place that is not known here
+    });
+    if (out == nullptr || in == nullptr || indexed)
         return out != nullptr;
-    const auto touches = [](const Instruction& at, size_t first, size_t count) {
-        return at.to < first + count && first < size_t{at.to} + std::max<size_t>(at.count, 1);
-    };
-    bool copied = false;
-    for (const Instruction& at : program.instructions) {
-        if (at.operation == Operation::StoreAt || at.operation == Operation::LoadAt)
-            return true; // the places that it writes are not known here
-        if (touches(at, in->first, in->count))
-            return true;
-        if (!touches(at, out->first, out->count))
-            continue;
-        const bool copy = at.operation == Operation::Move && at.to == out->first && at.a == in->first &&
-                          at.count == out->count;
-        if (!copy)
-            return true;
-        copied = true;
+    std::vector<int> holds(program.registers, kNever);
+    std::fill_n(holds.begin(), std::min(program.constants.size(), holds.size()), kAnything);
+    for (size_t k = 0; k < in->count; ++k)
+        holds[in->first + k] = static_cast<int>(k);
+    while (follow(program, holds)) {
     }
-    return !copied;
+    for (size_t k = 0; k < out->count; ++k)
+        if (holds[out->first + k] != static_cast<int>(k))
+            return true;
+    return false;
 }
 
 uint64_t identityOf(const MaterialProgram& material) {

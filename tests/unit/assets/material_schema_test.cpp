@@ -138,9 +138,9 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 30)
-        << "ten swatches, three effects, a doughnut, a virtual bump, a field torus, and 14 "
-           "with programs";
+    EXPECT_EQ(materials, 33)
+        << "ten swatches, three effects, three that breathe, a doughnut, a virtual bump, a "
+           "field torus, and 14 with programs";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,

@@ -1,5 +1,7 @@
 // The programs of surfaces.glb and heights.glb, each against its formula in long double.
 
+#include "engine/program/surface_program.h"
+#include "haptics/program/felt_program.h"
 #include "noise_reference.h"
 #include "program_bench.h"
 
@@ -197,6 +199,28 @@ TEST(SurfacePrograms, CostLessThanHalfTheBudget) {
         Inputs out{};
         EXPECT_LT(run(program, inputsAt(0.01f, 0.02f, 0.03f), out).cost, kBudget / 2) << name;
     }
+}
+
+/// Only these need gradients.
+TEST(SurfacePrograms, WhatNeverDisplacesIsKnown) {
+    const auto displaces = [](const std::string& text) {
+        return feltProgram(
+                   materialProgram(compileSurfaceProgram("test.glsl", text, {}, [] { return false; }), {}))
+            .displaces;
+    };
+    for (const auto& [name, expected] :
+         {std::pair{"wood.glsl", false}, std::pair{"simple_noise.glsl", false},
+          std::pair{"anisotropic.glsl", false}, std::pair{"circles.glsl", false},
+          std::pair{"button.glsl", false}, std::pair{"sandpaper.glsl", true}, std::pair{"knurl.glsl", true},
+          std::pair{"fabric.glsl", true}, std::pair{"heights.glsl", true}}) {
+        std::ifstream file(std::string(TOUCHSTONE_ASSETS) + "/../programs/" + name);
+        EXPECT_EQ(displaces({std::istreambuf_iterator<char>(file), {}}), expected) << name;
+    }
+    EXPECT_FALSE(displaces(touchBody("vec3 p = before.position; after.position = p;")));
+    EXPECT_TRUE(displaces(touchBody("after.position = before.position.yxz;")));
+    EXPECT_TRUE(displaces(touchBody("if (before.time > 1.0) after.position.x += 1e-4;")));
+    EXPECT_TRUE(displaces(touchBody("for (int i = 0; i < int(before.time); ++i) after.position *= 1.01;")));
+    EXPECT_TRUE(displaces(touchBody("after.position[int(before.time) % 3] = 0.0;")));
 }
 
 } // namespace
