@@ -68,12 +68,10 @@ Json friction(double staticFriction, double dynamicFriction) {
 SceneFile wood() {
     GlbWriter glb("wood");
     glb.describe("a beam whose rings are felt as friction: one program, no texture");
-    Shape beam = box({0.140, 0.050, 0.030}, 8);
-    // The heart of the trunk, the x axis of the mesh, lies below the beam.
-    for (glm::vec3& p : beam.positions)
-        p.z += 0.030f;
+    // The heart of the trunk is the x axis of the mesh.
+    const Shape beam = box({0.140, 0.050, 0.030}, 8);
     const Slab slab{.program = "wood.glsl", .colour = {0.3, 0.12, 0.03}, .haptic = friction(0.3, 0.2)};
-    glb.addNode("beam", glb.addMesh("beam", beam, addMaterial(glb, slab)), {0.0, 0.0, -0.030});
+    glb.addNode("beam", glb.addMesh("beam", beam, addMaterial(glb, slab)));
     return {"wood.glb", glb.finish()};
 }
 

@@ -143,13 +143,14 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
            "field torus, and 14 with programs";
 }
 
-constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "staticFriction": 0.5,
-    "dynamicFriction": 0.4, "viscousFriction": 1, "normalTextureInfluence": 0.5,
+constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retardationTime": 0.001,
+    "staticFriction": 0.5, "dynamicFriction": 0.4, "viscousFriction": 1, "normalTextureInfluence": 0.5,
     "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
     "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
     "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
-    "representation": "implicit", "voxelSize": 0.001, "shader": {"source": "wood.glsl", "parameters": {"a": 1},
-    "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5}},
+    "representation": "implicit", "voxelSize": 0.001, "shader": {"source":
+    "data:text/plain,parameter%20float%20a%20%3D%201%3B%20//%200..2%0Avoid%20touch(const%20in%20Touch%20before%2C%20inout%20Surface%20after)%20%7B%20after.damping%20%3D%20a%3B%20%7D%0A",
+    "parameters": {"a": 1}, "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5}},
     "sides": "front", "extras": 3})";
 constexpr const char* kWrong[] = {
     R"({"stiffness": 0})",
