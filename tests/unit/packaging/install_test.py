@@ -1,6 +1,7 @@
 """Strangers' projects against an installed prefix: ten lines of CMake, one file by pkg-config, ten lines of Python; each prints the force
 of `touchstone touch` to the last bit. Arguments: BUILD SCENES CMAKE."""
 
+import gzip
 import os
 import pathlib
 import subprocess
@@ -94,7 +95,7 @@ class Installed(unittest.TestCase):
             pathlib.Path(folder, "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
             self.assertIn("triangles", run(program, "inspect", f"{folder}/a.obj"))
         self.assertIn("--allow-write", run(program, "serve", "--help"))
-        manual = (self.prefix / "share/man/man1/touchstone.1").read_text()
+        manual = gzip.decompress((self.prefix / "share/man/man1/touchstone.1.gz").read_bytes()).decode()
         for name in ("--stroke", "forceShading", "EXIT STATUS", "TOUCHSTONE REPLAY"):
             self.assertIn(name.replace("-", "\\-"), manual)
         completion = str(self.prefix / "share/bash-completion/completions/touchstone")
