@@ -104,7 +104,10 @@ GpuScene::GpuScene(const Gpu::Impl& gpu, const Pipelines& pipelines,
     planMeshes();
     for (const auto& [key, levels] : prepared_->textures)
         planTexture(levels, textures_[key]);
-    steps_.push_back([this] { uploadMaterials(); });
+    steps_.push_back([this] {
+        uploadMaterials();
+        setPrograms(programsOf(*scene_));
+    });
     deviceBytes_ += vertices_.size + indices_.size;
 }
 
@@ -167,6 +170,13 @@ void GpuScene::uploadMaterials() {
         std::memcpy(materialUniforms_.mapped + m * stride, &uniforms, sizeof uniforms);
         writeSet(gpu_, materialSets_[m], {*materialUniforms_.buffer, m * stride, sizeof uniforms}, images);
     }
+}
+
+void GpuScene::setPrograms(std::vector<MaterialProgram> programs) {
+    std::vector<glm::dvec3> centres;
+    for (const DrawnMesh& drawn : meshes_)
+        centres.push_back(drawn.mesh.centre);
+    programs_.emplace(gpu_, pipelines_, *scene_, centres, std::move(programs));
 }
 
 void GpuScene::planTexture(const TextureLevels& levels, GpuImage& image) {

@@ -4,6 +4,7 @@
 #include "engine/scene/scene.h"
 #include "renderer/false_color.h"
 #include "renderer/gpu_memory.h"
+#include "renderer/gpu_programs.h"
 #include "renderer/pipelines.h"
 #include "renderer/prepared_scene.h"
 
@@ -41,6 +42,9 @@ class GpuScene {
     [[nodiscard]] vk::DescriptorSet material(int index) const {
         return materialSets_[static_cast<size_t>(index)];
     }
+    [[nodiscard]] const GpuPrograms& programs() const { return *programs_; }
+    /// One for each material, in place of the file's. No frame may be in flight.
+    void setPrograms(std::vector<MaterialProgram> programs);
     [[nodiscard]] vk::Buffer vertices() const { return *vertices_.buffer; }
     [[nodiscard]] vk::Buffer indices() const { return *indices_.buffer; }
     [[nodiscard]] uint64_t deviceBytes() const { return deviceBytes_; }
@@ -90,6 +94,7 @@ class GpuScene {
     std::map<std::tuple<Wrap, Wrap, bool>, vk::raii::Sampler> samplers_;
     vk::raii::DescriptorPool pool_{nullptr};
     std::vector<vk::DescriptorSet> materialSets_;
+    std::optional<GpuPrograms> programs_;
     std::optional<FalseColor> falseColor_;
     uint64_t deviceBytes_ = 0;
 };

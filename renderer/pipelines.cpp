@@ -2,10 +2,13 @@
 
 #include "renderer/graphics_pipeline.h"
 #include "renderer/overlay_geometry.h"
+#include "renderer/program/link_program.h"
 #include "renderer/shader_code.h"
 #include "shaders/shared/scene_types.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace touchstone {
 
@@ -47,6 +50,21 @@ vk::raii::DescriptorSetLayout makeKeptSetLayout(const Gpu::Impl& gpu) {
                        .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                        .descriptorCount = 1,
                        .stageFlags = vk::ShaderStageFlagBits::eFragment};
+    return {gpu.device,
+            vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(), .pBindings = bindings.data()}};
+}
+
+vk::raii::DescriptorSetLayout makeProgramSetLayout(const Gpu::Impl& gpu) {
+    constexpr vk::ShaderStageFlags kFragment = vk::ShaderStageFlagBits::eFragment;
+    const std::array<vk::DescriptorSetLayoutBinding, 2> bindings{
+        {{.binding = 0,
+          .descriptorType = vk::DescriptorType::eUniformBuffer,
+          .descriptorCount = 1,
+          .stageFlags = kFragment},
+         {.binding = 1,
+          .descriptorType = vk::DescriptorType::eUniformBufferDynamic,
+          .descriptorCount = 1,
+          .stageFlags = kObjectStages}}};
     return {gpu.device,
             vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(), .pBindings = bindings.data()}};
 }
@@ -97,7 +115,9 @@ Pipelines::Pipelines(const Gpu::Impl& gpu)
       frameSet_(makeSetLayout(gpu, 1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment)),
       materialSet_(makeSetLayout(gpu, shared::kTextureSlots, vk::ShaderStageFlagBits::eFragment)),
       falseColorSet_(makeSetLayout(gpu, 1, vk::ShaderStageFlagBits::eFragment)),
-      keptSet_(makeKeptSetLayout(gpu)), sceneLayout_(makeLayout(gpu, {*frameSet_, *materialSet_}, true)),
+      keptSet_(makeKeptSetLayout(gpu)), programSet_(makeProgramSetLayout(gpu)),
+      sceneLayout_(makeLayout(gpu, {*frameSet_, *materialSet_}, true)),
+      programLayout_(makeLayout(gpu, {*frameSet_, *materialSet_, *programSet_}, true)),
       falseColorLayout_(makeLayout(gpu, {*frameSet_, *falseColorSet_}, true)),
       overlayLayout_(makeLayout(gpu, {*frameSet_}, false)),
       keptLayout_(makeLayout(gpu, {*frameSet_, *keptSet_}, false)),
@@ -114,29 +134,82 @@ vk::Pipeline Pipelines::cached(const Key& key, Make&& make) {
     return *found->second;
 }
 
+void Pipelines::describeScene(PipelineRecipe& recipe, uint32_t features, bool keepsLight) const {
+    const bool points = (features & shared::kIsPoints) != 0;
+    recipe.vertexCode = shaders::scene_vert;
+    recipe.fragmentCode = shaders::scene_frag;
+    recipe.constants = {features};
+    describeSceneVertices(recipe);
+    recipe.blend = (features & shared::kIsBlended) != 0;
+    recipe.depthWrite = !recipe.blend;
+    if ((features & (shared::kIsLines | shared::kIsPoints)) != 0)
+        describeStrokes(recipe, !points);
+    if (points) {
+        recipe.fragmentCode = shaders::scene_points_frag;
+    } else if ((features & shared::kIsTransmissive) != 0 && gpu_.dualSourceBlending) {
+        recipe.fragmentCode = shaders::scene_glass_frag;
+        recipe.twoSources = true;
+    }
+    if (keepsLight) {
+        recipe.fragmentCode = points ? std::span<const uint32_t>(shaders::scene_kept_points_frag)
+                                     : std::span<const uint32_t>(shaders::scene_kept_frag);
+        recipe.keepsLight = true;
+    }
+    recipe.layout = *sceneLayout_;
+}
+
 vk::Pipeline Pipelines::scene(uint32_t features, bool keepsLight) {
-    return cached({Kind::Scene, features, keepsLight}, [&](PipelineRecipe& recipe) {
-        const bool points = (features & shared::kIsPoints) != 0;
-        recipe.vertexCode = shaders::scene_vert;
-        recipe.fragmentCode = shaders::scene_frag;
-        recipe.constants = {features};
-        describeSceneVertices(recipe);
-        recipe.blend = (features & shared::kIsBlended) != 0;
-        recipe.depthWrite = !recipe.blend;
-        if ((features & (shared::kIsLines | shared::kIsPoints)) != 0)
-            describeStrokes(recipe, !points);
-        if (points) {
-            recipe.fragmentCode = shaders::scene_points_frag;
-        } else if ((features & shared::kIsTransmissive) != 0 && gpu_.dualSourceBlending) {
-            recipe.fragmentCode = shaders::scene_glass_frag;
-            recipe.twoSources = true;
-        }
-        if (keepsLight) {
-            recipe.fragmentCode = points ? std::span<const uint32_t>(shaders::scene_kept_points_frag)
-                                         : std::span<const uint32_t>(shaders::scene_kept_frag);
-            recipe.keepsLight = true;
-        }
-        recipe.layout = *sceneLayout_;
+    return cached({Kind::Scene, features, keepsLight, 0},
+                  [&](PipelineRecipe& recipe) { describeScene(recipe, features, keepsLight); });
+}
+
+Pipelines::LinkedShaders& Pipelines::linked(const std::shared_ptr<const SurfaceProgram>& program) {
+    const auto [found, added] = programs_.try_emplace(program);
+    LinkedShaders& shaders = found->second;
+    if (!added)
+        return shaders;
+    shaders.number = ++programNumbers_;
+    constexpr uint32_t kProgramSet = 2;
+    for (const bool kept : {false, true}) {
+        const std::span<const uint32_t> host = kept ? std::span<const uint32_t>(shaders::scene_program_kept_frag)
+                                                    : std::span<const uint32_t>(shaders::scene_program_frag);
+        program::LinkedProgram result = program::linkProgram(host, program->spirv, kProgramSet);
+        (kept ? shaders.kept : shaders.plain) = std::move(result.words);
+        if (!result.problem.empty())
+            shaders.problem = result.problem;
+    }
+    return shaders;
+}
+
+vk::Pipeline Pipelines::programmed(uint32_t features, bool keepsLight,
+                                   const std::shared_ptr<const SurfaceProgram>& program) {
+    if ((features & (shared::kIsLines | shared::kIsPoints | shared::kIsTransmissive)) != 0)
+        return {};
+    const LinkedShaders& code = linked(program);
+    if (!code.problem.empty())
+        return {};
+    return cached({Kind::Programmed, features, keepsLight, code.number}, [&](PipelineRecipe& recipe) {
+        describeScene(recipe, features, keepsLight);
+        recipe.vertexCode = shaders::scene_program_vert;
+        recipe.fragmentCode = keepsLight ? code.kept : code.plain;
+        recipe.layout = *programLayout_;
+    });
+}
+
+std::string Pipelines::programProblem(const std::shared_ptr<const SurfaceProgram>& program) const {
+    const auto found = programs_.find(program);
+    return found == programs_.end() ? "" : found->second.problem;
+}
+
+void Pipelines::keepPrograms(std::span<const MaterialProgram> programs) {
+    std::erase_if(programs_, [&](const auto& each) {
+        if (std::ranges::find(programs, each.first, &MaterialProgram::compiled) != programs.end())
+            return false;
+        std::erase_if(pipelines_, [&](const auto& pipeline) {
+            return std::get<0>(pipeline.first) == Kind::Programmed &&
+                   std::get<3>(pipeline.first) == each.second.number;
+        });
+        return true;
     });
 }
 
@@ -150,7 +223,7 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
     features &=
         shared::kHasNormalTexture | shared::kHasTangents | shared::kIsClipped; // sufficient for false colour
     features |= shared::kHasUvTransform;
-    return cached({Kind::FalseColor, features, view}, [&](PipelineRecipe& recipe) {
+    return cached({Kind::FalseColor, features, view, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::false_color_vert;
         recipe.fragmentCode = shaders::false_color_frag;
         recipe.constants = {features, view};
@@ -163,7 +236,7 @@ vk::Pipeline Pipelines::falseColor(uint32_t features, ViewMode mode) {
 }
 
 vk::Pipeline Pipelines::wireframe(bool clipped) {
-    return cached({Kind::Wireframe, clipped ? 1u : 0u, 0}, [&](PipelineRecipe& recipe) {
+    return cached({Kind::Wireframe, clipped ? 1u : 0u, 0, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::wireframe_vert;
         recipe.fragmentCode = shaders::wireframe_frag;
         recipe.constants = {clipped ? shared::kIsClipped : 0u};
@@ -176,7 +249,7 @@ vk::Pipeline Pipelines::wireframe(bool clipped) {
 }
 
 vk::Pipeline Pipelines::background(bool keepsLight) {
-    return cached({Kind::Background, keepsLight, 0}, [&](PipelineRecipe& recipe) {
+    return cached({Kind::Background, keepsLight, 0, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::full_screen_vert;
         recipe.fragmentCode = shaders::background_frag;
         recipe.depthWrite = false;
@@ -188,7 +261,7 @@ vk::Pipeline Pipelines::background(bool keepsLight) {
 }
 
 vk::Pipeline Pipelines::keptShadow() {
-    return cached({Kind::KeptShadow, 0, 0}, [&](PipelineRecipe& recipe) {
+    return cached({Kind::KeptShadow, 0, 0, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::full_screen_vert;
         recipe.fragmentCode = shaders::kept_shadow_frag;
         recipe.depthTest = recipe.depthWrite = false;
@@ -197,7 +270,7 @@ vk::Pipeline Pipelines::keptShadow() {
 }
 
 vk::Pipeline Pipelines::shapes(OverlayPass pass) {
-    return cached({Kind::Shapes, static_cast<uint32_t>(pass), 0}, [&](PipelineRecipe& recipe) {
+    return cached({Kind::Shapes, static_cast<uint32_t>(pass), 0, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::overlay_vert;
         recipe.fragmentCode = shaders::overlay_frag;
         recipe.bindings = {{0, sizeof(ShapeVertex), vk::VertexInputRate::eVertex},
@@ -212,7 +285,7 @@ vk::Pipeline Pipelines::shapes(OverlayPass pass) {
 }
 
 vk::Pipeline Pipelines::lines(OverlayPass pass) {
-    return cached({Kind::Lines, static_cast<uint32_t>(pass), 0}, [&](PipelineRecipe& recipe) {
+    return cached({Kind::Lines, static_cast<uint32_t>(pass), 0, 0}, [&](PipelineRecipe& recipe) {
         recipe.vertexCode = shaders::overlay_line_vert;
         recipe.fragmentCode = shaders::overlay_line_frag;
         recipe.bindings = {{0, sizeof(LineInstance), vk::VertexInputRate::eInstance}};

@@ -184,13 +184,23 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     const int materialIndex = scene.meshes[static_cast<size_t>(meshIndex)].material;
     const PreparedMesh& mesh = scene_->mesh(meshIndex).mesh;
     const bool shaded = mode == ViewMode::Shaded;
-    const vk::PipelineLayout layout = shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout();
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, shaded
-                                                                ? pipelines_.scene(item.features, keepsLight)
-                                                                : pipelines_.falseColor(item.features, mode));
+    const std::shared_ptr<const SurfaceProgram>& program = scene_->programs().of(materialIndex);
+    const vk::Pipeline programmed =
+        shaded && program ? pipelines_.programmed(item.features, keepsLight, program) : vk::Pipeline{};
+    const vk::PipelineLayout layout = programmed ? pipelines_.programLayout()
+                                      : shaded   ? pipelines_.sceneLayout()
+                                                 : pipelines_.falseColorLayout();
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
+                          programmed ? programmed
+                          : shaded   ? pipelines_.scene(item.features, keepsLight)
+                                     : pipelines_.falseColor(item.features, mode));
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, layout, 1,
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});
+    if (programmed)
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 2,
+                                    scene_->programs().set(materialIndex),
+                                    scene_->programs().offset(item.instance));
     commands.setFrontFace(item.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     commands.pushConstants<shared::ObjectConstants>(layout, kObjectStages, 0, item.constants);
     ++statistics.drawCalls;

@@ -94,6 +94,7 @@ bool SceneRenderer::Impl::continueScene(double seconds) {
     std::unique_ptr<GpuScene> ready = std::move(coming_);
     clear();
     scene_ = std::move(ready);
+    pipelines_.keepPrograms(scene_->programs().all());
     for (const Instance& instance : scene_->scene().instances)
         poses.push_back(instance.sceneFromMesh);
     revisions_.assign(poses.size(), 0);
@@ -121,6 +122,17 @@ void SceneRenderer::Impl::setMaterialColors(std::vector<glm::vec3> colors) {
         gpu.device.waitIdle();
         scene_->forgetFalseColor();
     }
+}
+
+void SceneRenderer::Impl::setPrograms(const std::vector<MaterialProgram>& programs) {
+    if (programs.size() != (scene_ ? scene_->scene().materials.size() : 0))
+        throw std::invalid_argument("setPrograms wants one program for each material of the scene");
+    if (!scene_ || programs == scene_->programs().all())
+        return;
+    gpu.device.waitIdle();
+    scene_->setPrograms(programs);
+    pipelines_.keepPrograms(programs);
+    ++content_;
 }
 
 void SceneRenderer::Impl::setEnvironment(std::shared_ptr<const Environment> environment) {
@@ -273,6 +285,14 @@ void SceneRenderer::setMeshVertices(int mesh, const DrawnVertices& vertices) {
 
 void SceneRenderer::setMaterialColors(std::vector<glm::vec3> colors) {
     translatingErrors("colouring materials", [&] { impl_->setMaterialColors(std::move(colors)); });
+}
+
+void SceneRenderer::setPrograms(const std::vector<MaterialProgram>& programs) {
+    translatingErrors("showing programs", [&] { impl_->setPrograms(programs); });
+}
+
+std::string SceneRenderer::programProblem(const std::shared_ptr<const SurfaceProgram>& program) const {
+    return impl_->programProblem(program);
 }
 
 void SceneRenderer::setEnvironment(std::shared_ptr<const Environment> environment) {

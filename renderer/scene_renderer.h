@@ -15,6 +15,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -69,6 +70,12 @@ class SceneRenderer {
     /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Valid
     /// until the next call.
     void setMaterialColors(std::vector<glm::vec3> colors);
+
+    /// The haptic program of each material, in place of the file's; until another scene. Waits for the frames in
+    /// flight where they differ from the last ones. Throws std::invalid_argument for another count.
+    void setPrograms(const std::vector<MaterialProgram>& programs);
+    /// Empty, or why a program that was to be drawn is not: its surfaces look plain.
+    [[nodiscard]] std::string programProblem(const std::shared_ptr<const SurfaceProgram>& program) const;
 
     /// The surrounding light from now on, instead of View::surroundings; null: those. Waits for the frames in
     /// flight. Throws Error when the device memory does not hold it; then the light is unchanged.

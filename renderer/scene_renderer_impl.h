@@ -55,6 +55,10 @@ struct SceneRenderer::Impl {
                                           const glm::ivec2& full);
     void setMaterialColors(std::vector<glm::vec3> colors);
     void setMeshVertices(int mesh, const DrawnVertices& vertices);
+    void setPrograms(const std::vector<MaterialProgram>& programs);
+    [[nodiscard]] std::string programProblem(const std::shared_ptr<const SurfaceProgram>& program) const {
+        return pipelines_.programProblem(program);
+    }
     void setEnvironment(std::shared_ptr<const Environment> environment);
     [[nodiscard]] PixelData readPixels();
     /// The last frame of the main eye was no frame of a window: its time does not count.

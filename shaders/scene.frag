@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // glTF 2.0's metallic-roughness, its KHR_materials_* looks and unlit colours, under two directional lights and the
 // surroundings (renderer/surroundings.h, renderer/environment.h). TRANSMISSIVE adds the share of what lies behind, for
-// blending with two sources; POINTS cuts squares to discs; KEPT draws without the probe's shadow and adds what
+// blending with two sources; POINTS cuts squares to discs; PROGRAM lets a haptic program decide on colour, roughness and
+// normal; KEPT draws without the probe's shadow and adds what
 // kept_shadow.frag needs to cast it afterwards.
 #include "shared/scene_types.h"
 
@@ -62,6 +63,9 @@ vec2 uvOf(uint slot) {
 }
 
 #include "surface_normal.glsl"
+#ifdef PROGRAM
+#include "program_surface.glsl"
+#endif
 #include "probe_shadow.glsl"
 #include "surface_light.glsl"
 #include "material_layers.glsl"
@@ -147,7 +151,11 @@ void main() {
     if (dot(sprite, sprite) > 1.0) discard;
 #endif
     if (has(kIsClipped) && dot(object.clip, vec4(eyePosition, 1.0)) > 0.0) discard;
-    const vec4 base = baseColor();
+    vec4 base = baseColor();
+#ifdef PROGRAM
+    const Programmed programmed = programmedSurface(base.rgb);
+    base.rgb = programmed.color;
+#endif
     if (has(kIsMasked) && base.a < material.emissiveCutoff.a) discard;
     const float alpha = has(kIsBlended) && !has(kIsSolid) ? base.a : 1.0;
     if (has(kIsUnlit)) { // as it is, without tone mapping
@@ -162,6 +170,9 @@ void main() {
     Surface s;
     if (has(kHasSpecularGlossiness)) s = specularGlossiness(base.rgb);
     else s = metallicRoughness(base.rgb, metallic, occlusion);
+#ifdef PROGRAM
+    s.roughness = programmed.roughness;
+#endif
     // Below this roughness a highlight is smaller than a pixel and only flickers.
     s.roughness = clamp(s.roughness, 0.06, 1.0);
     s.alpha = s.roughness * s.roughness;
@@ -176,6 +187,9 @@ void main() {
         const vec3 m = decodeNormal(texture(normalMap, uv).xyz, material.factors.z);
         n = has(kHasTangents) ? bendWithTangent(n, eyeTangent, m) : bendWithDerivatives(n, eyePosition, uv, m);
     }
+#ifdef PROGRAM
+    n = normalize(n + programmed.bend);
+#endif
     if (!gl_FrontFacing && !has(kIsLines | kIsPoints)) {
         n = -n;
         smoothNormal = -smoothNormal;

@@ -1,12 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Mesh vertices into the eye frame. FALSE_COLOR adds the scalar of the false-colour view; WIREFRAME draws edges over
-// the surface that they belong to.
+// the surface that they belong to. PROGRAM adds the place as a haptic program sees it.
 #include "shared/scene_types.h"
 
 layout(constant_id = 0) const uint kFeatures = 0u;
 layout(set = 0, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(push_constant) uniform Object { ObjectConstants object; };
+#ifdef PROGRAM
+layout(set = 2, binding = 1) uniform ProgramObject { ProgramObjectUniforms programObject; };
+#endif
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -29,6 +32,11 @@ layout(location = 5) out float vertexScalar;
 #else
 layout(location = 4) out vec4 vertexColor;
 #endif
+#ifdef PROGRAM
+layout(location = 6) out vec3 programPosition;
+layout(location = 7) out vec3 programNormal;
+layout(location = 8) out vec4 programTangent;
+#endif
 #endif
 
 void main() {
@@ -49,6 +57,16 @@ void main() {
 #else
     vertexColor = vec4(1.0);
     if ((kFeatures & kHasVertexColor) != 0u) vertexColor = color;
+#endif
+#ifdef PROGRAM
+    const mat3 rows = mat3(programObject.programFromMesh[0].xyz, programObject.programFromMesh[1].xyz,
+                           programObject.programFromMesh[2].xyz);
+    const mat3 normalRows = mat3(programObject.normalFromMesh[0].xyz, programObject.normalFromMesh[1].xyz,
+                                 programObject.normalFromMesh[2].xyz);
+    programPosition = position * rows + vec3(programObject.programFromMesh[0].w, programObject.programFromMesh[1].w,
+                                             programObject.programFromMesh[2].w);
+    programNormal = normal * normalRows;
+    programTangent = vec4(tangent.xyz * rows, tangent.w);
 #endif
 #endif
     gl_Position = frame.clipFromEye * vec4(eyePosition, 1.0);

@@ -8,6 +8,7 @@ parameter float raised = 1.4; // 1..3 : force on a ring by the force beside it
 parameter float ringStatic = 0.02; // 0..2 : static friction on a ring
 parameter float roughStatic = 0.25; // 0..2 : static friction beside it
 parameter float edge = 0.0005; // 0..0.01 m: width of a ring's rims; 0: a step of the force, as in the paper
+parameter vec3 ringColour = vec3(0.7, 0.6, 0.35); // 0..1 : colour of the rings, linear
 
 // 1 on a ring, 0 beside it.
 float ring(float d) {
@@ -23,4 +24,6 @@ void touch(const in Touch before, inout Surface after) {
     after.staticFriction = mix(roughStatic, ringStatic, on);
     after.dynamicFriction = min(before.dynamicFriction, after.staticFriction);
     after.force = before.force * mix(1.0, raised, on);
+    after.colour = mix(after.colour, ringColour, on);
+    after.roughness = mix(0.9, 0.2, on);
 }

@@ -14,4 +14,5 @@ void touch(const in Touch before, inout Surface after) {
     }
     // The paper's force pulls where u < -1, which a range above 4/7 allows: the octaves add up to 7/4 of it.
     after.force = before.force * max(1.0 + u, 0.0);
+    after.colour *= clamp(0.7 + 0.5 * u, 0.0, 1.0); // darker where it gives way
 }

@@ -7,6 +7,8 @@ parameter float lightDynamic = 0.02; // 0..2 : dynamic friction of light wood
 parameter float darkStatic = 0.5; // 0..2 : static friction of dark wood
 parameter float darkDynamic = 0.5; // 0..2 : dynamic friction of dark wood
 parameter float edge = 0.15; // 0..0.5 : part of a ring in which dark becomes light again; 0: at once, as in the paper
+parameter vec3 lightColour = vec3(0.3, 0.12, 0.03); // 0..1 : colour of light wood, linear
+parameter vec3 darkColour = vec3(0.05, 0.01, 0.005); // 0..1 : colour of dark wood
 
 void touch(const in Touch before, inout Surface after) {
     vec3 p = before.position + grain * noise(before.position * knots);
@@ -17,4 +19,6 @@ void touch(const in Touch before, inout Surface after) {
     r = r > 1.0 - edge ? (1.0 - r) / edge : r / (1.0 - edge);
     after.staticFriction = mix(lightStatic, darkStatic, r);
     after.dynamicFriction = mix(lightDynamic, darkDynamic, r);
+    after.colour = mix(lightColour, darkColour, r);
+    after.roughness = mix(0.5, 0.35, r);
 }

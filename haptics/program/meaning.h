@@ -1,8 +1,8 @@
 #pragma once
 // What the ids of a module mean while it is translated. For the files translate_*.cpp only.
 
+#include "engine/program/spirv_reader.h"
 #include "haptics/program/program_builder.h"
-#include "haptics/program/spirv_reader.h"
 #include "haptics/program/spirv_types.h"
 
 #include <cstdint>

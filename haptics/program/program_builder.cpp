@@ -1,5 +1,7 @@
 #include "haptics/program/program_builder.h"
 
+#include "haptics/program/shorten.h"
+
 #include <array>
 #include <string>
 
@@ -81,6 +83,7 @@ RegisterProgram ProgramBuilder::finish() {
             throw Refusal("is a damaged SPIR-V module: a block is missing", "compile the source again");
         program_.instructions[at].c = static_cast<uint16_t>(block->second);
     }
+    shorten(program_);
     uint32_t sum = 0;
     program_.cost.push_back(0);
     for (const Instruction& instruction : program_.instructions) {

@@ -1,8 +1,8 @@
 #pragma once
 // Registers and instructions of a program while it is translated.
 
+#include "engine/program/spirv_reader.h"
 #include "haptics/program/register_program.h"
-#include "haptics/program/spirv_reader.h"
 
 #include <cstdint>
 #include <map>

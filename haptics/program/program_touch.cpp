@@ -20,7 +20,8 @@ enum InputLocation : size_t {
     kToolAcceleration,
     kForce,
     kMaterial,
-    kTick
+    kTick,
+    kLook
 };
 enum OutputLocation : size_t { kOutPosition, kOutNormal, kOutForce, kOutMaterial };
 
@@ -46,6 +47,7 @@ void fill(const ProgramContact& contact, Ports& in) {
     in[kMaterial] = {static_cast<float>(contact.staticFriction), static_cast<float>(contact.dynamicFriction),
                      static_cast<float>(contact.stiffness), static_cast<float>(contact.damping)};
     in[kTick] = {static_cast<float>(contact.filterWidth), static_cast<float>(contact.time)};
+    in[kLook] = {1.0f, 1.0f, 1.0f, 1.0f};
 }
 
 /// The displacement along the normal, model m: its value and its gradient in the object's frame.
@@ -62,7 +64,7 @@ double heightOf(const ProgramContact& contact, const Ports& in, const Ports& out
 RunResult runWithSlope(const RegisterProgram& program, const ProgramContact& contact, const Ports& in,
                        Ports& out, Displacement& displacement) {
     std::array<DualPortValue, kMaxLocations> dual{}, dualOut{};
-    for (size_t i = 0; i <= kTick; ++i)
+    for (size_t i = 0; i <= kLook; ++i)
         dual[i].v = in[i];
     for (size_t k = 0; k < 3; ++k)
         dual[kPosition].d[k][k] = 1.0f;

@@ -1,7 +1,7 @@
 #pragma once
 // The types of a SPIR-V module, and the registers that a value of each takes.
 
-#include "haptics/program/spirv_reader.h"
+#include "engine/program/spirv_reader.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 // SPIR-V to register programs. Functions have to be inlined (SPIRV-Tools does so).
 
+#include "engine/program/spirv_reader.h"
 #include "haptics/program/register_program.h"
-#include "haptics/program/spirv_reader.h"
 
 #include <cstdint>
 #include <optional>

@@ -25,9 +25,12 @@ void main() {
     after.dynamicFriction = before.dynamicFriction;
     after.stiffness = before.stiffness;
     after.damping = before.damping;
+    after.colour = touchstone_look.rgb;
+    after.roughness = touchstone_look.a;
     touch(before, after);
     touchstone_outPosition = after.position;
     touchstone_outNormal = after.normal;
     touchstone_outForce = after.force;
     touchstone_outMaterial = vec4(after.staticFriction, after.dynamicFriction, after.stiffness, after.damping);
+    touchstone_outLook = vec4(after.colour, after.roughness);
 }

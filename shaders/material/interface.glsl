@@ -1,7 +1,11 @@
 // What a haptic program gets and gives (docs/programs.md). Read before every program.
 //
-// Lengths are metres of the model, in the object's own frame; directions too. Velocities and forces are those of
-// the hand, m/s and N, in that frame.
+// Lengths are metres of the model, in the object's own frame; directions too: the origin is the mesh's, the axes are its
+// node's, both at rest, and they move with the object. Velocities and forces are those of the hand, m/s and N, in that
+// frame.
+//
+// The eye runs the same program for a pixel, as if nothing moved there: no toolDirection, velocity, acceleration and
+// time, a force of 1 N, and a filterWidth of one pixel.
 
 struct Touch {
     vec3 position;         // touched place, model m
@@ -29,6 +33,8 @@ struct Surface {
     float dynamicFriction; // at most the static one is felt
     float stiffness;
     float damping;
+    vec3 colour;     // 0..1, linear: what is seen; before that, the material's with its textures. The hand's is white
+    float roughness; // 0..1, of the highlight, likewise; the hand's is 1. Neither is felt
 };
 
 layout(location = 0) in vec3 touchstone_position;
@@ -42,8 +48,10 @@ layout(location = 7) in vec3 touchstone_toolAcceleration;
 layout(location = 8) in vec3 touchstone_force;
 layout(location = 9) in vec4 touchstone_material; // static and dynamic friction, stiffness, damping
 layout(location = 10) in vec2 touchstone_tick;    // filter width, time
+layout(location = 11) in vec4 touchstone_look;    // colour, roughness
 
 layout(location = 0) out vec3 touchstone_outPosition;
 layout(location = 1) out vec3 touchstone_outNormal;
 layout(location = 2) out vec3 touchstone_outForce;
 layout(location = 3) out vec4 touchstone_outMaterial;
+layout(location = 4) out vec4 touchstone_outLook;

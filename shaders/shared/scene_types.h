@@ -86,6 +86,14 @@ struct FalseColorUniforms {
     vec4 uvOffset;
 };
 
+/// Once an instance whose material has a haptic program: the rows of the affine map from vertices to the program's frame,
+/// and those of the map of normals.
+struct ProgramObjectUniforms {
+    vec4 programFromMesh[3];
+    vec4 normalFromMesh[3];
+    vec4 material;         ///< static and dynamic friction, stiffness N/m, damping N s/m
+};
+
 /// Push constants, once an object: the rows of the affine map eyeFromMesh, and those of its cofactor matrix,
 /// which takes normals (its w of the first row: -1 where the object is mirrored, else 1; of the second: scene metres of a
 /// mesh metre).

@@ -1,13 +1,16 @@
 // Feeds the translator of haptic programs SPIR-V that is nearly right, and runs what it accepts: no crash, no
-// run beyond its budget, no finished run with an output that is not finite. This target alone is compiled
-// under the address and undefined behaviour sanitizers in every preset.
+// run beyond its budget, no finished run with an output that is not finite. The same modules are linked into
+// a shader for the eye. This target alone is compiled under the address and undefined behaviour sanitizers in
+// every preset.
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
 #include "haptics/program/executor.h"
 #include "haptics/program/load_program.h"
 #include "haptics/program/translator.h"
+#include "renderer/program/link_program.h"
 
 #include <gtest/gtest.h>
+#include <spirv-tools/libspirv.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -19,7 +22,22 @@
 namespace touchstone::program {
 namespace {
 
+#include "shaders/program_points_comp.h"
+
 using Words = std::vector<uint32_t>;
+
+bool isValid(spv_target_env environment, const Words& words) {
+    return spvtools::SpirvTools(environment).Validate(words);
+}
+
+/// What goes to the eye's driver is valid wherever the program is.
+void linkHere(const Words& words) {
+    const LinkedProgram linked = linkProgram(program_points_comp, words, 1);
+    ASSERT_NE(linked.words.empty(), linked.problem.empty());
+    if (!linked.words.empty() && isValid(SPV_ENV_VULKAN_1_0, words)) {
+        ASSERT_TRUE(isValid(SPV_ENV_VULKAN_1_3, linked.words));
+    }
+}
 
 constexpr const char* kSources[] = {
     R"(parameter float ringscale = 10; // 1..100
@@ -128,6 +146,17 @@ void runHere(const RegisterProgram& program, std::mt19937& random) {
     ASSERT_LE(runDual(program, dual, dualOut).cost, 2 * kBudget);
 }
 
+/// Whatever the compiler makes of what people write is valid for the eye.
+TEST(ProgramFuzz, LinkedProgramsAreValid) {
+    for (const Words& words : seeds()) {
+        ASSERT_TRUE(isValid(SPV_ENV_VULKAN_1_0, words));
+        const LinkedProgram linked = linkProgram(program_points_comp, words, 1);
+        ASSERT_EQ(linked.problem, "");
+        ASSERT_TRUE(isValid(SPV_ENV_VULKAN_1_3, linked.words));
+    }
+    ASSERT_FALSE(linkProgram(program_points_comp, Words{1, 2, 3}, 1).problem.empty());
+}
+
 /// A block of parameters among the instructions of the entry function, where registers are given out.
 TEST(ProgramFuzz, ParametersInsideAFunctionAreRefused) {
     Words words = seeds()[0], variable;
@@ -155,6 +184,7 @@ void fuzz(unsigned seed, int trials) {
     for (int i = 0; i < trials; ++i) {
         const size_t source = random() % from.size();
         const Words words = mutant(from[source], random);
+        linkHere(words);
         Translation translation = translateSpirv(words);
         if (translation.problem) {
             ASSERT_FALSE(translation.problem->remedy.empty());
@@ -207,8 +237,10 @@ TEST(ProgramSweep, AThousandRandomSourcesAreRefusedWithAMessageOrRun) {
         if (i % 2 == 1)
             body += ";}";
         try {
-            const Translation translation = translateSpirv(compileProgram(
-                readProgramSource("random", body), installedProgramCompiler(), [] { return false; }));
+            const Words words = compileProgram(readProgramSource("random", body), installedProgramCompiler(),
+                                               [] { return false; });
+            linkHere(words);
+            const Translation translation = translateSpirv(words);
             if (!translation.problem) {
                 ++accepted;
                 runHere(translation.program, random);

@@ -1,4 +1,4 @@
-#include "haptics/program/spirv_reader.h"
+#include "engine/program/spirv_reader.h"
 
 #include <algorithm>
 #include <string_view>
