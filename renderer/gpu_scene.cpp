@@ -144,6 +144,44 @@ void GpuScene::planMeshes() {
     plan(indices_, indices);
 }
 
+void GpuScene::reshape(int index, const ReshapedMesh& reshaped) {
+    DrawnMesh& drawn = meshes_[static_cast<size_t>(index)];
+    Reshaped& own = reshaped_[index];
+    own.current = (own.current + 1) % kGenerations;
+    Reshaped::Buffers& buffers = own.buffers[own.current];
+    using Usage = vk::BufferUsageFlagBits;
+    // Some room, so that a mesh that grows does not need another buffer each time.
+    const auto fill = [&](GpuBuffer& buffer, std::span<const std::byte> bytes, Usage usage) {
+        if (buffer.size < bytes.size())
+            buffer = createBuffer(gpu_, bytes.size() + bytes.size() / 4, usage, MemoryUse::Upload);
+        std::ranges::copy(bytes, buffer.mapped);
+    };
+    fill(buffers.vertices, bytesOf(reshaped.vertices), Usage::eVertexBuffer);
+    fill(buffers.indices, bytesOf(reshaped.indices), Usage::eIndexBuffer);
+    // What a false-colour view shows of the mesh's vertices is not known here: not stated, grey.
+    const std::vector<float> scalars(reshaped.vertices.size(), -1.0f);
+    fill(buffers.scalars, bytesOf(scalars), Usage::eVertexBuffer);
+    PreparedMesh& mesh = drawn.mesh;
+    mesh.firstVertex = 0;
+    mesh.centre = reshaped.centre;
+    mesh.halfSize = reshaped.halfSize;
+    mesh.radius = reshaped.radius;
+    mesh.meanEdge = reshaped.meanEdge;
+    mesh.levels = {{0, static_cast<uint32_t>(reshaped.indices.size()), 0.0}};
+}
+
+bool GpuScene::bindReshaped(const vk::raii::CommandBuffer& commands, int index, ViewMode mode) const {
+    const auto found = reshaped_.find(index);
+    if (found == reshaped_.end())
+        return false;
+    const Reshaped::Buffers& buffers = found->second.buffers[found->second.current];
+    commands.bindIndexBuffer(*buffers.indices.buffer, 0, vk::IndexType::eUint32);
+    commands.bindVertexBuffers(0, *buffers.vertices.buffer, vk::DeviceSize{0});
+    if (mode != ViewMode::Shaded)
+        commands.bindVertexBuffers(1, *buffers.scalars.buffer, vk::DeviceSize{0});
+    return true;
+}
+
 void GpuScene::uploadMaterials() {
     using namespace shared;
     const size_t count = scene_->materials.size();

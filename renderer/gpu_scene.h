@@ -7,7 +7,9 @@
 #include "renderer/gpu_programs.h"
 #include "renderer/pipelines.h"
 #include "renderer/prepared_scene.h"
+#include "renderer/reshaped_mesh.h"
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <map>
@@ -45,6 +47,11 @@ class GpuScene {
     [[nodiscard]] const GpuPrograms& programs() const { return *programs_; }
     /// One for each material, in place of the file's. No frame may be in flight.
     void setPrograms(std::vector<MaterialProgram> programs);
+    /// Draws other triangles in place of a mesh's from the next frame on; its buffers are
+    ///  those of kGenerations calls ago, which no frame in flight uses: at most one call a frame.
+    void reshape(int index, const ReshapedMesh& reshaped);
+    /// Binds the buffers of a mesh that was reshaped; false where it was not.
+    bool bindReshaped(const vk::raii::CommandBuffer& commands, int index, ViewMode mode) const;
     [[nodiscard]] vk::Buffer vertices() const { return *vertices_.buffer; }
     [[nodiscard]] vk::Buffer indices() const { return *indices_.buffer; }
     [[nodiscard]] uint64_t deviceBytes() const { return deviceBytes_; }
@@ -72,6 +79,16 @@ class GpuScene {
     /// Placeholders for missing textures.
     enum class Neutral : uint8_t { White, Grey, Black, FlatNormal };
 
+    /// Frames in flight: two of each eye, two over the kept picture, its step; and one more.
+    static constexpr size_t kGenerations = 8;
+    struct Reshaped {
+        struct Buffers {
+            GpuBuffer vertices, indices, scalars;
+        };
+        std::array<Buffers, kGenerations> buffers;
+        size_t current = 0;
+    };
+
     void planMeshes();
     void planTexture(const TextureLevels& levels, GpuImage& image);
     void uploadNow(const TextureLevels& levels, GpuImage& image);
@@ -89,6 +106,7 @@ class GpuScene {
     std::deque<std::function<void()>> steps_;
     GpuBuffer vertices_, indices_, materialUniforms_;
     std::vector<DrawnMesh> meshes_;
+    std::map<int, Reshaped> reshaped_;
     std::map<std::pair<int, TextureRole>, GpuImage> textures_;
     std::map<Neutral, GpuImage> neutrals_;
     std::map<std::tuple<Wrap, Wrap, bool>, vk::raii::Sampler> samplers_;

@@ -215,18 +215,25 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     }
     const bool all = item.sides == DrawItem::Sides::All && item.bothSides;
     commands.setCullMode(all ? Cull::eNone : item.sides == DrawItem::Sides::Far ? Cull::eFront : Cull::eBack);
+    const bool reshaped = scene_->bindReshaped(commands, meshIndex, mode);
     commands.drawIndexed(item.indexCount, 1, item.firstIndex, mesh.firstVertex, 0);
+    if (reshaped)
+        bindMeshes(commands, mode);
     statistics.drawnTriangles += item.indexCount / 3;
+}
+
+void SceneRenderer::Impl::bindMeshes(const vk::raii::CommandBuffer& commands, ViewMode mode) const {
+    commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
+    commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
+    if (mode != ViewMode::Shaded)
+        commands.bindVertexBuffers(1, scene_->scalars(), vk::DeviceSize{0});
 }
 
 void SceneRenderer::Impl::bindScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,
                                     ViewMode mode) {
     if (!scene_)
         return;
-    commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
-    commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
-    if (mode != ViewMode::Shaded)
-        commands.bindVertexBuffers(1, scene_->scalars(), vk::DeviceSize{0});
+    bindMeshes(commands, mode);
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics,
         mode == ViewMode::Shaded ? pipelines_.sceneLayout() : pipelines_.falseColorLayout(), 0, frameSet, {});

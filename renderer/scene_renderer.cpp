@@ -100,6 +100,7 @@ bool SceneRenderer::Impl::continueScene(double seconds) {
     revisions_.assign(poses.size(), 0);
     statistics.triangles = scene_->scene().triangleCount();
     statistics.deviceBytes = scene_->deviceBytes();
+    ++sceneNumber;
     return true;
 }
 
@@ -111,6 +112,13 @@ void SceneRenderer::Impl::setMeshVertices(int mesh, const DrawnVertices& vertice
     for (size_t i = 0; i < revisions_.size(); ++i)
         if (instances[i].mesh == mesh)
             revisions_[i] = deformed_.revision(mesh);
+}
+
+void SceneRenderer::Impl::reshape(int mesh, const ReshapedMesh& reshaped) {
+    if (!scene_ || mesh < 0 || static_cast<size_t>(mesh) >= scene_->scene().meshes.size())
+        return;
+    scene_->reshape(mesh, reshaped);
+    ++content_;
 }
 
 void SceneRenderer::Impl::setMaterialColors(std::vector<glm::vec3> colors) {
@@ -281,6 +289,14 @@ void SceneRenderer::setInstancePoses(std::span<const glm::dmat4> sceneFromMesh) 
 
 void SceneRenderer::setMeshVertices(int mesh, const DrawnVertices& vertices) {
     impl_->setMeshVertices(mesh, vertices);
+}
+
+void SceneRenderer::reshape(int mesh, const ReshapedMesh& reshaped) {
+    impl_->reshape(mesh, reshaped);
+}
+
+uint64_t SceneRenderer::sceneNumber() const {
+    return impl_->sceneNumber;
 }
 
 void SceneRenderer::setMaterialColors(std::vector<glm::vec3> colors) {

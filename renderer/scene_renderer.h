@@ -8,6 +8,7 @@
 #include "renderer/gpu.h"
 #include "renderer/overlay.h"
 #include "renderer/prepared_scene.h"
+#include "renderer/reshaped_mesh.h"
 #include "renderer/view.h"
 
 #include <glm/glm.hpp>
@@ -66,6 +67,13 @@ class SceneRenderer {
     /// Current vertices of a deforming mesh (Scene::meshes); valid until the next call. Ignores another
     /// count.
     void setMeshVertices(int mesh, const DrawnVertices& vertices);
+
+    /// Draws other triangles in place of those of a mesh (Scene::meshes) of the current scene, until the next
+    /// scene: what is sculpted. With the mesh's material; its textures keep no coordinates. Once a frame at most.
+    /// Throws Error when the device memory does not hold them.
+    void reshape(int mesh, const ReshapedMesh& reshaped);
+    /// Counts the scenes that became current.
+    [[nodiscard]] uint64_t sceneNumber() const;
 
     /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Valid
     /// until the next call.

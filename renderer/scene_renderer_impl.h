@@ -60,6 +60,7 @@ struct SceneRenderer::Impl {
         return pipelines_.programProblem(program);
     }
     void setEnvironment(std::shared_ptr<const Environment> environment);
+    void reshape(int mesh, const ReshapedMesh& reshaped);
     [[nodiscard]] PixelData readPixels();
     /// The last frame of the main eye was no frame of a window: its time does not count.
     void forgetTime() {
@@ -72,6 +73,7 @@ struct SceneRenderer::Impl {
 
     Gpu::Impl& gpu;
     std::vector<glm::dmat4> poses;
+    uint64_t sceneNumber = 0; // counts scenes
     SceneRenderer::Statistics statistics;
 
     [[nodiscard]] const Scene* scene() const { return scene_ ? &scene_->scene() : nullptr; }
@@ -111,6 +113,7 @@ struct SceneRenderer::Impl {
     void drawScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, ViewMode mode,
                    bool over);
     void bindScene(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, ViewMode mode);
+    void bindMeshes(const vk::raii::CommandBuffer& commands, ViewMode mode) const;
     void drawItem(const vk::raii::CommandBuffer& commands, const DrawItem& item, ViewMode mode,
                   bool keepsLight = false);
     void drawBackground(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet,

@@ -21,8 +21,7 @@ void SceneRenderer::Impl::drawWireframe(const vk::raii::CommandBuffer& commands,
     if (draws_.empty() || !gpu.lineTriangles)
         return;
     const vk::PipelineLayout layout = pipelines_.sceneLayout();
-    commands.bindIndexBuffer(scene_->indices(), 0, vk::IndexType::eUint32);
-    commands.bindVertexBuffers(0, scene_->vertices(), vk::DeviceSize{0});
+    bindMeshes(commands, ViewMode::Shaded);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frameSet, {});
     commands.setCullMode(vk::CullModeFlagBits::eNone); // what is seen of a back is drawn, too
     for (const DrawItem& item : draws_) {
@@ -36,7 +35,10 @@ void SceneRenderer::Impl::drawWireframe(const vk::raii::CommandBuffer& commands,
         shared::ObjectConstants constants = item.constants;
         constants.normalFromMesh[2].w = opacityOf(item.edge);
         commands.pushConstants<shared::ObjectConstants>(layout, kObjectStages, 0, constants);
+        const bool reshaped = scene_->bindReshaped(commands, mesh, ViewMode::Shaded);
         commands.drawIndexed(item.indexCount, 1, item.firstIndex, prepared.firstVertex, 0);
+        if (reshaped)
+            bindMeshes(commands, ViewMode::Shaded);
         ++statistics.drawCalls;
     }
 }

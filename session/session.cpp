@@ -5,8 +5,13 @@
 namespace touchstone {
 
 uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
-                        SceneSwap swap) {
-    const uint32_t number = servo_.offerScene(scene, source, swap);
+                        SceneSwap swap, bool sculpted) {
+    std::optional<uint32_t> root;
+    if (sculpted && scene != nullptr)
+        root = sculptor_.carryOver(scene, source, swap);
+    const uint32_t number = root ? *root : servo_.offerScene(scene, source, swap);
+    if (!root)
+        sculptor_.begin(number, scene, source);
     scene_ = {number, std::move(scene), std::move(source), {}};
     identify(std::move(identity));
     return number;
@@ -18,6 +23,15 @@ void Session::identify(SceneIdentity identity) {
         subscriber->sceneOffered(scene_);
 }
 
+/// Those that the worker published since the last call.
+void Session::tellSculpted() {
+    for (const SculptedScene& sculpted : sculptor_.take()) {
+        told_ = sculpted.number;
+        for (TickSubscriber* subscriber : subscribers_)
+            subscriber->sceneSculpted(sculpted);
+    }
+}
+
 void Session::set(const HapticSettings& settings) {
     if (settings_ != settings)
         servo_.setSettings(*(settings_ = settings));
@@ -26,9 +40,13 @@ void Session::set(const HapticSettings& settings) {
 void Session::pump(double now) {
     servo_.updateSnapshot();
     TickRecord record;
-    while (servo_.popRecord(record))
+    while (servo_.popRecord(record)) {
+        if (record.scene != record.root && record.scene > told_)
+            tellSculpted(); // published before the servo was offered it
         for (TickSubscriber* subscriber : subscribers_)
             subscriber->take(record, servo_.settingsOf(record.settings));
+    }
+    tellSculpted();
     for (TickSubscriber* subscriber : subscribers_)
         subscriber->flush(now);
 }

@@ -25,14 +25,15 @@ class Session {
 
     /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number. Null: nothing can
     /// be touched, and the scene offered to the subscribers has the number 0.
+    /// `sculpted`: where the present scene was sculpted, the new one has the same objects and takes their fields over.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
-                   SceneSwap swap = SceneSwap::Anew);
+                   SceneSwap swap = SceneSwap::Anew, bool sculpted = false);
     /// The scene's file is another one now, or has been saved.
     void identify(SceneIdentity identity);
     /// The newest scene; its number is 0 before the first.
     [[nodiscard]] const OfferedScene& scene() const { return scene_; }
     /// The servo has adopted it.
-    [[nodiscard]] bool touching() const { return scene_.number != 0 && tick().scene == scene_.number; }
+    [[nodiscard]] bool touching() const { return scene_.number != 0 && tick().root == scene_.number; }
 
     /// For the next tick; no-op where they are those of the last call.
     void set(const HapticSettings& settings);
@@ -45,11 +46,19 @@ class Session {
     /// The newest tick of hand 0 at the last `pump`.
     [[nodiscard]] const TickRecord& tick() const { return servo_.snapshot(); }
 
+    /// Sculpts what is touched; its thread starts with the first active tool.
+    [[nodiscard]] LiveSculptor& sculptor() { return sculptor_; }
+    [[nodiscard]] const LiveSculptor& sculptor() const { return sculptor_; }
+
     [[nodiscard]] ServoLoop& servo() { return servo_; }
     [[nodiscard]] const ServoLoop& servo() const { return servo_; }
 
   private:
+    void tellSculpted();
+
     ServoLoop servo_;
+    LiveSculptor sculptor_{servo_};
+    uint32_t told_ = 0; // number of the last sculpted scene that the subscribers know
     std::vector<TickSubscriber*> subscribers_;
     OfferedScene scene_;
     std::optional<HapticSettings> settings_; // last sent

@@ -2,6 +2,7 @@
 
 #include "haptics/recording/scene_identity.h"
 #include "haptics/servo/servo_loop.h"
+#include "session/live_sculptor.h"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,8 @@ class TickSubscriber {
 
     /// Before the first tick of a scene, and again where its identity has changed (its file was saved).
     virtual void sceneOffered(const OfferedScene& scene) { (void)scene; }
+    /// Before the first tick of a scene that was sculpted.
+    virtual void sceneSculpted(const SculptedScene& scene) { (void)scene; }
     /// Every tick in order, one record per hand, that of hand 0 last; with the settings that it had.
     virtual void take(const TickRecord& record, const HapticSettings& settings) = 0;
     /// After each batch. `now`: s, any steady clock.

@@ -138,6 +138,8 @@ void WorkbenchWindow::askForFile(FilePurpose purpose) {
         request.ending = mesh ? ".glb" : file.extension().string();
         request.name = file.stem().string() + (mesh ? "" : "-felt") + request.ending;
     }
+    if (purpose == FilePurpose::SaveSculpture)
+        request.name = materials_.path().stem().string() + "-sculpted.glb";
     state_.gallery = state_.help = false; // nothing covers it
     dialog_.ask(std::move(request));
 }
@@ -147,6 +149,8 @@ void WorkbenchWindow::takeFile(double now) {
         askForFile(FilePurpose::Open);
     if (std::exchange(materialState_.saveAsPressed, false) && hasModel())
         askForFile(FilePurpose::SaveMaterials);
+    if (std::exchange(state_.sculpt.saveAs, false) && hasModel())
+        askForFile(FilePurpose::SaveSculpture);
     if ((state_.gallery || state_.leaving) && dialog_.covers())
         dialog_.close(); // one thing at a time has the keyboard
     const std::optional<FileChoice> choice = dialog_.update(now);
@@ -154,6 +158,8 @@ void WorkbenchWindow::takeFile(double now) {
         return;
     if (choice->purpose == FilePurpose::Open)
         leaveFor(choice->path);
+    else if (choice->purpose == FilePurpose::SaveSculpture)
+        touch_.sculpt().saveAs(choice->path);
     else
         materials_.saveAs(choice->path);
 }

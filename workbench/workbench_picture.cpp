@@ -18,6 +18,7 @@ void WorkbenchWindow::draw() {
                   .mouseIsHand = state_.device.empty() && !state_.simulatedHand && !timeline_.looking(),
                   .looksBack = timeline_.looking(),
                   .covered = state_.gallery || state_.leaving.has_value() || dialog_.covers(),
+                  .sculpts = state_.sculpt.on && touch_.sculpt().possible(),
                   .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
                  state_.view);
     showPart(area, points, widgets);
@@ -31,6 +32,8 @@ void WorkbenchWindow::draw() {
 
     if (hasModel()) {
         showMaterials();
+        touch_.sculpt().update(state_.sculpt, !timeline_.looking());
+        touch_.sculpt().draw(screen_.renderer());
         poseAt(animationTime(shownSettings(), shownTick().time), *touch_.shown().model.scene,
                screen_.renderer());
     }
@@ -108,7 +111,7 @@ std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
     Widgets widgets(scale, &state_.hovered);
     const PictureRect picture = pictureRect(state_, {display.x, display.y}, scale);
     drawMaterialWindow(input, {picture.x, picture.y, picture.width, picture.height}, state_.editMaterials,
-                       materials_, materialState_, widgets);
+                       materials_, materialState_, widgets, !state_.sculpt.on);
     return widgets.take();
 }
 
@@ -162,6 +165,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.devices = touch_.devices().offers();
     input.deviceStatus = touch_.devices().status();
     input.sound = touch_.sound().status();
+    input.sculpt = touch_.sculpt().status();
     input.servo = &touch_.figures();
     input.servoStart = touch_.startedAt();
     input.forcePresses = touch_.forceSwitch().state().presses();

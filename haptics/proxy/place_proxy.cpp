@@ -62,7 +62,8 @@ void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState
     }
 }
 
-void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
+void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, std::span<const int> reshaped,
+                    DeviceState& state) noexcept {
     state.candidates.invalidate();
     state.obstacleCandidates.invalidate();
     state.shaded = false;
@@ -70,7 +71,8 @@ void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, DeviceState
         return;
     const glm::dvec3 proxy =
         motions[static_cast<size_t>(state.reference)].workspaceFromObject.point(state.proxy);
-    for (size_t k = 0; k < scene.objects.size(); ++k) {
+    for (const int object : reshaped) {
+        const auto k = static_cast<size_t>(object);
         const Shape* const shape = scene.objects[k]->shape.get();
         const PotentialField* const field = shape != nullptr ? shape->potential() : nullptr;
         if (field == nullptr ||

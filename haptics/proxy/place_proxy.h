@@ -6,6 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include <span>
+
 namespace touchstone {
 
 /// The object whose bounding sphere is nearest to `hip` (workspace); the first reference object. One that is
@@ -27,10 +29,11 @@ namespace touchstone {
 /// that is left.
 void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
-/// Between two ticks, after fields of the scene have changed. `motions`: of the preceding tick. What was
-/// gathered near the proxy is dropped. A hand whose proxy a field has come to cover by more than a voxel
-/// begins again, once it is clear of the model: it would push at full depth. Any other touch goes on; a proxy
-/// that is covered by less is lifted by the next solve.
-void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
+/// Between two ticks, after the fields of `reshaped` (HapticScene::objects) have changed. `motions`: of the
+/// preceding tick. What was gathered near the proxy is dropped. A hand whose proxy one of them has come to
+/// cover by more than a voxel begins again, once it is clear of the model: it would push at full depth. Any
+/// other touch goes on; a proxy that is covered by less is lifted by the next solve.
+void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, std::span<const int> reshaped,
+                    DeviceState& state) noexcept;
 
 } // namespace touchstone

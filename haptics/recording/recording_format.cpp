@@ -364,6 +364,84 @@ void get(ByteReader& bytes, RecordedHandState& state) {
     state.checkpoint.hand = otherHand(hand);
 }
 
+template <class Enumeration>
+void getEnumeration(ByteReader& bytes, Enumeration& value, Enumeration last, const char* what) {
+    uint8_t number = 0;
+    bytes.get(number);
+    if (number > static_cast<uint8_t>(last))
+        throw Error("", what, "is none that this version has", "");
+    value = static_cast<Enumeration>(number);
+}
+
+void put(ByteWriter& bytes, const RecordedTool& recorded) {
+    const LiveTool& tool = recorded.tool;
+    bytes.put(static_cast<uint8_t>(tool.active));
+    bytes.put(static_cast<uint8_t>(tool.held));
+    bytes.put(static_cast<uint8_t>(tool.tool));
+    bytes.put(tool.object);
+    bytes.put(tool.stamp);
+    for (const double number : {tool.radius, tool.strength, tool.falloff, tool.resistance})
+        bytes.put(number);
+}
+void get(ByteReader& bytes, RecordedTool& recorded) {
+    LiveTool& tool = recorded.tool;
+    uint8_t active = 0, held = 0;
+    bytes.get(active);
+    bytes.get(held);
+    getEnumeration(bytes, tool.tool, SculptTool::Drag, "tool");
+    bytes.get(tool.object);
+    bytes.get(tool.stamp);
+    for (double* const number : {&tool.radius, &tool.strength, &tool.falloff, &tool.resistance})
+        bytes.get(*number);
+    tool.active = active != 0;
+    tool.held = held != 0;
+    if (!(tool.radius > 0.0 && std::isfinite(tool.radius + tool.resistance) && tool.strength > 0.0 &&
+          tool.strength <= 1.0 && tool.falloff >= 0.0 && tool.falloff <= 1.0))
+        throw Error("", "tool", "has a size or strength that cannot be", "");
+}
+
+void put(ByteWriter& bytes, const RecordedSculpt& sculpt) {
+    bytes.put(sculpt.scene);
+    bytes.put(sculpt.root);
+    bytes.put(sculpt.hash);
+    bytes.put(sculpt.first);
+    bytes.put(static_cast<uint32_t>(sculpt.entries.size()));
+    for (const SculptEntry& entry : sculpt.entries) {
+        bytes.put(static_cast<uint8_t>(entry.kind));
+        bytes.put(static_cast<uint8_t>(entry.tool));
+        bytes.put(entry.object);
+        bytes.put(entry.stamp);
+        bytes.put(entry.tick);
+        bytes.put(entry.centre);
+        bytes.put(entry.motion);
+        for (const double number : {entry.radius, entry.strength, entry.falloff})
+            bytes.put(number);
+    }
+}
+/// What an entry's numbers do is checked where it is applied.
+void get(ByteReader& bytes, RecordedSculpt& sculpt) {
+    uint32_t count = 0;
+    bytes.get(sculpt.scene);
+    bytes.get(sculpt.root);
+    bytes.get(sculpt.hash);
+    bytes.get(sculpt.first);
+    bytes.get(count);
+    if (bytes.left() != size_t{count} * kSculptEntrySize)
+        throw Error("", "", "holds another number of edits than it says", "");
+    sculpt.entries.resize(count);
+    for (SculptEntry& entry : sculpt.entries) {
+        getEnumeration(bytes, entry.kind, SculptEntryKind::Redo, "edit");
+        getEnumeration(bytes, entry.tool, SculptTool::Drag, "tool");
+        bytes.get(entry.object);
+        bytes.get(entry.stamp);
+        bytes.get(entry.tick);
+        bytes.get(entry.centre);
+        bytes.get(entry.motion);
+        for (double* const number : {&entry.radius, &entry.strength, &entry.falloff})
+            bytes.get(*number);
+    }
+}
+
 void put(ByteWriter& bytes, const RecordedLoss& loss) {
     bytes.put(loss.ticks);
 }

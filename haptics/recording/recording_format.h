@@ -6,6 +6,7 @@
 #include "haptics/recording/scene_identity.h"
 #include "haptics/recording/stage_hashes.h"
 #include "haptics/settings/haptic_settings.h"
+#include "haptics/shape/field/sculpt/live_tool.h"
 #include "haptics/state/touch_checkpoint.h"
 
 #include <array>
@@ -19,12 +20,13 @@
 namespace touchstone {
 
 /// Written; the reader reads this one and all before it. Format 2 adds hands (RecordedHandTicks and
-/// RecordedHandState), the limits of each tick's device, and the hash of the poses.
-inline constexpr uint32_t kRecordingVersion = 2;
+/// RecordedHandState), the limits of each tick's device, and the hash of the poses; format 3 sculpting
+/// (RecordedTool and RecordedSculpt).
+inline constexpr uint32_t kRecordingVersion = 3;
 /// Like PNG's: a byte that is not text, both line ends and an end of file, each of which a faulty copy
 /// changes.
 inline constexpr std::string_view kRecordingMagic{"\x89TSR\r\n\x1a\n", 8};
-inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224;
+inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224, kSculptEntrySize = 90;
 inline constexpr uint32_t kChunkSync = 0x6b6e6843;  ///< "Chnk": where reading resumes after damage
 inline constexpr uint32_t kLargestChunk = 1u << 20; ///< bytes of payload: the reader's memory is bounded
 inline constexpr std::string_view kRecordingEnding = ".tsrec";
@@ -74,6 +76,18 @@ struct RecordedHandTicks {
 struct RecordedHandState {
     TouchCheckpoint checkpoint;
 };
+/// The tool of all ticks from here to the next one; before the first: none is active.
+struct RecordedTool {
+    LiveTool tool;
+};
+/// Before the first tick in a scene that was sculpted: `scene` is that of `root` (RecordedScene) after the
+/// journal's entries up to the last of these.
+struct RecordedSculpt {
+    uint32_t scene = 0, root = 0;
+    uint64_t hash = 0;                ///< of the fields, SceneSculptor::hash; 0: the next chunk goes on
+    uint32_t first = 0;               ///< place of the first entry in the root's journal
+    std::vector<SculptEntry> entries; ///< may repeat what earlier chunks of the file hold
+};
 /// Ticks that were made but not recorded.
 struct RecordedLoss {
     uint64_t ticks = 0;
@@ -88,11 +102,12 @@ struct RecordedEnd {
 };
 using RecordedItem =
     std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
-                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState>;
+                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState, RecordedTool,
+                 RecordedSculpt>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 10> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK",
-                                                              "LOST", "NOTE", "DONE", "HTIC", "HSTA"};
+inline constexpr std::array<std::string_view, 12> kChunkNames{
+    "MADE", "SCEN", "SETT", "STAT", "TICK", "LOST", "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);

@@ -1,5 +1,6 @@
 #include "haptics/recording/recording_writer.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace touchstone {
@@ -35,14 +36,21 @@ void RecordingWriter::add(const TickToRecord& tick) {
     if (!begun_ && tick.checkpoint == nullptr)
         return;
     const bool lost = begun_ && tick.lostBefore > 0;
-    const bool newScene = tick.scene != nullptr && !scenes_.contains(tick.tick.scene);
+    const uint32_t root = tick.sculpt != nullptr ? tick.sculpt->root : tick.tick.scene;
+    const bool newScene = tick.scene != nullptr && !scenes_.contains(root);
     const bool newSettings = !begun_ || tick.tick.settings != settings_;
-    if (lost || newScene || newSettings || tick.checkpoint != nullptr || block_.ticks.size() == kBlock)
+    const bool newSculpt = tick.sculpt != nullptr && tick.tick.scene != sculpted_;
+    const bool newTool = tick.toolNumber != tool_;
+    if (lost || newScene || newSettings || newSculpt || newTool || tick.checkpoint != nullptr || block_.ticks.size() == kBlock)
         flush();
     if (lost)
         file_.append(RecordedLoss{tick.lostBefore});
     if (newScene)
-        file_.append(RecordedScene{tick.tick.scene, *tick.scene});
+        file_.append(RecordedScene{root, *tick.scene});
+    if (newSculpt)
+        addSculpt(tick.tick.scene, *tick.sculpt);
+    if (newTool)
+        file_.append(RecordedTool{tick.tool});
     if (newSettings)
         file_.append(RecordedSettings{tick.tick.settings, tick.settings});
     if (tick.checkpoint != nullptr) {
@@ -52,12 +60,28 @@ void RecordingWriter::add(const TickToRecord& tick) {
                 file_.append(RecordedHandState{*other.checkpoint});
     }
     if (newScene)
-        scenes_[tick.tick.scene] = true;
+        scenes_[root] = true;
     settings_ = tick.tick.settings;
+    tool_ = tick.toolNumber;
     begun_ = true;
     block_.ticks.push_back(tick.tick);
     for (const HandToRecord& other : tick.others)
         otherBlocks_[other.hand].ticks.push_back(other.tick);
+}
+
+/// The entries that this file does not have yet, in chunks that a reader's memory holds.
+void RecordingWriter::addSculpt(uint32_t scene, const SculptToRecord& sculpt) {
+    constexpr size_t kMost = 8192;
+    size_t& written = journals_[sculpt.root];
+    do {
+        const size_t count = std::min(kMost, sculpt.journal.size() - written);
+        const auto part = sculpt.journal.subspan(written, count);
+        const bool last = written + count == sculpt.journal.size();
+        file_.append(RecordedSculpt{scene, sculpt.root, last ? sculpt.hash : 0,
+                                    static_cast<uint32_t>(written), {part.begin(), part.end()}});
+        written += count;
+    } while (written < sculpt.journal.size());
+    sculpted_ = scene;
 }
 
 void RecordingWriter::note(uint64_t tick, std::string text) {

@@ -22,14 +22,24 @@ struct HandToRecord {
     std::optional<TouchCheckpoint> checkpoint; ///< taken before this tick
 };
 
+/// A scene that was sculpted, with all that was made since its root.
+struct SculptToRecord {
+    uint32_t root = 0;
+    uint64_t hash = 0;
+    std::span<const SculptEntry> journal;
+};
+
 /// A tick with all data that it depends on.
 struct TickToRecord {
     const RecordedTick& tick;
     const HapticSettings& settings;              ///< TickRecord::settings
-    const SceneIdentity* scene = nullptr;        ///< TickRecord::scene; null: none
+    const SceneIdentity* scene = nullptr;        ///< TickRecord::root; null: none
     const TouchCheckpoint* checkpoint = nullptr; ///< of hand 0, taken before this tick
     uint64_t lostBefore = 0;                     ///< ticks made since the last one whose records were lost
     std::span<const HandToRecord> others{};      ///< the other hands
+    const SculptToRecord* sculpt = nullptr;      ///< where TickRecord::scene is not its root
+    uint32_t toolNumber = 0;                     ///< TickRecord::tool
+    LiveTool tool{};
 };
 
 /// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are
@@ -51,6 +61,7 @@ class RecordingWriter {
 
   private:
     static constexpr size_t kBlock = 256;
+    void addSculpt(uint32_t scene, const SculptToRecord& sculpt);
 
     RecordingFile file_;
     RecordingOrigin origin_;
@@ -58,7 +69,8 @@ class RecordingWriter {
     std::map<uint32_t, RecordedTicks> otherBlocks_; // by hand
     uint64_t ticks_ = 0;
     std::map<uint32_t, bool> scenes_; // written
-    uint32_t settings_ = 0;
+    uint32_t settings_ = 0, tool_ = 0, sculpted_ = 0;
+    std::map<uint32_t, size_t> journals_; // by root: entries written
     bool begun_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "haptics/proxy/place_proxy.h"
 #include "haptics/servo/realtime_thread.h"
 
 #include <algorithm>
@@ -11,7 +12,8 @@
 namespace touchstone {
 
 std::string whichHand(const ReplayReport& report) {
-    if (report.hands == 1 || !report.first || report.first->stage == "poses")
+    if (report.hands == 1 || !report.first || report.first->stage == "poses" ||
+        report.first->stage == "field")
         return "";
     return "of hand " + std::to_string(report.first->hand + 1) + ", ";
 }
@@ -71,6 +73,15 @@ void Replayer::take(const RecordedHandTicks& ticks) {
     report_.hands = std::max(report_.hands, size_t{ticks.hand} + 1);
 }
 
+void Replayer::take(const RecordedSculpt& sculpt) {
+    std::vector<SculptEntry>& journal = journals_[sculpt.root];
+    if (sculpt.first > journal.size())
+        throw Error("recording", "", "leaves out what was sculpted before", "the file is damaged");
+    journal.resize(sculpt.first); // a part of a flight recording repeats what the one before it holds
+    journal.insert(journal.end(), sculpt.entries.begin(), sculpt.entries.end());
+    sculpted_[sculpt.scene] = {sculpt.root, sculpt.hash, journal.size()};
+}
+
 void Replayer::take(const RecordedLoss& loss) {
     report_.lost += loss.ticks;
     ++report_.gaps;
@@ -89,7 +100,8 @@ void Replayer::take(const RecordedTicks& ticks) {
         const bool states = checkpoint_ && otherStates_.size() + 1 == ticks_.size();
         const bool begins = states && checkpoint_->tick == tick.tick && checkpoint_->scene == tick.scene;
         const bool ownState = change_ && known_ && tick.scene == scene_;
-        if (whole && begins && !ownState)
+        const bool goesOn = whole && change_ && known_ && tick.scene != scene_ && takeUp(tick);
+        if (whole && begins && !ownState && !goesOn)
             resume(tick);
         else if (!whole || tick.scene != scene_)
             lose();
@@ -130,6 +142,8 @@ void Replayer::lose() {
 Replayer::Touched* Replayer::touched(uint32_t number) {
     if (number == 0)
         return nullptr;
+    if (sculpted_.contains(number))
+        return sculpted(number);
     std::unique_ptr<Touched>& entry = loaded_[number];
     if (entry == nullptr) {
         const auto scene = scenes_.find(number);
@@ -140,6 +154,56 @@ Replayer::Touched* Replayer::touched(uint32_t number) {
         entry->world = WorldState(entry->scene.source, *entry->scene.haptic);
     }
     return entry.get();
+}
+
+uint32_t Replayer::rootOf(uint32_t scene) const {
+    const auto found = sculpted_.find(scene);
+    return found != sculpted_.end() ? found->second.root : scene;
+}
+
+/// The root's scene after the journal's entries up to those of `number`.
+Replayer::Touched* Replayer::sculpted(uint32_t number) {
+    const Sculpted& wanted = sculpted_.at(number);
+    std::unique_ptr<Edited>& edited = edited_[wanted.root];
+    if (edited != nullptr && edited->number == number)
+        return &edited->touched;
+    const Touched* const root = touched(wanted.root);
+    if (root == nullptr || sculpted_.contains(wanted.root))
+        throw Error("recording", "", "sculpts a scene that it does not name", "the file is damaged");
+    if (edited == nullptr || edited->applied > wanted.entries)
+        edited = std::make_unique<Edited>(SceneSculptor(root->scene.haptic));
+    const std::vector<SculptEntry>& journal = journals_.at(wanted.root);
+    if (wanted.entries > journal.size())
+        throw Error("recording", "", "lacks a part of what was sculpted", "the file is damaged");
+    for (; edited->applied < wanted.entries; ++edited->applied)
+        (void)edited->sculptor.apply(journal[edited->applied]);
+    edited->sculptor.settle();
+    edited->number = number;
+    edited->touched.scene = {edited->sculptor.scene(), root->scene.source};
+    edited->touched.world = WorldState(root->scene.source, *edited->touched.scene.haptic);
+    if (edited->sculptor.hash() != wanted.hash && !change_)
+        differs({.stage = "field"});
+    return &edited->touched;
+}
+
+/// With other settings, the scene's next edit: the hands' own state goes on as on the servo (adopt). False
+/// where it is another scene.
+bool Replayer::takeUp(const RecordedTick& tick) {
+    if (rootOf(tick.scene) != rootOf(scene_) || tick.scene == 0)
+        return false;
+    Touched* const touched = this->touched(tick.scene);
+    touched->world.forget();
+    if (std::isfinite(previousTime_))
+        touched->world.advance(previousTime_);
+    const HapticScene& scene = *touched->scene.haptic;
+    const ObjectMotions moved = touched->world.poses();
+    const auto edited = edited_.find(rootOf(tick.scene));
+    const std::vector<int> reshaped =
+        edited != edited_.end() ? edited->second->sculptor.sculpted() : std::vector<int>();
+    for (DeviceState& device : devices_)
+        takeUpReshaped(scene, moved.empty() ? ObjectMotions(scene.restMotions) : moved, reshaped, device);
+    scene_ = tick.scene;
+    return true;
 }
 
 /// Restores the state of every hand at the checkpoint before `tick`.
@@ -207,7 +271,7 @@ void Replayer::step(const RecordedTick& tick) {
             if (settings->second.contact == ContactMethod::Rays)
                 scene.buildRays();
         }
-        const std::optional<DeviceLimits>& limits = scenes_.at(tick.scene).identity.limits; // of format 1
+        const std::optional<DeviceLimits>& limits = scenes_.at(rootOf(tick.scene)).identity.limits; // of format 1
         for (size_t hand = 0; hand < ticks_.size(); ++hand) {
             samples_[hand] = ticks_[hand].sample;
             if (limits)
@@ -218,7 +282,8 @@ void Replayer::step(const RecordedTick& tick) {
         touched->world.advance(animated, has(tick.flags, TickFlag::DeformationHeld));
         poses = touched->world.poseHash();
         const TickInput input{
-            .tick = tick.tick, .time = tick.time, .dt = tick.dt, .late = tick.late, .hands = samples_};
+            .tick = tick.tick, .time = tick.time, .dt = tick.dt, .late = tick.late, .hands = samples_,
+            .tool = tool_.active ? &tool_ : nullptr};
         StageTracer tracer(devices_, traces_);
         const long long begin = monotonicNs();
         hapticStep(scene, settings->second, input, touched->world, devices_, outputs_, tracer);

@@ -2,6 +2,7 @@
 // Repeats a recorded touch and compares the results.
 
 #include "haptics/recording/recording_reader.h"
+#include "haptics/scene/scene_sculptor.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/tick/haptic_step.h"
 #include "haptics/world/world_state.h"
@@ -29,7 +30,7 @@ struct Difference {
     double time = 0.0;
     uint32_t hand = 0; ///< TickRecord::hand; 0 with "poses"
     /// One of kStageNames; "state" where a checkpoint differs from the state after the preceding ticks;
-    /// "poses" where the objects are elsewhere.
+    /// "poses" where the objects are elsewhere; "field" where a sculpted scene has other fields.
     std::string stage;
     glm::dvec3 recordedProxy{0.0}, replayedProxy{0.0}; ///< m, workspace
     glm::dvec3 recordedForce{0.0}, replayedForce{0.0}; ///< N, stage 7
@@ -98,6 +99,8 @@ class Replayer {
     void take(const RecordedEnd&) {}
     void take(const RecordedHandTicks& ticks);
     void take(const RecordedHandState& state);
+    void take(const RecordedTool& tool) { tool_ = tool.tool; }
+    void take(const RecordedSculpt& sculpt);
 
     void lose();
     void resume(const RecordedTick& tick);
@@ -106,6 +109,9 @@ class Replayer {
     [[nodiscard]] bool compare(uint32_t hand, const RecordedTick& tick);
     void differs(const Difference& difference);
     [[nodiscard]] Touched* touched(uint32_t number);
+    [[nodiscard]] Touched* sculpted(uint32_t number);
+    [[nodiscard]] uint32_t rootOf(uint32_t scene) const;
+    bool takeUp(const RecordedTick& tick);
 
     Load load_;
     Change change_; ///< empty: the recorded settings
@@ -114,6 +120,22 @@ class Replayer {
     std::map<uint32_t, RecordedScene> scenes_;
     std::map<uint32_t, std::unique_ptr<Touched>> loaded_;
     std::map<uint32_t, HapticSettings> settings_;
+    LiveTool tool_;
+    struct Sculpted {
+        uint32_t root = 0;
+        uint64_t hash = 0;
+        size_t entries = 0; // of the root's journal
+    };
+    std::map<uint32_t, Sculpted> sculpted_;                 // scenes that are edits of others
+    std::map<uint32_t, std::vector<SculptEntry>> journals_; // by root
+    /// The root's scene after some entries: that of one number at a time.
+    struct Edited {
+        SceneSculptor sculptor;
+        size_t applied = 0;
+        uint32_t number = 0;
+        Touched touched;
+    };
+    std::map<uint32_t, std::unique_ptr<Edited>> edited_; // by root
     std::optional<TouchCheckpoint> checkpoint_;           // of the next tick and hand 0
     std::map<uint32_t, TouchCheckpoint> otherStates_;     // of the same tick, by hand
     std::map<uint32_t, std::deque<RecordedTick>> others_; // of the next ticks, by hand

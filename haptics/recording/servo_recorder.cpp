@@ -35,6 +35,13 @@ void ServoRecorder::stop() {
     writer_.reset();
 }
 
+void ServoRecorder::sceneSculpted(uint32_t number, uint32_t root, uint64_t hash,
+                                  std::span<const SculptEntry> entries) {
+    std::vector<SculptEntry>& journal = journals_[root];
+    journal.insert(journal.end(), entries.begin(), entries.end());
+    sculpted_[number] = {root, hash, journal.size()};
+}
+
 void ServoRecorder::take(const TickRecord& record) {
     TouchCheckpoint checkpoint;
     bool found = false;
@@ -52,13 +59,23 @@ void ServoRecorder::take(const TickRecord& record) {
     nextStep_ = record.step + 1;
     if (!writer_ && !flight_)
         return;
-    const auto scene = scenes_.find(record.scene);
+    const auto scene = scenes_.find(record.root);
+    sculpted_.erase(sculpted_.begin(), sculpted_.lower_bound(record.scene));
+    const auto sculptedScene = sculpted_.find(record.scene);
+    SculptToRecord sculpt;
+    const bool isSculpted = sculptedScene != sculpted_.end();
+    if (isSculpted)
+        sculpt = {sculptedScene->second.root, sculptedScene->second.hash,
+                  std::span(journals_[sculptedScene->second.root]).first(sculptedScene->second.entries)};
     const TickToRecord tick{.tick = recorded,
                             .settings = servo_.settingsOf(record.settings),
                             .scene = scene != scenes_.end() ? &scene->second : nullptr,
                             .checkpoint = found ? &checkpoint : nullptr,
                             .lostBefore = lost,
-                            .others = others};
+                            .others = others,
+                            .sculpt = isSculpted ? &sculpt : nullptr,
+                            .toolNumber = record.tool,
+                            .tool = servo_.toolOf(record.tool)};
     if (writer_)
         guarded([&] { writer_->add(tick); }, false);
     if (flight_)

@@ -24,6 +24,9 @@ class ServoRecorder {
     /// The scene for a number from ServoLoop::offerScene. Before its first record is taken.
     void sceneOffered(uint32_t number, SceneIdentity identity) { scenes_[number] = std::move(identity); }
 
+    /// A scene that was sculpted, before its first record is taken: `entries` go on the journal of `root`.
+    void sceneSculpted(uint32_t number, uint32_t root, uint64_t hash, std::span<const SculptEntry> entries);
+
     /// From the next tick on. Throws Error where the file cannot be created.
     void start(const std::filesystem::path& file, const std::string& command);
     void stop();
@@ -54,6 +57,13 @@ class ServoRecorder {
 
     ServoLoop& servo_;
     std::map<uint32_t, SceneIdentity> scenes_;
+    struct Sculpted {
+        uint32_t root = 0;
+        uint64_t hash = 0;
+        size_t entries = 0; // of the root's journal
+    };
+    std::map<uint32_t, Sculpted> sculpted_; // that a record may still name
+    std::map<uint32_t, std::vector<SculptEntry>> journals_; // by root
     std::optional<RecordingWriter> writer_;
     std::optional<FlightRecorder> flight_;
     std::filesystem::path file_;

@@ -23,6 +23,14 @@ const FieldShape* fieldOf(const HapticObject& object) {
 
 } // namespace
 
+std::shared_ptr<const FieldGrid> fieldOfObject(const HapticScene& scene, size_t object) {
+    return fieldOf(*scene.objects[object])->sharedGrid();
+}
+
+Similarity sceneFromObject(const HapticScene& scene, size_t object) {
+    return scene.workspaceFromScene.inverseTimes(scene.objects[object]->workspaceFromObject);
+}
+
 SceneSculptor::SceneSculptor(std::shared_ptr<const HapticScene> scene) : scene_(std::move(scene)) {}
 
 size_t SceneSculptor::objectNamed(const std::string& name) const {
@@ -45,28 +53,31 @@ size_t SceneSculptor::objectNamed(const std::string& name) const {
 }
 
 std::shared_ptr<const FieldGrid> SceneSculptor::field(size_t object) const {
-    return fieldOf(*scene_->objects[object])->sharedGrid();
+    return fieldOfObject(*scene_, object);
 }
 
 Similarity SceneSculptor::sceneFromObject(size_t object) const {
-    return scene_->workspaceFromScene.inverseTimes(scene_->objects[object]->workspaceFromObject);
+    return touchstone::sceneFromObject(*scene_, object);
 }
 
 Sculptor& SceneSculptor::sculptorOf(size_t object) {
     return sculptors_.try_emplace(object, field(object)).first->second;
 }
 
-std::shared_ptr<const FieldGrid> SceneSculptor::stampNamed(const std::string& name) {
-    if (const auto made = stamps_.find(name); made != stamps_.end())
+std::shared_ptr<const FieldGrid> SceneSculptor::stampOf(size_t object) {
+    if (const auto made = stamps_.find(object); made != stamps_.end())
         return made->second;
-    for (const auto& object : scene_->objects) {
-        if (object->name != name || object->empty())
-            continue;
-        const FieldShape* const shape = fieldOf(*object);
-        const std::shared_ptr<const FieldGrid> stamp =
-            shape != nullptr ? shape->sharedGrid() : fieldOfMesh(*object, FieldRequest{});
-        return stamps_.emplace(name, stamp).first->second;
-    }
+    const HapticObject& shape = *scene_->objects[object];
+    const FieldShape* const field = fieldOf(shape);
+    return stamps_
+        .emplace(object, field != nullptr ? field->sharedGrid() : fieldOfMesh(shape, FieldRequest{}))
+        .first->second;
+}
+
+size_t SceneSculptor::stampNamed(const std::string& name) const {
+    for (size_t k = 0; k < scene_->objects.size(); ++k)
+        if (scene_->objects[k]->name == name && !scene_->objects[k]->empty())
+            return k;
     refuseStep("the scene has no object " + name + " to stamp with", "name one of its objects");
 }
 
@@ -79,7 +90,7 @@ std::vector<Dab> SceneSculptor::dabsOf(const SculptStep& step, size_t object) {
     dab.strength = step.strength;
     dab.falloff = step.falloff;
     if (!step.stamp.empty())
-        dab.stamp = stampNamed(step.stamp);
+        dab.stamp = stampOf(stampNamed(step.stamp));
     const double spacing = std::max(0.25 * dab.radius, 0.5 * voxel);
     std::vector<Dab> dabs;
     glm::dvec3 before = scenePlace.inversePoint(step.points.front());
@@ -106,39 +117,133 @@ std::vector<Dab> SceneSculptor::dabsOf(const SculptStep& step, size_t object) {
     return dabs;
 }
 
+/// Takes the last stroke back, or repeats what was taken back. Returns what it removed, m^3.
+double SceneSculptor::removedBy(bool undoes) {
+    std::vector<Made>&from = undoes ? done_ : undone_, &to = undoes ? undone_ : done_;
+    if (from.empty())
+        return 0.0;
+    const Made made = from.back();
+    from.pop_back();
+    to.push_back(made);
+    Sculptor& sculptor = sculptorOf(made.object);
+    (void)(undoes ? sculptor.undo() : sculptor.redo());
+    unsettled_.insert(made.object);
+    return undoes ? -made.removed : made.removed;
+}
+
+size_t SceneSculptor::checkedObject(int32_t object) const {
+    if (object < 0 || static_cast<size_t>(object) >= scene_->objects.size())
+        refuseStep("there is no object " + std::to_string(object), "the journal is that of another scene");
+    return static_cast<size_t>(object);
+}
+
+SculptReport SceneSculptor::apply(const SculptEntry& entry) {
+    SculptReport report;
+    if (entry.kind == SculptEntryKind::Undo || entry.kind == SculptEntryKind::Redo) {
+        report.removed = removedBy(entry.kind == SculptEntryKind::Undo);
+        begins_ = strokeIsEmpty_ = true; // what follows of the stroke is a step of its own
+        return report;
+    }
+    const size_t object = checkedObject(entry.object);
+    if (scene_->objects[object]->empty())
+        return report; // it is hidden
+    if (fieldOf(*scene_->objects[object]) == nullptr)
+        refuseStep(scene_->objects[object]->name + " is felt as a mesh",
+                   "give its material the representation implicit (touchstone edit)");
+    Sculptor& sculptor = sculptorOf(object);
+    if (entry.kind == SculptEntryKind::Begin) {
+        begins_ = strokeIsEmpty_ = true;
+        return report;
+    }
+    Dab dab{.tool = entry.tool,
+            .centre = entry.centre,
+            .motion = entry.motion,
+            .radius = entry.radius,
+            .strength = entry.strength,
+            .falloff = entry.falloff};
+    if (entry.tool == SculptTool::Stamp || entry.tool == SculptTool::Imprint)
+        dab.stamp = stampOf(checkedObject(entry.stamp));
+    sculptor.check(dab);
+    if (std::exchange(begins_, false)) {
+        sculptor.beginStroke();
+        undone_.clear();
+    }
+    const DabReport one = sculptor.apply(dab);
+    const double scale = sceneFromObject(object).scale;
+    report = {.removed = one.removed * scale * scale * scale, .dabs = 1, .bricks = one.bricks};
+    if (one.bricks == 0)
+        return report;
+    unsettled_.insert(object);
+    if (std::exchange(strokeIsEmpty_, false))
+        done_.push_back({object, 0.0});
+    done_.back().removed += report.removed;
+    return report;
+}
+
+void SceneSculptor::settle() {
+    for (const size_t object : std::exchange(unsettled_, {}))
+        if (!scene_->objects[object]->empty())
+            renew(object);
+}
+
+std::vector<int> SceneSculptor::sculpted() const {
+    std::vector<int> objects;
+    for (const auto& [object, sculptor] : sculptors_)
+        objects.push_back(static_cast<int>(object));
+    return objects;
+}
+
+std::vector<uint32_t> SceneSculptor::takeChangedBricks(int object) {
+    return sculptorOf(static_cast<size_t>(object)).takeChangedBricks();
+}
+
+uint64_t SceneSculptor::memoryBytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [object, sculptor] : sculptors_)
+        bytes += sculptor.memoryBytes();
+    return bytes;
+}
+
+void SceneSculptor::moveTo(std::shared_ptr<const HapticScene> scene) {
+    scene_ = std::move(scene);
+    for (const auto& [object, sculptor] : sculptors_)
+        if (fieldOf(*scene_->objects[object]) != nullptr) // else it is hidden
+            renew(object);
+}
+
 SculptReport SceneSculptor::apply(const SculptStep& step) {
     SculptReport report;
     if (step.action != SculptAction::Stroke) {
         const bool undoes = step.action == SculptAction::Undo;
-        std::vector<Made>&from = undoes ? done_ : undone_, &to = undoes ? undone_ : done_;
-        if (from.empty())
-            return report;
-        const Made made = from.back();
-        from.pop_back();
-        to.push_back(made);
-        Sculptor& sculptor = sculptorOf(made.object);
-        (void)(undoes ? sculptor.undo() : sculptor.redo());
-        renew(made.object);
-        report.removed = undoes ? -made.removed : made.removed;
+        entries_.push_back({.kind = undoes ? SculptEntryKind::Undo : SculptEntryKind::Redo});
+        report = apply(entries_.back());
+        settle();
         return report;
     }
     const size_t object = objectNamed(step.object);
     const std::vector<Dab> dabs = dabsOf(step, object);
-    Sculptor& sculptor = sculptorOf(object);
-    sculptor.beginStroke();
-    undone_.clear();
-    for (const Dab& dab : dabs) {
-        const DabReport one = sculptor.apply(dab);
+    SculptEntry entry{.kind = SculptEntryKind::Begin, .object = static_cast<int32_t>(object)};
+    const auto make = [&] {
+        const SculptReport one = apply(entry);
         report.removed += one.removed;
         report.bricks += one.bricks;
+        entries_.push_back(entry);
+    };
+    make();
+    entry.kind = SculptEntryKind::Dab;
+    if (!step.stamp.empty())
+        entry.stamp = static_cast<int32_t>(stampNamed(step.stamp));
+    for (const Dab& dab : dabs) {
+        entry.tool = dab.tool;
+        entry.centre = dab.centre;
+        entry.motion = dab.motion;
+        entry.radius = dab.radius;
+        entry.strength = dab.strength;
+        entry.falloff = dab.falloff;
+        make();
     }
     report.dabs = dabs.size();
-    const double scale = sceneFromObject(object).scale;
-    report.removed *= scale * scale * scale;
-    if (report.bricks > 0) {
-        done_.push_back({object, report.removed});
-        renew(object);
-    }
+    settle();
     return report;
 }
 
@@ -146,6 +251,7 @@ SculptReport SceneSculptor::apply(const SculptStep& step) {
 void SceneSculptor::renew(size_t object) {
     const std::shared_ptr<HapticScene> scene = copyOf(*scene_);
     scene->warnings = scene_->warnings;
+    scene->shareNeighbourhoods(*scene_);
     auto reshaped = std::make_shared<HapticObject>();
     const HapticObject& old = *scene_->objects[object];
     reshaped->name = old.name;

@@ -33,11 +33,13 @@ void refuseStale(DeviceSample& sample) noexcept {
 struct ServoLoop::Touch {
     explicit Touch(size_t hands)
         : devices(hands), samples(hands), outputs(hands), traces(hands), felt(hands), records(hands),
-          checkpoints(hands) {}
+          paths(hands), checkpoints(hands) {}
 
     const Offer* offer = nullptr;
     uint32_t geometry = 0;                    // of the offer; 0: none
+    uint32_t scene = 0, root = 0;             // numbers of the offer and of what it is an edit of
     const HapticSettings* settings = nullptr; // of this tick
+    const LiveTool* tool = nullptr;           // of this tick; null: none is active
     // One per hand:
     std::vector<DeviceState> devices;
     std::vector<DeviceSample> samples;
@@ -49,6 +51,7 @@ struct ServoLoop::Touch {
     };
     std::vector<Felt> felt;
     std::vector<TickRecord> records; // of this tick, hand 0 the last
+    std::vector<ToolPath> paths;
     bool late = false;               // the previous tick ended after its next deadline
     uint64_t nextCheckpoint = 0;
     double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the preceding tick in this scene
@@ -124,8 +127,8 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         return 0;
     }
     WorldState world(std::move(source), *scene);
-    auto offer =
-        std::make_shared<const Offer>(std::move(scene), std::move(world), ++offeredScenes_, offeredGeometry_);
+    const uint32_t number = nextSceneNumber();
+    auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_, number);
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
         offer->world.publishAhead(animationTime(
@@ -134,7 +137,31 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     else
         waiting_ = offer;
     scene_.offer(std::move(offer));
-    return offeredScenes_;
+    return number;
+}
+
+void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
+    if (swap == SceneSwap::Anew)
+        ++offeredGeometry_;
+    WorldState world(std::move(scene.source), *scene.scene);
+    scene_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number,
+                                               offeredGeometry_, scene.root, std::move(scene.reshaped)));
+}
+
+void ServoLoop::offerEdited(ReshapedScene scene) {
+    WorldState world(std::move(scene.source), *scene.scene);
+    edited_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number, 0u,
+                                                scene.root, std::move(scene.reshaped), scene.oldestEdit));
+}
+
+void ServoLoop::setTool(const LiveTool& tool) {
+    offeredTools_.push_back({offeredTools_.back().number + 1, tool});
+    tools_.write(offeredTools_.back());
+}
+
+const LiveTool& ServoLoop::toolOf(uint32_t number) const {
+    const auto found = std::ranges::lower_bound(offeredTools_, number, {}, &NumberedTool::number);
+    return (found != offeredTools_.end() ? *found : offeredTools_.back()).tool;
 }
 
 void ServoLoop::setSettings(const HapticSettings& settings) {
@@ -157,6 +184,8 @@ bool ServoLoop::popRecord(TickRecord& record) {
         return false;
     while (offeredSettings_.front().number < (record.settings & ~kWithoutForce))
         offeredSettings_.pop_front();
+    while (offeredTools_.front().number < record.tool)
+        offeredTools_.pop_front();
     return true;
 }
 
@@ -172,7 +201,8 @@ ServoScheduling ServoLoop::scheduling() const {
 /// Switches to another scene. The checkpoint taken then drops the candidates, which point into the previous
 /// one.
 void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
-    const uint32_t geometry = offer != nullptr ? offer->geometry : 0;
+    const bool edited = offer != nullptr && offer->geometry == 0; // of the present root (prepare)
+    const uint32_t geometry = offer == nullptr ? 0 : edited ? touch.geometry : offer->geometry;
     const bool goesOn = geometry != 0 && geometry == touch.geometry;
     touch.offer = offer;
     touch.geometry = geometry;
@@ -184,8 +214,11 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
             offer->world.advance(touch.previousTime);
         const ObjectMotions moved = offer->world.poses();
         const ObjectMotions motions = moved.empty() ? ObjectMotions(offer->scene->restMotions) : moved;
-        for (DeviceState& device : touch.devices)
+        for (DeviceState& device : touch.devices) {
             letGoOfEmptied(*offer->scene, motions, device);
+            if (!offer->reshaped.empty())
+                takeUpReshaped(*offer->scene, motions, offer->reshaped, device);
+        }
         return;
     }
     // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
@@ -194,6 +227,8 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
         device.mustLeave = true;
         ForceLimiter::restartRamp(device.limiter);
     }
+    for (ToolPath& path : touch.paths)
+        path.release();
     for (Touch::Felt& felt : touch.felt)
         felt.feedback = TouchFeedback{};
     touch.previousTime = std::numeric_limits<double>::quiet_NaN();
@@ -209,13 +244,27 @@ void ServoLoop::prepare(Touch& touch) noexcept {
         touch.settings = &settings_.value().withoutForce;
         record.settings |= kWithoutForce;
     }
-    const Offer* offer = scene_.adopt();
+    tools_.update();
+    record.tool = tools_.value().number;
+    touch.tool = tools_.value().tool.active ? &tools_.value().tool : nullptr;
+    const Offer* const root = scene_.adopt();
+    const Offer* offer = root;
+    record.root = root != nullptr ? root->root : 0;
+    if (const Offer* const edited = edited_.adopt();
+        edited != nullptr && root != nullptr && edited->root == root->root)
+        offer = edited;
     bool due = record.tick >= touch.nextCheckpoint;
-    if (offer != touch.offer) {
+    if (const uint32_t number = offer != nullptr ? offer->number : 0; number != touch.scene) {
+        if (offer != root && record.root != touch.root)
+            adopt(touch, root); // its first edit came before its first tick
         adopt(touch, offer);
+        if (offer != nullptr && offer->oldestEdit > 0)
+            record.editDelay = static_cast<uint32_t>(record.tick - offer->oldestEdit);
+        touch.scene = number;
+        touch.root = record.root;
         due = true;
     }
-    record.scene = offer != nullptr ? offer->number : 0;
+    record.scene = touch.scene;
     record.checkpoint = due || checkpointWanted_.load(std::memory_order_relaxed);
     if (record.checkpoint)
         takeCheckpoints(touch);
@@ -271,8 +320,12 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         std::ranges::fill(touch.outputs, HapticOutput{});
         std::ranges::fill(touch.traces, StageTrace{});
     } else {
-        const TickInput input{
-            .tick = number, .time = record.time, .dt = dt, .late = touch.late, .hands = touch.samples};
+        const TickInput input{.tick = number,
+                              .time = record.time,
+                              .dt = dt,
+                              .late = touch.late,
+                              .hands = touch.samples,
+                              .tool = touch.tool};
         WorldState& world = touch.offer->world;
         record.poses = world.poseHash();
         StageStopwatch clock;
@@ -282,12 +335,30 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         record.stepNs = saturated(monotonicNs() - begin);
         std::ranges::transform(clock.nanoseconds, record.stageNs.begin(), saturated);
         touch.previousTime = animationTime(*touch.settings, record.time);
+        if (touch.tool != nullptr)
+            sculpt(touch, input, world.poses());
     }
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         if (touch.offer != nullptr)
             touch.feelFrom(hand);
         ports_[hand].apply(ports_[hand].context, touch.offer != nullptr ? touch.outputs[hand].command
                                                                         : touch.restCommand(hand, dt));
+    }
+}
+
+/// What the hands make with their tool, into the journal's ring.
+void ServoLoop::sculpt(Touch& touch, const TickInput& input, ObjectMotions poses) noexcept {
+    const HapticScene& scene = *touch.offer->scene;
+    std::array<SculptEntry, ToolPath::kMost> made;
+    for (size_t hand = 0; hand < ports_.size(); ++hand) {
+        const bool pressed = touch.tool->held || (touch.samples[hand].buttons & kSculptButton) != 0;
+        const size_t count = touch.paths[hand].advance(
+            *touch.tool, pressed, scene, poses.empty() ? ObjectMotions(scene.restMotions) : poses, input,
+            touch.outputs[hand], made);
+        for (size_t i = 0; i < count; ++i) {
+            made[i].root = touch.root;
+            edits_.push(made[i]);
+        }
     }
 }
 

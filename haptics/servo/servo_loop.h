@@ -8,6 +8,7 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/servo/force_switch.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/servo/tool_path.h"
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/tick/haptic_step.h"
 #include "haptics/world/world_state.h"
@@ -39,7 +40,11 @@ struct TickRecord {
     bool late = false;       ///< input of the step: the preceding one was late
     bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
     uint32_t settings = 0;   ///< number for ServoLoop::settingsOf
-    uint32_t scene = 0;      ///< number that ServoLoop::offerScene returned; 0: none, and no step
+    /// Number that ServoLoop::offerScene returned, or that of a scene with other fields; 0: none, no step.
+    uint32_t scene = 0;
+    uint32_t root = 0;      ///< number that ServoLoop::offerScene returned for the scene that was reshaped
+    uint32_t tool = 0;      ///< number for ServoLoop::toolOf
+    uint32_t editDelay = 0; ///< ticks since the oldest edit that is first felt in this one; 0: none is
     uint32_t poses = 0;      ///< WorldState::poseHash; 0: nothing moves
     DeviceSample sample;     ///< as read; not valid where it is older than its limits allow
     StageTrace trace;
@@ -75,6 +80,16 @@ enum class SceneSwap : uint8_t {
                   ///< objects (partOf): touch continues
 };
 
+/// A scene whose fields were edited, from the thread that edits.
+struct ReshapedScene {
+    std::shared_ptr<const HapticScene> scene;
+    ScenePtr source;           ///< as ServoLoop::offerScene's
+    uint32_t number = 0;       ///< ServoLoop::nextSceneNumber
+    uint32_t root = 0;         ///< the owner's scene that it is an edit of; ignored beside any other
+    std::vector<int> reshaped{}; ///< HapticScene::objects whose fields differ from those of the root
+    uint64_t oldestEdit = 0;   ///< tick of the first edit that no scene before it has; 0: no hand made one
+};
+
 /// The owner thread constructs, starts and stops; every other function states its thread.
 class ServoLoop {
   public:
@@ -103,7 +118,27 @@ class ServoLoop {
     /// and slew and without fading, as when a setting changes.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
                         SceneSwap swap = SceneSwap::Anew);
+    /// The same for a scene that was sculpted, such as one with other materials: `scene` has the numbers of an
+    /// edited scene and of its root, both new.
+    void offerSculpted(ReshapedScene scene, SceneSwap swap);
     void setSettings(const HapticSettings& settings);
+    /// Owner thread: in every hand, from the next tick on. It reaches the records under a number of its own.
+    void setTool(const LiveTool& tool);
+    /// Owner thread, as settingsOf.
+    [[nodiscard]] const LiveTool& toolOf(uint32_t number) const;
+
+    // Of one thread that edits fields:
+    /// The oldest entry that the hands made and that was not popped.
+    bool popEdit(SculptEntry& entry) { return edits_.pop(entry); }
+    /// Unique among the scenes of both threads.
+    [[nodiscard]] uint32_t nextSceneNumber() {
+        return offeredScenes_.fetch_add(1, std::memory_order_relaxed) + 1;
+    }
+    /// Swapped in at a tick boundary; touch goes on.
+    void offerEdited(ReshapedScene scene);
+    /// Frees the scene that the servo has released.
+    void collectEdited() { edited_.collect(); }
+    [[nodiscard]] uint64_t droppedEdits() const { return edits_.dropped(); } ///< lost to a full ring; any thread
     /// Any thread: switches the force off. While it is off a tick has the settings with forceEnabled off,
     /// under a number of their own.
     [[nodiscard]] ForceSwitch& forceSwitch() { return forceSwitch_; }
@@ -143,7 +178,15 @@ class ServoLoop {
         std::shared_ptr<const HapticScene> scene;
         mutable WorldState world; // servo thread once adopted
         uint32_t number = 0;
-        uint32_t geometry = 0; // equal numbers: equal geometry
+        // Equal numbers: equal geometry, but for the fields of `reshaped`. 0: that of the root, an edited one.
+        uint32_t geometry = 0;
+        uint32_t root = 0;
+        std::vector<int> reshaped{};
+        uint64_t oldestEdit = 0;
+    };
+    struct NumberedTool {
+        uint32_t number = 0;
+        LiveTool tool;
     };
     struct NumberedSettings {
         uint32_t number = 0;
@@ -159,6 +202,7 @@ class ServoLoop {
     void takeCheckpoints(Touch& touch) noexcept;
     void sampleHands(Touch& touch, const TickRecord& record) noexcept;
     void tick(Touch& touch, uint64_t number, double dt) noexcept;
+    void sculpt(Touch& touch, const TickInput& input, ObjectMotions poses) noexcept;
     void publish(Touch& touch) noexcept;
 
     std::vector<DevicePort> ports_;
@@ -169,10 +213,14 @@ class ServoLoop {
     ForceSwitch forceSwitch_;
     RecordRing<TouchCheckpoint> checkpoints_;
     std::atomic<bool> checkpointWanted_{false};
-    Handover<Offer> scene_;
+    Handover<Offer> scene_, edited_;
+    TripleBuffer<NumberedTool> tools_;
+    RecordRing<SculptEntry> edits_{4096};
+    std::atomic<uint32_t> offeredScenes_{0};
     // Owner thread:
     std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may still name
-    uint32_t offeredScenes_ = 0, offeredGeometry_ = 0;
+    std::deque<NumberedTool> offeredTools_{NumberedTool{}};
+    uint32_t offeredGeometry_ = 0;
     std::shared_ptr<const Offer> waiting_; // the scene that was offered before `start`
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};

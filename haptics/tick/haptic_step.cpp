@@ -1,6 +1,7 @@
 #include "haptics/tick/haptic_step.h"
 
 #include "haptics/comparison/comparison_solver.h"
+#include "haptics/force/tool_resistance.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/safety/force_limiter.h"
@@ -179,6 +180,26 @@ void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state,
     touch<ProxySolver>(tick, world, state, output, stopwatch);
 }
 
+/// Stage 7 of a hand that takes a solid away: its resistance joins the force.
+[[gnu::noinline]] void resistTool(const HandTick& tick, const LiveTool& tool, const DeviceState& state,
+                                  WorldState& world, HapticOutput& output) {
+    const int object = output.object >= 0 ? output.object : tool.object;
+    if (object < 0 || static_cast<size_t>(object) >= tick.scene.objects.size())
+        return;
+    const auto index = static_cast<size_t>(object);
+    const Shape* const shape = tick.scene.objects[index]->shape.get();
+    const PotentialField* const field = shape != nullptr ? shape->potential() : nullptr;
+    if (field == nullptr)
+        return;
+    const glm::dvec3 force =
+        toolResistance(*field, tick.motions[index].workspaceFromObject, tool, output.hip, state.velocity,
+                       tick.limits.apparentMass, tick.dt) /
+        output.zoom;
+    output.force += force;
+    if (tick.parts != nullptr && std::isfinite(force.x + force.y + force.z))
+        world.push(object, output.hip, -force);
+}
+
 /// Stages 1 to 7 of one hand.
 template <class Stopwatch>
 void feelHand(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
@@ -215,6 +236,9 @@ void feelHand(const HapticScene& scene, const HapticSettings& settings, const Ti
         touchWithModel(tick, world, state, output, stopwatch);
     else if (tick.moving)
         followUnseen(tick, state, output.flags);
+    if (input.tool != nullptr && sampled && (input.tool->held || (sample.buttons & kSculptButton) != 0))
+        [[unlikely]]
+        resistTool(tick, *input.tool, state, world, output);
 }
 
 /// Stage 8 of one hand: the only stage that sends commands to a device.

@@ -5,6 +5,7 @@
 #include "engine/math/similarity.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/settings/tick_flags.h"
+#include "haptics/shape/field/sculpt/live_tool.h"
 #include "haptics/state/device_state.h"
 #include "haptics/tick/stage_trace.h"
 #include "haptics/tick/stopwatch.h"
@@ -25,6 +26,7 @@ struct TickInput {
     double dt = 1e-3;                    ///< s, > 0
     bool late = false;                   ///< the previous tick ended after its next deadline
     std::span<const DeviceSample> hands; ///< one per hand
+    const LiveTool* tool = nullptr;      ///< in every hand; null: none sculpts
 };
 
 /// Output of one tick for one hand. Workspace frame, SI, unless stated otherwise.

@@ -10,6 +10,7 @@
 #include "renderer/scene_renderer.h"
 #include "session/session.h"
 #include "workbench/commands/run_hands.h"
+#include "workbench/commands/run_sculpt.h"
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/stolen_time.h"
@@ -207,6 +208,7 @@ struct RunResult {
     Frames frames;
     RealtimeViolations violations;
     std::optional<double> stolen; // s
+    nlohmann::ordered_json sculpt;
 };
 
 nlohmann::ordered_json reportOf(const RunOptions& options, const RunResult& run) {
@@ -235,6 +237,8 @@ nlohmann::ordered_json reportOf(const RunOptions& options, const RunResult& run)
     if (run.hands.count() > 1)
         for (size_t hand = 0; hand < run.hands.count(); ++hand)
             json["hands"].push_back(handJson(run.hands, run.reader.statistics[hand], hand));
+    if (!run.sculpt.is_null())
+        json["sculpt"] = run.sculpt;
     json.update({{"recording", run.controller.json()}, {"gpu", gpuJson(run.gpu)}});
     return json;
 }
@@ -275,6 +279,9 @@ int runCommand(const RunOptions& options) {
     prepareFor(model, options.settings);
     model.haptic->buildRays(); // the report measures the proxy gap with Embree during the run
     std::vector<DevicePort> ports = hands.connect(model);
+    std::optional<RunSculpt> sculpt;
+    if (options.sculpt.wanted)
+        sculpt.emplace(options.sculpt, model);
     std::optional<OutputFile> report;
     if (!options.json.empty())
         report.emplace(options.json);
@@ -292,8 +299,12 @@ int runCommand(const RunOptions& options) {
     RecordingController controller(session.servo(), options.recording, "run");
     session.subscribe(controller);
     session.subscribe(reader);
+    if (sculpt)
+        session.subscribe(*sculpt);
     session.set(options.settings);
     (void)session.touch(model.haptic, model.scene, identityOf(model, Fit::Workspace));
+    if (sculpt)
+        sculpt->start(session);
     realtime::resetViolations();
     const StolenTime stolenTime;
     session.start();
@@ -302,6 +313,8 @@ int runCommand(const RunOptions& options) {
     const std::optional<double> stolen = stolenTime.seconds();
     const RealtimeViolations violations = realtime::violations();
     session.pump(secondsNow());
+    if (sculpt)
+        sculpt->finish(session);
     controller.finish();
 
     if (!options.screenshot.empty())
@@ -309,7 +322,16 @@ int runCommand(const RunOptions& options) {
     for (const std::string& message : gpu->validationMessages())
         std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
     reader.commit();
-    const RunResult run{model, hands, session.servo(), reader, controller, *gpu, frames, violations, stolen};
+    const RunResult run{model,
+                        hands,
+                        session.servo(),
+                        reader,
+                        controller,
+                        *gpu,
+                        frames,
+                        violations,
+                        stolen,
+                        sculpt ? sculpt->json(session, frames.seconds) : nlohmann::ordered_json()};
     if (report) {
         report->write(
             reportOf(options, run).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +

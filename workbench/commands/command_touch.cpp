@@ -27,6 +27,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +56,7 @@ struct OfflineTick {
     int64_t stepNs = 0;
     Similarity touched; // workspaceFromObject of the touched object
     double gap = 0.0;   // m, of the proxy; in contact, if a report was requested
+    uint32_t scene = 0; // its number in a recording
 };
 
 /// A stroke over the model as a path: one period, or the given duration.
@@ -182,8 +185,15 @@ class OfflineRecorder {
         record.time = tick.time;
         record.dt = tick.dt;
         record.stepNs = static_cast<int32_t>(std::min<int64_t>(tick.stepNs, INT32_MAX));
-        record.checkpoint = tick.number == 0;
-        record.scene = kScene;
+        const auto edit = edits_.find(tick.scene);
+        const bool edited = edit != edits_.end();
+        const bool begins = edited && edit->second.tick == tick.number;
+        record.checkpoint = tick.number == 0 || begins;
+        SculptToRecord sculpt;
+        if (edited)
+            sculpt = {kScene, edit->second.hash, std::span(journal_).first(edit->second.entries)};
+        record.scene = tick.scene;
+        record.root = kScene;
         record.poses = tick.poses;
         record.sample = tick.sample;
         record.trace = tick.trace;
@@ -191,15 +201,36 @@ class OfflineRecorder {
         writer_.add({.tick = recordedTick(record),
                      .settings = settings_,
                      .scene = &identity_,
-                     .checkpoint = record.checkpoint ? &first : nullptr});
+                     .checkpoint = begins               ? &edit->second.state
+                                   : record.checkpoint ? &first
+                                                       : nullptr,
+                     .sculpt = edited ? &sculpt : nullptr});
+    }
+    /// The scene that the journal makes before `tick`, with the hand's state there. Returns its number.
+    uint32_t sculpted(TouchSculpt& sculpt, uint64_t tick, TouchCheckpoint state) {
+        const std::vector<SculptEntry> entries = sculpt.takeEntries();
+        journal_.insert(journal_.end(), entries.begin(), entries.end());
+        const uint32_t number = kScene + 1 + static_cast<uint32_t>(edits_.size());
+        state.tick = tick;
+        state.scene = number;
+        edits_[number] = {tick, sculpt.hash(), journal_.size(), state};
+        return number;
     }
     void flush() { writer_.flush(); }
     void finish() { writer_.finish(); }
 
   private:
     RecordingWriter writer_;
+    struct Edit {
+        uint64_t tick = 0; // its first
+        uint64_t hash = 0;
+        size_t entries = 0; // of the journal
+        TouchCheckpoint state;
+    };
     const HapticSettings& settings_;
     SceneIdentity identity_;
+    std::vector<SculptEntry> journal_;
+    std::map<uint32_t, Edit> edits_; // by the scene's number
 };
 
 /// State of an offline run.
@@ -224,6 +255,7 @@ class OfflineTouch {
         const long long begin = monotonicNs();
         (void)touch_.step(settings_, tick.sample, planned.dt, tracer);
         tick.stepNs = monotonicNs() - begin;
+        previousTime_ = planned.time;
         tick.output = touch_.output;
         hand_.apply(tick.output.command);
         if (tick.output.object >= 0)
@@ -232,16 +264,17 @@ class OfflineTouch {
                                .workspaceFromObject;
     }
     /// Between two ticks: the same objects, some of which have been sculpted. The scene outlives it.
-    void take(const HapticScene& reshaped) {
+    void take(const HapticScene& reshaped, std::span<const int> sculpted) {
         touch_.scene = &reshaped;
         takeUpReshaped(reshaped, objects().empty() ? ObjectMotions(reshaped.restMotions) : objects(),
-                       touch_.state);
+                       sculpted, touch_.state);
     }
     [[nodiscard]] bool moving() const { return touch_.world.moving(); }
-    /// Before the first step.
+    /// Between two steps at which the triangles near the hand were dropped.
     [[nodiscard]] TouchCheckpoint checkpoint() {
         TouchCheckpoint checkpoint;
         checkpoint.scene = OfflineRecorder::kScene;
+        checkpoint.previousTime = previousTime_;
         takeCheckpoint(touch_.state, checkpoint);
         return checkpoint;
     }
@@ -254,6 +287,7 @@ class OfflineTouch {
     const Model& model_;
     const HapticSettings& settings_;
     SteppedHand touch_;
+    double previousTime_ = std::numeric_limits<double>::quiet_NaN(); // s, of the last step
     PlannedHand path_;
     HandImpedance yielding_; // in the closed loop
     Device& hand_;
@@ -310,6 +344,7 @@ int touchCommand(const TouchOptions& options) {
     Model model = loadModelToTouch(options.scene, options.fit, &clock, options.iso);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
+    const std::shared_ptr<const HapticScene> felt = model.haptic;
     std::optional<TouchSculpt> sculpt;
     if (!options.sculpt.empty()) {
         clock.at("sculpting");
@@ -334,8 +369,11 @@ int touchCommand(const TouchOptions& options) {
         report.emplace(options.json);
     out.write(kTickCsvHeader);
     std::optional<OfflineRecorder> recorder;
-    if (!options.record.empty())
-        recorder.emplace(options, model);
+    if (!options.record.empty()) {
+        Model whole = model; // as its file is, before anything was sculpted
+        whole.haptic = felt;
+        recorder.emplace(options, whole);
+    }
     enterFloatMode();
     const std::vector<PlannedTick> planned = plannedTicks(*path, options.path.empty() ? 0.0 : options.rateHz);
     std::optional<WrittenSound> sound;
@@ -347,6 +385,9 @@ int touchCommand(const TouchOptions& options) {
     OfflineTouch touch(model, options);
     const bool changes = touch.moving() || (sculpt && sculpt->waits());
     const TouchCheckpoint first = touch.checkpoint();
+    uint32_t scene = OfflineRecorder::kScene;
+    if (recorder && sculpt && model.haptic != felt)
+        scene = recorder->sculpted(*sculpt, 0, first);
     TickStatistics statistics;
     Samples rays;
     std::string rows;
@@ -355,9 +396,13 @@ int touchCommand(const TouchOptions& options) {
     for (size_t begin = 0; begin < planned.size(); begin += kBlock) {
         const std::span<OfflineTick> block(ticks.data(), std::min(kBlock, planned.size() - begin));
         for (size_t i = 0; i < block.size(); ++i) {
-            if (sculpt && sculpt->applyUntil(planned[begin + i].time))
-                touch.take(*(model.haptic = sculpt->scene()));
+            if (sculpt && sculpt->applyUntil(planned[begin + i].time)) {
+                touch.take(*(model.haptic = sculpt->scene()), sculpt->sculpted());
+                if (recorder)
+                    scene = recorder->sculpted(*sculpt, begin + i, touch.checkpoint());
+            }
             touch.step(planned[begin + i], block[i]);
+            block[i].scene = scene;
             if (changes && report && block[i].output.contacts > 0)
                 block[i].gap = proxyGap(touch.scene(), touch.objects(), block[i].output, options.settings);
         }

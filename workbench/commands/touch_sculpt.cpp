@@ -1,13 +1,9 @@
 #include "workbench/commands/touch_sculpt.h"
 
-#include "engine/core/error.h"
-#include "engine/core/output_file.h"
-#include "engine/import/mesh_file/surface_glb.h"
-#include "haptics/shape/field/save/field_export.h"
+#include "workbench/files/sculpted_file.h"
 
 #include <cstdio>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace touchstone {
@@ -60,19 +56,8 @@ void TouchSculpt::finish(const std::vector<std::filesystem::path>& files) const 
         }
     for (const std::filesystem::path& file : files) {
         const size_t object = sculptor_.objectNamed(first);
-        const Similarity place = sculptor_.sceneFromObject(object);
-        const std::string& name = sculptor_.scene()->objects[object]->name;
-        if (file.extension() == ".vdb") {
-            writeFile(file, vdbOfField(*sculptor_.field(object), place, name));
-            continue;
-        }
-        const SurfaceMesh mesh = meshOfField(sculptor_.field(object), place);
-        if (mesh.corners.empty())
-            throw Error(file.string(), "", "has no surface: everything was taken away", "undo a stroke");
-        const std::vector<uint8_t> glb =
-            glbOfSurface(mesh, name, "Touchstone " TOUCHSTONE_VERSION ", sculpted", file.string());
-        writeFile(file, std::string_view(reinterpret_cast<const char*>(glb.data()), glb.size()));
-        std::printf("%zu triangles, written to %s\n", mesh.corners.size() / 3, file.c_str());
+        if (const size_t triangles = writeSculpted(file, *sculptor_.scene(), object); triangles > 0)
+            std::printf("%zu triangles, written to %s\n", triangles, file.c_str());
     }
     std::printf("%zu strokes, %zu dabs, %.6g mm^3 removed, field %s\n", next_, all_.dabs, 1e9 * all_.removed,
                 hashText().c_str());

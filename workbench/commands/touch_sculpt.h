@@ -22,6 +22,12 @@ class TouchSculpt {
     /// Applies those of times up to `time`, s. True where the scene is another one now.
     bool applyUntil(double time);
     [[nodiscard]] const std::shared_ptr<const HapticScene>& scene() const { return sculptor_.scene(); }
+    /// The objects that were sculpted so far.
+    [[nodiscard]] std::vector<int> sculpted() const { return sculptor_.sculpted(); }
+
+    /// The journal's entries since the last call, and the hash of the fields after them: for a recording.
+    [[nodiscard]] std::vector<SculptEntry> takeEntries() { return sculptor_.takeEntries(); }
+    [[nodiscard]] uint64_t hash() const { return sculptor_.hash(); }
 
     [[nodiscard]] nlohmann::ordered_json json() const;
     /// Prints what was sculpted and the hash of the field, and writes the object that was sculpted first:

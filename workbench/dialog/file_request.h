@@ -29,7 +29,7 @@ inline constexpr std::array<FileKind, 4> kFileKinds = {{{"Models and recordings"
                                                         {"Recordings", file_kinds::kRecording},
                                                         {"All files", {}}}};
 
-enum class FilePurpose : uint8_t { Open, SaveMaterials };
+enum class FilePurpose : uint8_t { Open, SaveMaterials, SaveSculpture };
 
 /// A folder to which the browser jumps.
 struct FilePlace {
@@ -45,7 +45,7 @@ struct FileRequest {
     std::string ending;           ///< that a file to be saved gets where it has none: ".glb"
     std::vector<FilePlace> places;
 
-    [[nodiscard]] bool saves() const { return purpose == FilePurpose::SaveMaterials; }
+    [[nodiscard]] bool saves() const { return purpose != FilePurpose::Open; }
 };
 
 /// What a person types for a path: a leading ~ or ~user is that home folder, spaces at the ends are dropped,

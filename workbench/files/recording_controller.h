@@ -26,6 +26,9 @@ class RecordingController final : public TickSubscriber {
     void sceneOffered(const OfferedScene& scene) override {
         recorder_.sceneOffered(scene.number, scene.identity);
     }
+    void sceneSculpted(const SculptedScene& scene) override {
+        recorder_.sceneSculpted(scene.number, scene.root, scene.hash, scene.entries);
+    }
     void take(const TickRecord& record, const HapticSettings&) override { recorder_.take(record); }
     void flush(double) override { update(); }
     /// After the last record.

@@ -145,6 +145,56 @@ void requireHands(const RunOptions& options) {
             throw CLI::ValidationError("--record-ticks", "names " + file.string() + " for two hands");
 }
 
+/// --sculpted, once per file.
+CLI::Option* addSculpted(CLI::App& app, std::vector<std::filesystem::path>& files) {
+    return app
+        .add_option("--sculpted", files, "Write the sculpted object, at the end; may be given again")
+        ->type_name("FILE.glb|vdb")
+        ->expected(1)
+        ->take_all()
+        ->check([](const std::string& file) {
+            const std::string ending = std::filesystem::path(file).extension().string();
+            return ending == ".glb" || ending == ".vdb" ? std::string()
+                                                        : file + " ends in neither .glb nor .vdb";
+        });
+}
+
+/// --sculpt and what belongs to it.
+void addSculpt(CLI::App& app, SculptOptions& options) {
+    std::vector<std::string> names;
+    for (const SculptToolInfo& info : sculptTools())
+        names.emplace_back(info.name);
+    CLI::Option* const sculpt =
+        app.add_option_function<std::string>(
+               "--sculpt",
+               [&options](const std::string& name) {
+                   options.wanted = true;
+                   options.tool.tool = *sculptToolNamed(name);
+               },
+               "The hand holds this tool and sculpts what is felt as a field, wherever it strokes")
+            ->type_name("TOOL")
+            ->check(CLI::IsMember(names));
+    app.add_option("--sculpt-radius", options.tool.radius, "Of the tool, workspace [0.005]")
+        ->type_name("M")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->needs(sculpt);
+    app.add_option("--sculpt-strength", options.tool.strength, "Above 0, at most 1 [1]")
+        ->check(CLI::Range(1e-3, 1.0))
+        ->needs(sculpt);
+    app.add_option("--sculpt-falloff", options.tool.falloff, "0..1: the soft part of the radius [0]")
+        ->check(CLI::Range(0.0, 1.0))
+        ->needs(sculpt);
+    app.add_option("--sculpt-resistance", options.tool.resistance,
+                   "N for each m^3/s that the tool takes away [500000]")
+        ->type_name("R")
+        ->check(CLI::Range(0.0, 1e9))
+        ->needs(sculpt);
+    app.add_option("--sculpt-stamp", options.stamp, "Object of the scene whose shape is stamped or imprinted")
+        ->type_name("NAME")
+        ->needs(sculpt);
+    addSculpted(app, options.files)->needs(sculpt);
+}
+
 } // namespace
 
 void defineRun(CLI::App& app, RunOptions& options) {
@@ -163,6 +213,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
         ->expected(1)
         ->take_all();
     addRecording(app, options.recording);
+    addSculpt(app, options.sculpt);
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
                                      "The hand follows its path whatever the force, as no hand can");
     CLI::Option* plant = addPlant(app, options.plant)->excludes(open);
@@ -219,25 +270,13 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
         app.add_flag("--closed-loop", options.closedLoop,
                      "The path is what the hand intends: it holds a simulated device, and both yield");
     addPlant(app, options.plant)->needs(closed);
-    CLI::Option* record =
-        app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
+    app.add_option("--record", options.record, "Record for `touchstone replay`")->type_name("FILE");
     app.add_option("--sound", options.sound, "Write how the force sounds, as WAV")->type_name("FILE.wav");
     CLI::Option* sculpt =
         app.add_option("--sculpt", options.sculpt,
                        "Sculpt what is felt as a field: strokes before touch begins, or at their times")
-            ->type_name("JOURNAL.json")
-            ->excludes(record);
-    app.add_option("--sculpted", options.sculpted,
-                   "Write the sculpted object, at the end; may be given again")
-        ->type_name("FILE.glb|vdb")
-        ->expected(1)
-        ->take_all()
-        ->needs(sculpt)
-        ->check([](const std::string& file) {
-            const std::string ending = std::filesystem::path(file).extension().string();
-            return ending == ".glb" || ending == ".vdb" ? std::string()
-                                                        : file + " ends in neither .glb nor .vdb";
-        });
+            ->type_name("JOURNAL.json");
+    addSculpted(app, options.sculpted)->needs(sculpt);
     addSettings(app, options.settings);
     addRate(app, options.rateHz,
             "Resample the path at this rate; without it one tick a row (1000 for a stroke)");

@@ -6,6 +6,7 @@
 #include "devices/stroke/stroke_library.h"
 #include "engine/scene/scene_part.h"
 #include "haptics/settings/haptic_settings.h"
+#include "haptics/shape/field/sculpt/live_tool.h"
 #include "renderer/camera.h"
 
 #include <glm/glm.hpp>
@@ -50,6 +51,14 @@ struct WindowOptions {
 };
 int windowCommand(const WindowOptions& options);
 
+/// The tool of the simulated hands.
+struct SculptOptions {
+    bool wanted = false;
+    LiveTool tool; ///< without its objects
+    std::string stamp;                        ///< an object of the scene
+    std::vector<std::filesystem::path> files; ///< .glb and .vdb of the sculpted object, at the end
+};
+
 /// touchstone run SCENE
 struct RunOptions {
     std::filesystem::path scene;
@@ -71,6 +80,7 @@ struct RunOptions {
     std::string gpu;
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
     PartNames part;            ///< what is seen and felt
+    SculptOptions sculpt;
 };
 int runCommand(const RunOptions& options);
 

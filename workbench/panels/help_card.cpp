@@ -40,6 +40,12 @@ constexpr Line kEdit[]{
     {"Ctrl+Z, Ctrl+Shift+Z", "take a change back, make it again"},
     {"Ctrl+S", "saves the materials into the file"},
 };
+constexpr Line kSculpt[]{
+    {"B", "sculpts what is felt as a field, or touches"},
+    {"Left button; D held", "the tool works; for a device"},
+    {"Ctrl, Shift held", "the opposite tool; smooths"},
+    {"F, Shift+F; pointer", "radius; strength"},
+};
 constexpr Line kLook[]{
     {"Right or middle drag", "turns the view; Shift shifts, Ctrl zooms"},
     {"Alt + left drag", "turns the view, too"},
@@ -65,7 +71,7 @@ constexpr Line kWindow[]{
     {"Ctrl+Q", "quits"},
     {"F1 or ?, Escape", "shows this; puts it away"},
 };
-constexpr Topic kLeft[]{{"TOUCH", kTouch}, {"RECORD", kRecord}, {"CHANGE", kEdit}},
+constexpr Topic kLeft[]{{"TOUCH", kTouch}, {"RECORD", kRecord}, {"CHANGE", kEdit}, {"SCULPT", kSculpt}},
     kRight[]{{"LOOK", kLook}, {"THE WINDOW", kWindow}};
 
 void drawTopics(std::span<const Topic> topics, const Widgets& widgets) {

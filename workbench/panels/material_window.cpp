@@ -11,14 +11,14 @@ namespace touchstone {
 
 namespace {
 
-void materialKeys(MaterialController& controller, MaterialPanelState& state) {
-    if (ctrlPressed(keyOf('z'), true)) {
+void materialKeys(MaterialController& controller, MaterialPanelState& state, bool undoes) {
+    if (undoes && ctrlPressed(keyOf('z'), true)) {
         if (ImGui::GetIO().KeyShift)
             controller.edits().redo();
         else
             controller.edits().undo();
     }
-    if (ctrlPressed(keyOf('y'), true))
+    if (undoes && ctrlPressed(keyOf('y'), true))
         controller.edits().redo();
     if (ctrlPressed(keyOf('s')) && controller.edits().edited()) {
         if (controller.canSaveInPlace())
@@ -31,8 +31,9 @@ void materialKeys(MaterialController& controller, MaterialPanelState& state) {
 } // namespace
 
 void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& picture, bool& open,
-                        MaterialController& controller, MaterialPanelState& state, Widgets& widgets) {
-    materialKeys(controller, state);
+                        MaterialController& controller, MaterialPanelState& state, Widgets& widgets,
+                        bool undoes) {
+    materialKeys(controller, state, undoes);
     if (!open)
         return;
     constexpr float kWidth = 320.0f, kHeight = 610.0f, kWindowMargin = 8.0f; // units

@@ -16,6 +16,7 @@
 #include "workbench/readings/servo_view.h"
 #include "workbench/screen/view_options.h"
 #include "workbench/sound/sound_choice.h"
+#include "workbench/sculpt/sculpt_controller.h"
 
 #include <filesystem>
 #include <functional>
@@ -64,6 +65,7 @@ struct PanelInput {
     std::vector<DeviceOffer> devices;
     std::string deviceStatus; ///< where the chosen device is, or its problem
     SoundStatus sound;
+    SculptStatus sculpt;
     const ServoView* servo = nullptr;
     TimelineController* timeline = nullptr;
     FileDialog* dialog = nullptr;
@@ -104,6 +106,7 @@ struct PanelState {
     StrokeRequest stroke; ///< of the simulated hand; place and front are set where it is laid
     std::string device;   ///< its choice; empty: the mouse or the simulated hand
     SoundChoice sound;
+    SculptChoice sculpt;
     ViewOptions view;
     PanelFolds folds;
     float uiScale = 1.0f; ///< asked for, beside the monitor's

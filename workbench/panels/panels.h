@@ -19,6 +19,10 @@ void drawHand(const PanelInput& input, PanelState& state, Widgets& widgets);
 void nextStroke(PanelState& state, int step);
 /// "clutch", "force comes back", "zoom 2.0x", both or empty.
 [[nodiscard]] std::string workspaceText(const DeviceMapping& mapping);
+/// The tool shelf of sculpting.
+void drawSculpt(const PanelInput& input, PanelState& state, Widgets& widgets);
+/// Its keys, as Blender's: F resizes, Ctrl inverts, Shift smooths.
+void sculptKeys(SculptChoice& choice);
 /// The histogram and the value of the surface; nothing where the model is no volume.
 void drawVolume(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// The model's nodes with the touched one, and the file's warnings.

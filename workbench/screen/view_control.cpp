@@ -1,5 +1,6 @@
 #include "workbench/screen/view_control.h"
 
+#include "haptics/shape/field/sculpt/live_tool.h"
 #include "workbench/screen/keys.h"
 
 #include <imgui.h>
@@ -26,12 +27,12 @@ constexpr double kProbeDistance = 0.6; // scene radii, for the view of the probe
 constexpr double kClearance = 0.012;   // m between model and hand at rest
 
 /// The camera move of a key, as in Blender: 1, 3, 7, and with Ctrl the opposite side.
-std::optional<CameraMove> keyMove(bool homeIsTaken) {
+std::optional<CameraMove> keyMove(bool homeIsTaken, bool fIsTaken) {
     const bool opposite = ImGui::GetIO().KeyCtrl;
     const auto side = [&](char digit, int pad) {
         return opposite ? ctrlPressed(digit) || ctrlPressed(pad) : keyPressed({digit, pad});
     };
-    if (keyPressed(keyOf('f')) || (!homeIsTaken && keyPressed(GLFW_KEY_HOME)))
+    if ((!fIsTaken && keyPressed(keyOf('f'))) || (!homeIsTaken && keyPressed(GLFW_KEY_HOME)))
         return CameraMove::Fit;
     if (side('1', GLFW_KEY_KP_1))
         return opposite ? CameraMove::Back : CameraMove::Front;
@@ -42,6 +43,11 @@ std::optional<CameraMove> keyMove(bool homeIsTaken) {
     if (keyPressed({keyOf('.'), GLFW_KEY_KP_DECIMAL}))
         return CameraMove::Probe;
     return std::nullopt;
+}
+
+/// Those of the mouse's hand.
+uint32_t buttonsOf(const ViewControl::Situation& now, bool pressed) {
+    return now.sculpts && pressed ? kSculptButton : 0;
 }
 
 void optionKeys(ViewOptions& options) {
@@ -120,7 +126,7 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
     putDown_ = lifted_ > 0.0 && lifted_ <= now.seconds;
     lifted_ = std::max(0.0, lifted_ - now.seconds);
     if (!now.covered) {
-        if (const std::optional<CameraMove> move = keyMove(now.looksBack))
+        if (const std::optional<CameraMove> move = keyMove(now.looksBack, now.sculpts))
             options.move = move;
         optionKeys(options);
         if (!ImGui::GetIO().WantTextInput)
@@ -139,6 +145,7 @@ void ViewControl::update(const Situation& now, ViewOptions& options) {
 
 void ViewControl::letGo() {
     pressing_ = false;
+    pressed_.buttons = 0;
     hand_.pointAt({.point = over_, .normal = glm::dvec3(0.0)}, {.force = 0.0});
     pressed_.press = 0.0;
 }
@@ -179,7 +186,7 @@ void ViewControl::turnWithPointer(const Situation& now, ViewOptions& options) {
     if (!now.mouseIsHand)
         return;
     if (options.freeHand || !now.look) {
-        pressed_ = {.press = INFINITY};
+        pressed_ = {.press = INFINITY, .buttons = buttonsOf(now, ImGui::GetIO().MouseDown[0])};
         moveFreeHand(now);
         over_ = hand_.goal();
         return;
@@ -221,7 +228,8 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
                     .stiffness = surface.stiffness,
                     .stiffest = surface.stiffest,
                     .friction = surface.friction,
-                    .grip = surface.grip};
+                    .grip = surface.grip,
+                    .buttons = buttonsOf(now, pressing_)};
         pointedAt_ = surface.workspaceFromObject;
         return hand_.pointAt(surface, {.force = pressing_ ? options.press : 0.0});
     }

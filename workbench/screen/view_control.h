@@ -31,6 +31,7 @@ class ViewControl {
         bool mouseIsHand = true; ///< otherwise left button and wheel belong to the camera, too
         bool looksBack = false;  ///< a recording is shown: left, right and Home move its cursor
         bool covered = false;    ///< by an item that has the keyboard
+        bool sculpts = false;    ///< the left button is that of the tool, too, and F sizes it
         /// The first hit of a line of sight; null: no model.
         std::function<std::optional<PointedSurface>(const Ray&)> look;
     };

@@ -45,7 +45,7 @@ class SegmentReader {
         });
         result_->tried = timeline_.segments()[result_->number].checkpoint &&
                          std::ranges::all_of(result_->ticks, [&](auto& t) {
-                             return t.scene == 0 || scenes_.contains(t.scene);
+                             return t.scene == 0 || scenes_.contains(timeline_.rootOf(t.scene));
                          });
         if (result_->tried)
             touchAgain(progress);
@@ -70,7 +70,12 @@ class SegmentReader {
             replayer.take(RecordingReader::Item{.item = scene});
         for (const auto& [number, settings] : timeline_.settings())
             replayer.take(RecordingReader::Item{.item = RecordedSettings{number, settings}});
+        for (const RecordedSculpt& sculpt : timeline_.sculpts())
+            replayer.take(RecordingReader::Item{.item = sculpt});
+        replayer.take(RecordingReader::Item{.item = timeline_.segments()[result_->number].tool});
         for (const RecordingReader::Item& item : items_) {
+            if (std::holds_alternative<RecordedSculpt>(item.item))
+                continue; // the replay has all of them
             block = std::get_if<RecordedTicks>(&item.item);
             if (progress.cancelled())
                 return;
@@ -96,7 +101,7 @@ TickRecord recordOf(const RecordedTick& tick) {
     record.late = tick.late;
     record.checkpoint = tick.checkpoint;
     record.settings = tick.settings;
-    record.scene = tick.scene;
+    record.scene = record.root = tick.scene;
     record.sample = tick.sample;
     record.output.hip = tick.sample.inWorkspace();
     record.output.proxy = tick.proxy;
@@ -125,7 +130,9 @@ bool ReplayCache::wants(size_t segment) const {
     // Read before its model was loaded.
     return !(*found)->tried && timeline_->segments()[segment].checkpoint &&
            std::ranges::all_of((*found)->ticks,
-                               [&](const auto& t) { return t.scene == 0 || scenes_.contains(t.scene); });
+                               [&](const auto& t) {
+                                   return t.scene == 0 || scenes_.contains(timeline_->rootOf(t.scene));
+                               });
 }
 
 void ReplayCache::look(size_t cursor) {

@@ -11,6 +11,7 @@ namespace touchstone {
 
 namespace {
 
+constexpr size_t kSculptedSegment = 1000; // ticks, at least
 constexpr size_t kLongestSegment = 4096; // ticks, without a checkpoint
 constexpr double kLongestStep = 3600.0;  // s between two ticks; a longer step is a clock change
 constexpr float kMaxShown = 1e6f;        // N and m: non-finite and larger values are drawn there
@@ -48,8 +49,13 @@ class TimelineMaker {
     }
     void take(const RecordedScene& scene) { line_.scenes_[scene.number] = scene; }
     void take(const RecordedSettings& settings) { line_.settings_[settings.number] = settings.settings; }
-    void take(const TouchCheckpoint&) {
-        line_.segments_.push_back({.first = line_.size(), .offset = offset_, .checkpoint = true});
+    void take(const TouchCheckpoint& checkpoint) {
+        // Each edit of a sculpted scene begins with one.
+        if (line_.roots_.contains(checkpoint.scene) && !line_.segments_.empty() && line_.segments_.back().checkpoint &&
+            line_.size() - line_.segments_.back().first < kSculptedSegment)
+            return;
+        line_.segments_.push_back(
+            {.first = line_.size(), .offset = offset_, .checkpoint = true, .tool = line_.tool_});
     }
     void take(const RecordedLoss& loss) {
         line_.lost_ += loss.ticks;
@@ -60,6 +66,11 @@ class TimelineMaker {
     // The window shows hand 0.
     void take(const RecordedHandTicks&) {}
     void take(const RecordedHandState&) {}
+    void take(const RecordedTool& tool) { line_.tool_ = tool; }
+    void take(const RecordedSculpt& sculpt) {
+        line_.roots_[sculpt.scene] = sculpt.root;
+        line_.sculpts_.push_back(sculpt);
+    }
     void take(const RecordedTicks& ticks);
     void take(const RecordedTick& tick);
     void changeScene(uint32_t scene);
@@ -74,14 +85,15 @@ class TimelineMaker {
 
 void TimelineMaker::take(const RecordedTicks& ticks) {
     if (line_.segments_.empty() || line_.size() - line_.segments_.back().first >= kLongestSegment)
-        line_.segments_.push_back({.first = line_.size(), .offset = offset_});
+        line_.segments_.push_back({.first = line_.size(), .offset = offset_, .tool = line_.tool_});
     for (const RecordedTick& tick : ticks.ticks)
         take(tick);
 }
 
 void TimelineMaker::take(const RecordedTick& tick) {
-    if (line_.sceneRuns_.empty() || line_.sceneRuns_.back().second != tick.scene)
-        changeScene(tick.scene);
+    if (const uint32_t scene = line_.rootOf(tick.scene);
+        line_.sceneRuns_.empty() || line_.sceneRuns_.back().second != scene)
+        changeScene(scene);
     if (line_.settingsRuns_.empty() || line_.settingsRuns_.back().second != tick.settings)
         changeSettings(tick.settings);
     const double step = tick.time - time_;

@@ -29,6 +29,7 @@ struct TimelineSegment {
     size_t first = 0;        ///< tick
     uint64_t offset = 0;     ///< byte of the first chunk
     bool checkpoint = false; ///< starts with a checkpoint: its ticks can be recomputed
+    RecordedTool tool{};     ///< before its first tick
 };
 
 /// 17 bytes per tick, 61 MB per hour at 1 kHz; the ticks themselves stay in the file. Immutable once loaded;
@@ -56,7 +57,14 @@ class Timeline {
     [[nodiscard]] const std::vector<TimelineMark>& marks() const { return marks_; }
     [[nodiscard]] const std::map<uint32_t, RecordedScene>& scenes() const { return scenes_; }
     [[nodiscard]] const std::map<uint32_t, HapticSettings>& settings() const { return settings_; }
-    /// Of the tick; 0: no scene.
+    /// What sculpted the scenes, in order.
+    [[nodiscard]] const std::vector<RecordedSculpt>& sculpts() const { return sculpts_; }
+    /// The scene that a tick's scene is an edit of, or itself.
+    [[nodiscard]] uint32_t rootOf(uint32_t scene) const {
+        const auto found = roots_.find(scene);
+        return found != roots_.end() ? found->second : scene;
+    }
+    /// Of the tick, before it was sculpted; 0: no scene.
     [[nodiscard]] uint32_t sceneOf(size_t index) const;
     [[nodiscard]] const HapticSettings& settingsOf(size_t index) const;
 
@@ -84,6 +92,9 @@ class Timeline {
     std::vector<TimelineMark> marks_;
     std::map<uint32_t, RecordedScene> scenes_;
     std::map<uint32_t, HapticSettings> settings_;
+    std::map<uint32_t, uint32_t> roots_; // of sculpted scenes
+    std::vector<RecordedSculpt> sculpts_;
+    RecordedTool tool_; // the last
     Runs sceneRuns_, settingsRuns_;
     std::vector<TimelineSegment> segments_;
     std::vector<std::string> warnings_;

@@ -15,6 +15,7 @@ LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std:
       readings_(session_.servo(), controller_.recorder()) {
     session_.subscribe(controller_);
     session_.subscribe(readings_);
+    session_.subscribe(sculpt_);
 }
 
 LiveTouch::~LiveTouch() {
@@ -30,7 +31,7 @@ void LiveTouch::show(LoadedModel loaded, bool generated) {
     felt_ = whole_.haptic;
     partBuild_.wholeIsFelt();
     wholeEdits_ = shown_.identity.edits;
-    offerScene();
+    offerScene(SceneSwap::Anew, true);
     hand_.offerPath(shown_.path);
     strokes_.show(shown_.model.scene, shown_.model.workspaceFromScene, shown_.path);
     readings_.clearForces();
@@ -53,7 +54,7 @@ void LiveTouch::change(const MadeMaterials& made) {
     shown_.identity.edits = wholeEdits_;
     shown_.model.haptic = made.haptic;
     shown_.identity.feltHash = made.feltHash;
-    offerScene(swap);
+    offerScene(swap, false);
 }
 
 void LiveTouch::showPart(const ScenePart& part) {
@@ -77,7 +78,7 @@ void LiveTouch::takePart(const FeltPart& made) {
     shown_.model.haptic = made.haptic;
     shown_.identity.feltHash = made.feltHash;
     shown_.identity.edits = partEdits_;
-    offerScene(swap);
+    offerScene(swap, false);
     if (same) // other materials
         return;
     builtAgain_ = true; // the mouse may have pressed on what is gone
@@ -132,15 +133,16 @@ int LiveTouch::nodeAt(const Ray& ray) {
     return instance >= 0 ? shown_.model.scene->instances[static_cast<size_t>(instance)].node : -1;
 }
 
-/// To the session, the pointer and the sound.
-void LiveTouch::offerScene(SceneSwap swap) {
+/// To the session, the pointer and the sound. `another`: model than before; else it stays as it was sculpted.
+void LiveTouch::offerScene(SceneSwap swap, bool another) {
     picker_.show(shown_.model.haptic, shown_.model.scene);
+    sculpt_.show(shown_.model, another);
     if (swap == SceneSwap::Anew) {
         sound_.interrupt();
         hand_.leave();
         builtAgain_ = true;
     }
-    (void)session_.touch(shown_.model.haptic, shown_.model.scene, shown_.identity, swap);
+    (void)session_.touch(shown_.model.haptic, shown_.model.scene, shown_.identity, swap, !another);
 }
 
 } // namespace touchstone

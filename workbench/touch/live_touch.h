@@ -15,6 +15,7 @@
 #include "workbench/readings/window_readings.h"
 #include "workbench/sound/sound_controller.h"
 #include "workbench/timeline/playback_device.h"
+#include "workbench/sculpt/sculpt_controller.h"
 
 #include <functional>
 #include <optional>
@@ -85,12 +86,13 @@ class LiveTouch {
     [[nodiscard]] DeviceMenu& devices() { return menu_; }
     [[nodiscard]] PlaybackDevice& again() { return again_; }
     [[nodiscard]] SoundController& sound() { return sound_; }
+    [[nodiscard]] SculptController& sculpt() { return sculpt_; }
     [[nodiscard]] RecordingController& recording() { return controller_; }
     [[nodiscard]] std::string strokeNotice() const { return strokes_.notice(); }
 
   private:
     void takePart(const FeltPart& made);
-    void offerScene(SceneSwap swap = SceneSwap::Anew);
+    void offerScene(SceneSwap swap, bool another);
 
     DeviceMultiplexer hand_;
     DeviceMenu menu_;
@@ -107,6 +109,7 @@ class LiveTouch {
     bool builtAgain_ = false;
     BackgroundBuild build_;
     Picker picker_;
+    SculptController sculpt_{session_, picker_};
     StrokeController strokes_;
 };
 

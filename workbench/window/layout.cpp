@@ -176,6 +176,7 @@ void zoomKeys(PanelState& state) {
 /// Keys that are inactive while a card has the keyboard.
 void coveredKeys(const PanelInput& input, PanelState& state) {
     zoomKeys(state);
+    sculptKeys(state.sculpt);
     if (keyPressed(keyOf('n')) && input.canSimulate)
         nextStroke(state, ImGui::GetIO().KeyShift ? -1 : 1);
     if (keyPressed(GLFW_KEY_F9))
@@ -241,6 +242,8 @@ void leftPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextDisabled("HAND");
     ImGui::Separator();
     drawHand(input, state, widgets);
+    widgets.section("SCULPT");
+    drawSculpt(input, state, widgets);
     widgets.section("SCENE");
     drawScene(input, state, widgets);
     widgets.section("UNDER THE PROBE");
@@ -340,6 +343,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
             timelineKeys(*input.timeline);
     } else {
         state.workspace.clutch = false; // its key is not read
+        state.sculpt.held = state.sculpt.inverts = state.sculpt.smooths = false;
     }
     walk(state.gallery || input.dialog->covers(), state);
     if (followController(*input.timeline, state.timeline))

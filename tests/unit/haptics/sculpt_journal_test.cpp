@@ -165,7 +165,7 @@ TEST(SceneSculptor, ChangesWhatIsTouchedWithoutAForceBeyondTheSpring) {
         step.tool = tool;
         sculptor.apply(step);
         bench.scene = sculptor.scene();
-        takeUpReshaped(*bench.scene, bench.scene->restMotions, bench.state[0]);
+        takeUpReshaped(*bench.scene, bench.scene->restMotions, sculptor.sculpted(), bench.state[0]);
     };
     const glm::dvec3 pressed = middle + (kTop - 0.003) * up;
     bench.step(middle + (kTop + 0.02) * up);

@@ -137,7 +137,22 @@ std::vector<RecordedItem> oneOfEach() {
             RecordedNote{5, "what"},
             RecordedEnd{99},
             RecordedHandTicks{2, mappedTicks()},
-            RecordedHandState{other}};
+            RecordedHandState{other},
+            RecordedTool{{.active = true, .tool = SculptTool::Drag, .object = 2, .radius = 0.003}},
+            RecordedSculpt{7,
+                           3,
+                           0x55,
+                           1,
+                           {{.kind = SculptEntryKind::Begin, .object = 2},
+                            {.tool = SculptTool::Imprint,
+                             .object = 2,
+                             .stamp = 1,
+                             .tick = 80,
+                             .centre = {0.1, -0.2, 0.3},
+                             .motion = {0.4, 0.5, -0.6},
+                             .radius = 0.07,
+                             .strength = 0.25,
+                             .falloff = 0.5}}}};
 }
 
 /// Bytes of one change of limits and their count.
@@ -220,6 +235,23 @@ TEST(RecordingFormat, EveryItemReadsBackToTheSameBytes) {
     EXPECT_EQ(ticks[0].poses, 0x1234u);
     EXPECT_EQ(std::get<RecordedHandTicks>(decode(8, encode(items[8]))).hand, 2u);
     EXPECT_EQ(std::get<RecordedHandState>(decode(9, encode(items[9]))).checkpoint.hand, 3u);
+    EXPECT_EQ(std::get<RecordedTool>(decode(10, encode(items[10]))).tool,
+              std::get<RecordedTool>(items[10]).tool);
+    const auto sculpt = std::get<RecordedSculpt>(decode(11, encode(items[11])));
+    EXPECT_EQ(sculpt.entries, std::get<RecordedSculpt>(items[11]).entries);
+    EXPECT_EQ(encode(sculpt).size(), 24u + 2u * kSculptEntrySize);
+}
+
+/// Of a newer program, or damaged in a way that no checksum sees.
+TEST(RecordingFormat, AToolThatCannotBeIsRefused) {
+    for (const LiveTool& tool :
+         {LiveTool{.radius = 0.0}, LiveTool{.radius = NAN}, LiveTool{.strength = 0.0}, LiveTool{.strength = 1.5},
+          LiveTool{.falloff = -0.1}, LiveTool{.resistance = INFINITY},
+          LiveTool{.tool = static_cast<SculptTool>(17)}})
+        EXPECT_THROW((void)decode(10, encode(RecordedTool{tool})), Error);
+    SculptEntry entry;
+    entry.kind = static_cast<SculptEntryKind>(9);
+    EXPECT_THROW((void)decode(11, encode(RecordedSculpt{7, 3, 0, 0, {entry}})), Error);
 }
 
 TEST(RecordingFormat, AHandThatCannotBeIsRefused) {

@@ -118,7 +118,6 @@ TEST_F(SculptCommand, AppliesStrokesAtTheirTimes) {
 
 TEST_F(SculptCommand, RefusesWhatItCannotDo) {
     journal(top_ + "}");
-    EXPECT_EQ(touch({"--record", folder_ / "r.ticks"}).status, 2);
     EXPECT_EQ(touch({"--sculpted", folder_ / "out.stl"}).status, 2);
     for (const char* broken : {"1", R"({"tool": "chisel"})",
                                R"({"tool": "carve", "radius": 0.01, "points": [[0, 0, 0]], "object": "no"})",
@@ -142,6 +141,45 @@ TEST_F(SculptCommand, RefusesWhatItCannotDo) {
                     "--out", folder_ / "ticks.csv", "--sculpt", folder_ / "j.json"});
     EXPECT_EQ(mesh.status, 1);
     EXPECT_NE(mesh.err.find("implicit"), std::string::npos) << mesh.err;
+}
+
+/// Before touch begins and while it lasts, with an undo: the replay has the same fields, and a recording whose
+/// journal has another stroke does not.
+TEST_F(SculptCommand, ARecordingHoldsTheJournalAndReplaysToTheLastBit) {
+    journal(R"({"tool": "add", "radius": 0.006, "points": [[0.01, 0.02, 0]]},)" + top_ +
+            R"(, "time": 0.2}, {"tool": "undo", "time": 0.3},)"
+            R"({"tool": "carve", "radius": 0.004, "points": [[0, 0.02, 0], [0.005, 0.02, 0]], "time": 0.4})");
+    ASSERT_EQ(touch({"--record", folder_ / "r.tsrec"}).status, 0);
+    const ProgramResult replay =
+        runProgram({TOUCHSTONE_BINARY, "replay", folder_ / "r.tsrec", "--json", folder_ / "r.json"});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    const nlohmann::json figures = nlohmann::json::parse(textOf(folder_ / "r.json"));
+    EXPECT_EQ(figures.at("equal"), true) << figures.dump(1);
+    EXPECT_EQ(figures.at("replayed"), figures.at("ticks"));
+}
+
+/// The simulated hand sculpts in real time: what is saved lacks what was removed, and its recording replays.
+TEST_F(SculptCommand, ARunSculptsWhatTheHandStrokes) {
+    const ProgramResult run =
+        runProgram({TOUCHSTONE_BINARY, "run", folder_ / "clay.nrrd", "--iso", "128", "--seconds", "2",
+                    "--stroke", "scan", "--size", "64x64", "--sculpt", "carve", "--sculpt-radius", "0.006",
+                    "--sculpted", folder_ / "out.glb", "--record", folder_ / "r.tsrec", "--json",
+                    folder_ / "f.json", "--flight-recorder", "off"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const nlohmann::json sculpt = nlohmann::json::parse(textOf(folder_ / "f.json")).at("sculpt");
+    EXPECT_GT(sculpt.at("dabs"), 0) << sculpt.dump(1);
+    EXPECT_GT(sculpt.at("removed_m3"), 0.0);
+    EXPECT_EQ(sculpt.at("dropped"), 0);
+    EXPECT_GT(std::filesystem::file_size(folder_ / "out.glb"), 10000u);
+    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", folder_ / "r.tsrec"});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    EXPECT_EQ(runProgram({TOUCHSTONE_BINARY, "run", folder_ / "clay.nrrd", "--sculpt", "stamp",
+                          "--sculpt-stamp", "nothing", "--seconds", "0.1"})
+                  .status,
+              1);
+    EXPECT_EQ(runProgram({TOUCHSTONE_BINARY, "run", folder_ / "clay.nrrd", "--sculpt", "chisel"}).status, 2);
+    EXPECT_EQ(runProgram({TOUCHSTONE_BINARY, "run", folder_ / "clay.nrrd", "--sculpt-radius", "0.01"}).status,
+              2);
 }
 
 } // namespace

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <set>
 #include <utility>
 
 namespace touchstone {
@@ -132,7 +131,13 @@ Sculptor::BrickPtr Sculptor::current(uint32_t number) const {
     return found != edits_.end() ? found->second : nullptr;
 }
 
+std::vector<uint32_t> Sculptor::takeChangedBricks() {
+    const std::set<uint32_t> changed = std::exchange(changed_, {});
+    return {changed.begin(), changed.end()};
+}
+
 void Sculptor::replace(uint32_t number, const BrickPtr& brick) {
+    changed_.insert(number);
     if (brick == nullptr)
         edits_.erase(number);
     else

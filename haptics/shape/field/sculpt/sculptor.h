@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace touchstone {
@@ -45,6 +46,8 @@ class Sculptor {
     bool redo();
     [[nodiscard]] size_t undoSteps() const;
     [[nodiscard]] size_t redoSteps() const;
+    /// FieldGrid::brickNumber of the bricks that differ from those at the last call, in order.
+    [[nodiscard]] std::vector<uint32_t> takeChangedBricks();
     /// Of all bricks that the field and its history hold.
     [[nodiscard]] uint64_t memoryBytes() const;
 
@@ -65,6 +68,7 @@ class Sculptor {
 
     std::shared_ptr<const FieldGrid> base_, grid_; ///< grid_ is null where it is to be made
     std::map<uint32_t, BrickPtr> edits_;           ///< bricks that differ from the base's
+    std::set<uint32_t> changed_;                   ///< since takeChangedBricks
     std::vector<Step> steps_;                      ///< strokes; the first `done_` are applied
     size_t done_ = 0;
     FieldWindow window_;

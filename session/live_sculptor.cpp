@@ -1,0 +1,258 @@
+#include "session/live_sculptor.h"
+
+#include "engine/core/float_mode.h"
+#include "engine/time/seconds_now.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace touchstone {
+
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(1); // the servo cannot wake a thread without a lock
+
+/// Leaves out every second dab of the same stroke; what Drag moves by is passed on.
+uint64_t thin(std::deque<SculptEntry>& waiting) {
+    std::deque<SculptEntry> kept;
+    uint64_t left = 0;
+    glm::dvec3 motion(0.0);
+    bool leave = false;
+    for (size_t i = 0; i < waiting.size(); ++i) {
+        SculptEntry entry = waiting[i];
+        const bool plain = entry.kind == SculptEntryKind::Dab && i > 0 && i + 1 < waiting.size() &&
+                           waiting[i - 1].kind == SculptEntryKind::Dab &&
+                           waiting[i + 1].kind == SculptEntryKind::Dab;
+        leave = plain && !leave;
+        if (leave) {
+            motion += entry.motion;
+            ++left;
+            continue;
+        }
+        entry.motion += std::exchange(motion, glm::dvec3(0.0));
+        kept.push_back(entry);
+    }
+    waiting = std::move(kept);
+    return left;
+}
+
+} // namespace
+
+LiveSculptor::~LiveSculptor() {
+    {
+        const std::scoped_lock lock(mutex_);
+        stopping_ = true;
+    }
+    wake_.notify_all();
+    if (worker_.joinable())
+        worker_.join();
+}
+
+/// The owner's turn: the worker does not take the next one.
+std::unique_lock<std::mutex> LiveSculptor::stopApplying() {
+    wanted_.store(true, std::memory_order_relaxed);
+    std::unique_lock lock(applying_);
+    wanted_.store(false, std::memory_order_relaxed);
+    return lock;
+}
+
+void LiveSculptor::begin(uint32_t number, std::shared_ptr<const HapticScene> scene, ScenePtr source) {
+    const std::unique_lock applying = stopApplying();
+    const std::scoped_lock lock(mutex_);
+    sculptor_.reset();
+    if (scene != nullptr)
+        sculptor_.emplace(std::move(scene));
+    source_ = std::move(source);
+    root_ = oldestRoot_ = number;
+    waiting_.clear();
+    journal_.clear();
+    sent_ = 0;
+    figures_ = {};
+}
+
+std::optional<uint32_t> LiveSculptor::carryOver(std::shared_ptr<const HapticScene> scene, ScenePtr source,
+                                                SceneSwap swap) {
+    const std::unique_lock applying = stopApplying();
+    if (!sculptor_ || journal_.empty())
+        return std::nullopt;
+    sculptor_->moveTo(std::move(scene));
+    source_ = std::move(source);
+    root_ = servo_.nextSceneNumber();
+    servo_.offerSculpted(published(true), swap);
+    return root_;
+}
+
+void LiveSculptor::startWorker() {
+    if (!worker_.joinable())
+        worker_ = std::thread([this] { work(); });
+}
+
+void LiveSculptor::setTool(const LiveTool& tool) {
+    if (tool == tool_)
+        return;
+    tool_ = tool;
+    servo_.setTool(tool);
+    if (!tool.active && !worker_.joinable())
+        return;
+    {
+        const std::scoped_lock lock(mutex_);
+        active_ = tool.active;
+        startWorker();
+    }
+    wake_.notify_all();
+}
+
+void LiveSculptor::command(SculptEntryKind kind) {
+    add({.kind = kind});
+}
+
+void LiveSculptor::add(const SculptEntry& entry) {
+    {
+        const std::scoped_lock lock(mutex_);
+        waiting_.push_back(entry);
+        startWorker();
+    }
+    wake_.notify_all();
+}
+
+std::vector<SculptedScene> LiveSculptor::take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(published_, {});
+}
+
+SculptFigures LiveSculptor::figures() const {
+    const std::scoped_lock lock(mutex_);
+    return figures_;
+}
+
+void LiveSculptor::drain() {
+    std::unique_lock lock(mutex_);
+    if (!worker_.joinable())
+        return;
+    gather();
+    wake_.notify_all();
+    idle_.wait(lock, [this] { return waiting_.empty() && !busy_; });
+}
+
+/// What the hands made.
+void LiveSculptor::gather() {
+    for (SculptEntry entry; servo_.popEdit(entry);)
+        if (std::exchange(entry.root, 0) >= oldestRoot_)
+            waiting_.push_back(entry);
+    while (waiting_.size() > kMostWaiting) {
+        const uint64_t left = thin(waiting_);
+        figures_.thinned += left;
+        if (left == 0)
+            break;
+    }
+}
+
+void LiveSculptor::work() {
+    enterFloatMode(); // as a replay: the same bits
+    for (;;) {
+        {
+            std::unique_lock lock(mutex_);
+            if (stopping_)
+                return;
+            gather();
+            busy_ = !waiting_.empty();
+            if (!busy_) {
+                idle_.notify_all();
+                if (active_)
+                    wake_.wait_for(lock, kPoll);
+                else
+                    wake_.wait(lock, [this] { return stopping_ || active_ || !waiting_.empty(); });
+                continue;
+            }
+        }
+        while (wanted_.load(std::memory_order_relaxed))
+            std::this_thread::sleep_for(kPoll);
+        const std::scoped_lock applying(applying_);
+        servo_.collectEdited();
+        applyWaiting();
+    }
+}
+
+std::optional<SculptEntry> LiveSculptor::next() {
+    const std::scoped_lock lock(mutex_);
+    if (waiting_.empty())
+        return std::nullopt;
+    const SculptEntry entry = waiting_.front();
+    waiting_.pop_front();
+    return entry;
+}
+
+/// As many entries as kPublish allows, then a publication.
+void LiveSculptor::applyWaiting() {
+    const double begin = secondsNow();
+    const size_t before = journal_.size();
+    while (journal_.size() == before || secondsNow() - begin < kPublish) {
+        const std::optional<SculptEntry> entry = next();
+        if (!entry)
+            break;
+        apply(*entry);
+    }
+    if (journal_.size() == before || !sculptor_)
+        return;
+    sculptor_->settle();
+    servo_.offerEdited(published(false));
+}
+
+void LiveSculptor::apply(const SculptEntry& entry) {
+    if (!sculptor_)
+        return;
+    const double begin = secondsNow();
+    SculptReport report;
+    std::string problem;
+    try {
+        report = sculptor_->apply(entry);
+        journal_.push_back(entry);
+    } catch (const std::exception& error) {
+        problem = error.what();
+    }
+    const double seconds = secondsNow() - begin;
+    const std::scoped_lock lock(mutex_);
+    figures_.dabs += report.dabs;
+    figures_.removed += report.removed;
+    figures_.problem = std::move(problem);
+    figures_.longestDab = std::max(figures_.longestDab, seconds);
+}
+
+/// The present scene, which the owner finds before the servo does. `whole`: with the whole journal.
+ReshapedScene LiveSculptor::published(bool whole) {
+    SculptedScene scene{.number = servo_.nextSceneNumber(),
+                        .root = root_,
+                        .haptic = sculptor_->scene(),
+                        .source = source_,
+                        .hash = sculptor_->hash()};
+    const auto first = journal_.begin() + static_cast<ptrdiff_t>(whole ? 0 : sent_);
+    scene.entries.assign(first, journal_.end());
+    ReshapedScene offered{.scene = scene.haptic,
+                          .source = source_,
+                          .number = scene.number,
+                          .root = root_,
+                          .reshaped = sculptor_->sculpted()};
+    const auto made = std::find_if(journal_.begin() + static_cast<ptrdiff_t>(sent_), journal_.end(),
+                                   [](const SculptEntry& entry) { return entry.tick > 0; });
+    offered.oldestEdit = made != journal_.end() ? made->tick : 0;
+    sent_ = journal_.size();
+    for (const int object : offered.reshaped)
+        scene.changed.push_back({object, sculptor_->takeChangedBricks(object)});
+    // It visits the whole history.
+    constexpr double kMemoryEvery = 0.5; // s
+    const double now = secondsNow();
+    if (now - memoryAt_ > kMemoryEvery) {
+        memory_ = sculptor_->memoryBytes();
+        memoryAt_ = now;
+    }
+    const std::scoped_lock lock(mutex_);
+    ++figures_.scenes;
+    figures_.undoSteps = sculptor_->undoSteps();
+    figures_.redoSteps = sculptor_->redoSteps();
+    figures_.memory = memory_;
+    figures_.hash = scene.hash;
+    published_.push_back(std::move(scene));
+    return offered;
+}
+
+} // namespace touchstone

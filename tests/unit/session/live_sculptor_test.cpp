@@ -1,0 +1,242 @@
+// A hand that sculpts while it touches: what it feels, what is recorded, and what is left of the field.
+
+#include "session/device_port.h"
+#include "session/session.h"
+#include "tests/support/recorded_servo.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+namespace touchstone::test {
+namespace {
+
+constexpr double kRadius = 0.004; // m, of the tool
+
+size_t fieldIn(const HapticScene& scene) {
+    for (size_t k = 0; k < scene.objects.size(); ++k)
+        if (scene.objects[k]->shape != nullptr && scene.objects[k]->shape->potential() != nullptr)
+            return k;
+    return scene.objects.size();
+}
+
+double valueAt(const HapticScene& scene, size_t object, const glm::dvec3& place) {
+    const Similarity& at = scene.objects[object]->workspaceFromObject;
+    return at.scale * scene.objects[object]->shape->potential()->value(at.inversePoint(place));
+}
+
+/// The highest place of the field's surface on some vertical line, m.
+glm::dvec3 topOf(const HapticScene& scene, size_t object) {
+    const Similarity& at = scene.objects[object]->workspaceFromObject;
+    const double reach = scene.objects[object]->boundingRadius * at.scale;
+    glm::dvec3 best(0.0, -INFINITY, 0.0);
+    for (double x = -reach; x < reach; x += 0.05 * reach)
+        for (double y = reach; y > -reach; y -= 1e-4)
+            if (const glm::dvec3 place = at.translation + glm::dvec3(x, y, 0.0);
+                valueAt(scene, object, place) < 0.0) {
+                if (place.y > best.y)
+                    best = place;
+                break;
+            }
+    return best;
+}
+
+/// Goes to and fro over a place, a millimetre and a half deep.
+class RubbingDevice final : public Device {
+  public:
+    explicit RubbingDevice(const glm::dvec3& place) : place_(place) {}
+    [[nodiscard]] std::string name() const override { return "rubbing"; }
+    [[nodiscard]] DeviceLimits limits() const override { return {}; }
+    [[nodiscard]] DeviceSample sample(double time) noexcept override {
+        const double depth = 0.0015 - 0.01 * std::exp(-20.0 * time);
+        DeviceSample made =
+            at(place_ + glm::dvec3(0.006 * std::sin(9.0 * time), -depth, 0.006 * std::cos(7.0 * time)));
+        made.buttons = time > 0.25 ? kSculptButton : 0;
+        return made;
+    }
+    void apply(const DeviceCommand&) noexcept override {}
+
+  private:
+    glm::dvec3 place_;
+};
+
+/// Records a session, and keeps what was sculpted.
+struct Recording final : TickSubscriber {
+    explicit Recording(Session& session) : recorder(session.servo()) {}
+    void sceneOffered(const OfferedScene& scene) override {
+        recorder.sceneOffered(scene.number, scene.identity);
+    }
+    void sceneSculpted(const SculptedScene& scene) override {
+        recorder.sceneSculpted(scene.number, scene.root, scene.hash, scene.entries);
+        if (scene.root != root)
+            entries.clear();
+        root = scene.root;
+        entries.insert(entries.end(), scene.entries.begin(), scene.entries.end());
+        last = scene;
+        ++published;
+    }
+    void take(const TickRecord& record, const HapticSettings&) override {
+        recorder.take(record);
+        edited += record.editDelay > 0 ? 1 : 0;
+        force = std::max(force, glm::length(record.output.command.force()));
+        contacts += record.output.contacts > 0 ? 1 : 0;
+        resisted = std::max(resisted, record.output.contacts == 0 ? glm::length(record.output.force) : 0.0);
+    }
+    void flush(double) override { recorder.flush(); }
+
+    ServoRecorder recorder;
+    std::vector<SculptEntry> entries;
+    SculptedScene last;
+    uint32_t root = 0;
+    size_t published = 0, edited = 0, contacts = 0;
+    double force = 0.0, resisted = 0.0;
+};
+
+class LiveSculptorTest : public testing::Test {
+  protected:
+    LiveSculptorTest() { recording_.recorder.start(file_, "test"); }
+    void SetUp() override {
+        session_.subscribe(recording_);
+        ASSERT_LT(object_, scene_.haptic->objects.size());
+        (void)session_.touch(scene_.haptic, scene_.source, scene_.identity);
+    }
+    void sculptFor(double seconds, SculptTool tool) {
+        LiveTool live{.active = true, .tool = tool, .object = static_cast<int32_t>(object_), .radius = kRadius};
+        live.stamp = live.object;
+        session_.sculptor().setTool(live);
+        session_.start();
+        const uint64_t goal = session_.servo().counters().ticks + static_cast<uint64_t>(4000.0 * seconds);
+        while (session_.servo().counters().ticks < goal) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            session_.pump(0.0);
+        }
+        session_.stop();
+        session_.sculptor().drain();
+        session_.pump(0.0);
+    }
+    [[nodiscard]] uint64_t hashOf(const std::vector<SculptEntry>& entries) const {
+        SceneSculptor again(scene_.haptic);
+        for (const SculptEntry& entry : entries)
+            (void)again.apply(entry);
+        again.settle();
+        return again.hash();
+    }
+
+    const TouchedScene scene_ = touchedScene("field_torus.glb");
+    const size_t object_ = fieldIn(*scene_.haptic);
+    const glm::dvec3 top_ = topOf(*scene_.haptic, object_);
+    RubbingDevice device_{top_};
+    Session session_{{portOf(device_)}, RecordedServo::kQuick};
+    Recording recording_{session_};
+    const std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string("sculpt_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".tsrec");
+};
+
+TEST_F(LiveSculptorTest, TheHandFeelsWhatItCarvesAndAReplayHasTheSameFieldHashForHash) {
+    sculptFor(2.0, SculptTool::Carve);
+    const SculptFigures figures = session_.sculptor().figures();
+    EXPECT_GT(figures.dabs, 20u);
+    EXPECT_GT(figures.removed, 0.0);
+    EXPECT_TRUE(figures.problem.empty()) << figures.problem;
+    EXPECT_EQ(session_.servo().droppedEdits(), 0u);
+    EXPECT_GT(recording_.published, 10u);
+    EXPECT_GT(recording_.edited, 5u) << "the servo took the scenes up while it ran";
+    EXPECT_GT(recording_.contacts, 100u);
+    EXPECT_GT(recording_.resisted, 0.0) << "the tool's resistance where the tip is in a hole of its own";
+    EXPECT_LE(recording_.force, DeviceLimits{}.maxForce + 1e-9);
+    ASSERT_NE(recording_.last.haptic, nullptr);
+    EXPECT_LT(valueAt(*scene_.haptic, object_, top_ - glm::dvec3(0.0, 0.001, 0.0)), 0.0);
+    EXPECT_GT(valueAt(*recording_.last.haptic, object_, top_ - glm::dvec3(0.0, 0.001, 0.0)), 0.0);
+    EXPECT_EQ(recording_.last.hash, hashOf(recording_.entries));
+    recording_.recorder.finish();
+    expectEqualReplay(replayOf(file_, {scene_}));
+}
+
+TEST_F(LiveSculptorTest, WhatIsAddedLiftsTheHandWithoutLettingItGo) {
+    sculptFor(1.5, SculptTool::Add);
+    EXPECT_LT(session_.sculptor().figures().removed, 0.0);
+    ASSERT_NE(recording_.last.haptic, nullptr);
+    EXPECT_GT(recording_.contacts, 3000u) << "of 6000 ticks";
+    EXPECT_LT(valueAt(*recording_.last.haptic, object_, top_ + glm::dvec3(0.0, 0.0003, 0.0)), 0.0);
+    recording_.recorder.finish();
+    expectEqualReplay(replayOf(file_, {scene_}));
+}
+
+TEST_F(LiveSculptorTest, StrokesOfEveryToolAreTakenBackToTheBytesOfBefore) {
+    for (const SculptTool tool : {SculptTool::Carve, SculptTool::Smooth, SculptTool::Drag, SculptTool::Add,
+                                  SculptTool::Stamp, SculptTool::Imprint})
+        sculptFor(0.5, tool);
+    const size_t strokes = session_.sculptor().figures().undoSteps;
+    EXPECT_GE(strokes, 4u);
+    const uint64_t sculpted = session_.sculptor().figures().hash;
+    for (size_t i = 0; i < strokes; ++i)
+        session_.sculptor().undo();
+    session_.sculptor().drain();
+    session_.pump(0.0);
+    EXPECT_EQ(session_.sculptor().figures().undoSteps, 0u);
+    EXPECT_EQ(recording_.last.hash, SceneSculptor(scene_.haptic).hash());
+    EXPECT_EQ(fieldOfObject(*recording_.last.haptic, object_), fieldOfObject(*scene_.haptic, object_))
+        << "the very grid";
+    for (size_t i = 0; i < strokes; ++i)
+        session_.sculptor().redo();
+    session_.sculptor().drain();
+    session_.pump(0.0);
+    EXPECT_EQ(recording_.last.hash, sculpted);
+    EXPECT_EQ(hashOf(recording_.entries), sculpted);
+}
+
+TEST_F(LiveSculptorTest, OtherMaterialsKeepTheSculptedFields) {
+    sculptFor(0.6, SculptTool::Carve);
+    const uint64_t sculpted = session_.sculptor().figures().hash;
+    const TouchedScene stiffer =
+        withChanged(scene_, [](HapticMaterial& material) { material.stiffness.value = 250.0f; });
+    const uint32_t root =
+        session_.touch(stiffer.haptic, stiffer.source, stiffer.identity, SceneSwap::SameGeometry, true);
+    session_.pump(0.0);
+    EXPECT_EQ(recording_.last.root, root);
+    EXPECT_EQ(recording_.last.hash, sculpted);
+    EXPECT_EQ(recording_.last.haptic->materials.front().stiffness, stiffer.haptic->materials.front().stiffness);
+    sculptFor(0.4, SculptTool::Carve);
+    EXPECT_TRUE(session_.touching());
+    EXPECT_EQ(recording_.last.hash, hashOf(recording_.entries));
+    recording_.recorder.finish();
+    RecordingReader reader(file_);
+    Replayer replayer([&](const RecordedScene& recorded) {
+        const TouchedScene& offered = recorded.number == root ? stiffer : scene_;
+        return ReplayScene{compileHapticScene(*offered.source, offered.haptic->workspaceFromScene),
+                           offered.source};
+    });
+    expectEqualReplay(replayer.replay(reader));
+}
+
+TEST_F(LiveSculptorTest, AnotherModelIsNotSculptedByWhatWasMadeOnTheLastOne) {
+    sculptFor(0.5, SculptTool::Carve);
+    (void)session_.touch(scene_.haptic, scene_.source, scene_.identity);
+    session_.sculptor().drain();
+    session_.pump(0.0);
+    EXPECT_EQ(session_.sculptor().figures().dabs, 0u);
+    EXPECT_EQ(session_.sculptor().figures().undoSteps, 0u);
+    session_.sculptor().undo();
+    session_.sculptor().drain();
+    EXPECT_EQ(session_.sculptor().figures().undoSteps, 0u);
+}
+
+TEST_F(LiveSculptorTest, EditsThatCannotBeAreRefusedAndNamed) {
+    session_.sculptor().add({.kind = SculptEntryKind::Begin, .object = 99});
+    session_.sculptor().drain();
+    EXPECT_NE(session_.sculptor().figures().problem.find("99"), std::string::npos);
+    session_.sculptor().add({.object = static_cast<int32_t>(object_), .radius = NAN});
+    session_.sculptor().drain();
+    EXPECT_FALSE(session_.sculptor().figures().problem.empty());
+    session_.pump(0.0);
+    EXPECT_EQ(recording_.published, 0u);
+}
+
+} // namespace
+} // namespace touchstone::test
