@@ -11,8 +11,20 @@ namespace {
 
 constexpr double kSteep = 0.1; // from 1: the gradient of a distance, away from its kinks
 
+/// The same order within the window and at its border.
 template <class Visit>
 void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visit& visit) {
+    if (glm::all(glm::greaterThan(node, glm::ivec3(0))) &&
+        glm::all(glm::lessThan(node, window.size - 1))) {
+        const auto own = static_cast<ptrdiff_t>(window.index(node));
+        const ptrdiff_t sy = window.step(1), sz = window.step(2);
+        for (int z = -1; z <= 1; ++z)
+            for (int y = -1; y <= 1; ++y)
+                for (int x = -1; x <= 1; ++x)
+                    if (x != 0 || y != 0 || z != 0)
+                        visit(node + glm::ivec3(x, y, z), static_cast<size_t>(own + x + y * sy + z * sz));
+        return;
+    }
     for (int z = -1; z <= 1; ++z)
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x)
@@ -109,14 +121,16 @@ void DistanceRestorer::open() {
                     continue;
                 const bool inside = negative(index);
                 const double f = static_cast<double>(window.before[index]) / window.voxel, own = std::abs(f);
-                const double away = glm::distance(glm::dvec3(node), zone_.centre);
-                if (away > zone_.radius + kRoom) {
-                    if (own >= limit(inside) * (1.0 - 1e-6) || away - zone_.radius - kRoom > own)
+                const glm::dvec3 way = glm::dvec3(node) - zone_.centre;
+                const double reach = zone_.radius + kRoom, squared = glm::dot(way, way);
+                if (squared > reach * reach) {
+                    // Most nodes of a deep field end here: no root.
+                    if (own >= limit(inside) * (1.0 - 1e-6) || squared > (own + reach) * (own + reach))
                         continue;
                     const glm::dvec3 slope = surface.gradientBefore(node);
                     const double steep = glm::length(slope);
                     if (std::abs(steep - 1.0) <= kSteep && glm::distance(glm::dvec3(node) - f * slope / steep,
-                                                                         zone_.centre) > zone_.radius + kRoom)
+                                                                         zone_.centre) > reach)
                         continue;
                 }
                 state_[index] = Node::Open;
@@ -147,9 +161,14 @@ void DistanceRestorer::seedKept() {
 
 void DistanceRestorer::offer(size_t to, const glm::ivec3& at, const glm::dvec3& point) {
     const bool isKept = state_[to] == Node::Kept;
+    const float most = isKept ? keptDistance(to) - kNearer : distance_[to];
+    const glm::dvec3 way = glm::dvec3(at) - point;
+    // Most neighbours have a nearer place already: no root, with room for its rounding.
+    if (glm::dot(way, way) > 1.000001 * static_cast<double>(most) * static_cast<double>(most) || !(most > 0.0f))
+        return;
     // As floats: a double below a float that it rounds to would be offered for ever.
     const auto offered = static_cast<float>(glm::distance(glm::dvec3(at), point));
-    if (!(offered < (isKept ? keptDistance(to) - kNearer : distance_[to])))
+    if (!(offered < most))
         return;
     if (isKept)
         touched_.push_back(static_cast<uint32_t>(to));
