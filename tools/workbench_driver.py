@@ -1,7 +1,7 @@
-"""Drives the real window on a virtual screen of 1280x800 as a person would, and saves parts of it as pictures.
-Used by tools/figure_window and tools/figure_tutorial, which pass PROGRAM, WORK (a folder for state) and FIGURES."""
+"""Drives the real window on a virtual screen as a person would, and saves parts of it as pictures.
+Used by tools/figure_window, tools/figure_tutorial and tools/walk, which pass PROGRAM, WORK (a folder for state) and FIGURES."""
 
-import json, signal, subprocess, time
+import json, os, signal, subprocess, time
 
 
 def run(*command):
@@ -9,12 +9,16 @@ def run(*command):
 
 
 class Workbench:
-    def __init__(self, program, work, figures, *arguments, introduced=True):
-        self.work, self.figures = work, figures
+    def __init__(self, program, work, figures, *arguments, introduced=True, size=(1280, 800)):
+        self.work, self.figures, self.size = work, figures, size
         with open(f"{work}/touchstone/window.json", "w") as memory:
             json.dump({"version": 1, "introduced": introduced}, memory)
-        self.process = subprocess.Popen([program, "--size", "1280x800", "--status-json", f"{work}/status.json", *arguments])
+        self.process = subprocess.Popen([program, "--size", f"{size[0]}x{size[1]}", "--status-json", f"{work}/status.json", *arguments])
         time.sleep(6)
+        for _ in range(60):  # a busy machine
+            if os.path.exists(f"{work}/status.json"):
+                break
+            time.sleep(1)
         run("xdotool", "windowfocus", run("xdotool", "search", "--onlyvisible", "--name", "Touchstone").split()[0])
 
     def __enter__(self):
@@ -26,6 +30,10 @@ class Workbench:
 
     def status(self):
         time.sleep(1.2)  # it is written twice a second
+        return self.peek()
+
+    def peek(self):
+        """As it was written last."""
         with open(f"{self.work}/status.json") as file:
             return json.load(file)
 
@@ -65,7 +73,7 @@ class Workbench:
         time.sleep(0.1)
 
     def wait_for_pictures(self):
-        self.move(2, 798)
+        self.move(2, self.size[1] - 2)
         for _ in range(120):
             entries = self.status()["gallery"]["entries"]
             if entries and all(entry["state"] != "waiting" for entry in entries):
@@ -75,11 +83,13 @@ class Workbench:
         """Where bar, panels and picture are: x, y, width, height."""
         p = self.widgets()["picture"]
         right, below = p["x"] + p["width"], p["y"] + p["height"]
+        width, height = self.size
         return {
-            "window": (0, 0, 1280, 800), "bar": (0, 0, 1280, p["y"]),
-            "picture": (p["x"], p["y"], p["width"], p["height"]), "left": (0, p["y"], p["x"], 800 - p["y"]),
-            "right": (right, p["y"], 1280 - right, 800 - p["y"]), "bottom": (p["x"], below, p["width"], 800 - below),
-            "middle": (p["x"], p["y"], p["width"], 800 - p["y"]),
+            "window": (0, 0, width, height), "bar": (0, 0, width, p["y"]),
+            "picture": (p["x"], p["y"], p["width"], p["height"]), "left": (0, p["y"], p["x"], height - p["y"]),
+            "right": (right, p["y"], width - right, height - p["y"]),
+            "bottom": (p["x"], below, p["width"], height - below),
+            "middle": (p["x"], p["y"], p["width"], height - p["y"]),
         }
 
     def save(self, name, part):

@@ -147,9 +147,11 @@ bool footer(FileBrowser& browser, Widgets& widgets) {
     const float beside = widgets.units(kButton) + ImGui::GetStyle().ItemSpacing.x;
     const float kinds =
         browser.request().saves() ? 0.0f : widgets.units(190.0f) + ImGui::GetStyle().ItemSpacing.x;
-    // Also after Enter has gone into a folder, to type on.
+    // Also after Enter has gone into a folder, or a click was elsewhere, to type on.
+    const bool clicked = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() &&
+                         ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
     bool& focus = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("focus"), false);
-    if (ImGui::IsWindowAppearing() || std::exchange(focus, false))
+    if (ImGui::IsWindowAppearing() || std::exchange(focus, false) || clicked)
         ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-(beside + kinds));
     const bool entered = ImGui::InputTextWithHint(

@@ -142,6 +142,8 @@ constexpr std::array kNotes{
     Note{"chartOutcome", "The recording, or what became of the last file"},
     Note{"charts", "The pointer reads the values of a tick"},
     Note{"chartsEdge", "Drag: taller or lower charts"},
+    Note{"sceneEdge", "Drag: a wider panel; a double click: as wide as it was"},
+    Note{"feltEdge", "Drag: a wider panel; a double click: as wide as it was"},
     Note{"recordings", "The list of recordings"},
     Note{"recordingName", "The new name; Enter renames, Escape keeps the old one"},
     Note{"rename:", "Rename this recording"},

@@ -85,12 +85,13 @@ struct PanelInput {
     bool scaleFits = true; ///< false: the UI scale is smaller than asked for, since the window is
 };
 
-/// Which panels are folded away, and how tall the lower one is where it is not.
+/// Which panels are folded away, and how large those are that are not: units of layout, less where the window has
+/// no room for it. Side panels are made wider only: all they show fits into their least width.
 struct PanelFolds {
-    static constexpr float kBottomHeight = 196.0f;
+    static constexpr float kLeftWidth = 236.0f, kRightWidth = 296.0f, kBottomHeight = 196.0f;
 
     bool left = false, right = false, bottom = false;
-    float bottomHeight = kBottomHeight; ///< units of layout; less where the window has no room for it
+    float leftWidth = kLeftWidth, rightWidth = kRightWidth, bottomHeight = kBottomHeight;
     bool operator==(const PanelFolds&) const = default;
 };
 

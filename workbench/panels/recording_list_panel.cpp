@@ -6,8 +6,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,10 +100,32 @@ void rowButtons(const RecordingFacts& facts, const std::string& name, TimelineCo
     widgets.mark(("delete:" + name).c_str());
 }
 
-void row(const RecordingFacts& facts, TimelineController& controller, TimelinePanelState& state,
+/// Why it is listed beyond its being recorded; empty: no such reason.
+std::string remarkOf(const RecordingFacts& facts) {
+    return !facts.problem.empty()     ? "cannot be opened: " + facts.problem
+           : !facts.reason.empty()    ? facts.reason
+           : facts.madeBy == "window" ? ""
+                                      : facts.madeBy;
+}
+
+std::string modelOf(const RecordingFacts& facts) {
+    return facts.model.empty() ? "nothing touched" : facts.model;
+}
+
+/// In a table of two columns: what does not fit beside the name, below it.
+void factsBelow(const RecordingFacts& facts, ImU32 remarkColor, Widgets& widgets) {
+    const std::string what = facts.problem.empty() ? ", " + lengthText(facts) + ", " + modelOf(facts) : "";
+    widgets.wrapped(facts.date + what, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    if (const std::string remark = remarkOf(facts); !remark.empty())
+        widgets.wrapped(remark, remarkColor);
+}
+
+/// `narrow`: the table has two columns.
+void row(const RecordingFacts& facts, bool narrow, TimelineController& controller, TimelinePanelState& state,
          Widgets& widgets) {
     const std::string name = facts.file.filename().string();
     const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text), grey = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    const ImU32 remarkColor = !facts.problem.empty() ? kRed : facts.reason.empty() ? grey : kAmber;
     ImGui::TableNextColumn();
     if (state.renaming == facts.file) {
         nameField(facts, controller, state, widgets);
@@ -111,18 +135,14 @@ void row(const RecordingFacts& facts, TimelineController& controller, TimelinePa
             state.open = facts.file;
         widgets.mark(("recording:" + name).c_str(), facts.file.string());
     }
-    cell(facts.date, grey);
-    if (facts.problem.empty()) {
-        cell(lengthText(facts), text);
-        cell(facts.model.empty() ? "nothing touched" : facts.model, text);
-        cell(!facts.reason.empty()      ? facts.reason
-             : facts.madeBy == "window" ? ""
-                                        : facts.madeBy,
-             facts.reason.empty() ? grey : kAmber);
+    if (narrow) {
+        factsBelow(facts, remarkColor, widgets);
     } else {
-        cell("", text);
-        cell("", text);
-        cell("cannot be opened: " + facts.problem, kRed);
+        const bool opens = facts.problem.empty();
+        cell(facts.date, grey);
+        cell(opens ? lengthText(facts) : "", text);
+        cell(opens ? modelOf(facts) : "", text);
+        cell(remarkOf(facts), remarkColor);
     }
     ImGui::TableNextColumn();
     rowButtons(facts, name, controller, state, widgets);
@@ -155,24 +175,33 @@ void drawRecordingList(TimelineController& controller, TimelinePanelState& state
     }
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
                                        ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings;
-    if (!ImGui::BeginTable("recordings", 6, kFlags))
-        return;
     struct Heading {
         const char* name;
         float width;
     };
-    for (const Heading& heading : {Heading{"name", 1.5f}, Heading{"date", 1.35f}, Heading{"length", 0.8f},
-                                   Heading{"model", 1.2f}, Heading{"kept because", 1.6f}})
+    constexpr std::array kHeadings{Heading{"name", 1.5f}, Heading{"date", 1.35f}, Heading{"length", 0.8f},
+                                   Heading{"model", 1.2f}, Heading{"kept because", 1.6f}};
+    const float buttons = ImGui::CalcTextSize("delete it? Delete Keep").x + widgets.units(62.0f);
+    // Six columns where a date fits into its own.
+    const float date = ImGui::CalcTextSize("2026-11-25 04:30").x + 2.0f * ImGui::GetStyle().CellPadding.x;
+    float share = 0.0f;
+    for (const Heading& heading : kHeadings)
+        share += heading.width / kHeadings[1].width;
+    const bool narrow = ImGui::GetContentRegionAvail().x < share * date + buttons + widgets.units(24.0f);
+    const size_t columns = narrow ? 1 : kHeadings.size();
+    if (!ImGui::BeginTable(narrow ? "narrow recordings" : "recordings", static_cast<int>(columns) + 1,
+                           kFlags))
+        return;
+    for (const Heading& heading : std::span(kHeadings).first(columns))
         ImGui::TableSetupColumn(heading.name, ImGuiTableColumnFlags_WidthStretch, heading.width);
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
-                            ImGui::CalcTextSize("delete it? Delete Keep").x + widgets.units(62.0f));
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, buttons);
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableHeadersRow();
     const std::vector<RecordingFacts> recordings = controller.list().recordings(); // rows may change it
     for (const RecordingFacts& facts : recordings) {
         ImGui::TableNextRow();
         ImGui::PushID(facts.file.c_str());
-        row(facts, controller, state, widgets);
+        row(facts, narrow, controller, state, widgets);
         ImGui::PopID();
     }
     ImGui::EndTable();

@@ -23,7 +23,7 @@ namespace touchstone {
 namespace {
 
 // Units of layout.
-constexpr float kBar = 42.0f, kIntroduction = 44.0f, kLeft = 236.0f, kRight = 296.0f;
+constexpr float kBar = 42.0f, kIntroduction = 44.0f;
 constexpr float kMinWidth = 320.0f, kMinHeight = 180.0f; // of the picture
 constexpr float kMinBottom = 120.0f;
 constexpr float kFolded = 23.0f; // width of a folded panel: the arrow that unfolds it
@@ -265,30 +265,60 @@ void rightPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
     drawServo(input, widgets);
 }
 
-/// The upper edge of the lower panel: drags its height, a double click restores it.
-void dragBottom(const Rect& panel, PanelFolds& folds, float room, Widgets& widgets) {
-    const float grip = widgets.units(6.0f);
-    ImGui::SetNextWindowPos(ImVec2(panel.x, panel.y - 0.5f * grip));
-    ImGui::SetNextWindowSize(ImVec2(panel.width, grip));
+struct SizeRange {
+    float least, most, usual; // units of layout; `most` may be less than `least`
+};
+
+/// An edge of the picture, `grip`: drags the size of the panel beyond it, a double click restores that.
+/// `dragged`: the size that the pointer asks for, window coordinates.
+void dragEdge(const char* name, const Rect& grip, float dragged, const SizeRange& range, float& size,
+              Widgets& widgets) {
+    const bool upright = grip.height > grip.width;
+    ImGui::SetNextWindowPos(ImVec2(grip.x, grip.y));
+    ImGui::SetNextWindowSize(ImVec2(grip.width, grip.height));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
-    ImGui::Begin("chartsEdge", nullptr,
-                 (kFixed | ImGuiWindowFlags_NoNav) & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::Begin(name, nullptr, (kFixed | ImGuiWindowFlags_NoNav) & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar(2);
-    ImGui::InvisibleButton("edge", ImVec2(panel.width, grip));
-    widgets.mark("chartsEdge");
+    ImGui::InvisibleButton("edge", ImVec2(grip.width, grip.height));
+    widgets.mark(name);
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
-        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
-        ImGui::GetWindowDrawList()->AddLine(ImVec2(panel.x, panel.y), ImVec2(panel.x + panel.width, panel.y),
+        ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+        const ImVec2 middle(grip.x + 0.5f * grip.width, grip.y + 0.5f * grip.height);
+        ImGui::GetWindowDrawList()->AddLine(upright ? ImVec2(middle.x, grip.y) : ImVec2(grip.x, middle.y),
+                                            upright ? ImVec2(middle.x, grip.y + grip.height)
+                                                    : ImVec2(grip.x + grip.width, middle.y),
                                             ImGui::GetColorU32(ImGuiCol_SeparatorActive), 2.0f);
     }
     if (ImGui::IsItemActive())
-        folds.bottomHeight =
-            std::clamp((panel.y + panel.height - ImGui::GetIO().MousePos.y) / widgets.units(1.0f), kMinBottom,
-                       std::max(kMinBottom, room));
+        size = std::clamp(dragged / widgets.units(1.0f), range.least, std::max(range.least, range.most));
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
-        folds.bottomHeight = PanelFolds::kBottomHeight;
+        size = range.usual;
     ImGui::End();
+}
+
+/// The edges between the picture and the panels that are not folded. `display`: the window's size, `folds`:
+/// as shown.
+void dragEdges(const PictureRect& picture, const ImVec2& display, const PanelFolds& folds, PanelState& state,
+               Widgets& widgets) {
+    const float grip = widgets.units(6.0f), unit = widgets.units(1.0f);
+    const float below = picture.y + picture.height, beyond = picture.x + picture.width;
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    // Over the picture, since the left panel's scroll bar lies at its edge, and without the lower grip.
+    const float height = picture.height - grip;
+    if (!folds.left)
+        dragEdge("sceneEdge", {picture.x, picture.y, grip, height}, pointer.x,
+                 {PanelFolds::kLeftWidth, (beyond / unit) - kMinWidth, PanelFolds::kLeftWidth},
+                 state.folds.leftWidth, widgets);
+    if (!folds.right)
+        dragEdge(
+            "feltEdge", {beyond - grip, picture.y, grip, height}, display.x - pointer.x,
+            {PanelFolds::kRightWidth, (display.x - picture.x) / unit - kMinWidth, PanelFolds::kRightWidth},
+            state.folds.rightWidth, widgets);
+    if (!folds.bottom)
+        dragEdge("chartsEdge", {picture.x, below - 0.5f * grip, picture.width, grip}, display.y - pointer.y,
+                 {kMinBottom, display.y / unit - topOf(state) - kMinHeight, PanelFolds::kBottomHeight},
+                 state.folds.bottomHeight, widgets);
 }
 
 void bottomPanel(const PanelInput& input, PanelState& state, Widgets& widgets) {
@@ -309,10 +339,19 @@ PanelFolds fittingFolds(const PanelState& state, const glm::vec2& window, float 
     const glm::vec2 units = window / scale;
     PanelFolds fitting = state.folds;
     const auto width = [&] {
-        return units.x - (fitting.left ? kFolded : kLeft) - (fitting.right ? kFolded : kRight);
+        return units.x - (fitting.left ? kFolded : PanelFolds::kLeftWidth) -
+               (fitting.right ? kFolded : PanelFolds::kRightWidth);
     };
     fitting.left = fitting.left || width() < kMinWidth;
     fitting.right = fitting.right || width() < kMinWidth;
+    // What is left beside the picture's least width goes to the readings first.
+    const auto within = [&](float wanted, float least, float others) {
+        return std::clamp(wanted, least, std::max(least, units.x - kMinWidth - others));
+    };
+    fitting.rightWidth =
+        within(fitting.rightWidth, PanelFolds::kRightWidth, fitting.left ? kFolded : PanelFolds::kLeftWidth);
+    fitting.leftWidth =
+        within(fitting.leftWidth, PanelFolds::kLeftWidth, fitting.right ? kFolded : fitting.rightWidth);
     const float room = units.y - topOf(state) - kMinHeight;
     fitting.bottom = fitting.bottom || room < PanelFolds::kBottomHeight;
     fitting.bottomHeight = std::clamp(fitting.bottomHeight, kMinBottom, std::max(kMinBottom, room));
@@ -321,8 +360,8 @@ PanelFolds fittingFolds(const PanelState& state, const glm::vec2& window, float 
 
 PictureRect pictureRect(const PanelState& state, const glm::vec2& window, float scale) {
     const PanelFolds folds = fittingFolds(state, window, scale);
-    const float left = (folds.left ? kFolded : kLeft) * scale,
-                right = (folds.right ? kFolded : kRight) * scale,
+    const float left = (folds.left ? kFolded : folds.leftWidth) * scale,
+                right = (folds.right ? kFolded : folds.rightWidth) * scale,
                 bottom = (folds.bottom ? kFolded : folds.bottomHeight) * scale, top = topOf(state) * scale;
     return {left, top, std::max(1.0f, window.x - left - right), std::max(1.0f, window.y - top - bottom)};
 }
@@ -365,9 +404,7 @@ std::map<std::string, WidgetRect> drawPanels(const PanelInput& input, PanelState
     if (panel("charts", {picture.x, below, picture.width, display.y - below}, folds.bottom, ImGuiDir_Up,
               ImGuiDir_Down, widgets, [&] { bottomPanel(input, state, widgets); }))
         state.folds.bottom = !state.folds.bottom;
-    if (!folds.bottom)
-        dragBottom({picture.x, below, picture.width, display.y - below}, state.folds,
-                   display.y / input.scale - topOf(state) - kMinHeight, widgets);
+    dragEdges(picture, display, folds, state, widgets);
     drawCards(input, state, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawSavedPicture(input, {picture.x, picture.y, picture.width, picture.height}, widgets);
     drawLookingCard(*input.timeline, {picture.x, picture.y, picture.width, picture.height}, widgets);

@@ -25,11 +25,11 @@ bool flag(const Json& json, const char* name, bool otherwise) {
     return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
 }
 
-/// Of the lower panel; a value that no drag could leave is the usual one.
-float height(const Json& json) {
-    const auto found = json.find("charts_height");
+/// Of a panel; a value that no drag could leave is the usual one.
+float sizeOf(const Json& json, const char* name, float least, float usual) {
+    const auto found = json.find(name);
     const double value = found != json.end() && found->is_number() ? found->get<double>() : 0.0;
-    return value >= 1.0 && value <= kLargest ? static_cast<float>(value) : PanelFolds::kBottomHeight;
+    return value >= static_cast<double>(least) && value <= kLargest ? static_cast<float>(value) : usual;
 }
 
 /// Names of quantities; the usual ones where none is known.
@@ -78,10 +78,13 @@ WindowMemory memoryOf(const Json& json, std::string& warning) {
     if (const auto settings = json.find("settings"); settings != json.end() && settings->is_object())
         memory.settings = settingsOf(*settings);
     if (const auto folds = json.find("folded"); folds != json.end() && folds->is_object())
-        memory.folds = {.left = flag(*folds, "scene", false),
-                        .right = flag(*folds, "felt", false),
-                        .bottom = flag(*folds, "charts", false),
-                        .bottomHeight = height(json)};
+        memory.folds = {
+            .left = flag(*folds, "scene", false),
+            .right = flag(*folds, "felt", false),
+            .bottom = flag(*folds, "charts", false),
+            .leftWidth = sizeOf(json, "scene_width", PanelFolds::kLeftWidth, PanelFolds::kLeftWidth),
+            .rightWidth = sizeOf(json, "felt_width", PanelFolds::kRightWidth, PanelFolds::kRightWidth),
+            .bottomHeight = sizeOf(json, "charts_height", 1.0f, PanelFolds::kBottomHeight)};
     if (const auto charts = json.find("charts"); charts != json.end() && charts->is_array())
         memory.charts = shownIn(*charts);
     memory.introduced = flag(json, "introduced", false);
@@ -139,6 +142,8 @@ bool writeMemory(const std::filesystem::path& file, const WindowMemory& memory) 
         {"folded",
          {{"scene", memory.folds.left}, {"felt", memory.folds.right}, {"charts", memory.folds.bottom}}},
         {"charts", std::move(charts)},
+        {"scene_width", memory.folds.leftWidth},
+        {"felt_width", memory.folds.rightWidth},
         {"charts_height", memory.folds.bottomHeight},
         {"sound", {{"on", memory.sound.on}, {"volume", memory.sound.volume}}},
         {"ui_scale", memory.uiScale},

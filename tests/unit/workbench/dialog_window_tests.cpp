@@ -58,6 +58,19 @@ TEST_F(DialogWindow, AMeshIsChosenInTheBrowserAndAProblemLeavesItThere) {
     expectCleanEnd();
 }
 
+TEST_F(DialogWindow, AfterAClickInTheBrowserOneTypesOn) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    browse();
+    until("the place", [](const Json& s) { return s["widgets"].contains("place:Home"); });
+    display_.click(middleOf("place:Home"));
+    until("the home folder", [](const Json& s) { return s["widgets"].contains("file:broken.ply"); });
+    display_.xdotool({"type", "--delay", "20", "ring"});
+    until("the filter", [](const Json& s) { return !s["widgets"].contains("file:broken.ply"); });
+    display_.key("Return");
+    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    expectCleanEnd();
+}
+
 TEST_F(DialogWindow, EscapePutsAwayTheHelpOverTheBrowserFirst) {
     open(TOUCHSTONE_ASSETS "/box.glb");
     browse();

@@ -88,6 +88,33 @@ TEST_F(LayoutTest, PanelsFoldAwayAndThePictureTakesTheirRoom) {
     expectCleanEnd();
 }
 
+TEST_F(LayoutTest, SidePanelsAreMadeWiderByTheirEdgesAndKept) {
+    open(kDoughnut);
+    const auto picture = [](const Json& s, const char* of) { return s["widgets"]["picture"][of].get<double>(); };
+    const Json before = later();
+    for (const auto& [edge, by] : {std::pair{"sceneEdge", 60}, std::pair{"feltEdge", -40}}) {
+        const VirtualDisplay::Place from = middleOf(edge);
+        display_.drag(from, {from.x + by, from.y});
+    }
+    until("wider panels", [&](const Json& s) {
+        return picture(s, "x") > picture(before, "x") + 50.0 &&
+               picture(s, "width") < picture(before, "width") - 85.0;
+    });
+    // Far beyond the other side: the picture keeps its least width. Then far to the left: the panel its own.
+    const VirtualDisplay::Place edge = middleOf("sceneEdge");
+    display_.drag(edge, {edge.x + 900, edge.y});
+    EXPECT_GE(picture(later(), "width"), 320.0);
+    const VirtualDisplay::Place far = middleOf("sceneEdge");
+    display_.drag(far, {corner_.x, far.y});
+    EXPECT_EQ(picture(later(), "x"), picture(before, "x"));
+    const double width = picture(status(), "width");
+    expectCleanEnd();
+    std::filesystem::remove(status_);
+    open(kDoughnut);
+    EXPECT_EQ(picture(later(), "width"), width) << "kept";
+    expectCleanEnd();
+}
+
 TEST_F(LayoutTest, PanelsAreWalkedThroughByKeys) {
     open(kDoughnut);
     const auto yaw = [](const Json& s) { return s["view"]["yaw"].get<double>(); };

@@ -29,7 +29,7 @@ TEST_F(WindowMemoryTest, ComesBackAsItWasButForTheForceSwitch) {
     ASSERT_EQ(setSetting(memory.settings, "proxyRadius", "0.00125"), "");
     ASSERT_EQ(setSetting(memory.settings, "friction", "ho"), "");
     memory.settings.forceEnabled = false;
-    memory.folds = {.left = true, .right = false, .bottom = true, .bottomHeight = 321.5f};
+    memory.folds = {.left = true, .right = false, .bottom = true, .leftWidth = 300.25f, .rightWidth = 401.0f, .bottomHeight = 321.5f};
     memory.charts = {false, true, false, true, true, false, false, false, true};
     memory.sound = {true, 0.25f};
     memory.uiScale = 1.37f;
@@ -54,7 +54,7 @@ TEST_F(WindowMemoryTest, KeepsWhatIsRightBesideWhatIsWrong) {
     const WindowMemory memory = readOf(
         "{\"version\": 1, \"introduced\": 3, \"folded\": {\"scene\": true, \"felt\": \"yes\"}, \"size\": "
         "[1e9, -4], "
-        "\"charts\": [\"magic\", 3], \"charts_height\": -1e9, "
+        "\"charts\": [\"magic\", 3], \"charts_height\": -1e9, \"scene_width\": 12, \"felt_width\": \"wide\", "
         "\"sound\": {\"on\": 1, \"volume\": 7}, \"recent\": [7, \"/a.glb\", null], \"settings\": "
         "{\"friction\": \"ho\", \"stiffness\": \"-5\", "
         "\"proxyRadius\": 0.1, \"magic\": \"on\"}}");
