@@ -32,10 +32,10 @@ shared::ProgramObjectUniforms placeOf(const glm::dvec3& centre, const Instance& 
     const double scale = largest > 0.0 ? (glm::determinant(linear) < 0.0 ? -1.0 : 1.0) / largest : 0.0;
     shared::ProgramObjectUniforms place{};
     for (int row = 0; row < 3; ++row) {
-        place.programFromMesh[row] = glm::vec4(
-            glm::dvec4(linear[0][row], linear[1][row], linear[2][row], origin[row]));
-        place.normalFromMesh[row] = glm::vec4(glm::dvec4(
-            cofactor[0][row] * scale, cofactor[1][row] * scale, cofactor[2][row] * scale, 0.0));
+        place.programFromMesh[row] =
+            glm::vec4(glm::dvec4(linear[0][row], linear[1][row], linear[2][row], origin[row]));
+        place.normalFromMesh[row] = glm::vec4(
+            glm::dvec4(cofactor[0][row] * scale, cofactor[1][row] * scale, cofactor[2][row] * scale, 0.0));
     }
     place.material = {haptic.staticFriction.value.value_or(0.0f), haptic.dynamicFriction.value.value_or(0.0f),
                       haptic.stiffness.value.value_or(kPlainStiffness), haptic.damping.value.value_or(0.0f)};
@@ -43,7 +43,8 @@ shared::ProgramObjectUniforms placeOf(const glm::dvec3& centre, const Instance& 
 }
 
 uint32_t alignedFor(const Gpu::Impl& gpu, size_t size) {
-    const auto alignment = static_cast<size_t>(std::max<vk::DeviceSize>(gpu.limits.minUniformBufferOffsetAlignment, 16));
+    const auto alignment =
+        static_cast<size_t>(std::max<vk::DeviceSize>(gpu.limits.minUniformBufferOffsetAlignment, 16));
     return static_cast<uint32_t>((size + alignment - 1) / alignment * alignment);
 }
 
@@ -53,7 +54,8 @@ GpuPrograms::GpuPrograms(const Gpu::Impl& gpu, const Pipelines& pipelines, const
                          std::span<const glm::dvec3> centres, std::vector<MaterialProgram> programs)
     : programs_(std::move(programs)), sets_(scene.materials.size()) {
     programs_.resize(scene.materials.size());
-    const auto count = static_cast<uint32_t>(std::ranges::count_if(programs_, &MaterialProgram::operator bool));
+    const auto count =
+        static_cast<uint32_t>(std::ranges::count_if(programs_, &MaterialProgram::operator bool));
     if (count == 0)
         return;
     placeInstances(gpu, scene, centres);
@@ -79,8 +81,8 @@ GpuPrograms::GpuPrograms(const Gpu::Impl& gpu, const Pipelines& pipelines, const
     }
 }
 
-vk::DescriptorSet GpuPrograms::makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, vk::DeviceSize at,
-                                       vk::DeviceSize size) const {
+vk::DescriptorSet GpuPrograms::makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout,
+                                       vk::DeviceSize at, vk::DeviceSize size) const {
     const vk::DescriptorSet set =
         (*gpu.device)
             .allocateDescriptorSets(
@@ -89,22 +91,23 @@ vk::DescriptorSet GpuPrograms::makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLa
             .front();
     const vk::DescriptorBufferInfo parameters{*parameters_.buffer, at, size};
     const vk::DescriptorBufferInfo instances{*instances_.buffer, 0, sizeof(shared::ProgramObjectUniforms)};
-    gpu.device.updateDescriptorSets({vk::WriteDescriptorSet{.dstSet = set,
-                                                            .dstBinding = 0,
-                                                            .descriptorCount = 1,
-                                                            .descriptorType = vk::DescriptorType::eUniformBuffer,
-                                                            .pBufferInfo = &parameters},
-                                     vk::WriteDescriptorSet{.dstSet = set,
-                                                            .dstBinding = 1,
-                                                            .descriptorCount = 1,
-                                                            .descriptorType =
-                                                                vk::DescriptorType::eUniformBufferDynamic,
-                                                            .pBufferInfo = &instances}},
-                                    {});
+    gpu.device.updateDescriptorSets(
+        {vk::WriteDescriptorSet{.dstSet = set,
+                                .dstBinding = 0,
+                                .descriptorCount = 1,
+                                .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                .pBufferInfo = &parameters},
+         vk::WriteDescriptorSet{.dstSet = set,
+                                .dstBinding = 1,
+                                .descriptorCount = 1,
+                                .descriptorType = vk::DescriptorType::eUniformBufferDynamic,
+                                .pBufferInfo = &instances}},
+        {});
     return set;
 }
 
-void GpuPrograms::placeInstances(const Gpu::Impl& gpu, const Scene& scene, std::span<const glm::dvec3> centres) {
+void GpuPrograms::placeInstances(const Gpu::Impl& gpu, const Scene& scene,
+                                 std::span<const glm::dvec3> centres) {
     stride_ = alignedFor(gpu, sizeof(shared::ProgramObjectUniforms));
     instances_ = createBuffer(gpu, vk::DeviceSize{stride_} * scene.instances.size(),
                               vk::BufferUsageFlagBits::eUniformBuffer, MemoryUse::Upload);

@@ -1,6 +1,6 @@
 #pragma once
-// The haptic programs of a scene's materials on the device: their parameters, and where instances lie in the programs'
-// frames. Main thread only, private to renderer/.
+// The haptic programs of a scene's materials on the device: their parameters, and where instances lie in the
+// programs' frames. Main thread only, private to renderer/.
 
 #include "engine/scene/scene.h"
 #include "renderer/gpu_memory.h"
@@ -14,8 +14,8 @@ namespace touchstone {
 
 class GpuPrograms {
   public:
-    /// `centres`: of each mesh, PreparedMesh's. `programs`: one for each material of the scene; without any there is
-    /// nothing on the device. What it holds may be destroyed when no frame is in flight.
+    /// `centres`: of each mesh, PreparedMesh's. `programs`: one for each material of the scene; without any
+    /// there is nothing on the device. What it holds may be destroyed when no frame is in flight.
     GpuPrograms(const Gpu::Impl& gpu, const Pipelines& pipelines, const Scene& scene,
                 std::span<const glm::dvec3> centres, std::vector<MaterialProgram> programs);
 
@@ -29,8 +29,8 @@ class GpuPrograms {
 
   private:
     void placeInstances(const Gpu::Impl& gpu, const Scene& scene, std::span<const glm::dvec3> centres);
-    [[nodiscard]] vk::DescriptorSet makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout, vk::DeviceSize at,
-                                            vk::DeviceSize size) const;
+    [[nodiscard]] vk::DescriptorSet makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLayout layout,
+                                            vk::DeviceSize at, vk::DeviceSize size) const;
 
     std::vector<MaterialProgram> programs_;
     GpuBuffer parameters_, instances_;

@@ -171,8 +171,9 @@ Pipelines::LinkedShaders& Pipelines::linked(const std::shared_ptr<const SurfaceP
     shaders.number = ++programNumbers_;
     constexpr uint32_t kProgramSet = 2;
     for (const bool kept : {false, true}) {
-        const std::span<const uint32_t> host = kept ? std::span<const uint32_t>(shaders::scene_program_kept_frag)
-                                                    : std::span<const uint32_t>(shaders::scene_program_frag);
+        const std::span<const uint32_t> host =
+            kept ? std::span<const uint32_t>(shaders::scene_program_kept_frag)
+                 : std::span<const uint32_t>(shaders::scene_program_frag);
         program::LinkedProgram result = program::linkProgram(host, program->spirv, kProgramSet);
         (kept ? shaders.kept : shaders.plain) = std::move(result.words);
         if (!result.problem.empty())

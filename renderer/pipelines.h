@@ -70,7 +70,16 @@ class Pipelines {
     LinkedShaders& linked(const std::shared_ptr<const SurfaceProgram>& program);
     void describeScene(PipelineRecipe& recipe, uint32_t features, bool keepsLight) const;
 
-    enum class Kind : uint8_t { Scene, Programmed, FalseColor, Wireframe, Background, KeptShadow, Shapes, Lines };
+    enum class Kind : uint8_t {
+        Scene,
+        Programmed,
+        FalseColor,
+        Wireframe,
+        Background,
+        KeptShadow,
+        Shapes,
+        Lines
+    };
     using Key = std::tuple<Kind, uint32_t, uint32_t, uint32_t>; ///< the last one: of a program
     template <class Make>
     vk::Pipeline cached(const Key& key, Make&& make);

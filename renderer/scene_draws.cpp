@@ -190,10 +190,10 @@ void SceneRenderer::Impl::drawItem(const vk::raii::CommandBuffer& commands, cons
     const vk::PipelineLayout layout = programmed ? pipelines_.programLayout()
                                       : shaded   ? pipelines_.sceneLayout()
                                                  : pipelines_.falseColorLayout();
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                          programmed ? programmed
-                          : shaded   ? pipelines_.scene(item.features, keepsLight)
-                                     : pipelines_.falseColor(item.features, mode));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, programmed ? programmed
+                                                            : shaded
+                                                                ? pipelines_.scene(item.features, keepsLight)
+                                                                : pipelines_.falseColor(item.features, mode));
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, layout, 1,
         shaded ? scene_->material(materialIndex) : scene_->falseColorMaterial(materialIndex), {});

@@ -69,8 +69,8 @@ class SceneRenderer {
     void setMeshVertices(int mesh, const DrawnVertices& vertices);
 
     /// Draws other triangles in place of those of a mesh (Scene::meshes) of the current scene, until the next
-    /// scene: what is sculpted. With the mesh's material; its textures keep no coordinates. Once a frame at most.
-    /// Throws Error when the device memory does not hold them.
+    /// scene: what is sculpted. With the mesh's material; its textures keep no coordinates. Once a frame at
+    /// most. Throws Error when the device memory does not hold them.
     void reshape(int mesh, const ReshapedMesh& reshaped);
     /// Counts the scenes that became current.
     [[nodiscard]] uint64_t sceneNumber() const;
@@ -79,8 +79,8 @@ class SceneRenderer {
     /// until the next call.
     void setMaterialColors(std::vector<glm::vec3> colors);
 
-    /// The haptic program of each material, in place of the file's; until another scene. Waits for the frames in
-    /// flight where they differ from the last ones. Throws std::invalid_argument for another count.
+    /// The haptic program of each material, in place of the file's; until another scene. Waits for the frames
+    /// in flight where they differ from the last ones. Throws std::invalid_argument for another count.
     void setPrograms(const std::vector<MaterialProgram>& programs);
     /// Empty, or why a program that was to be drawn is not: its surfaces look plain.
     [[nodiscard]] std::string programProblem(const std::shared_ptr<const SurfaceProgram>& program) const;

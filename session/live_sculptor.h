@@ -23,11 +23,12 @@ struct SculptedScene {
     uint32_t number = 0, root = 0; ///< TickRecord::scene and ::root
     std::shared_ptr<const HapticScene> haptic;
     ScenePtr source;
-    uint64_t hash = 0;                ///< SceneSculptor::hash
+    uint64_t hash = 0;                  ///< SceneSculptor::hash
     std::vector<SculptEntry> entries{}; ///< since the root's last one; all of them with a new root
     struct Field {
-        int object = 0;                 ///< HapticScene::objects
-        std::vector<uint32_t> bricks{}; ///< FieldGrid::brickNumber, that differ from the scene published before
+        int object = 0; ///< HapticScene::objects
+        std::vector<uint32_t>
+            bricks{}; ///< FieldGrid::brickNumber, that differ from the scene published before
     };
     std::vector<Field> changed{};
 };
@@ -43,9 +44,9 @@ struct SculptFigures {
     std::string problem;           ///< the last edit that was refused
 };
 
-/// The servo writes dabs into a ring; a thread of this class pops them, applies them to copy-on-write bricks and
-/// offers the scene with the new field, at least every kPublish while edits come. Functions without a note:
-/// the servo's owner thread. The worker has no thread until the first tool is active.
+/// The servo writes dabs into a ring; a thread of this class pops them, applies them to copy-on-write bricks
+/// and offers the scene with the new field, at least every kPublish while edits come. Functions without a
+/// note: the servo's owner thread. The worker has no thread until the first tool is active.
 class LiveSculptor {
   public:
     static constexpr double kPublish = 0.008; ///< s of dabs in one publication, and one dab more
@@ -59,8 +60,9 @@ class LiveSculptor {
 
     /// The scene that the servo was offered under `number`: nothing is sculpted in it.
     void begin(uint32_t number, std::shared_ptr<const HapticScene> scene, ScenePtr source);
-    /// Another scene of the same objects: the servo is offered it with the sculpted fields (offerSculpted). Null where
-    /// nothing is sculpted: the caller offers it as it is. Waits for a dab. Returns the number of the root.
+    /// Another scene of the same objects: the servo is offered it with the sculpted fields (offerSculpted).
+    /// Null where nothing is sculpted: the caller offers it as it is. Waits for a dab. Returns the number of
+    /// the root.
     [[nodiscard]] std::optional<uint32_t> carryOver(std::shared_ptr<const HapticScene> scene, ScenePtr source,
                                                     SceneSwap swap);
 
@@ -93,7 +95,8 @@ class LiveSculptor {
     LiveTool tool_;
     std::thread worker_;
 
-    mutable std::mutex mutex_; // of what follows, and of the reader's side of the servo's ring; never held for long
+    mutable std::mutex
+        mutex_; // of what follows, and of the reader's side of the servo's ring; never held for long
     std::condition_variable wake_, idle_;
     bool stopping_ = false, active_ = false, busy_ = false;
     std::deque<SculptEntry> waiting_;

@@ -25,7 +25,8 @@ class Session {
 
     /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number. Null: nothing can
     /// be touched, and the scene offered to the subscribers has the number 0.
-    /// `sculpted`: where the present scene was sculpted, the new one has the same objects and takes their fields over.
+    /// `sculpted`: where the present scene was sculpted, the new one has the same objects and takes their
+    /// fields over.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
                    SceneSwap swap = SceneSwap::Anew, bool sculpted = false);
     /// The scene's file is another one now, or has been saved.

@@ -100,14 +100,13 @@ struct RecordedNote {
 struct RecordedEnd {
     uint64_t ticks = 0;
 };
-using RecordedItem =
-    std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
-                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState, RecordedTool,
-                 RecordedSculpt>;
+using RecordedItem = std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint,
+                                  RecordedTicks, RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks,
+                                  RecordedHandState, RecordedTool, RecordedSculpt>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 12> kChunkNames{
-    "MADE", "SCEN", "SETT", "STAT", "TICK", "LOST", "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP"};
+inline constexpr std::array<std::string_view, 12> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
+                                                              "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);

@@ -41,7 +41,8 @@ void RecordingWriter::add(const TickToRecord& tick) {
     const bool newSettings = !begun_ || tick.tick.settings != settings_;
     const bool newSculpt = tick.sculpt != nullptr && tick.tick.scene != sculpted_;
     const bool newTool = tick.toolNumber != tool_;
-    if (lost || newScene || newSettings || newSculpt || newTool || tick.checkpoint != nullptr || block_.ticks.size() == kBlock)
+    if (lost || newScene || newSettings || newSculpt || newTool || tick.checkpoint != nullptr ||
+        block_.ticks.size() == kBlock)
         flush();
     if (lost)
         file_.append(RecordedLoss{tick.lostBefore});
@@ -77,8 +78,11 @@ void RecordingWriter::addSculpt(uint32_t scene, const SculptToRecord& sculpt) {
         const size_t count = std::min(kMost, sculpt.journal.size() - written);
         const auto part = sculpt.journal.subspan(written, count);
         const bool last = written + count == sculpt.journal.size();
-        file_.append(RecordedSculpt{scene, sculpt.root, last ? sculpt.hash : 0,
-                                    static_cast<uint32_t>(written), {part.begin(), part.end()}});
+        file_.append(RecordedSculpt{scene,
+                                    sculpt.root,
+                                    last ? sculpt.hash : 0,
+                                    static_cast<uint32_t>(written),
+                                    {part.begin(), part.end()}});
         written += count;
     } while (written < sculpt.journal.size());
     sculpted_ = scene;

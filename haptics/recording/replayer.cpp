@@ -271,7 +271,8 @@ void Replayer::step(const RecordedTick& tick) {
             if (settings->second.contact == ContactMethod::Rays)
                 scene.buildRays();
         }
-        const std::optional<DeviceLimits>& limits = scenes_.at(rootOf(tick.scene)).identity.limits; // of format 1
+        const std::optional<DeviceLimits>& limits =
+            scenes_.at(rootOf(tick.scene)).identity.limits; // of format 1
         for (size_t hand = 0; hand < ticks_.size(); ++hand) {
             samples_[hand] = ticks_[hand].sample;
             if (limits)
@@ -281,9 +282,12 @@ void Replayer::step(const RecordedTick& tick) {
         // A replay has its vertices in time: it stands still where the servo did.
         touched->world.advance(animated, has(tick.flags, TickFlag::DeformationHeld));
         poses = touched->world.poseHash();
-        const TickInput input{
-            .tick = tick.tick, .time = tick.time, .dt = tick.dt, .late = tick.late, .hands = samples_,
-            .tool = tool_.active ? &tool_ : nullptr};
+        const TickInput input{.tick = tick.tick,
+                              .time = tick.time,
+                              .dt = tick.dt,
+                              .late = tick.late,
+                              .hands = samples_,
+                              .tool = tool_.active ? &tool_ : nullptr};
         StageTracer tracer(devices_, traces_);
         const long long begin = monotonicNs();
         hapticStep(scene, settings->second, input, touched->world, devices_, outputs_, tracer);

@@ -2,8 +2,8 @@
 // Repeats a recorded touch and compares the results.
 
 #include "haptics/recording/recording_reader.h"
-#include "haptics/scene/scene_sculptor.h"
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/scene/scene_sculptor.h"
 #include "haptics/tick/haptic_step.h"
 #include "haptics/world/world_state.h"
 
@@ -135,7 +135,7 @@ class Replayer {
         uint32_t number = 0;
         Touched touched;
     };
-    std::map<uint32_t, std::unique_ptr<Edited>> edited_; // by root
+    std::map<uint32_t, std::unique_ptr<Edited>> edited_;  // by root
     std::optional<TouchCheckpoint> checkpoint_;           // of the next tick and hand 0
     std::map<uint32_t, TouchCheckpoint> otherStates_;     // of the same tick, by hand
     std::map<uint32_t, std::deque<RecordedTick>> others_; // of the next ticks, by hand

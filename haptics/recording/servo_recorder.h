@@ -62,7 +62,7 @@ class ServoRecorder {
         uint64_t hash = 0;
         size_t entries = 0; // of the root's journal
     };
-    std::map<uint32_t, Sculpted> sculpted_; // that a record may still name
+    std::map<uint32_t, Sculpted> sculpted_;                 // that a record may still name
     std::map<uint32_t, std::vector<SculptEntry>> journals_; // by root
     std::optional<RecordingWriter> writer_;
     std::optional<FlightRecorder> flight_;

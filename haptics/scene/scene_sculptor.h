@@ -36,8 +36,8 @@ class SceneSculptor {
     /// mesh, a stroke of more than kMostDabs, what Sculptor::check refuses.
     SculptReport apply(const SculptStep& step);
 
-    /// One entry of a live journal; `scene` stays as it was until `settle`. Dabs between two Begins are one step
-    /// of undo. Throws Error, before anything is changed, as the other one.
+    /// One entry of a live journal; `scene` stays as it was until `settle`. Dabs between two Begins are one
+    /// step of undo. Throws Error, before anything is changed, as the other one.
     SculptReport apply(const SculptEntry& entry);
     /// The entries that steps came to since the last call: applied to another SceneSculptor of the scene they
     /// give the same fields.
@@ -55,8 +55,8 @@ class SceneSculptor {
     [[nodiscard]] size_t redoSteps() const { return undone_.size(); }
     /// Of all that the fields and their histories hold.
     [[nodiscard]] uint64_t memoryBytes() const;
-    /// The same edits on another scene of the same geometry, whose materials may differ: its fields become the
-    /// sculpted ones.
+    /// The same edits on another scene of the same geometry, whose materials may differ: its fields become
+    /// the sculpted ones.
     void moveTo(std::shared_ptr<const HapticScene> scene);
 
     /// Of the fields of all objects; the same journal gives the same value.

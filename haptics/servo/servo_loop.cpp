@@ -52,7 +52,7 @@ struct ServoLoop::Touch {
     std::vector<Felt> felt;
     std::vector<TickRecord> records; // of this tick, hand 0 the last
     std::vector<ToolPath> paths;
-    bool late = false;               // the previous tick ended after its next deadline
+    bool late = false; // the previous tick ended after its next deadline
     uint64_t nextCheckpoint = 0;
     double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the preceding tick in this scene
     std::vector<TouchCheckpoint> checkpoints;                       // of this tick, that of hand 0 the last
@@ -128,7 +128,8 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     }
     WorldState world(std::move(source), *scene);
     const uint32_t number = nextSceneNumber();
-    auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_, number);
+    auto offer =
+        std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_, number);
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
         offer->world.publishAhead(animationTime(

@@ -45,8 +45,8 @@ struct TickRecord {
     uint32_t root = 0;      ///< number that ServoLoop::offerScene returned for the scene that was reshaped
     uint32_t tool = 0;      ///< number for ServoLoop::toolOf
     uint32_t editDelay = 0; ///< ticks since the oldest edit that is first felt in this one; 0: none is
-    uint32_t poses = 0;      ///< WorldState::poseHash; 0: nothing moves
-    DeviceSample sample;     ///< as read; not valid where it is older than its limits allow
+    uint32_t poses = 0;     ///< WorldState::poseHash; 0: nothing moves
+    DeviceSample sample;    ///< as read; not valid where it is older than its limits allow
     StageTrace trace;
     HapticOutput output;
 };
@@ -83,11 +83,11 @@ enum class SceneSwap : uint8_t {
 /// A scene whose fields were edited, from the thread that edits.
 struct ReshapedScene {
     std::shared_ptr<const HapticScene> scene;
-    ScenePtr source;           ///< as ServoLoop::offerScene's
-    uint32_t number = 0;       ///< ServoLoop::nextSceneNumber
-    uint32_t root = 0;         ///< the owner's scene that it is an edit of; ignored beside any other
+    ScenePtr source;             ///< as ServoLoop::offerScene's
+    uint32_t number = 0;         ///< ServoLoop::nextSceneNumber
+    uint32_t root = 0;           ///< the owner's scene that it is an edit of; ignored beside any other
     std::vector<int> reshaped{}; ///< HapticScene::objects whose fields differ from those of the root
-    uint64_t oldestEdit = 0;   ///< tick of the first edit that no scene before it has; 0: no hand made one
+    uint64_t oldestEdit = 0;     ///< tick of the first edit that no scene before it has; 0: no hand made one
 };
 
 /// The owner thread constructs, starts and stops; every other function states its thread.
@@ -118,8 +118,8 @@ class ServoLoop {
     /// and slew and without fading, as when a setting changes.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
                         SceneSwap swap = SceneSwap::Anew);
-    /// The same for a scene that was sculpted, such as one with other materials: `scene` has the numbers of an
-    /// edited scene and of its root, both new.
+    /// The same for a scene that was sculpted, such as one with other materials: `scene` has the numbers of
+    /// an edited scene and of its root, both new.
     void offerSculpted(ReshapedScene scene, SceneSwap swap);
     void setSettings(const HapticSettings& settings);
     /// Owner thread: in every hand, from the next tick on. It reaches the records under a number of its own.
@@ -138,7 +138,9 @@ class ServoLoop {
     void offerEdited(ReshapedScene scene);
     /// Frees the scene that the servo has released.
     void collectEdited() { edited_.collect(); }
-    [[nodiscard]] uint64_t droppedEdits() const { return edits_.dropped(); } ///< lost to a full ring; any thread
+    [[nodiscard]] uint64_t droppedEdits() const {
+        return edits_.dropped();
+    } ///< lost to a full ring; any thread
     /// Any thread: switches the force off. While it is off a tick has the settings with forceEnabled off,
     /// under a number of their own.
     [[nodiscard]] ForceSwitch& forceSwitch() { return forceSwitch_; }
@@ -178,7 +180,8 @@ class ServoLoop {
         std::shared_ptr<const HapticScene> scene;
         mutable WorldState world; // servo thread once adopted
         uint32_t number = 0;
-        // Equal numbers: equal geometry, but for the fields of `reshaped`. 0: that of the root, an edited one.
+        // Equal numbers: equal geometry, but for the fields of `reshaped`. 0: that of the root, an edited
+        // one.
         uint32_t geometry = 0;
         uint32_t root = 0;
         std::vector<int> reshaped{};

@@ -14,16 +14,17 @@ namespace touchstone {
 /// Lays the dabs of one hand along its way while the button is held: a quarter of the radius apart, at least
 /// half a voxel. Servo thread; no allocation.
 ///
-/// Carve and Drag work at the tip; Stamp and Imprint once, where they were pressed down. Add and Smooth need contact: they
-/// work at the proxy, and every kRepeat where the hand rests. The ball of Add stands out of the surface by
-/// three quarters of a voxel: the proxy that it covers is lifted by the next solve (takeUpReshaped), and
-/// from there the next ball grows.
+/// Carve and Drag work at the tip; Stamp and Imprint once, where they were pressed down. Add and Smooth need
+/// contact: they work at the proxy, and every kRepeat where the hand rests. The ball of Add stands out of the
+/// surface by three quarters of a voxel: the proxy that it covers is lifted by the next solve
+/// (takeUpReshaped), and from there the next ball grows.
 class ToolPath {
   public:
     static constexpr size_t kMost = 9;       ///< entries in a tick
     static constexpr double kRepeat = 0.032; ///< s
 
-    /// After the step of `input.tick`. `pressed`: the button is, or the tool holds itself. Returns the number of entries written.
+    /// After the step of `input.tick`. `pressed`: the button is, or the tool holds itself. Returns the number
+    /// of entries written.
     size_t advance(const LiveTool& tool, bool pressed, const HapticScene& scene, ObjectMotions motions,
                    const TickInput& input, const HapticOutput& output,
                    std::span<SculptEntry, kMost> made) noexcept;

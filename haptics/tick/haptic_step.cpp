@@ -191,10 +191,9 @@ void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state,
     const PotentialField* const field = shape != nullptr ? shape->potential() : nullptr;
     if (field == nullptr)
         return;
-    const glm::dvec3 force =
-        toolResistance(*field, tick.motions[index].workspaceFromObject, tool, output.hip, state.velocity,
-                       tick.limits.apparentMass, tick.dt) /
-        output.zoom;
+    const glm::dvec3 force = toolResistance(*field, tick.motions[index].workspaceFromObject, tool, output.hip,
+                                            state.velocity, tick.limits.apparentMass, tick.dt) /
+                             output.zoom;
     output.force += force;
     if (tick.parts != nullptr && std::isfinite(force.x + force.y + force.z))
         world.push(object, output.hip, -force);

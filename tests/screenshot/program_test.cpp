@@ -23,7 +23,8 @@ class ProgramPictures : public RendererFixture {
         return "void touch(const in Touch before, inout Surface after) {\n" + text + "\n}\n";
     }
     /// The square [-1, 1]² of z = 0 in the mesh, grey.
-    static std::shared_ptr<Scene> square(const MaterialProgram& program, const glm::dmat4& pose = glm::dmat4(1.0)) {
+    static std::shared_ptr<Scene> square(const MaterialProgram& program,
+                                         const glm::dmat4& pose = glm::dmat4(1.0)) {
         auto scene = std::make_shared<Scene>();
         Material material;
         material.baseColor = {0.5f, 0.5f, 0.5f, 1.0f};
@@ -46,14 +47,15 @@ class ProgramPictures : public RendererFixture {
     static int greatestDifference(const PixelData& a, const PixelData& b) {
         int greatest = 0;
         for (size_t i = 0; i < a.bytes.size(); ++i)
-            greatest = std::max(greatest, std::abs(std::to_integer<int>(a.bytes[i]) - std::to_integer<int>(b.bytes[i])));
+            greatest = std::max(
+                greatest, std::abs(std::to_integer<int>(a.bytes[i]) - std::to_integer<int>(b.bytes[i])));
         return greatest;
     }
 };
 
 TEST_F(ProgramPictures, ShowTheColourOfThePlaceInMetresOfTheScene) {
-    const MaterialProgram program =
-        programOf(body("after.colour = before.position.x > 0.5 ? vec3(0.0, 0.8, 0.0) : vec3(0.8, 0.0, 0.0);"));
+    const MaterialProgram program = programOf(
+        body("after.colour = before.position.x > 0.5 ? vec3(0.0, 0.8, 0.0) : vec3(0.8, 0.0, 0.0);"));
     const auto isGreen = [](const glm::ivec3& c) { return c.y > 2 * c.x; };
     const PixelData plain = picture(program);
     EXPECT_FALSE(isGreen(at(plain, 90, 64))); // x = 0.41
@@ -69,9 +71,11 @@ TEST_F(ProgramPictures, ShowTheColourOfThePlaceInMetresOfTheScene) {
 TEST_F(ProgramPictures, ArePlainWhereThereIsNoResult) {
     const PixelData plain = picture({});
     for (const char* text :
-         {"while (true) { after.colour.r += 1.0; }", "while (true) {}", "after.colour = vec3(sqrt(-1.0 - before.time));",
+         {"while (true) { after.colour.r += 1.0; }", "while (true) {}",
+          "after.colour = vec3(sqrt(-1.0 - before.time));",
           "float t[2] = float[](1.0, 2.0); after.colour = vec3(t[int(before.position.x * 1e-3) + 7]);",
-          "after.colour = vec3(float(1 / int(before.position.x * 1e-3)));", "after.force = vec3(1e38) * 1e38;"}) {
+          "after.colour = vec3(float(1 / int(before.position.x * 1e-3)));",
+          "after.force = vec3(1e38) * 1e38;"}) {
         const auto start = std::chrono::steady_clock::now();
         const PixelData drawn = picture(programOf(body(text)));
         const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -126,7 +130,8 @@ TEST_F(ProgramPictures, OfThePaperDifferFromThePlainOne) {
             const auto start = std::chrono::steady_clock::now();
             renderer_->render(viewFor(*drawn), {}, 640, 360);
             (void)renderer_->readPixels();
-            best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            best = std::min(best,
+                            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         }
         return std::pair(pixels, 1e3 * best);
     };

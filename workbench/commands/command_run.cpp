@@ -322,16 +322,12 @@ int runCommand(const RunOptions& options) {
     for (const std::string& message : gpu->validationMessages())
         std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
     reader.commit();
-    const RunResult run{model,
-                        hands,
-                        session.servo(),
-                        reader,
-                        controller,
-                        *gpu,
-                        frames,
-                        violations,
-                        stolen,
-                        sculpt ? sculpt->json(session, frames.seconds) : nlohmann::ordered_json()};
+    const RunResult run{
+        model,           hands,
+        session.servo(), reader,
+        controller,      *gpu,
+        frames,          violations,
+        stolen,          sculpt ? sculpt->json(session, frames.seconds) : nlohmann::ordered_json()};
     if (report) {
         report->write(
             reportOf(options, run).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +

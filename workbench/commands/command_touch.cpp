@@ -201,7 +201,7 @@ class OfflineRecorder {
         writer_.add({.tick = recordedTick(record),
                      .settings = settings_,
                      .scene = &identity_,
-                     .checkpoint = begins               ? &edit->second.state
+                     .checkpoint = begins              ? &edit->second.state
                                    : record.checkpoint ? &first
                                                        : nullptr,
                      .sculpt = edited ? &sculpt : nullptr});

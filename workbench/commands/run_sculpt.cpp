@@ -54,8 +54,9 @@ void RunSculpt::finish(Session& session) {
     for (const std::filesystem::path& file : options_.files)
         if (const size_t triangles = writeSculpted(file, *last_, object); triangles > 0)
             std::printf("%zu triangles, written to %s\n", triangles, file.c_str());
-    std::printf("%llu dabs, %.6g mm^3 removed, field %016llx\n", static_cast<unsigned long long>(figures.dabs),
-                1e9 * figures.removed, static_cast<unsigned long long>(figures.hash));
+    std::printf("%llu dabs, %.6g mm^3 removed, field %016llx\n",
+                static_cast<unsigned long long>(figures.dabs), 1e9 * figures.removed,
+                static_cast<unsigned long long>(figures.hash));
     if (!figures.problem.empty())
         std::fprintf(stderr, "touchstone: warning: %s\n", figures.problem.c_str());
 }

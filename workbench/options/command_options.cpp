@@ -147,8 +147,7 @@ void requireHands(const RunOptions& options) {
 
 /// --sculpted, once per file.
 CLI::Option* addSculpted(CLI::App& app, std::vector<std::filesystem::path>& files) {
-    return app
-        .add_option("--sculpted", files, "Write the sculpted object, at the end; may be given again")
+    return app.add_option("--sculpted", files, "Write the sculpted object, at the end; may be given again")
         ->type_name("FILE.glb|vdb")
         ->expected(1)
         ->take_all()

@@ -54,7 +54,7 @@ int windowCommand(const WindowOptions& options);
 /// The tool of the simulated hands.
 struct SculptOptions {
     bool wanted = false;
-    LiveTool tool; ///< without its objects
+    LiveTool tool;                            ///< without its objects
     std::string stamp;                        ///< an object of the scene
     std::vector<std::filesystem::path> files; ///< .glb and .vdb of the sculpted object, at the end
 };

@@ -25,8 +25,9 @@ constexpr std::array kNotes{
     Note{"histogram", "Voxels by value, on a logarithmic scale; the line is the surface"},
     Note{"iso", "The value at the surface that is seen and felt; inside are the higher ones"},
     Note{"gallery", "Our scenes and recent files as pictures"},
-    Note{"sculpt", "The hand sculpts what is felt as a field, while the left button, D or the first button of a "
-                   "device is held"},
+    Note{"sculpt",
+         "The hand sculpts what is felt as a field, while the left button, D or the first button of a "
+         "device is held"},
     Note{"sculpt:tool:carve", "Takes the ball at the tip away; Ctrl adds"},
     Note{"sculpt:tool:add", "Lays the ball on the surface, where it is touched; Ctrl carves"},
     Note{"sculpt:tool:smooth", "Evens out what is smaller than the ball; Shift, with any tool"},
@@ -35,7 +36,8 @@ constexpr std::array kNotes{
     Note{"sculpt:tool:drag", "Moves the surface along with the tip"},
     Note{"sculpt:stamp", "The object whose shape is stamped or imprinted, as large as the radius says"},
     Note{"sculpt:radius", "Of the tool, in the workspace; hold F and move the pointer"},
-    Note{"sculpt:strength", "The fraction of the whole change that one dab makes; hold Shift+F and move the pointer"},
+    Note{"sculpt:strength",
+         "The fraction of the whole change that one dab makes; hold Shift+F and move the pointer"},
     Note{"sculpt:falloff", "The outer part of the radius in which the strength falls to zero"},
     Note{"sculpt:undo", "Take the last stroke back (Ctrl+Z)"},
     Note{"sculpt:redo", "Make it again (Ctrl+Shift+Z, Ctrl+Y)"},

@@ -15,8 +15,8 @@
 #include "workbench/readings/force_history.h"
 #include "workbench/readings/servo_view.h"
 #include "workbench/screen/view_options.h"
-#include "workbench/sound/sound_choice.h"
 #include "workbench/sculpt/sculpt_controller.h"
+#include "workbench/sound/sound_choice.h"
 
 #include <filesystem>
 #include <functional>
@@ -85,8 +85,8 @@ struct PanelInput {
     bool scaleFits = true; ///< false: the UI scale is smaller than asked for, since the window is
 };
 
-/// Which panels are folded away, and how large those are that are not: units of layout, less where the window has
-/// no room for it. Side panels are made wider only: all they show fits into their least width.
+/// Which panels are folded away, and how large those are that are not: units of layout, less where the window
+/// has no room for it. Side panels are made wider only: all they show fits into their least width.
 struct PanelFolds {
     static constexpr float kLeftWidth = 236.0f, kRightWidth = 296.0f, kBottomHeight = 196.0f;
 

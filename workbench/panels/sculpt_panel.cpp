@@ -15,8 +15,8 @@ namespace touchstone {
 namespace {
 
 /// The shelf: Stamp and Imprint are one button, as are the others with Ctrl.
-constexpr std::array kShelf{std::pair{SculptTool::Carve, "Carve"}, std::pair{SculptTool::Add, "Add"},
-                            std::pair{SculptTool::Smooth, "Smooth"}, std::pair{SculptTool::Stamp, "Stamp"},
+constexpr std::array kShelf{std::pair{SculptTool::Carve, "Carve"},     std::pair{SculptTool::Add, "Add"},
+                            std::pair{SculptTool::Smooth, "Smooth"},   std::pair{SculptTool::Stamp, "Stamp"},
                             std::pair{SculptTool::Imprint, "Imprint"}, std::pair{SculptTool::Drag, "Drag"}};
 
 std::string percent(double value) {
@@ -52,8 +52,8 @@ void sliders(SculptChoice& choice, Widgets& widgets) {
     auto radius = static_cast<float>(1e3 * choice.radius);
     ImGui::PushItemWidth(-1.0f);
     if (widgets.slider("sculpt:radius", "Radius (F)", radius,
-                       {static_cast<float>(1e3 * kMinSculptRadius), static_cast<float>(1e3 * kMaxSculptRadius),
-                        true, true},
+                       {static_cast<float>(1e3 * kMinSculptRadius),
+                        static_cast<float>(1e3 * kMaxSculptRadius), true, true},
                        figure(1e3 * choice.radius, 2) + " mm"))
         choice.radius = 1e-3 * static_cast<double>(radius);
     auto strength = static_cast<float>(choice.strength);
@@ -117,9 +117,10 @@ void drawSculpt(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!choice.on)
         return;
     if (!input.sculpt.possible) {
-        widgets.wrapped("Nothing here is felt as a field. Open a volume, or choose in the material editor that "
-                        "the material is felt as a field.",
-                        ImGui::GetColorU32(ImGuiCol_TextDisabled));
+        widgets.wrapped(
+            "Nothing here is felt as a field. Open a volume, or choose in the material editor that "
+            "the material is felt as a field.",
+            ImGui::GetColorU32(ImGuiCol_TextDisabled));
         return;
     }
     shelf(choice, widgets);

@@ -14,8 +14,8 @@ struct SculptChoice {
     double strength = 1.0, falloff = 0.0; ///< as those of LiveTool
     std::string stamp;                    ///< an object of the scene; empty: the first
     // Of this frame:
-    bool inverts = false, smooths = false; ///< Ctrl and Shift
-    bool held = false;                     ///< the key is, in place of a button of the hand
+    bool inverts = false, smooths = false;           ///< Ctrl and Shift
+    bool held = false;                               ///< the key is, in place of a button of the hand
     bool undo = false, redo = false, saveAs = false; ///< asked for; cleared by the code that handles them
 };
 

@@ -96,10 +96,8 @@ void SculptController::saveAs(const std::filesystem::path& file) {
 }
 
 SculptStatus SculptController::status() const {
-    SculptStatus status{.possible = object_ >= 0,
-                        .stamps = {},
-                        .figures = session_.sculptor().figures(),
-                        .notice = notice_};
+    SculptStatus status{
+        .possible = object_ >= 0, .stamps = {}, .figures = session_.sculptor().figures(), .notice = notice_};
     for (size_t k = 0; felt_ != nullptr && k < felt_->objects.size(); ++k)
         if (!felt_->objects[k]->empty())
             status.stamps.push_back(felt_->objects[k]->name);

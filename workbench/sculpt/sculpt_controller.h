@@ -4,8 +4,8 @@
 #include "session/session.h"
 #include "workbench/hand/picker.h"
 #include "workbench/model/model.h"
-#include "workbench/sculpt/sculpted_surface.h"
 #include "workbench/sculpt/sculpt_choice.h"
+#include "workbench/sculpt/sculpted_surface.h"
 
 #include <filesystem>
 #include <memory>

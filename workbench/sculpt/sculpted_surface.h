@@ -26,7 +26,8 @@ class SculptedSurface {
 
     /// Another model.
     void forget();
-    /// Meshes all blocks of an object that will be sculpted, once: the first edit then is seen as soon as the others.
+    /// Meshes all blocks of an object that will be sculpted, once: the first edit then is seen as soon as the
+    /// others.
     void prepare(const HapticScene& scene, int object, const Scene* drawn);
     /// Bricks (FieldGrid::brickNumber) of an object's field differ.
     void changed(const HapticScene& scene, int object, const Scene* drawn, std::span<const uint32_t> bricks);
@@ -47,7 +48,7 @@ class SculptedSurface {
     std::mutex mutex_; // of everything to the next empty line
     std::condition_variable wake_;
     bool stopping_ = false;
-    uint64_t model_ = 0; // results of earlier ones are dropped
+    uint64_t model_ = 0;      // results of earlier ones are dropped
     std::map<int, Job> jobs_; // by Scene::meshes
     std::map<int, std::shared_ptr<const ReshapedMesh>> made_;
     std::set<int> fresh_;

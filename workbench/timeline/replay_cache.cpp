@@ -129,10 +129,9 @@ bool ReplayCache::wants(size_t segment) const {
         return true;
     // Read before its model was loaded.
     return !(*found)->tried && timeline_->segments()[segment].checkpoint &&
-           std::ranges::all_of((*found)->ticks,
-                               [&](const auto& t) {
-                                   return t.scene == 0 || scenes_.contains(timeline_->rootOf(t.scene));
-                               });
+           std::ranges::all_of((*found)->ticks, [&](const auto& t) {
+               return t.scene == 0 || scenes_.contains(timeline_->rootOf(t.scene));
+           });
 }
 
 void ReplayCache::look(size_t cursor) {

@@ -12,10 +12,10 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kSculptedSegment = 1000; // ticks, at least
-constexpr size_t kLongestSegment = 4096; // ticks, without a checkpoint
-constexpr double kLongestStep = 3600.0;  // s between two ticks; a longer step is a clock change
-constexpr float kMaxShown = 1e6f;        // N and m: non-finite and larger values are drawn there
-constexpr size_t kMaxMarks = 20000;      // for a recording whose settings change in every tick
+constexpr size_t kLongestSegment = 4096;  // ticks, without a checkpoint
+constexpr double kLongestStep = 3600.0;   // s between two ticks; a longer step is a clock change
+constexpr float kMaxShown = 1e6f;         // N and m: non-finite and larger values are drawn there
+constexpr size_t kMaxMarks = 20000;       // for a recording whose settings change in every tick
 
 std::string fileName(const SceneIdentity& scene) {
     return std::filesystem::path(scene.path).filename().string();
@@ -51,7 +51,8 @@ class TimelineMaker {
     void take(const RecordedSettings& settings) { line_.settings_[settings.number] = settings.settings; }
     void take(const TouchCheckpoint& checkpoint) {
         // Each edit of a sculpted scene begins with one.
-        if (line_.roots_.contains(checkpoint.scene) && !line_.segments_.empty() && line_.segments_.back().checkpoint &&
+        if (line_.roots_.contains(checkpoint.scene) && !line_.segments_.empty() &&
+            line_.segments_.back().checkpoint &&
             line_.size() - line_.segments_.back().first < kSculptedSegment)
             return;
         line_.segments_.push_back(

@@ -13,9 +13,9 @@
 #include "workbench/model/model_loader.h"
 #include "workbench/options/commands.h"
 #include "workbench/readings/window_readings.h"
+#include "workbench/sculpt/sculpt_controller.h"
 #include "workbench/sound/sound_controller.h"
 #include "workbench/timeline/playback_device.h"
-#include "workbench/sculpt/sculpt_controller.h"
 
 #include <functional>
 #include <optional>

@@ -45,7 +45,8 @@ TEST(ToolResistance, OpposesTheMotionInProportionAndWithinWhatASampledLoopBears)
     EXPECT_EQ(glm::dvec2(slow.y, slow.z), glm::dvec2(0.0));
     tool.resistance = 1e9;
     EXPECT_NEAR(force({0.1, 0.0, 0.0}).x, -0.25 * 0.075 / 1e-3 * 0.1, 1e-12);
-    for (const SculptTool other : {SculptTool::Add, SculptTool::Smooth, SculptTool::Stamp, SculptTool::Drag}) {
+    for (const SculptTool other :
+         {SculptTool::Add, SculptTool::Smooth, SculptTool::Stamp, SculptTool::Drag}) {
         tool.tool = other;
         EXPECT_EQ(force({0.1, 0.0, 0.0}), glm::dvec3(0.0)) << infoOf(other).name;
     }

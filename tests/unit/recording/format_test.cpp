@@ -245,8 +245,8 @@ TEST(RecordingFormat, EveryItemReadsBackToTheSameBytes) {
 /// Of a newer program, or damaged in a way that no checksum sees.
 TEST(RecordingFormat, AToolThatCannotBeIsRefused) {
     for (const LiveTool& tool :
-         {LiveTool{.radius = 0.0}, LiveTool{.radius = NAN}, LiveTool{.strength = 0.0}, LiveTool{.strength = 1.5},
-          LiveTool{.falloff = -0.1}, LiveTool{.resistance = INFINITY},
+         {LiveTool{.radius = 0.0}, LiveTool{.radius = NAN}, LiveTool{.strength = 0.0},
+          LiveTool{.strength = 1.5}, LiveTool{.falloff = -0.1}, LiveTool{.resistance = INFINITY},
           LiveTool{.tool = static_cast<SculptTool>(17)}})
         EXPECT_THROW((void)decode(10, encode(RecordedTool{tool})), Error);
     SculptEntry entry;

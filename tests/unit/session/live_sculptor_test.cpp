@@ -106,7 +106,8 @@ class LiveSculptorTest : public testing::Test {
         (void)session_.touch(scene_.haptic, scene_.source, scene_.identity);
     }
     void sculptFor(double seconds, SculptTool tool) {
-        LiveTool live{.active = true, .tool = tool, .object = static_cast<int32_t>(object_), .radius = kRadius};
+        LiveTool live{
+            .active = true, .tool = tool, .object = static_cast<int32_t>(object_), .radius = kRadius};
         live.stamp = live.object;
         session_.sculptor().setTool(live);
         session_.start();
@@ -201,7 +202,8 @@ TEST_F(LiveSculptorTest, OtherMaterialsKeepTheSculptedFields) {
     session_.pump(0.0);
     EXPECT_EQ(recording_.last.root, root);
     EXPECT_EQ(recording_.last.hash, sculpted);
-    EXPECT_EQ(recording_.last.haptic->materials.front().stiffness, stiffer.haptic->materials.front().stiffness);
+    EXPECT_EQ(recording_.last.haptic->materials.front().stiffness,
+              stiffer.haptic->materials.front().stiffness);
     sculptFor(0.4, SculptTool::Carve);
     EXPECT_TRUE(session_.touching());
     EXPECT_EQ(recording_.last.hash, hashOf(recording_.entries));

@@ -90,7 +90,9 @@ TEST_F(LayoutTest, PanelsFoldAwayAndThePictureTakesTheirRoom) {
 
 TEST_F(LayoutTest, SidePanelsAreMadeWiderByTheirEdgesAndKept) {
     open(kDoughnut);
-    const auto picture = [](const Json& s, const char* of) { return s["widgets"]["picture"][of].get<double>(); };
+    const auto picture = [](const Json& s, const char* of) {
+        return s["widgets"]["picture"][of].get<double>();
+    };
     const Json before = later();
     for (const auto& [edge, by] : {std::pair{"sceneEdge", 60}, std::pair{"feltEdge", -40}}) {
         const VirtualDisplay::Place from = middleOf(edge);

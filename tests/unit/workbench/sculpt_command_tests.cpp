@@ -143,8 +143,8 @@ TEST_F(SculptCommand, RefusesWhatItCannotDo) {
     EXPECT_NE(mesh.err.find("implicit"), std::string::npos) << mesh.err;
 }
 
-/// Before touch begins and while it lasts, with an undo: the replay has the same fields, and a recording whose
-/// journal has another stroke does not.
+/// Before touch begins and while it lasts, with an undo: the replay has the same fields, and a recording
+/// whose journal has another stroke does not.
 TEST_F(SculptCommand, ARecordingHoldsTheJournalAndReplaysToTheLastBit) {
     journal(R"({"tool": "add", "radius": 0.006, "points": [[0.01, 0.02, 0]]},)" + top_ +
             R"(, "time": 0.2}, {"tool": "undo", "time": 0.3},)"
@@ -160,11 +160,29 @@ TEST_F(SculptCommand, ARecordingHoldsTheJournalAndReplaysToTheLastBit) {
 
 /// The simulated hand sculpts in real time: what is saved lacks what was removed, and its recording replays.
 TEST_F(SculptCommand, ARunSculptsWhatTheHandStrokes) {
-    const ProgramResult run =
-        runProgram({TOUCHSTONE_BINARY, "run", folder_ / "clay.nrrd", "--iso", "128", "--seconds", "2",
-                    "--stroke", "scan", "--size", "64x64", "--sculpt", "carve", "--sculpt-radius", "0.006",
-                    "--sculpted", folder_ / "out.glb", "--record", folder_ / "r.tsrec", "--json",
-                    folder_ / "f.json", "--flight-recorder", "off"});
+    const ProgramResult run = runProgram({TOUCHSTONE_BINARY,
+                                          "run",
+                                          folder_ / "clay.nrrd",
+                                          "--iso",
+                                          "128",
+                                          "--seconds",
+                                          "2",
+                                          "--stroke",
+                                          "scan",
+                                          "--size",
+                                          "64x64",
+                                          "--sculpt",
+                                          "carve",
+                                          "--sculpt-radius",
+                                          "0.006",
+                                          "--sculpted",
+                                          folder_ / "out.glb",
+                                          "--record",
+                                          folder_ / "r.tsrec",
+                                          "--json",
+                                          folder_ / "f.json",
+                                          "--flight-recorder",
+                                          "off"});
     ASSERT_EQ(run.status, 0) << run.err;
     const nlohmann::json sculpt = nlohmann::json::parse(textOf(folder_ / "f.json")).at("sculpt");
     EXPECT_GT(sculpt.at("dabs"), 0) << sculpt.dump(1);

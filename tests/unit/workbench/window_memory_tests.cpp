@@ -29,7 +29,12 @@ TEST_F(WindowMemoryTest, ComesBackAsItWasButForTheForceSwitch) {
     ASSERT_EQ(setSetting(memory.settings, "proxyRadius", "0.00125"), "");
     ASSERT_EQ(setSetting(memory.settings, "friction", "ho"), "");
     memory.settings.forceEnabled = false;
-    memory.folds = {.left = true, .right = false, .bottom = true, .leftWidth = 300.25f, .rightWidth = 401.0f, .bottomHeight = 321.5f};
+    memory.folds = {.left = true,
+                    .right = false,
+                    .bottom = true,
+                    .leftWidth = 300.25f,
+                    .rightWidth = 401.0f,
+                    .bottomHeight = 321.5f};
     memory.charts = {false, true, false, true, true, false, false, false, true};
     memory.sound = {true, 0.25f};
     memory.uiScale = 1.37f;

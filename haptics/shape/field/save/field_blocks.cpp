@@ -14,8 +14,8 @@ namespace touchstone {
 
 namespace {
 
-/// The grid's nodes of a block and one more cell on every side; grid coordinates as index space. Null where no
-/// surface passes.
+/// The grid's nodes of a block and one more cell on every side; grid coordinates as index space. Null where
+/// no surface passes.
 openvdb::FloatGrid::Ptr gridOfBlock(const FieldGrid& field, const glm::ivec3& first, int side) {
     const glm::ivec3 low = glm::max(first - 1, glm::ivec3(0));
     const glm::ivec3 high = glm::min(first + side + 1, field.layout().cells);

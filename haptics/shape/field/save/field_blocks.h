@@ -13,14 +13,15 @@
 
 namespace touchstone {
 
-/// Meshes blocks of kBlock^3 cells by OpenVDB's dual contouring (volumeToMesh), each with a margin of a cell, and keeps the
-/// faces whose edge of the grid belongs to the block: the blocks meet without a gap. One thread.
+/// Meshes blocks of kBlock^3 cells by OpenVDB's dual contouring (volumeToMesh), each with a margin of a cell,
+/// and keeps the faces whose edge of the grid belongs to the block: the blocks meet without a gap. One
+/// thread.
 class FieldBlocks {
   public:
     static constexpr int kBlock = 32; ///< cells a side
 
-    /// Meshes anew what differs: the blocks that hold one of the bricks (FieldGrid::brickNumber), all of them at the
-    /// first call. Returns their number.
+    /// Meshes anew what differs: the blocks that hold one of the bricks (FieldGrid::brickNumber), all of them
+    /// at the first call. Returns their number.
     size_t update(const std::shared_ptr<const FieldGrid>& grid, std::span<const uint32_t> changed);
 
     struct Block {

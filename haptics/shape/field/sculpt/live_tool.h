@@ -34,8 +34,9 @@ struct SculptEntry {
     SculptEntryKind kind = SculptEntryKind::Dab;
     SculptTool tool = SculptTool::Carve;
     int32_t object = -1, stamp = -1; ///< HapticScene::objects; not of Undo and Redo
-    uint64_t tick = 0; ///< in which the hand made it; 0: no hand did
-    uint32_t root = 0; ///< on the servo's way alone: the scene (TickRecord::root) in which it was made; 0: any
+    uint64_t tick = 0;               ///< in which the hand made it; 0: no hand did
+    uint32_t root =
+        0; ///< on the servo's way alone: the scene (TickRecord::root) in which it was made; 0: any
     glm::dvec3 centre{0.0}, motion{0.0}; ///< of a Dab, with the rest: the object's frame and unit
     double radius = 0.0, strength = 1.0, falloff = 0.0;
     bool operator==(const SculptEntry&) const = default;

@@ -14,8 +14,7 @@ constexpr double kSteep = 0.1; // from 1: the gradient of a distance, away from 
 /// The same order within the window and at its border.
 template <class Visit>
 void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visit& visit) {
-    if (glm::all(glm::greaterThan(node, glm::ivec3(0))) &&
-        glm::all(glm::lessThan(node, window.size - 1))) {
+    if (glm::all(glm::greaterThan(node, glm::ivec3(0))) && glm::all(glm::lessThan(node, window.size - 1))) {
         const auto own = static_cast<ptrdiff_t>(window.index(node));
         const ptrdiff_t sy = window.step(1), sz = window.step(2);
         for (int z = -1; z <= 1; ++z)
@@ -129,8 +128,8 @@ void DistanceRestorer::open() {
                         continue;
                     const glm::dvec3 slope = surface.gradientBefore(node);
                     const double steep = glm::length(slope);
-                    if (std::abs(steep - 1.0) <= kSteep && glm::distance(glm::dvec3(node) - f * slope / steep,
-                                                                         zone_.centre) > reach)
+                    if (std::abs(steep - 1.0) <= kSteep &&
+                        glm::distance(glm::dvec3(node) - f * slope / steep, zone_.centre) > reach)
                         continue;
                 }
                 state_[index] = Node::Open;
@@ -164,7 +163,8 @@ void DistanceRestorer::offer(size_t to, const glm::ivec3& at, const glm::dvec3& 
     const float most = isKept ? keptDistance(to) - kNearer : distance_[to];
     const glm::dvec3 way = glm::dvec3(at) - point;
     // Most neighbours have a nearer place already: no root, with room for its rounding.
-    if (glm::dot(way, way) > 1.000001 * static_cast<double>(most) * static_cast<double>(most) || !(most > 0.0f))
+    if (glm::dot(way, way) > 1.000001 * static_cast<double>(most) * static_cast<double>(most) ||
+        !(most > 0.0f))
         return;
     // As floats: a double below a float that it rounds to would be offered for ever.
     const auto offered = static_cast<float>(glm::distance(glm::dvec3(at), point));
