@@ -166,8 +166,7 @@ void GpuScene::reshape(int index, const ReshapedMesh& reshaped) {
     mesh.centre = reshaped.centre;
     mesh.halfSize = reshaped.halfSize;
     mesh.radius = reshaped.radius;
-    mesh.meanEdge = reshaped.meanEdge;
-    mesh.levels = {{0, static_cast<uint32_t>(reshaped.indices.size()), 0.0}};
+    mesh.levels = {{0, static_cast<uint32_t>(reshaped.indices.size()), 0.0, reshaped.meanEdge}};
 }
 
 bool GpuScene::bindReshaped(const vk::raii::CommandBuffer& commands, int index, ViewMode mode) const {
