@@ -94,7 +94,7 @@ TEST_P(SameAsTheProgram, InEveryTick) {
 }
 INSTANTIATE_TEST_SUITE_P(OfflineTouch, SameAsTheProgram,
                          testing::Values("doughnut.glb", "swatches.glb", "field_torus.glb", "moving.glb",
-                                         "breathing.glb"));
+                                         "breathing.glb", "programs.glb", "wood.glb"));
 
 /// The stroke that the library lays is the program's.
 TEST(OfflineTouch, LaysTheProgramsStroke) {
