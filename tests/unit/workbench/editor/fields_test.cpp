@@ -110,5 +110,28 @@ TEST(HapticFields, EveryOneIsInTheSchemaTheHelpAndTheDocumentation) {
     EXPECT_EQ(top, known) << "a field of the schema cannot be edited";
 }
 
+/// Parameters of a haptic program are fields of their own, which the patch of a save holds and no more.
+TEST(HapticFields, AParameterOfAProgramIsSetCheckedSavedAndReset) {
+    const ScenePtr scene = loadScene(TOUCHSTONE_ASSETS "/programs.glb");
+    MaterialEdits edits(*scene);
+    HapticStatement statement = edits.now(3); // circles.glsl: its file states two parameters
+    EXPECT_EQ(setHapticField(statement, *scene, "shader.c1", "0.01,-0.02,0"), "");
+    EXPECT_EQ(setHapticField(statement, *scene, "shader.raised", "1.5"), "");
+    EXPECT_NE(setHapticField(statement, *scene, "shader.raised", "9").find("out of range"),
+              std::string::npos);
+    EXPECT_NE(setHapticField(statement, *scene, "shader.c1", "1").find("3 components"), std::string::npos);
+    EXPECT_NE(setHapticField(statement, *scene, "shader.rings", "1").find("no such parameter"),
+              std::string::npos);
+    EXPECT_NE(hapticValueProblem("shader.raised", "much"), "");
+    edits.change(3, statement, "parameters");
+    EXPECT_EQ(edits.patches().at(3).dump(),
+              R"({"shader":{"parameters":{"c1":[0.01,-0.02,0.0],"raised":1.5}}})");
+    EXPECT_TRUE(resetHapticField(statement, "shader.c1"));
+    EXPECT_TRUE(resetHapticField(statement, "shader.raised"));
+    EXPECT_FALSE(resetHapticField(statement, "shader.rings"));
+    edits.change(3, statement, "reset");
+    EXPECT_TRUE(edits.patches().empty());
+}
+
 } // namespace
 } // namespace touchstone
