@@ -40,6 +40,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     StudyCompareOptions compare;
     StudyMergeOptions merge;
     DevicesOptions devices;
+    ExperimentOptions experiment;
     defineWindow(app, window);
     CLI::App* runApp =
         app.add_subcommand("run", "The same loops without a window: simulated hand, real time");
@@ -73,13 +74,16 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     app.add_subcommand("serve",
                        "Touch for other programs and a page in the browser, over a WebSocket (serve --help)")
         ->parse_complete_callback([] { throw CLI::ValidationError("serve", "has to be the first word"); });
+    CLI::App* experimentApp = app.add_subcommand(
+        "experiment", "What people can tell: forced-choice studies with simulated people, and reports");
+    defineExperiment(*experimentApp, experiment);
 
     status = 0;
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         for (CLI::App* command : {runApp, touchApp, replayApp, editApp, renderApp, inspectApp, benchApp,
-                                  compareApp, mergeApp, studyApp, devicesApp})
+                                  compareApp, mergeApp, studyApp, devicesApp, experimentApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
                 command->footer(command == runApp || command == touchApp
@@ -123,6 +127,10 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     }
     if (devicesApp->parsed())
         return devices;
+    if (experimentApp->parsed()) {
+        experiment.commandLine = asTyped(argc, argv);
+        return experiment;
+    }
     return window;
 }
 

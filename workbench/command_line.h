@@ -1,6 +1,7 @@
 #pragma once
 
 #include "workbench/options/commands.h"
+#include "workbench/options/experiment_options.h"
 
 #include <optional>
 #include <variant>
@@ -9,7 +10,7 @@ namespace touchstone {
 
 using Command = std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, EditOptions,
                              RenderOptions, InspectOptions, BenchOptions, StudyCommandOptions,
-                             StudyCompareOptions, StudyMergeOptions, DevicesOptions>;
+                             StudyCompareOptions, StudyMergeOptions, DevicesOptions, ExperimentOptions>;
 
 /// Parses the command line. Nullopt when the program is done: help or version was printed (then `status` is
 /// 0), or the usage was wrong and reported on stderr (`status` is 2).

@@ -39,19 +39,21 @@ int main(int argc, char** argv) {
         const std::optional<Command> command = parseCommandLine(argc, argv, status);
         if (!command)
             return status;
-        return std::visit(Overloaded{[](const WindowOptions& options) { return windowCommand(options); },
-                                     [](const RunOptions& options) { return runCommand(options); },
-                                     [](const TouchOptions& options) { return touchCommand(options); },
-                                     [](const ReplayOptions& options) { return replayCommand(options); },
-                                     [](const EditOptions& options) { return editCommand(options); },
-                                     [](const RenderOptions& options) { return renderCommand(options); },
-                                     [](const InspectOptions& options) { return inspectCommand(options); },
-                                     [](const BenchOptions& options) { return benchCommand(options); },
-                                     [](const StudyCommandOptions& options) { return studyCommand(options); },
-                                     [](const StudyCompareOptions& options) { return studyCompare(options); },
-                                     [](const StudyMergeOptions& options) { return studyMerge(options); },
-                                     [](const DevicesOptions& options) { return devicesCommand(options); }},
-                          *command);
+        return std::visit(
+            Overloaded{[](const WindowOptions& options) { return windowCommand(options); },
+                       [](const RunOptions& options) { return runCommand(options); },
+                       [](const TouchOptions& options) { return touchCommand(options); },
+                       [](const ReplayOptions& options) { return replayCommand(options); },
+                       [](const EditOptions& options) { return editCommand(options); },
+                       [](const RenderOptions& options) { return renderCommand(options); },
+                       [](const InspectOptions& options) { return inspectCommand(options); },
+                       [](const BenchOptions& options) { return benchCommand(options); },
+                       [](const StudyCommandOptions& options) { return studyCommand(options); },
+                       [](const StudyCompareOptions& options) { return studyCompare(options); },
+                       [](const StudyMergeOptions& options) { return studyMerge(options); },
+                       [](const DevicesOptions& options) { return devicesCommand(options); },
+                       [](const ExperimentOptions& options) { return experimentCommand(options); }},
+            *command);
     } catch (const Error& error) {
         std::fprintf(stderr, "touchstone: %s\n", error.what());
     } catch (const std::bad_alloc&) {

@@ -1,7 +1,7 @@
 // One up, two down [004 §5] by hand, and its bias and spread on functions that are known.
 
 #include "engine/core/error.h"
-#include "experiment/observer.h"
+#include "experiment/people/psychometric.h"
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"haptics", {"engine"}},
     {"renderer", {"engine", "shaders"}},
     {"devices", {"engine"}},
-    {"experiment", {"engine"}},
+    {"experiment", {"engine", "haptics", "study"}},
     {"sound", {"engine"}},
     {"assets", {}},
     {"shaders", {}},
@@ -34,7 +34,8 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"session", {"engine", "haptics", "devices"}},
     {"api", {"engine", "haptics", "devices", "session"}},
     {"server", {}},
-    {"workbench", {"engine", "haptics", "renderer", "devices", "sound", "assets", "study", "session"}},
+    {"workbench",
+     {"engine", "haptics", "renderer", "devices", "sound", "assets", "study", "session", "experiment"}},
 };
 
 struct Survey {

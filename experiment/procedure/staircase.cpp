@@ -1,4 +1,4 @@
-#include "experiment/staircase.h"
+#include "experiment/procedure/staircase.h"
 
 #include "engine/core/error.h"
 

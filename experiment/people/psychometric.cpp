@@ -1,4 +1,4 @@
-#include "experiment/observer.h"
+#include "experiment/people/psychometric.h"
 
 #include "engine/core/error.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A simulated person whose psychometric function is known, to judge a procedure before people's time is spent.
 
-#include "experiment/staircase.h"
+#include "experiment/procedure/staircase.h"
 
 #include <cstdint>
 
