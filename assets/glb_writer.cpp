@@ -269,6 +269,23 @@ int GlbWriter::addNode(const std::string& name, int mesh, const glm::dvec3& tran
     return index;
 }
 
+int GlbWriter::addChild(int parent, const std::string& name, int mesh, const glm::dvec3& translation,
+                        const std::vector<double>& rotation) {
+    Json node{{"name", name}};
+    if (mesh >= 0)
+        node["mesh"] = mesh;
+    if (translation != glm::dvec3(0.0))
+        node["translation"] = numbers(translation);
+    if (!rotation.empty())
+        node["rotation"] = rotation;
+    gltf_["nodes"].push_back(std::move(node));
+    const int index = static_cast<int>(gltf_["nodes"].size()) - 1;
+    gltf_[parent >= 0 ? "nodes" : "scenes"][static_cast<size_t>(std::max(parent, 0))]
+         [parent >= 0 ? "children" : "nodes"]
+             .push_back(index);
+    return index;
+}
+
 void GlbWriter::animate(const Track& track) {
     if (packing_ != Packing::Plain)
         throw std::logic_error("an animation is written plain");

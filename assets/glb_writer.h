@@ -57,6 +57,20 @@ class GlbWriter {
     void addSkin(int node, const std::vector<int>& joints, const std::vector<glm::dvec3>& heads);
     /// A node at the root of the scene, m.
     int addNode(const std::string& name, int mesh, const glm::dvec3& translation = glm::dvec3(0.0));
+    /// A node below another one, m; `mesh` -1: a frame alone. `rotation`: x, y, z, w.
+    int addChild(int parent, const std::string& name, int mesh, const glm::dvec3& translation,
+                 const std::vector<double>& rotation = {});
+    /// Turns a node; x, y, z, w.
+    void turnNode(int node, const std::vector<double>& rotation) {
+        gltf_["nodes"][static_cast<size_t>(node)]["rotation"] = rotation;
+    }
+    /// An extension of a node, and one of the whole file.
+    void extendNode(int node, const std::string& extension, Json value) {
+        gltf_["nodes"][static_cast<size_t>(node)]["extensions"][extension] = std::move(value);
+    }
+    void extend(const std::string& extension, Json value) {
+        gltf_["extensions"][extension] = std::move(value);
+    }
     /// Animation of a node: one channel. Only with Packing::Plain.
     struct Track {
         int node;

@@ -93,7 +93,7 @@ SceneFile bareShape(const std::string& shape, size_t triangles) {
 
 std::vector<SceneFile> allScenes() {
     std::vector<SceneFile> scenes{doughnut()};
-    for (auto family : {tableOneObjects(), plainShapes()})
+    for (auto family : {tableOneObjects(), plainShapes(), bodies()})
         scenes.insert(scenes.end(), std::make_move_iterator(family.begin()),
                       std::make_move_iterator(family.end()));
     scenes.push_back(swatches());

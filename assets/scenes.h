@@ -45,6 +45,9 @@ struct SceneFile {
 [[nodiscard]] SceneFile programs();
 [[nodiscard]] SceneFile surfaces();
 [[nodiscard]] SceneFile heights();
+/// Rigid bodies (docs/bodies.md): blocks, a ball and a ramp; Newton's cradle; a stack of ten; a seesaw; a
+/// panel of button, switch, slider and knob [000 Fig. 11]; a screw [001 Fig. 4-1].
+[[nodiscard]] std::vector<SceneFile> bodies();
 
 /// All of them.
 [[nodiscard]] std::vector<SceneFile> allScenes();

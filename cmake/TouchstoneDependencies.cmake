@@ -19,6 +19,7 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
 # OpenImageIO's own CMake config demands the tools package; pkg-config does not.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet)
 pkg_check_modules(assimp REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
 pkg_check_modules(portaudio REQUIRED IMPORTED_TARGET portaudio-2.0)

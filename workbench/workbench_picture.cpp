@@ -1,5 +1,6 @@
 #include "haptics/comparison/comparison_solver.h"
 #include "workbench/figures/quantity.h"
+#include "workbench/screen/keys.h"
 #include "workbench/workbench_window.h"
 
 namespace touchstone {
@@ -34,8 +35,7 @@ void WorkbenchWindow::draw() {
         showMaterials();
         touch_.sculpt().update(state_.sculpt, !timeline_.looking());
         touch_.sculpt().draw(screen_.renderer());
-        poseAt(animationTime(shownSettings(), shownTick().time), *touch_.shown().model.scene,
-               screen_.renderer());
+        touch_.pose(animationTime(shownSettings(), shownTick().time), screen_.renderer());
     }
     const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{
@@ -198,6 +198,8 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
 void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {
     if (std::exchange(state_.recordPressed, false))
         touch_.recording().toggle();
+    if (touch_.hasBodies() && !timeline_.looking() && keyPressed(keyOf('r')))
+        touch_.resetBodies();
     if (std::exchange(state_.cancelPressed, false))
         opening_.cancel(screen_.renderer()), timeline_.cancelOpening();
     if (std::exchange(state_.dismissPressed, false))

@@ -115,7 +115,8 @@ struct SceneTexture {
     TextureRef reference;
 };
 
-class Volume; // engine/volume/volume.h
+class Volume;   // engine/volume/volume.h
+struct Physics; // engine/scene/physics.h
 
 struct Scene {
     std::string path; ///< as given by the user
@@ -136,6 +137,7 @@ struct Scene {
     /// where the values are `iso`, and felt as the field of distances from it.
     std::shared_ptr<const Volume> volume;
     double iso = 0.0;
+    std::shared_ptr<const Physics> physics; ///< null: no body moves
 
     [[nodiscard]] uint64_t triangleCount() const; ///< over the instances
     [[nodiscard]] uint64_t lineCount() const;     ///< segments, over the instances

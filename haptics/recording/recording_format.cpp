@@ -442,6 +442,39 @@ void get(ByteReader& bytes, RecordedSculpt& sculpt) {
     }
 }
 
+void put(ByteWriter& bytes, const RecordedContacts& contacts) {
+    bytes.put(static_cast<uint32_t>(contacts.found.size()));
+    for (const RecordedContacts::Found& found : contacts.found) {
+        bytes.put(found.tick);
+        bytes.put(found.found);
+    }
+}
+void get(ByteReader& bytes, RecordedContacts& contacts) {
+    uint32_t count = 0;
+    bytes.get(count);
+    for (uint32_t i = 0; i < count; ++i) { // the reader throws at the end of the chunk
+        RecordedContacts::Found& found = contacts.found.emplace_back();
+        bytes.get(found.tick);
+        bytes.get(found.found);
+    }
+}
+void put(ByteWriter& bytes, const RecordedBodies& bodies) {
+    bytes.put(bodies.tick);
+    bytes.put(static_cast<uint32_t>(bodies.bytes.size()));
+    for (const std::byte byte : bodies.bytes)
+        bytes.put(static_cast<uint8_t>(byte));
+}
+void get(ByteReader& bytes, RecordedBodies& bodies) {
+    bytes.get(bodies.tick);
+    uint32_t count = 0;
+    bytes.get(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        uint8_t byte = 0;
+        bytes.get(byte);
+        bodies.bytes.push_back(static_cast<std::byte>(byte));
+    }
+}
+
 void put(ByteWriter& bytes, const RecordedLoss& loss) {
     bytes.put(loss.ticks);
 }

@@ -55,6 +55,7 @@ struct RecordedTick {
     DeviceSample sample;         ///< format 1: without limits, which are those of the scene (SceneIdentity)
     uint32_t settings = 0, scene = 0;
     std::optional<uint32_t> poses = 0; ///< WorldState::poseHash; null: format 1 does not have it
+    uint32_t found = 0;                ///< WorldState::foundContacts (RecordedContacts)
     bool late = false, missed = false, checkpoint = false;
     int32_t wakeLatencyNs = 0, stepNs = 0;
     StageHashes hashes{};
@@ -88,6 +89,19 @@ struct RecordedSculpt {
     uint32_t first = 0;               ///< place of the first entry in the root's journal
     std::vector<SculptEntry> entries; ///< may repeat what earlier chunks of the file hold
 };
+/// When contacts of bodies came, for the ticks that follow; only of scenes with bodies.
+struct RecordedContacts {
+    struct Found {
+        uint64_t tick = 0;
+        uint32_t found = 0; ///< RecordedTick::found, > 0
+    };
+    std::vector<Found> found;
+};
+/// The bodies before a tick, for its checkpoint (body::BodyWorld::save).
+struct RecordedBodies {
+    uint64_t tick = 0;
+    std::vector<std::byte> bytes;
+};
 /// Ticks that were made but not recorded.
 struct RecordedLoss {
     uint64_t ticks = 0;
@@ -100,13 +114,15 @@ struct RecordedNote {
 struct RecordedEnd {
     uint64_t ticks = 0;
 };
-using RecordedItem = std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint,
-                                  RecordedTicks, RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks,
-                                  RecordedHandState, RecordedTool, RecordedSculpt>;
+using RecordedItem =
+    std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
+                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState, RecordedTool,
+                 RecordedSculpt, RecordedContacts, RecordedBodies>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 12> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
-                                                              "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP"};
+inline constexpr std::array<std::string_view, 14> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK",
+                                                              "LOST", "NOTE", "DONE", "HTIC", "HSTA",
+                                                              "TOOL", "SCLP", "BCON", "BSTA"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);

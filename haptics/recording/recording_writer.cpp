@@ -14,6 +14,7 @@ RecordedTick recordedTick(const TickRecord& record) {
             .settings = record.settings,
             .scene = record.scene,
             .poses = record.poses,
+            .found = record.found,
             .late = record.late,
             .missed = record.missed,
             .checkpoint = record.checkpoint,
@@ -59,6 +60,8 @@ void RecordingWriter::add(const TickToRecord& tick) {
         for (const HandToRecord& other : tick.others)
             if (other.checkpoint)
                 file_.append(RecordedHandState{*other.checkpoint});
+        if (tick.bodies != nullptr)
+            file_.append(RecordedBodies{tick.tick.tick, *tick.bodies});
     }
     if (newScene)
         scenes_[root] = true;
@@ -96,6 +99,12 @@ void RecordingWriter::note(uint64_t tick, std::string text) {
 void RecordingWriter::flush() {
     if (block_.ticks.empty())
         return;
+    RecordedContacts contacts;
+    for (const RecordedTick& tick : block_.ticks)
+        if (tick.found > 0)
+            contacts.found.push_back({tick.tick, tick.found});
+    if (!contacts.found.empty())
+        file_.append(contacts);
     for (auto& [hand, block] : otherBlocks_) {
         file_.append(RecordedHandTicks{hand, block});
         block.ticks.clear();

@@ -40,6 +40,7 @@ struct TickToRecord {
     const SculptToRecord* sculpt = nullptr;      ///< where TickRecord::scene is not its root
     uint32_t toolNumber = 0;                     ///< TickRecord::tool
     LiveTool tool{};
+    const std::vector<std::byte>* bodies = nullptr; ///< of a scene with bodies, at a checkpoint
 };
 
 /// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "haptics/body/body_world.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/servo/realtime_thread.h"
 
@@ -67,6 +68,15 @@ void Replayer::take(const RecordedHandState& state) {
     otherStates_[state.checkpoint.hand] = state.checkpoint;
 }
 
+void Replayer::take(const RecordedContacts& contacts) {
+    for (const RecordedContacts::Found& found : contacts.found)
+        found_[found.tick] = found.found;
+}
+
+void Replayer::take(const RecordedBodies& bodies) {
+    bodies_ = bodies;
+}
+
 void Replayer::take(const RecordedHandTicks& ticks) {
     std::deque<RecordedTick>& waiting = others_[ticks.hand];
     waiting.insert(waiting.end(), ticks.ticks.ticks.begin(), ticks.ticks.ticks.end());
@@ -107,8 +117,10 @@ void Replayer::take(const RecordedTicks& ticks) {
             lose();
         checkpoint_.reset();
         otherStates_.clear();
+        bodies_.reset();
         if (known_)
             step(tick);
+        found_.erase(found_.begin(), found_.upper_bound(tick.tick));
     }
 }
 
@@ -136,6 +148,8 @@ void Replayer::lose() {
     checkpoint_.reset();
     otherStates_.clear();
     others_.clear();
+    bodies_.reset();
+    found_.clear();
 }
 
 /// The scene with this number, loaded on first use; null for none.
@@ -152,6 +166,8 @@ Replayer::Touched* Replayer::touched(uint32_t number) {
         entry = std::make_unique<Touched>();
         entry->scene = load_(scene->second);
         entry->world = WorldState(entry->scene.source, *entry->scene.haptic);
+        if (entry->world.bodies() != nullptr)
+            entry->world.bodies()->setFinding(body::BodyWorld::Finding::Replayed);
     }
     return entry.get();
 }
@@ -242,11 +258,14 @@ void Replayer::resume(const RecordedTick& tick) {
                    scene->objects[static_cast<size_t>(device.reference)]->shape == nullptr;
         }))
         scene->buildNeighbourhoods();
-    if (goesOn)
-        return;
-    touched->world.forget();
-    if (std::isfinite(came))
-        touched->world.advance(came);
+    if (!goesOn) {
+        touched->world.forget();
+        if (std::isfinite(came))
+            touched->world.advance(came);
+    }
+    // A scene with bodies is known where their state is.
+    if (touched->world.bodies() != nullptr && !(goesOn && change_))
+        known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
 }
 
 void Replayer::step(const RecordedTick& tick) {
@@ -278,6 +297,9 @@ void Replayer::step(const RecordedTick& tick) {
             if (limits)
                 samples_[hand].limits = *limits;
         }
+        if (touched->world.bodies() != nullptr)
+            if (const auto found = found_.find(tick.tick); found != found_.end())
+                touched->world.bodies()->repeat(found->second);
         animated = animationTime(settings->second, tick.time);
         // A replay has its vertices in time: it stands still where the servo did.
         touched->world.advance(animated, has(tick.flags, TickFlag::DeformationHeld));

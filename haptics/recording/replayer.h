@@ -101,6 +101,8 @@ class Replayer {
     void take(const RecordedHandState& state);
     void take(const RecordedTool& tool) { tool_ = tool.tool; }
     void take(const RecordedSculpt& sculpt);
+    void take(const RecordedContacts& contacts);
+    void take(const RecordedBodies& bodies);
 
     void lose();
     void resume(const RecordedTick& tick);
@@ -139,6 +141,8 @@ class Replayer {
     std::optional<TouchCheckpoint> checkpoint_;           // of the next tick and hand 0
     std::map<uint32_t, TouchCheckpoint> otherStates_;     // of the same tick, by hand
     std::map<uint32_t, std::deque<RecordedTick>> others_; // of the next ticks, by hand
+    std::map<uint64_t, uint32_t> found_;                  // RecordedTick::found of the next ticks
+    std::optional<RecordedBodies> bodies_;                // of the next tick
     // Present state of the replay.
     bool known_ = false; // the state is that of the recording's last tick
     uint32_t scene_ = 0;

@@ -54,6 +54,11 @@ void ServoRecorder::take(const TickRecord& record) {
         others_.push_back({record.hand, recorded, found ? std::optional(checkpoint) : std::nullopt});
         return;
     }
+    // Popped whether anybody records or not, so that the next ones find room.
+    while (record.checkpoint && (bodies_.empty() || bodiesTick_ < record.tick) &&
+           servo_.popBodyState(bodiesTick_, bodies_))
+        continue;
+    const bool bodies = record.checkpoint && !bodies_.empty() && bodiesTick_ == record.tick;
     const std::vector<HandToRecord> others = std::exchange(others_, {});
     const uint64_t lost = record.step - nextStep_;
     nextStep_ = record.step + 1;
@@ -75,7 +80,8 @@ void ServoRecorder::take(const TickRecord& record) {
                             .others = others,
                             .sculpt = isSculpted ? &sculpt : nullptr,
                             .toolNumber = record.tool,
-                            .tool = servo_.toolOf(record.tool)};
+                            .tool = servo_.toolOf(record.tool),
+                            .bodies = bodies ? &bodies_ : nullptr};
     if (writer_)
         guarded([&] { writer_->add(tick); }, false);
     if (flight_)

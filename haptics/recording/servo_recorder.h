@@ -69,6 +69,8 @@ class ServoRecorder {
     std::filesystem::path file_;
     uint64_t ticks_ = 0, nextStep_ = 0;
     std::vector<HandToRecord> others_; // of the next tick
+    std::vector<std::byte> bodies_;    // the state that was popped last
+    uint64_t bodiesTick_ = 0;
     std::string problem_;
     bool failed_ = false;
 };

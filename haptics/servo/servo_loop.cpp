@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "engine/core/realtime_guard.h"
+#include "haptics/body/body_world.h"
 #include "haptics/proxy/place_proxy.h"
 
 #include <algorithm>
@@ -103,6 +104,9 @@ void ServoLoop::start() {
     if (thread_.joinable())
         return;
     stopping_.store(false, std::memory_order_relaxed);
+    findsApart_ = true;
+    if (bodies_ != nullptr)
+        bodies_->setFinding(body::BodyWorld::Finding::Apart);
     scheduled_.store(false, std::memory_order_relaxed);
     if (waiting_ != nullptr)
         waiting_->world.publishAhead(animationTime(offeredSettings_.back().settings, 0.0));
@@ -124,9 +128,14 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     if (scene == nullptr) {
         scene_.offer(nullptr);
         waiting_.reset();
+        bodies_ = nullptr;
         return 0;
     }
-    WorldState world(std::move(source), *scene);
+    WorldState world(std::move(source), *scene, WorldBodies::Simulated,
+                     swap == SceneSwap::SameGeometry ? bodies_ : nullptr);
+    if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
+        world.bodies()->setFinding(body::BodyWorld::Finding::Apart);
+    bodies_ = world.bodies();
     const uint32_t number = nextSceneNumber();
     auto offer =
         std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_, number);
@@ -144,13 +153,16 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
 void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
     if (swap == SceneSwap::Anew)
         ++offeredGeometry_;
-    WorldState world(std::move(scene.source), *scene.scene);
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, bodies_);
     scene_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number,
                                                offeredGeometry_, scene.root, std::move(scene.reshaped)));
 }
 
 void ServoLoop::offerEdited(ReshapedScene scene) {
-    WorldState world(std::move(scene.source), *scene.scene);
+    // Read where there are bodies alone: another thread may offer edits.
+    const bool moves = scene.source != nullptr && scene.source->physics != nullptr;
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated,
+                     moves ? bodies_ : nullptr);
     edited_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number, 0u,
                                                 scene.root, std::move(scene.reshaped), scene.oldestEdit));
 }
@@ -188,6 +200,17 @@ bool ServoLoop::popRecord(TickRecord& record) {
     while (offeredTools_.front().number < record.tool)
         offeredTools_.pop_front();
     return true;
+}
+
+bool ServoLoop::popBodyState(uint64_t& tick, std::vector<std::byte>& bytes) {
+    return bodies_ != nullptr && bodies_->takeKept(tick, bytes);
+}
+
+const body::BodyPoses* ServoLoop::bodyPoses() {
+    if (bodies_ == nullptr)
+        return nullptr;
+    bodies_->publication()->update();
+    return &bodies_->publication()->value();
 }
 
 ServoLoop::Counters ServoLoop::counters() const {
@@ -277,6 +300,8 @@ void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
     checkpointWanted_.store(false, std::memory_order_relaxed);
     touch.nextCheckpoint =
         record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
+    if (touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
+        touch.offer->world.bodies()->keep(record.tick);
     const size_t count = touch.checkpoints.size();
     for (size_t i = 0; i < count; ++i) {
         const size_t hand = count - 1 - i;
@@ -329,6 +354,7 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
                               .tool = touch.tool};
         WorldState& world = touch.offer->world;
         record.poses = world.poseHash();
+        record.found = world.foundContacts();
         StageStopwatch clock;
         StageTracer tracer(touch.devices, touch.traces, config_.stageTimes ? &clock : nullptr);
         const long long begin = monotonicNs();

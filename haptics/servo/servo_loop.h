@@ -46,6 +46,7 @@ struct TickRecord {
     uint32_t tool = 0;      ///< number for ServoLoop::toolOf
     uint32_t editDelay = 0; ///< ticks since the oldest edit that is first felt in this one; 0: none is
     uint32_t poses = 0;     ///< WorldState::poseHash; 0: nothing moves
+    uint32_t found = 0;     ///< WorldState::foundContacts
     DeviceSample sample;    ///< as read; not valid where it is older than its limits allow
     StageTrace trace;
     HapticOutput output;
@@ -160,6 +161,10 @@ class ServoLoop {
     /// Owner thread: every checkpoint in order. The checkpoint of a record is available when the record is,
     /// unless earlier ones were not popped (TouchCheckpoint::tick and `hand` identify it).
     bool popCheckpoint(TouchCheckpoint& checkpoint) { return checkpoints_.pop(checkpoint); }
+    /// Owner thread: the next state of the scene's bodies that was kept at a checkpoint, in order.
+    bool popBodyState(uint64_t& tick, std::vector<std::byte>& bytes);
+    /// Owner thread: where the bodies of the newest scene are; null: it has none.
+    [[nodiscard]] const body::BodyPoses* bodyPoses();
     [[nodiscard]] size_t hands() const { return ports_.size(); }
 
     struct Counters {
@@ -224,7 +229,9 @@ class ServoLoop {
     std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may still name
     std::deque<NumberedTool> offeredTools_{NumberedTool{}};
     uint32_t offeredGeometry_ = 0;
-    std::shared_ptr<const Offer> waiting_; // the scene that was offered before `start`
+    std::shared_ptr<const Offer> waiting_;    // the scene that was offered before `start`
+    std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
+    bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;

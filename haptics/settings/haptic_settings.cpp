@@ -18,7 +18,8 @@ constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays", "virtual
     kTexture[]{"off", "law", "blinn", "minsky", "blinnMagnitude"},
     kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
     kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold", "kim"},
-    kPrograms[]{"off", "dual", "central", "noGradient"}, kPassivity[]{"off", "observe", "control"};
+    kPrograms[]{"off", "dual", "central", "noGradient"}, kPassivity[]{"off", "observe", "control"},
+    kIntegrator[]{"explicit", "semiImplicit", "implicit"};
 
 constexpr double kDegree = 0.017453292519943295;
 
@@ -85,6 +86,11 @@ constexpr std::array kFields{
     numberField<&S::animationSpeed>("animationSpeed", "", -100.0, 100.0,
                                     "seconds of the scene's animation in one second; 0: it stands still"),
     numberField<&S::animationOffset>("animationOffset", "s", -1e9, 1e9, "time of the animation at the start"),
+    wordField<&S::integrator>(
+        "integrator", kIntegrator,
+        "motion of rigid bodies: explicit Euler, which gains energy; semi-implicit, which keeps it; "
+        "implicit in springs and touch, which loses it"),
+    numberField<&S::gravity>("gravity", "m/s^2", 0.0, 100.0, "pulls rigid bodies down; 0: none"),
     numberField<&S::forceScale>("forceScale", "", 0.0, 1.0,
                                 "fraction of the contact's force that the device gets"),
     switchField<&S::forceEnabled>("forceEnabled", "off: contact goes on, the device gets no force"),

@@ -33,6 +33,8 @@ enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic, VelocityThre
 /// Haptic programs (haptics/program). Dual, Central, None: where the gradient of a displacement comes from
 /// (ProgramGradient). Off: surfaces are plain.
 enum class ProgramMode : uint8_t { Off, Dual, Central, NoGradient };
+/// How the state of a body follows from forces (body/body_world.h). Explicit: [000]'s Euler step.
+enum class BodyIntegrator : uint8_t { Explicit, SemiImplicit, Implicit };
 /// The response of safety to energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
 
@@ -74,6 +76,10 @@ struct HapticSettings {
     PassivityMode passivity = PassivityMode::Observe;
     /// Of the scene's animation: its seconds in one, and s that it is ahead. See animationTime.
     double animationSpeed = 1.0, animationOffset = 0.0;
+    /// Of a scene's rigid bodies; a scene without bodies reads neither.
+    BodyIntegrator integrator = BodyIntegrator::SemiImplicit;
+    /// m/s^2, downwards (-y of the workspace).
+    double gravity = 9.81;
     /// 0..1, the fraction of the contact's force that the safety stage passes on to the device.
     double forceScale = 1.0;
     /// false: the force-off key; contact continues, commands are zero.

@@ -102,9 +102,10 @@ inline void publishContact(const Similarity& workspaceFromReference, const Solve
 
 /// Result of stages 5 to 7.
 struct Felt {
-    glm::dvec3 force{0.0}; ///< N, reference object frame
-    double share = 1.0;    ///< fraction of it that the device bears; at most 1
-    int object = -1;       ///< HapticScene::objects; -1: nothing is touched
+    glm::dvec3 force{0.0};  ///< N, reference object frame
+    double share = 1.0;     ///< fraction of it that the device bears; at most 1
+    int object = -1;        ///< HapticScene::objects; -1: nothing is touched
+    double stiffness = 0.0; ///< N/m, of the contact with the largest load
 };
 
 /// Stages 5 to 7, and the part of stage 4 that turns only the force. `held`: proxy at the start of the tick;
@@ -182,7 +183,7 @@ Felt feltForce(const HandTick& tick, const glm::dvec3& hip, const glm::dvec3& he
     }
     const double share =
         output.zoom > 1.0 && asOne ? bearableShare(feel.stiffness, output.zoom, settings, tick.limits) : 1.0;
-    return {force, share, feel.touching ? feel.object : -1};
+    return {force, share, feel.touching ? feel.object : -1, feel.stiffness};
 }
 
 } // namespace touchstone

@@ -15,6 +15,7 @@ struct HandTick {
     const DeviceLimits& limits; ///< of the hand's device
     ObjectMotions motions;      ///< one per object, also where nothing moves
     bool moving = false;        ///< WorldState moves the objects
+    bool still = false;         ///< WorldState::still: none of them moved
     double dt = 1e-3;           ///< s
     double zoom = 1.0;          ///< workspace metres for one device metre
     /// Filled where the world collects reactions; else null.

@@ -13,6 +13,7 @@
 #include "haptics/tick/felt_force.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace touchstone {
 
@@ -61,13 +62,19 @@ template <class Solver, class Stopwatch>
 /// The forces on the objects that the hand touches are the opposite of those on the hand. A force that is not
 /// finite ends at the hand's safety stage.
 [[gnu::noinline]] void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force,
-                                   double share, ContactForces& parts, WorldState& world) {
+                                   double share, double stiffness, ContactForces& parts, WorldState& world) {
     if (!std::isfinite(force.x + force.y + force.z))
         return;
     parts.complete(force);
     for (size_t i = 0; i < parts.count; ++i)
         world.push(parts.object[i], workspaceFromReference.point(parts.point[i]),
-                   -share * workspaceFromReference.direction(parts.force[i]));
+                   -share * workspaceFromReference.direction(parts.force[i]), stiffness);
+}
+
+/// The fraction of a contact's force with which the hand pushes: no more than its device can exert.
+double bornByDevice(const HandTick& tick, const Felt& felt, double share) {
+    const double force = share * glm::length(felt.force);
+    return force > tick.limits.maxForce ? share * tick.limits.maxForce / force : share;
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
@@ -80,7 +87,8 @@ template <class Solver, class Stopwatch>
     SolveResult& rest = state.rest;
     if (state.reference < 0)
         state.reference = nearestObject(tick.scene, tick.motions, state.hip);
-    Solver::followObjects(tick.scene, tick.motions, tick.settings, state, output.flags);
+    if (!std::is_same_v<Solver, ProxySolver> || !tick.still || state.jammed.count > 0)
+        Solver::followObjects(tick.scene, tick.motions, tick.settings, state, output.flags);
     Solver proxy(tick.scene, tick.motions, tick.settings, state, rest);
     if (!proxy.begin()) {
         state.friction = FrictionState::Free;
@@ -121,7 +129,8 @@ template <class Solver, class Stopwatch>
     if (share < 1.0)
         output.force *= share;
     if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
-        pushObjects(workspaceFromReference, felt.force, share, *tick.parts, world);
+        pushObjects(workspaceFromReference, felt.force, bornByDevice(tick, felt, share), felt.stiffness,
+                    *tick.parts, world);
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
     // The object touched now becomes the reference object. A proxy surrounded by more triangles than a tick
@@ -228,6 +237,7 @@ void feelHand(const HapticScene& scene, const HapticSettings& settings, const Ti
                         .limits = sample.limits,
                         .motions = moved.empty() ? ObjectMotions(scene.restMotions) : moved,
                         .moving = !moved.empty(),
+                        .still = world.still(),
                         .dt = input.dt,
                         .zoom = output.zoom,
                         .parts = world.collectsReactions() ? &parts : nullptr};
@@ -281,6 +291,7 @@ void hapticStep(const HapticScene& compiled, const HapticSettings& settings, con
         if (world.held()) [[unlikely]]
             outputs[i].flags = outputs[i].flags | TickFlag::DeformationHeld;
     }
+    world.integrate(settings, input.dt);
     for (size_t i = 0; i < states.size(); ++i) {
         stopwatch.hand(i);
         limitForce(settings, input, input.hands[i], states[i], outputs[i]);

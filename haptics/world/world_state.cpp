@@ -2,7 +2,9 @@
 
 #include "engine/core/checksum.h"
 #include "engine/math/nearest_similarity.h"
+#include "haptics/body/body_world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -44,11 +46,38 @@ std::vector<Warning> animationWarnings(const Scene& scene) {
     return warnings;
 }
 
-WorldState::WorldState(ScenePtr source, const HapticScene& haptic)
+WorldState::WorldState() noexcept = default;
+WorldState::~WorldState() = default;
+WorldState::WorldState(WorldState&&) noexcept = default;
+WorldState& WorldState::operator=(WorldState&&) noexcept = default;
+
+WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies,
+                       std::shared_ptr<body::BodyWorld> goOn)
     : scene_(std::move(source)), animation_(scene_ != nullptr ? playedAnimation(*scene_) : nullptr),
       workspaceFromScene_(haptic.workspaceFromScene) {
-    if (animation_ == nullptr)
+    if (animation_ != nullptr)
+        findMovers(haptic);
+    if (scene_ == nullptr || scene_->physics == nullptr)
         return;
+    bodies_ = goOn != nullptr ? std::move(goOn) : body::BodyWorld::make(*scene_, haptic);
+    if (bodies_ == nullptr)
+        return;
+    motions_ = haptic.restMotions;
+    if (bodies == WorldBodies::Shown)
+        shown_ = std::make_unique<body::BodyPoses>(bodies_->publication()->value());
+    else
+        collects_ = true;
+    animated_.assign(haptic.objects.size(), 0);
+    for (const Mover& mover : movers_)
+        animated_[mover.object] = 1;
+    for (const auto& object : haptic.objects) {
+        objectFromMesh_.push_back(object->objectFromMesh);
+        instanceOf_.push_back(object->instance);
+    }
+}
+
+/// Objects that the animation moves.
+void WorldState::findMovers(const HapticScene& haptic) {
     const std::vector<bool> moved = movedNodes(*scene_, *animation_);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         if (haptic.objects[k]->instance < 0)
@@ -62,7 +91,7 @@ WorldState::WorldState(ScenePtr source, const HapticScene& haptic)
         movers_.push_back({k, instance, glm::inverse(objectFromMesh)});
     }
     deforming_ = DeformingObjects::of(scene_, haptic);
-    if (moving())
+    if (!movers_.empty() || deforming_ != nullptr)
         motions_ = haptic.restMotions;
     if (movers_.empty())
         return;
@@ -93,6 +122,8 @@ ObjectMotions WorldState::advance(double time, bool hold) noexcept {
                 motion.jumped = false;
         deforming_->advance(time, !sampled_, hold, motions_);
     }
+    if (bodies_ != nullptr)
+        advanceBodies(time);
     sampled_ = true;
     return poses_ = motions_;
 }
@@ -115,6 +146,67 @@ void WorldState::movePoses(double time) noexcept {
     }
 }
 
+void WorldState::advanceBodies(double time) noexcept {
+    if (shown_ != nullptr) {
+        for (const body::BodyObject& of : bodies_->objects()) {
+            ObjectMotion& motion = motions_[of.object];
+            motion.before = motion.workspaceFromObject;
+            motion.workspaceFromObject =
+                shown_->workspaceFromBody[static_cast<size_t>(of.body)].similarity() * of.bodyFromObject;
+            if (!sampled_)
+                motion.before = motion.workspaceFromObject;
+        }
+        return;
+    }
+    if (!movers_.empty())
+        bodies_->followAnimation(motions_, animated_, time);
+    bodies_->beginTick();
+    const bool moved = bodies_->writePoses(motions_, !sampled_);
+    still_ = !moved && movers_.empty() && deforming_ == nullptr && sampled_;
+}
+
+void WorldState::showBodies(const body::BodyPoses& poses) {
+    if (shown_ != nullptr)
+        *shown_ = poses;
+}
+
+void WorldState::pushBody(int object, const glm::dvec3& point, const glm::dvec3& force,
+                          double stiffness) noexcept {
+    bodies_->push(object, point, force, stiffness);
+}
+
+void WorldState::integrateBodies(const HapticSettings& settings, double dt) noexcept {
+    if (shown_ == nullptr)
+        bodies_->integrate(settings.integrator, settings.gravity, dt);
+}
+
+bool WorldState::restoreBodies(std::span<const std::byte> bytes) noexcept {
+    if (bodies_ == nullptr || !bodies_->restore(bytes))
+        return false;
+    bodies_->showPublished(motions_);
+    return true;
+}
+
+uint32_t WorldState::foundContacts() const noexcept {
+    return bodies_ != nullptr ? bodies_->found() : 0;
+}
+
+std::vector<glm::dmat4> WorldState::sceneFromMesh() const {
+    std::vector<glm::dmat4> poses;
+    for (const Instance& instance : scene_->instances)
+        poses.push_back(instance.sceneFromMesh);
+    if (!pose_.empty())
+        std::ranges::copy(pose_.front().sceneFromMesh(), poses.begin());
+    if (bodies_ == nullptr)
+        return poses;
+    const glm::dmat4 sceneFromWorkspace = matrixOf(workspaceFromScene_.inverse());
+    for (const body::BodyObject& of : bodies_->objects())
+        poses[static_cast<size_t>(instanceOf_[of.object])] =
+            sceneFromWorkspace * matrixOf(motions_[of.object].workspaceFromObject) *
+            objectFromMesh_[of.object];
+    return poses;
+}
+
 uint32_t WorldState::poseHash() const noexcept {
     if (!moving())
         return 0;
@@ -130,6 +222,8 @@ uint32_t WorldState::poseHash() const noexcept {
             hash.add(number);
         hash.add(motion.jumped);
     }
+    if (bodies_ != nullptr)
+        bodies_->addTo(hash);
     return hash.folded();
 }
 

@@ -1,21 +1,29 @@
 #pragma once
-// The part of a scene that changes while it is touched: the poses of its objects, and the forces that the
-// hands exert on them.
+// The part of a scene that changes while it is touched: the poses of its objects, the forces that the hands
+// exert on them, and its rigid bodies.
 
 #include "engine/math/object_motion.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/haptic_settings.h"
 #include "haptics/world/deforming_objects.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace touchstone {
+
+namespace body {
+class BodyWorld;
+struct BodyPoses;
+} // namespace body
 
 /// Warnings where the playing animation is felt differently from what is seen.
 [[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
@@ -25,6 +33,10 @@ struct ObjectReaction {
     glm::dvec3 force{0.0};  ///< N
     glm::dvec3 torque{0.0}; ///< N·m about the workspace's origin
 };
+
+/// Bodies of a WorldState. Simulated: they move. Shown: they are where another WorldState put them
+/// (WorldState::showBodies).
+enum class WorldBodies : uint8_t { Simulated, Shown };
 
 /// The state of a world from tick to tick. A tick begins with `advance`, which alone computes poses; the
 /// haptic step reads `poses` and adds the hands' forces to `reactions`. Construct off the servo (it
@@ -36,14 +48,17 @@ struct ObjectReaction {
 class WorldState {
   public:
     /// Nothing moves.
-    WorldState() = default;
-    /// The animation that plays in `source` moves the objects of `haptic`, which was compiled from it. A null
-    /// source: nothing moves.
-    WorldState(ScenePtr source, const HapticScene& haptic);
-    WorldState(WorldState&&) = default;
-    WorldState& operator=(WorldState&&) = default;
+    WorldState() noexcept;
+    /// The animation that plays in `source` moves the objects of `haptic`, which was compiled from it, and so
+    /// do its bodies. A null source: nothing moves. `goOn`: the bodies of a world of the same geometry, which
+    /// go on here.
+    WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies = WorldBodies::Simulated,
+               std::shared_ptr<body::BodyWorld> goOn = nullptr);
+    ~WorldState();
+    WorldState(WorldState&&) noexcept;
+    WorldState& operator=(WorldState&&) noexcept;
 
-    [[nodiscard]] bool moving() const { return !movers_.empty() || deforming_ != nullptr; }
+    [[nodiscard]] bool moving() const { return !motions_.empty(); }
 
     /// Moves the objects to their poses and places at `time` (s since the start of the animation, any). Where
     /// the animation restarts at another pose than its last, the object has `jumped`. Returns `poses`.
@@ -65,6 +80,8 @@ class WorldState {
     /// Poses of this tick and of the preceding one; empty: every object is at rest where HapticScene placed
     /// it.
     [[nodiscard]] ObjectMotions poses() const noexcept { return poses_; }
+    /// No object moved in this tick nor in the last one; false where an animation plays.
+    [[nodiscard]] bool still() const noexcept { return still_; }
     /// Poses from the caller instead, who keeps them: one per object, or none for rest.
     void place(ObjectMotions poses) noexcept { poses_ = poses; }
     /// The next `advance` counts as the first: no object has a previous pose.
@@ -73,30 +90,59 @@ class WorldState {
     [[nodiscard]] uint32_t poseHash() const noexcept;
 
     /// Off the servo: from now on `reactions` has one entry per object. Otherwise they cost no time.
-    void collectReactions(const HapticScene& haptic) { reactions_.resize(haptic.objects.size()); }
-    [[nodiscard]] bool collectsReactions() const noexcept { return !reactions_.empty(); }
+    void collectReactions(const HapticScene& haptic) {
+        reactions_.resize(haptic.objects.size());
+        collects_ = collects_ || !reactions_.empty();
+    }
+    [[nodiscard]] bool collectsReactions() const noexcept { return collects_; }
     /// Of the last tick, one per object; empty without collectReactions.
     [[nodiscard]] std::span<const ObjectReaction> reactions() const noexcept { return reactions_; }
     void clearReactions() noexcept {
         for (ObjectReaction& reaction : reactions_)
             reaction = {};
     }
-    /// Force `force` (N) on an object at `point` (m), both in the workspace.
-    void push(int object, const glm::dvec3& point, const glm::dvec3& force) noexcept {
-        ObjectReaction& reaction = reactions_[static_cast<size_t>(object)];
-        reaction.force += force;
-        reaction.torque += glm::cross(point, force);
+    /// Force `force` (N) on an object at `point` (m), both in the workspace. `stiffness`: N/m, of the contact
+    /// that exerts it.
+    void push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept {
+        if (!reactions_.empty()) {
+            ObjectReaction& reaction = reactions_[static_cast<size_t>(object)];
+            reaction.force += force;
+            reaction.torque += glm::cross(point, force);
+        }
+        if (bodies_ != nullptr)
+            pushBody(object, point, force, stiffness);
     }
 
-  private:
-    void movePoses(double time) noexcept;
+    /// Null where no body moves.
+    [[nodiscard]] const std::shared_ptr<body::BodyWorld>& bodies() const noexcept { return bodies_; }
+    /// The bodies' state after `dt` s under the forces that were pushed. The last phase of a tick before
+    /// safety.
+    void integrate(const HapticSettings& settings, double dt) noexcept {
+        if (bodies_ != nullptr)
+            integrateBodies(settings, dt);
+    }
+    /// WorldBodies::Shown: the next `advance` puts the bodies there.
+    void showBodies(const body::BodyPoses& poses);
+    /// From a recording: as after the ticks before. False where the bytes do not fit.
+    [[nodiscard]] bool restoreBodies(std::span<const std::byte> bytes) noexcept;
+    /// BodyWorld::found of this tick.
+    [[nodiscard]] uint32_t foundContacts() const noexcept;
+    /// sceneFromMesh of every instance of the scene at this tick's poses. Allocates.
+    [[nodiscard]] std::vector<glm::dmat4> sceneFromMesh() const;
 
+  private:
     struct Mover {
         size_t object;                  // HapticScene::objects
         size_t instance;                // Scene::instances
         glm::dmat4 meshFromObject{1.0}; // rest pose: from the object's frame to the mesh's, uneven
         bool jumps = false;             // the animation does not end where it begins
     };
+
+    void pushBody(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept;
+    void integrateBodies(const HapticSettings& settings, double dt) noexcept;
+    void findMovers(const HapticScene& haptic);
+    void movePoses(double time) noexcept;
+    void advanceBodies(double time) noexcept;
 
     ScenePtr scene_;
     const Animation* animation_ = nullptr;
@@ -107,7 +153,13 @@ class WorldState {
     std::unique_ptr<DeformingObjects> deforming_; // null: none
     ObjectMotions poses_;
     std::vector<ObjectReaction> reactions_;
-    double lap_ = 0.0; // of the animation, in the preceding tick
+    bool collects_ = false, still_ = false;
+    std::shared_ptr<body::BodyWorld> bodies_;
+    std::unique_ptr<body::BodyPoses> shown_; // WorldBodies::Shown
+    std::vector<uint8_t> animated_;          // by object: a mover
+    std::vector<glm::dmat4> objectFromMesh_; // by object
+    std::vector<int> instanceOf_;            // by object
+    double lap_ = 0.0;                       // of the animation, in the preceding tick
     bool sampled_ = false;
 };
 

@@ -49,7 +49,8 @@ HapticSettings referenceOf(const HapticSettings& settings) {
 }
 
 void ReferenceTouch::enter(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
-    scene_ = std::move(scene);
+    // Bodies are where they are by all ticks before: this one does not have them.
+    scene_ = source != nullptr && source->physics != nullptr ? nullptr : std::move(scene);
     world_ = scene_ != nullptr ? WorldState(std::move(source), *scene_) : WorldState();
     state_.forgetTouch();
     state_.mustLeave = true;

@@ -54,7 +54,7 @@ View firstView(const Model& model, const glm::ivec2& size) {
 class TickReader final : public TickSubscriber {
   public:
     TickReader(const Model& model, const RunOptions& options)
-        : model_(model), options_(options), world_(model.scene, *model.haptic),
+        : model_(model), options_(options), world_(model.scene, *model.haptic, WorldBodies::Shown),
           rows_(options.recordTicks.size()) {
         // Times are those of all hands: percentiles of the first hand's records suffice.
         for (size_t hand = 0; hand < options.devices.size(); ++hand)
@@ -70,7 +70,7 @@ class TickReader final : public TickSubscriber {
         own.addLive(record);
         const ObjectMotions motions = world_.advance(animationTime(options_.settings, record.time),
                                                      has(record.output.flags, TickFlag::DeformationHeld));
-        if (record.output.contacts > 0)
+        if (record.output.contacts > 0 && world_.bodies() == nullptr)
             own.addProxyGap(
                 proxyGap(world_.touched(*model_.haptic), motions, record.output, options_.settings));
         if (record.hand < rows_.size())
@@ -129,6 +129,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
     Frames frames{.smallest = options.size};
     DrawQuality resolution({.largestPixels = options.size.x * options.size.y});
     Overlay overlay;
+    WorldState shown(model.scene, *model.haptic, WorldBodies::Shown);
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
         session.pump(secondsNow());
@@ -136,7 +137,10 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
         overlay.clear();
         drawTick(tick, options.settings, lookOf(tick, options.settings, model), overlay);
         view.probe = probeShadow(tick, options.settings);
-        poseAt(animationTime(options.settings, tick.time), *model.scene, renderer);
+        if (const body::BodyPoses* poses = session.servo().bodyPoses())
+            poseBodies(*poses, tick.time, shown, renderer);
+        else
+            poseAt(animationTime(options.settings, tick.time), *model.scene, renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);
         frames.smallest = glm::min(frames.smallest, size);
         renderer.render(view, overlay, size.x, size.y);
@@ -251,7 +255,8 @@ void writeScreenshot(const RunOptions& options, const Model& model, const TickRe
     drawTick(shown, options.settings, lookOf(shown, options.settings, model), overlay);
     View view = firstView(model, options.size);
     view.probe = probeShadow(shown, options.settings);
-    poseAt(animationTime(options.settings, shown.time), *model.scene, renderer);
+    if (model.scene->physics == nullptr) // the bodies stay where the last frame drew them
+        poseAt(animationTime(options.settings, shown.time), *model.scene, renderer);
     writePicture(options.screenshot, renderStill(renderer, view, overlay, options.size.x, options.size.y));
 }
 

@@ -6,6 +6,7 @@
 #include "engine/core/float_mode.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "haptics/body/body_world.h"
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/query/ray_floor.h"
@@ -53,6 +54,7 @@ struct OfflineTick {
     StageTrace trace;
     HapticOutput output;
     uint32_t poses = 0; // WorldState::poseHash
+    uint32_t found = 0; // WorldState::foundContacts
     int64_t stepNs = 0;
     Similarity touched; // workspaceFromObject of the touched object
     double gap = 0.0;   // m, of the proxy; in contact, if a report was requested
@@ -179,7 +181,7 @@ class OfflineRecorder {
         : writer_(options.record, recordingOrigin("touch", options.rateHz)), settings_(options.settings),
           identity_(identityOf(model, options.fit)) {}
 
-    void add(const OfflineTick& tick, const TouchCheckpoint& first) {
+    void add(const OfflineTick& tick, const TouchCheckpoint& first, const std::vector<std::byte>& bodies) {
         TickRecord record;
         record.tick = tick.number;
         record.time = tick.time;
@@ -195,6 +197,7 @@ class OfflineRecorder {
         record.scene = tick.scene;
         record.root = kScene;
         record.poses = tick.poses;
+        record.found = tick.found;
         record.sample = tick.sample;
         record.trace = tick.trace;
         record.output = tick.output;
@@ -204,7 +207,8 @@ class OfflineRecorder {
                      .checkpoint = begins              ? &edit->second.state
                                    : record.checkpoint ? &first
                                                        : nullptr,
-                     .sculpt = edited ? &sculpt : nullptr});
+                     .sculpt = edited ? &sculpt : nullptr,
+                     .bodies = bodies.empty() || !record.checkpoint ? nullptr : &bodies});
     }
     /// The scene that the journal makes before `tick`, with the hand's state there. Returns its number.
     uint32_t sculpted(TouchSculpt& sculpt, uint64_t tick, TouchCheckpoint state) {
@@ -250,6 +254,7 @@ class OfflineTouch {
         tick.time = planned.time;
         tick.dt = planned.dt;
         tick.poses = touch_.world.poseHash();
+        tick.found = touch_.world.foundContacts();
         StageTracer tracer(touch_.state, tick.trace);
         const realtime::TickScope scope;
         const long long begin = monotonicNs();
@@ -277,6 +282,15 @@ class OfflineTouch {
         checkpoint.previousTime = previousTime_;
         takeCheckpoint(touch_.state, checkpoint);
         return checkpoint;
+    }
+    /// Before the first step: the state of the bodies; empty where there are none.
+    [[nodiscard]] std::vector<std::byte> bodies() const {
+        std::vector<std::byte> bytes;
+        if (const auto& bodies = touch_.world.bodies()) {
+            bytes.resize(bodies->stateCapacity());
+            bytes.resize(bodies->save(bytes));
+        }
+        return bytes;
     }
     /// After the last step.
     [[nodiscard]] ObjectMotions objects() const { return touch_.world.poses(); }
@@ -388,6 +402,7 @@ int touchCommand(const TouchOptions& options) {
     uint32_t scene = OfflineRecorder::kScene;
     if (recorder && sculpt && model.haptic != felt)
         scene = recorder->sculpted(*sculpt, 0, first);
+    const std::vector<std::byte> bodies = touch.bodies();
     TickStatistics statistics;
     Samples rays;
     std::string rows;
@@ -413,7 +428,7 @@ int touchCommand(const TouchOptions& options) {
             appendTickRow(rows, tick.time, tick.output, tick.stepNs);
             statistics.add(tick.output, tick.stepNs);
             if (recorder)
-                recorder->add(tick, first);
+                recorder->add(tick, first, bodies);
             if (sound)
                 sound->add(soundTick(tick.dt, tick.sample, tick.output.command));
             if (report && tick.output.contacts > 0)

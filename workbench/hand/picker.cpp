@@ -55,7 +55,7 @@ Picker::Hardest Picker::hardestOf(const HapticScene& scene, const DeviceLimits& 
 }
 
 void Picker::show(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
-    world_ = WorldState(std::move(source), *scene);
+    world_ = WorldState(std::move(source), *scene, WorldBodies::Shown);
     scene_ = std::move(scene);
     hardest_ = hardestOf(*scene_, limits_);
 }

@@ -24,6 +24,10 @@ class Picker {
     look(const Ray& ray, double time, const HapticSettings& settings, const DeviceLimits& limits);
     /// Scene::instances of the first hit at `time`; -1: none.
     [[nodiscard]] int instanceAt(const Ray& ray, double time);
+    /// Where the scene's bodies are now.
+    void showBodies(const body::BodyPoses& poses) { world_.showBodies(poses); }
+    /// The world at the poses that were shown last.
+    [[nodiscard]] WorldState& world() { return world_; }
     /// Transform of an object (HapticScene::objects) from its pose at `time` to its rest pose, both in the
     /// workspace.
     [[nodiscard]] Similarity restFromNow(int object, double time);

@@ -2,6 +2,7 @@
 
 #include "engine/scene/animation.h"
 #include "engine/scene/mesh_deformation.h"
+#include "haptics/body/body_world.h"
 
 #include <vector>
 
@@ -30,6 +31,14 @@ void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
         deform(mesh, vertices, rest, drawn);
         renderer.setMeshVertices(static_cast<int>(m), drawn);
     }
+}
+
+void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, SceneRenderer& renderer) {
+    if (!renderer.hasScene())
+        return;
+    world.showBodies(poses);
+    (void)world.advance(time);
+    renderer.setInstancePoses(world.sceneFromMesh());
 }
 
 } // namespace touchstone

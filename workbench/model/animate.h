@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "haptics/world/world_state.h"
 #include "renderer/scene_renderer.h"
 
 namespace touchstone {
@@ -8,5 +9,7 @@ namespace touchstone {
 /// Moves the rendered objects to their poses in the tick at `time`, s. Does nothing for a static scene. Main
 /// thread.
 void poseAt(double time, const Scene& scene, SceneRenderer& renderer);
+/// The same where bodies move: they are at `poses`, in `world`, which shows them (WorldBodies::Shown).
+void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, SceneRenderer& renderer);
 
 } // namespace touchstone

@@ -60,6 +60,7 @@ constexpr Line kLook[]{
     {"5, Z, L", "orthographic, wireframe, grid"},
     {"V; with Shift", "the next view; the one before"},
     {"M and O", "magnifier; overlays"},
+    {"R", "puts bodies that moved back"},
     {"F12", "saves the picture"},
 };
 constexpr Line kWindow[]{

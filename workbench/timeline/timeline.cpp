@@ -72,6 +72,8 @@ class TimelineMaker {
         line_.roots_[sculpt.scene] = sculpt.root;
         line_.sculpts_.push_back(sculpt);
     }
+    void take(const RecordedContacts&) {}
+    void take(const RecordedBodies&) {}
     void take(const RecordedTicks& ticks);
     void take(const RecordedTick& tick);
     void changeScene(uint32_t scene);

@@ -3,6 +3,7 @@
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/time/seconds_now.h"
 #include "session/device_port.h"
+#include "workbench/model/animate.h"
 
 #include <algorithm>
 #include <utility>
@@ -100,6 +101,15 @@ void LiveTouch::saved(const std::filesystem::path& path, const FileStamp& stamp,
 
 void LiveTouch::update(double now) {
     session_.pump(now);
+    if (const body::BodyPoses* poses = session_.servo().bodyPoses())
+        picker_.showBodies(*poses);
+}
+
+void LiveTouch::pose(double time, SceneRenderer& renderer) {
+    if (const body::BodyPoses* poses = session_.servo().bodyPoses())
+        poseBodies(*poses, time, picker_.world(), renderer);
+    else
+        poseAt(time, *shown_.model.scene, renderer);
 }
 
 void LiveTouch::prepare(const HapticSettings& settings) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "renderer/scene_renderer.h"
 #include "session/session.h"
 #include "workbench/editor/live_materials.h"
 #include "workbench/files/recording_controller.h"
@@ -71,6 +72,11 @@ class LiveTouch {
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
         return picker_.look(ray, animationTime(settings, tick().time), settings, tick().sample.limits);
     }
+    /// Draws what moves where it is at `time` (s, of the servo).
+    void pose(double time, SceneRenderer& renderer);
+    /// The scene has bodies; they go back to where the file puts them, and touch begins anew.
+    [[nodiscard]] bool hasBodies() const { return hasModel() && shown_.model.scene->physics != nullptr; }
+    void resetBodies() { offerScene(); }
     /// The node (Scene::nodes) of that surface; -1: there is none.
     [[nodiscard]] int nodeAt(const Ray& ray);
     [[nodiscard]] const TickRecord& tick() const { return session_.tick(); } ///< the latest at `update`

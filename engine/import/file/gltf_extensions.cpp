@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 
 /// Supported, or irrelevant to appearance and touch.
-constexpr std::array<std::string_view, 20> kRead = {
+constexpr std::array<std::string_view, 22> kRead = {
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_draco_mesh_compression",
@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, 20> kRead = {
     "MPEG_haptic_material",
     "MPEG_material_haptic",
     "KHR_physics_rigid_bodies",
+    "KHR_implicit_shapes",
+    "KHR_collision_shapes",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",

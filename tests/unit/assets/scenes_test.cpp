@@ -78,8 +78,9 @@ TEST(Scenes, HaveTheSurfacesThatTheirNamesPromise) {
         {"swatches.glb", {2 * (2 * 11 * 5 + 2 * 11 + 2 * 5), 2 * 12 * 6, true, 2}},
         {"effects.glb", {2 * (2 * 7 * 3 + 2 * 7 + 2 * 3) + 2 * 7 + 2 * 5, 2 * 8 * 4 + 2 * 7, true, 4}},
     };
-    EXPECT_EQ(promises.size() + 3, allScenes().size())
-        << "materials.glb is one ball many times, programs.glb and surfaces.glb one board";
+    EXPECT_EQ(promises.size() + 3 + bodies().size(), allScenes().size())
+        << "materials.glb is one ball many times, programs.glb and surfaces.glb one board, bodies many "
+           "meshes";
     for (const auto& [name, promise] : promises) {
         SCOPED_TRACE(name);
         const test::Primitive surface = surfaceOf(name);

@@ -152,7 +152,9 @@ std::vector<RecordedItem> oneOfEach() {
                              .motion = {0.4, 0.5, -0.6},
                              .radius = 0.07,
                              .strength = 0.25,
-                             .falloff = 0.5}}}};
+                             .falloff = 0.5}}},
+            RecordedContacts{{{12, 1}, {20, 9}}},
+            RecordedBodies{12, {std::byte{1}, std::byte{2}, std::byte{3}}}};
 }
 
 /// Bytes of one change of limits and their count.
