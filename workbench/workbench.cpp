@@ -235,7 +235,7 @@ int windowCommand(const WindowOptions& options) {
         requireDevice(options.device, "mouse, hand (the simulated one)");
     WorkbenchWindow workbench(options);
     workbench.open(options.scene.empty() ? defaultScene() : options.scene,
-                   {.iso = options.iso, .volume = nullptr});
+                   {.iso = options.iso, .volume = nullptr, .animation = options.animation});
     while (!workbench.closed())
         workbench.frame();
     return 0;

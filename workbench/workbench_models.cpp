@@ -3,12 +3,17 @@
 
 namespace touchstone {
 
-void WorkbenchWindow::open(const std::filesystem::path& path, const VolumeChoice& choice) {
+void WorkbenchWindow::open(const std::filesystem::path& path, const SceneChoice& choice) {
     problem_.clear();
     state_.gallery = false;
     if (isRecording(path))
         return timeline_.open(path);
     longestFrame_ = 0.0;
+    if (hasModel()) { // the first one plays as the command line states
+        const HapticSettings usual;
+        state_.settings.animationSpeed = usual.animationSpeed;
+        state_.settings.animationOffset = usual.animationOffset;
+    }
     opening_.start(path, screen_.renderer(), choice);
 }
 

@@ -212,6 +212,8 @@ void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& wi
         const Scene& scene = *touch_.shown().model.scene;
         open(scene.path, {.iso = iso, .volume = scene.volume});
     }
+    if (const auto animation = std::exchange(state_.animation, std::nullopt); animation && hasModel())
+        open(touch_.shown().model.scene->path, {.animation = std::to_string(*animation)});
     if (const auto gone = std::exchange(state_.forget, std::nullopt)) {
         memory_.forget(*gone);
         remember();

@@ -61,7 +61,7 @@ class WorkbenchWindow {
     /// Opens window and Vulkan, starts the servo. Throws Error.
     explicit WorkbenchWindow(const WindowOptions& options);
     /// Starts to load a model or a recording.
-    void open(const std::filesystem::path& path, const VolumeChoice& choice = {});
+    void open(const std::filesystem::path& path, const SceneChoice& choice = {});
     ~WorkbenchWindow();
     WorkbenchWindow(const WorkbenchWindow&) = delete;
     WorkbenchWindow& operator=(const WorkbenchWindow&) = delete;

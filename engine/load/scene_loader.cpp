@@ -17,13 +17,16 @@
 #include "engine/scene/haptic_layers.h"
 
 #include <new>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
 namespace touchstone {
 namespace {
 
-std::shared_ptr<Scene> importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp) {
+std::shared_ptr<Scene> importGltf(ImportContext& context, GltfFile file, const FileStamp& stamp,
+                                  const std::optional<std::string>& animation) {
     // 1. Check and repair: the structure of the JSON, then the relations of its parts. Valid data needs no
     // further checks.
     context.step(0.2, "checking");
@@ -51,7 +54,7 @@ std::shared_ptr<Scene> importGltf(ImportContext& context, GltfFile file, const F
     scene->materials = materials.take();
     scene->textures = readTextures(context, document);
     scene->cameras = readCameras(context, document, forest, scene->nodes);
-    scene->animation = chosenAnimation(context, scene->animations);
+    scene->animation = chosenAnimation(context, scene->animations, animation);
     scene->physics = readPhysicsBodies(context, document, forest, *scene);
     context.enter(context.progress().part(0.8, 0.85));
     scene->bounds = sceneBounds(context, *scene);
@@ -76,9 +79,13 @@ ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
     context.step(0.15, "knowing the file again");
     const FileStamp stamp = stampOf(bytes);
     bytes = asGltf(context, std::move(bytes));
-    if (const std::string& edits = context.options().edits; !edits.empty())
+    std::string edits = context.options().edits;
+    std::optional<std::string> animation = takeAnimation(edits);
+    if (context.options().animation)
+        animation = context.options().animation;
+    if (!edits.empty())
         bytes = withMaterials(bytes, patchesFrom(edits), context.file());
-    return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp);
+    return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp, animation);
 }
 
 /// The surface becomes a mesh for the eye; the hand feels the volume.
@@ -99,7 +106,7 @@ ScenePtr importVolume(ImportContext& context, const std::filesystem::path& path,
         context.warn("volume", note);
     context.countFileBytes(volume->memoryBytes());
     const auto scene =
-        importGltf(context, takeGltfApart(context, std::move(glb), path.parent_path()), volume->facts().file);
+        importGltf(context, takeGltfApart(context, std::move(glb), path.parent_path()), volume->facts().file, std::nullopt);
     scene->bounds = volume->bounds(); // whatever the value at the surface
     scene->volume = std::move(volume);
     scene->iso = iso;

@@ -177,7 +177,7 @@ SceneIdentity identify(const HapticScene& scene, const Scene& source, Fit fit) {
     }
     identity.feltHash = feltHash(scene, source);
     identity.fit = fit;
-    identity.edits = withIso({}, source);
+    identity.edits = withChoices({}, source);
     return identity;
 }
 

@@ -28,10 +28,10 @@ std::vector<Warning> animationWarnings(const Scene& scene) {
     if (animation == nullptr)
         return warnings;
     const auto played = static_cast<size_t>(animation - scene.animations.data());
-    if (scene.animations.size() > 1)
+    if (scene.animations.size() > 1 && scene.animation < 0)
         warnings.push_back({"animations", "only one of " + std::to_string(scene.animations.size()) +
                                               " plays, the first that moves a mesh: '" + animation->name +
-                                              "'"});
+                                              "' (--animation NAME plays another)"});
     for (const AnimationChannel& channel : animation->channels) {
         if (channel.path != AnimatedPath::Scale)
             continue;

@@ -76,8 +76,12 @@ void printInspection(const Json& json) {
     }
     if (!json["extensions_used"].empty())
         print("  extensions %s\n", json["extensions_used"].dump());
-    for (const Json& animation : json["animations"])
-        print("  animation '%s', %s s\n", text(animation["name"]), text(animation["duration_s"]));
+    for (size_t a = 0; a < json["animations"].size(); ++a) {
+        const Json& animation = json["animations"][a];
+        std::printf("  animation '%s', %s s: number %zu, deforms %s meshes%s\n",
+                    text(animation["name"]).c_str(), text(animation["duration_s"]).c_str(), a,
+                    text(animation["deformed_meshes"]).c_str(), animation["plays"] == true ? ", plays" : "");
+    }
     for (const Json& camera : json["cameras"])
         std::printf("  camera %s '%s' at the node '%s', %s\n", text(camera["index"]).c_str(),
                     text(camera["name"]).c_str(), text(camera["node"]).c_str(), text(camera["type"]).c_str());
@@ -124,7 +128,7 @@ int inspectCommand(const InspectOptions& options) {
                         "leave out --iso");
         return inspectProgram(options.scene, options.json);
     }
-    const Model model = loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso);
+    const Model model = loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso, options.animation);
     const Json json = inspectionOf(model);
     printInspection(json);
     // A name that is not UTF-8 is replaced, so that the output stays valid.

@@ -2,6 +2,7 @@
 #include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
 #include "workbench/commands/render_camera.h"
+#include "workbench/model/animate.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
@@ -38,10 +39,12 @@ int renderCommand(const RenderOptions& options) {
     const ViewMode mode = viewModeOf(options.view);
     LoadOptions loading;
     loading.iso = options.iso;
+    loading.animation = options.animation;
     // The plan belongs to the haptic scene.
     Model model = mode == ViewMode::Effects
                       ? loadModel(options.scene, Fit::Workspace, loading)
-                      : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso);
+                      : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso,
+                                       options.animation);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
@@ -64,6 +67,7 @@ int renderCommand(const RenderOptions& options) {
     Overlay overlay;
     if (options.grid)
         grid.draw(model.workspaceFromScene, 1.0f, overlay);
+    poseAt(options.time, *model.scene, renderer);
     PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);
     if (options.grid)
         drawGui(picture, 1.0f, [&] {

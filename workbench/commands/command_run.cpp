@@ -278,6 +278,7 @@ int runCommand(const RunOptions& options) {
     RunHands hands(options);
     LoadOptions loading;
     loading.iso = options.iso;
+    loading.animation = options.animation;
     Model model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);

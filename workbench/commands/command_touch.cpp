@@ -355,7 +355,7 @@ int touchCommand(const TouchOptions& options) {
     if (path)
         warnOfSlowPath(*path, options);
     StageClock clock;
-    Model model = loadModelToTouch(options.scene, options.fit, &clock, options.iso);
+    Model model = loadModelToTouch(options.scene, options.fit, &clock, options.iso, options.animation);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     const std::shared_ptr<const HapticScene> felt = model.haptic;

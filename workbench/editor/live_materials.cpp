@@ -60,6 +60,8 @@ void readAnew(const MaterialJob& job, MadeMaterials& made) {
     options.volume = job.model.scene->volume;
     if (options.volume != nullptr)
         options.iso = job.model.scene->iso;
+    if (job.model.scene->animation >= 0)
+        options.animation = std::to_string(job.model.scene->animation);
     const ScenePtr scene = loadScene(job.path, options);
     if (scene->file != job.stamp)
         throw Error(scene->path, "", "has changed since it was opened", "open it again");

@@ -3,7 +3,9 @@
 #include "devices/simulated/simulated_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/haptic_numbers.h"
+#include "engine/scene/mesh_deformation.h"
 #include "engine/time/samples.h"
 #include "engine/volume/volume.h"
 #include "haptics/program/felt_program.h"
@@ -13,6 +15,7 @@
 #include "workbench/figures/effect_cost.h"
 #include "workbench/figures/program_figures.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -281,10 +284,18 @@ Json volumeJson(const Model& model) {
 Json inspectionOf(const Model& model) {
     const Scene& scene = *model.scene;
     Json animations = Json::array();
-    for (const Animation& animation : scene.animations)
+    const Animation* const played = playedAnimation(scene);
+    for (const Animation& animation : scene.animations) {
+        const std::vector<bool> moved = movedNodes(scene, animation);
+        const auto deforms = std::ranges::count_if(scene.meshes, [&](const Mesh& mesh) {
+            return mesh.deformation != nullptr && mesh.deformation->drivenBy(animation, moved);
+        });
         animations.push_back({{"name", animation.name},
                               {"duration_s", animation.duration},
-                              {"channels", animation.channels.size()}});
+                              {"channels", animation.channels.size()},
+                              {"deformed_meshes", deforms},
+                              {"plays", &animation == played}});
+    }
     Json json{{"command", "inspect"},
               {"scene", scene.path},
               {"meshes", scene.meshes.size()},

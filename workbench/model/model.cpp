@@ -6,6 +6,7 @@
 #include "haptics/world/world_state.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace touchstone {
 
@@ -23,18 +24,21 @@ Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& o
 }
 
 Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock,
-                       std::optional<double> iso) {
+                       std::optional<double> iso, std::optional<std::string> animation) {
     LoadOptions options;
     options.iso = iso;
+    options.animation = std::move(animation);
     if (clock != nullptr)
         options.progress = [clock](double, const char* what) { clock->at(what); };
     options.images.visual = false;
     return loadModel(path, fit, options);
 }
 
-Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor, std::optional<double> iso) {
+Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor, std::optional<double> iso,
+                     std::optional<std::string> animation) {
     LoadOptions options;
     options.iso = iso;
+    options.animation = std::move(animation);
     options.images.haptic = falseColor;
     Model model;
     model.scene = loadScene(path, options);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace touchstone {
 
@@ -24,12 +25,14 @@ struct Model {
 /// Loads and compiles, without the ray structure (HapticScene::buildRays). Any thread; throws
 /// Error, and Cancelled.
 [[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options = {});
-/// For haptics only: does not decode what only rendering needs. `clock` may be null; `iso`: LoadOptions::iso.
+/// For haptics only: does not decode what only rendering needs. `clock` may be null; `iso` and `animation`:
+/// those of LoadOptions.
 [[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock = nullptr,
-                                     std::optional<double> iso = {});
+                                     std::optional<double> iso = {},
+                                     std::optional<std::string> animation = {});
 /// For rendering only; `falseColor`: with the data for false colours.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor,
-                                   std::optional<double> iso = {});
+                                   std::optional<double> iso = {}, std::optional<std::string> animation = {});
 
 /// Leaves a part of a whole model. Any thread; throws Error.
 void takePart(Model& model, const ScenePart& part);

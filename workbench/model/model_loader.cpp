@@ -25,7 +25,7 @@ void ModelLoader::abandon() {
     next_.reset();
 }
 
-void ModelLoader::start(const std::filesystem::path& path, const VolumeChoice& choice) {
+void ModelLoader::start(const std::filesystem::path& path, const SceneChoice& choice) {
     path_ = path;
     if (!worker_.joinable())
         return begin({path, choice});
@@ -62,6 +62,7 @@ void ModelLoader::begin(const Request& request) {
             LoadOptions loading = options;
             loading.iso = request.choice.iso;
             loading.volume = request.choice.volume;
+            loading.animation = request.choice.animation;
             loading.progress = [&](double fraction, const char* what) {
                 whole.report(0.25 * fraction, what);
             };

@@ -26,10 +26,11 @@ struct LoadedModel {
     std::shared_ptr<const PreparedScene> prepared; ///< for the renderer
 };
 
-/// Of a volume: LoadOptions::iso and LoadOptions::volume.
-struct VolumeChoice {
-    std::optional<double> iso;
-    std::shared_ptr<const Volume> volume;
+/// Of a volume: LoadOptions::iso and LoadOptions::volume; of any scene LoadOptions::animation.
+struct SceneChoice {
+    std::optional<double> iso{};
+    std::shared_ptr<const Volume> volume{};
+    std::optional<std::string> animation{};
 };
 
 /// Loads models on a worker thread, one at a time: a new request cancels the current one and starts when that
@@ -44,7 +45,7 @@ class ModelLoader {
     /// From now on, models' shaders are compiled by the worker, too, for this device (renderer's
     /// compileAhead).
     void compileFor(std::string device) { device_ = std::move(device); }
-    void start(const std::filesystem::path& path, const VolumeChoice& choice = {});
+    void start(const std::filesystem::path& path, const SceneChoice& choice = {});
 
     /// Cancels loading; `loading` stays true until the worker has ended.
     void abandon();
@@ -66,7 +67,7 @@ class ModelLoader {
   private:
     struct Request {
         std::filesystem::path path;
-        VolumeChoice choice;
+        SceneChoice choice;
     };
     void begin(const Request& request);
 

@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-void Opening::start(const std::filesystem::path& path, SceneRenderer& renderer, const VolumeChoice& choice) {
+void Opening::start(const std::filesystem::path& path, SceneRenderer& renderer, const SceneChoice& choice) {
     cancel(renderer);
     loader_.start(path, choice);
 }

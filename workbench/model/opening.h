@@ -17,7 +17,7 @@ class Opening {
     /// As ModelLoader::compileFor.
     void compileFor(std::string device) { loader_.compileFor(std::move(device)); }
     /// A second call replaces the first.
-    void start(const std::filesystem::path& path, SceneRenderer& renderer, const VolumeChoice& choice = {});
+    void start(const std::filesystem::path& path, SceneRenderer& renderer, const SceneChoice& choice = {});
     /// Every frame: returns the model in the frame in which the renderer shows it. Throws the failure, Error
     /// or std::bad_alloc, which ends the opening; DeviceLost does not.
     [[nodiscard]] std::optional<LoadedModel> update(SceneRenderer& renderer);

@@ -83,6 +83,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
             "Model (glTF, OBJ, STL, PLY), volume (NRRD, MetaImage, NIfTI, OpenVDB) or recording (.tsrec) "
             "to open in a window; without it the board of effects");
     addIso(app, options.iso);
+    addAnimation(app, options.animation);
     addSettings(app, [&options](std::string_view name, std::string_view value) {
         HapticSettings tried; // tests validity; applied over the settings of the last run
         options.settings.emplace_back(name, value);
@@ -199,6 +200,7 @@ void addSculpt(CLI::App& app, SculptOptions& options) {
 void defineRun(CLI::App& app, RunOptions& options) {
     addScene(app, options.scene)->required();
     addIso(app, options.iso);
+    addAnimation(app, options.animation);
     app.add_flag_function(
         "--headless", [](int64_t) {}, "Accepted for older scripts: `run` never opens a window");
     app.add_option("--seconds", options.seconds, "How long [10]")
@@ -239,6 +241,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
 void defineTouch(CLI::App& app, TouchOptions& options) {
     addScene(app, options.scene)->required();
     addIso(app, options.iso);
+    addAnimation(app, options.animation);
     CLI::Option* path =
         app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
             ->type_name("HIP.csv");
@@ -354,7 +357,9 @@ void defineEdit(CLI::App& app, EditOptions& options) {
 void defineRender(CLI::App& app, RenderOptions& options) {
     addScene(app, options.scene)->required();
     addIso(app, options.iso);
+    addAnimation(app, options.animation);
     addPicture(app, "--out", options.out, "The picture: PNG or JPEG")->required();
+    app.add_option("--time", options.time, "Of the scene's animation, s [0]")->type_name("S");
     addSize(app, "--size", options.size, "Size of the picture [1280x720]");
     std::vector<std::string> views;
     for (const std::string_view name : kViewModeNames)
@@ -373,6 +378,7 @@ void defineRender(CLI::App& app, RenderOptions& options) {
 void defineInspect(CLI::App& app, InspectOptions& options) {
     addScene(app, options.scene)->required();
     addIso(app, options.iso);
+    addAnimation(app, options.animation);
     app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
 }
 

@@ -47,6 +47,7 @@ struct WindowOptions {
         environment;           ///< a panorama that lights the picture; empty: the closed-form surroundings
     std::string gpu;           ///< part of a Vulkan device's name
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<std::string> animation; ///< LoadOptions::animation
     PartNames part;            ///< of the first model
 };
 int windowCommand(const WindowOptions& options);
@@ -79,6 +80,7 @@ struct RunOptions {
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<std::string> animation; ///< LoadOptions::animation
     PartNames part;            ///< what is seen and felt
     SculptOptions sculpt;
 };
@@ -99,6 +101,7 @@ struct TouchOptions {
     bool closedLoop = false;   ///< the path is the hand's intention; the hand is compliant and holds a device
     PlantParameters plant;     ///< in the closed loop
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<std::string> animation; ///< LoadOptions::animation
     PartNames part;            ///< what is felt
     std::filesystem::path sculpt;                ///< a journal; empty: nothing is sculpted
     std::vector<std::filesystem::path> sculpted; ///< .glb and .vdb of the sculpted object, at the end
@@ -146,6 +149,7 @@ struct CameraOptions {
 
 /// touchstone render SCENE --out F.png --size WxH
 struct RenderOptions {
+    double time = 0.0; ///< s, of the animation
     std::filesystem::path scene, out;
     glm::ivec2 size{1280, 720};
     std::string view = "shaded";
@@ -155,6 +159,7 @@ struct RenderOptions {
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<std::string> animation; ///< LoadOptions::animation
 };
 int renderCommand(const RenderOptions& options);
 
@@ -163,6 +168,7 @@ struct InspectOptions {
     std::filesystem::path scene;
     std::filesystem::path json; ///< empty: not requested
     std::optional<double> iso;  ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<std::string> animation; ///< LoadOptions::animation
 };
 int inspectCommand(const InspectOptions& options);
 

@@ -317,6 +317,13 @@ void addIso(CLI::App& app, std::optional<double>& iso) {
         ->type_name("VALUE");
 }
 
+void addAnimation(CLI::App& app, std::optional<std::string>& animation) {
+    app.add_option("--animation", animation,
+                   "The model's animation that plays: its name or number (`inspect` lists them) [the first "
+                   "that moves something]")
+        ->type_name("NAME");
+}
+
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
     return app
         .add_option(

@@ -45,6 +45,8 @@ void addEnvironment(CLI::App& app, std::filesystem::path& file);
 void addRecording(CLI::App& app, RecordingOptions& options);
 /// --iso, of volumes.
 void addIso(CLI::App& app, std::optional<double>& iso);
+/// --animation, of models that have some.
+void addAnimation(CLI::App& app, std::optional<std::string>& animation);
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene);
 /// --device; `builtIn`: names accepted besides devices.
 void addDevice(CLI::App& app, const std::string& builtIn,

@@ -24,6 +24,10 @@ constexpr std::array kNotes{
     Note{"menu:recordings", "List the recordings in the panel below"},
     Note{"histogram", "Voxels by value, on a logarithmic scale; the line is the surface"},
     Note{"iso", "The value at the surface that is seen and felt; inside are the higher ones"},
+    Note{"animation", "The model's animation that is seen and felt; choosing another begins touch again"},
+    Note{"playAnimation", "Lets the animation stand still or go on"},
+    Note{"animationTime", "Where the animation is"},
+    Note{"animationSpeed", "Seconds of the animation in one second; below 0 it goes backwards"},
     Note{"gallery", "Our scenes and recent files as pictures"},
     Note{"sculpt",
          "The hand sculpts what is felt as a field, while the left button, D or the first button of a "

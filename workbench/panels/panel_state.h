@@ -131,6 +131,7 @@ struct PanelState {
     bool noticeDismissed = false;
     std::optional<ChartFile> chartWanted;
     std::optional<double> iso;                         ///< of the volume: build this surface
+    std::optional<int> animation;                      ///< Scene::animations: play this one
     std::optional<std::filesystem::path> open, forget; ///< forget: remove it from the recent files
 };
 

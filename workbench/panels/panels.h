@@ -25,6 +25,8 @@ void drawSculpt(const PanelInput& input, PanelState& state, Widgets& widgets);
 void sculptKeys(SculptChoice& choice);
 /// The histogram and the value of the surface; nothing where the model is no volume.
 void drawVolume(const PanelInput& input, PanelState& state, Widgets& widgets);
+/// The model's animations: which plays, where it is, play, pause and speed; nothing where none plays.
+void drawAnimation(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// The model's nodes with the touched one, and the file's warnings.
 void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Effective properties of the touched material, and its effects with reasons.

@@ -112,6 +112,7 @@ void drawScene(const PanelInput& input, PanelState& state, Widgets& widgets) {
     if (!input.modelFacts.empty())
         widgets.wrapped(input.modelFacts, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     drawVolume(input, state, widgets);
+    drawAnimation(input, state, widgets);
     if (input.scene != nullptr && !input.scene->nodes.empty())
         NodeTree(*input.scene, touchedNode(input), state.view.part, widgets).draw();
     if (input.warnings.empty() && input.notice.empty())

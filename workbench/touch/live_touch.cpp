@@ -43,7 +43,7 @@ void LiveTouch::change(const MadeMaterials& made) {
     if (made.scene != nullptr)
         shown_.model.scene = whole_.scene = made.scene;
     whole_.haptic = made.haptic;
-    wholeEdits_ = withIso(made.edits, *shown_.model.scene);
+    wholeEdits_ = withChoices(made.edits, *shown_.model.scene);
     const bool whole = shown_.model.part.whole();
     if (swap == SceneSwap::Anew && whole)
         partBuild_.wholeIsFelt();

@@ -49,6 +49,10 @@ HapticSettings settingsOf(const Json& json) {
             (void)setSetting(settings, info.name, found->get<std::string>());
     }
     settings.forceEnabled = true;
+    // Of the scene that was open.
+    const HapticSettings usual;
+    settings.animationSpeed = usual.animationSpeed;
+    settings.animationOffset = usual.animationOffset;
     return settings;
 }
 

@@ -226,8 +226,8 @@ std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument
     return animations;
 }
 
-int chosenAnimation(const ImportContext& context, const std::vector<Animation>& animations) {
-    const auto& wanted = context.options().animation;
+int chosenAnimation(const ImportContext& context, const std::vector<Animation>& animations,
+                    const std::optional<std::string>& wanted) {
     if (!wanted)
         return -1;
     const auto named = std::ranges::find(animations, *wanted, &Animation::name);

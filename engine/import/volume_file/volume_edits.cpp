@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+
 namespace touchstone {
 
 namespace {
@@ -15,29 +17,42 @@ Json parsed(const std::string& edits) {
     return edits.empty() ? Json::object() : Json::parse(edits, nullptr, false);
 }
 
+/// Removes a number; none where there is none.
+std::optional<double> taken(std::string& edits, const char* name) {
+    Json object = parsed(edits);
+    if (!object.is_object())
+        return std::nullopt;
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_number())
+        return std::nullopt;
+    const double value = found->get<double>();
+    object.erase(name);
+    edits = object.empty() ? std::string() : object.dump();
+    return value;
+}
+
 } // namespace
 
-std::string withIso(const std::string& edits, const Scene& scene) {
-    if (scene.volume == nullptr)
+std::string withChoices(const std::string& edits, const Scene& scene) {
+    if (scene.volume == nullptr && scene.animation < 0)
         return edits;
     Json object = parsed(edits);
     if (!object.is_object())
         throw Error("edits", "", "are no JSON object", "record again");
-    object["iso"] = scene.iso;
+    if (scene.volume != nullptr)
+        object["iso"] = scene.iso;
+    if (scene.animation >= 0)
+        object["animation"] = scene.animation;
     return object.dump();
 }
 
 std::optional<double> takeIso(std::string& edits) {
-    Json object = parsed(edits);
-    if (!object.is_object())
-        return std::nullopt;
-    const auto found = object.find("iso");
-    if (found == object.end() || !found->is_number())
-        return std::nullopt;
-    const double iso = found->get<double>();
-    object.erase("iso");
-    edits = object.empty() ? std::string() : object.dump();
-    return iso;
+    return taken(edits, "iso");
+}
+
+std::optional<std::string> takeAnimation(std::string& edits) {
+    const std::optional<double> index = taken(edits, "animation");
+    return index && *index >= 0.0 ? std::optional(std::to_string(static_cast<uint64_t>(*index))) : std::nullopt;
 }
 
 } // namespace touchstone

@@ -1,5 +1,6 @@
 #pragma once
-// The value at a volume's surface beside the edits of materials, in recordings.
+// The choices of a scene beside the edits of its materials, in recordings: the value at a volume's surface, and
+// the animation that plays.
 
 #include "engine/scene/scene.h"
 
@@ -8,11 +9,13 @@
 
 namespace touchstone {
 
-/// `edits` (MaterialPatches as text) with the value at the surface of the scene's volume as its member
-/// "iso"; the same where the scene has no volume.
-[[nodiscard]] std::string withIso(const std::string& edits, const Scene& scene);
+/// `edits` (MaterialPatches as text) with the value at the surface of the scene's volume as its member "iso"
+/// and Scene::animation as "animation"; the same where the scene has no volume and none was chosen.
+[[nodiscard]] std::string withChoices(const std::string& edits, const Scene& scene);
 
 /// Removes the member; none, and the text as it is, where it has none or is no JSON object.
 [[nodiscard]] std::optional<double> takeIso(std::string& edits);
+/// The same of the animation: an index as text, as LoadOptions::animation takes it.
+[[nodiscard]] std::optional<std::string> takeAnimation(std::string& edits);
 
 } // namespace touchstone
