@@ -105,8 +105,8 @@ ScenePtr importVolume(ImportContext& context, const std::filesystem::path& path,
     for (const std::string& note : volume->facts().notes)
         context.warn("volume", note);
     context.countFileBytes(volume->memoryBytes());
-    const auto scene =
-        importGltf(context, takeGltfApart(context, std::move(glb), path.parent_path()), volume->facts().file, std::nullopt);
+    const auto scene = importGltf(context, takeGltfApart(context, std::move(glb), path.parent_path()),
+                                  volume->facts().file, std::nullopt);
     scene->bounds = volume->bounds(); // whatever the value at the surface
     scene->volume = std::move(volume);
     scene->iso = iso;

@@ -86,16 +86,19 @@ class MovingObstacles {
         glm::dvec3 at{0.0};  ///< then: where it is linearised
 
         [[nodiscard]] FeatureDistance from(const glm::dvec3& place) const noexcept {
-            if (moving) { // as if measured at `place`: the plane is what counts
-                const TriangleDistance d = distanceTo(triangle, at);
-                return {.distance = d.distance + glm::dot(d.gradient, place - at),
-                        .gradient = d.gradient,
-                        .closest = d.closest};
-            }
+            if (moving) [[unlikely]]
+                return fromAside(place);
             if (shape != nullptr)
                 return shape->distanceFrom(feature, place);
             const TriangleDistance d = distanceTo(triangle, place);
             return {.distance = d.distance, .gradient = d.gradient, .closest = d.closest};
+        }
+        /// As if measured at `place`: the plane is what counts.
+        [[gnu::noinline]] FeatureDistance fromAside(const glm::dvec3& place) const noexcept {
+            const TriangleDistance d = distanceTo(triangle, at);
+            return {.distance = d.distance + glm::dot(d.gradient, place - at),
+                    .gradient = d.gradient,
+                    .closest = d.closest};
         }
     };
     static constexpr size_t kMaxHit = 32;

@@ -9,10 +9,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace touchstone {
 
 namespace {
+
+/// Boxes of a deforming mesh that are looked at before all of its triangles are.
+constexpr size_t kManyNear = 4096;
 
 struct Nearest {
     const HapticObject* object;
@@ -54,9 +59,19 @@ double surfaceDistance(const HapticScene& scene, ObjectMotions motions, const gl
         }
         if (scene.objects[k]->instant != nullptr) {
             const HapticObject& object = *scene.objects[k];
-            for (uint32_t t = 0; t < object.triangleCount(); ++t)
-                nearest.distance =
-                    std::min(nearest.distance, distanceTo(triangleOf(object, t), nearest.point).distance);
+            const auto to = [&](uint32_t triangle) {
+                return distanceTo(triangleOf(object, triangle), nearest.point).distance;
+            };
+            std::vector<TriangleTree::Near> near(kManyNear);
+            const size_t count = treeOf(object).collect(
+                glm::vec3(nearest.point),
+                static_cast<float>(start + 4e-7 * (1.0 + glm::length(nearest.point))), near);
+            if (count < near.size())
+                for (const TriangleTree::Near& box : std::span(near).first(count))
+                    nearest.distance = std::min(nearest.distance, to(box.triangle));
+            else
+                for (uint32_t t = 0; t < object.triangleCount(); ++t)
+                    nearest.distance = std::min(nearest.distance, to(t));
             within = std::min(within, nearest.distance * motions[k].workspaceFromObject.scale);
             continue;
         }

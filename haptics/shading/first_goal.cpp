@@ -20,10 +20,14 @@ struct SmoothFacet {
 
     SmoothFacet(const HapticObject& object, uint32_t triangle) {
         const size_t first = 3 * static_cast<size_t>(triangle);
-        const auto corner = [&](size_t k) { return vertexOf(object, object.indices[first + k]); };
-        const auto normalAt = [&](size_t k) { return normalOf(object, object.sourceIndices[first + k]); };
-        a = corner(0);
-        const glm::dvec3 b = corner(1) - a, c = corner(2) - a, area = glm::cross(b, c);
+        std::array<glm::dvec3, 3> corners, normals; // read first: what follows is one piece of arithmetic
+        for (size_t k = 0; k < 3; ++k) {
+            corners[k] = vertexOf(object, object.indices[first + k]);
+            normals[k] = normalOf(object, object.sourceIndices[first + k]);
+        }
+        const auto normalAt = [&](size_t k) { return normals[k]; };
+        a = corners[0];
+        const glm::dvec3 b = corners[1] - a, c = corners[2] - a, area = glm::cross(b, c);
         const double squared = glm::dot(area, area);
         normal = area / std::sqrt(squared);
         atA = normalAt(0);

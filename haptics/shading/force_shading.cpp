@@ -84,10 +84,11 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
 /// The interpolated vertex normal at a point of a triangle; object frame, not of unit length.
 glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point) {
     const size_t first = 3 * static_cast<size_t>(triangle);
+    const glm::dvec3 a = normalOf(object, object.sourceIndices[first]),
+                     b = normalOf(object, object.sourceIndices[first + 1]),
+                     c = normalOf(object, object.sourceIndices[first + 2]);
     const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
-    return weight.x * normalOf(object, object.sourceIndices[first]) +
-           weight.y * normalOf(object, object.sourceIndices[first + 1]) +
-           weight.z * normalOf(object, object.sourceIndices[first + 2]);
+    return weight.x * a + weight.y * b + weight.z * c;
 }
 
 /// True where stage 3 came to rest at the place that the first goal predicted, held by that facet alone: a

@@ -128,7 +128,8 @@ int inspectCommand(const InspectOptions& options) {
                         "leave out --iso");
         return inspectProgram(options.scene, options.json);
     }
-    const Model model = loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso, options.animation);
+    const Model model =
+        loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso, options.animation);
     const Json json = inspectionOf(model);
     printInspection(json);
     // A name that is not UTF-8 is replaced, so that the output stays valid.

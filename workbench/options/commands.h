@@ -48,7 +48,7 @@ struct WindowOptions {
     std::string gpu;           ///< part of a Vulkan device's name
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
-    PartNames part;            ///< of the first model
+    PartNames part;                       ///< of the first model
 };
 int windowCommand(const WindowOptions& options);
 
@@ -79,7 +79,7 @@ struct RunOptions {
     PlantParameters plant;             ///< in the closed loop
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
-    std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<double> iso;            ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
     PartNames part;            ///< what is seen and felt
     SculptOptions sculpt;
@@ -101,8 +101,8 @@ struct TouchOptions {
     bool closedLoop = false;   ///< the path is the hand's intention; the hand is compliant and holds a device
     PlantParameters plant;     ///< in the closed loop
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
-    std::optional<std::string> animation; ///< LoadOptions::animation
-    PartNames part;            ///< what is felt
+    std::optional<std::string> animation;        ///< LoadOptions::animation
+    PartNames part;                              ///< what is felt
     std::filesystem::path sculpt;                ///< a journal; empty: nothing is sculpted
     std::vector<std::filesystem::path> sculpted; ///< .glb and .vdb of the sculpted object, at the end
 };
@@ -158,7 +158,7 @@ struct RenderOptions {
     bool wireframe = false, grid = false;
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
-    std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::optional<double> iso;            ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
 };
 int renderCommand(const RenderOptions& options);
@@ -166,8 +166,8 @@ int renderCommand(const RenderOptions& options);
 /// touchstone inspect SCENE
 struct InspectOptions {
     std::filesystem::path scene;
-    std::filesystem::path json; ///< empty: not requested
-    std::optional<double> iso;  ///< of a volume: the value at its surface; none: Volume::defaultIso
+    std::filesystem::path json;           ///< empty: not requested
+    std::optional<double> iso;            ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
 };
 int inspectCommand(const InspectOptions& options);

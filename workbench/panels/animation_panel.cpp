@@ -61,12 +61,14 @@ void drawAnimation(const PanelInput& input, PanelState& state, Widgets& widgets)
         return;
     ImGui::PushItemWidth(-1.0f);
     auto at = static_cast<float>(loopedTime(*animation, shown));
-    if (widgets.slider("animationTime", "at", at, {.low = 0.0f, .high = static_cast<float>(duration), .clamp = true},
+    if (widgets.slider("animationTime", "at", at,
+                       {.low = 0.0f, .high = static_cast<float>(duration), .clamp = true},
                        seconds(static_cast<double>(at)) + " of " + seconds(duration)))
         play(static_cast<double>(at), state.settings.animationSpeed, time, state.settings);
     char text[32];
     std::snprintf(text, sizeof text, "%.2f x", static_cast<double>(speed));
-    if (widgets.slider("animationSpeed", "speed", speed, {.low = -2.0f, .high = 2.0f, .clamp = false}, text)) {
+    if (widgets.slider("animationSpeed", "speed", speed, {.low = -2.0f, .high = 2.0f, .clamp = false},
+                       text)) {
         // In the middle it would stand still: that is the button's.
         constexpr float kSlowest = 0.01f;
         if (std::abs(speed) < kSlowest)

@@ -14,8 +14,8 @@ namespace touchstone {
 [[nodiscard]] std::vector<Animation> readAnimations(ImportContext& context, const GltfDocument& document,
                                                     const NodeForest& forest, const std::vector<Node>& nodes);
 
-/// `wanted` (LoadOptions::animation) as an index into `animations`: the first of that name, else the number; -1
-/// where it is empty. Throws Error, which names the animations, where there is none.
+/// `wanted` (LoadOptions::animation) as an index into `animations`: the first of that name, else the number;
+/// -1 where it is empty. Throws Error, which names the animations, where there is none.
 [[nodiscard]] int chosenAnimation(const ImportContext& context, const std::vector<Animation>& animations,
                                   const std::optional<std::string>& wanted);
 

@@ -52,7 +52,8 @@ std::optional<double> takeIso(std::string& edits) {
 
 std::optional<std::string> takeAnimation(std::string& edits) {
     const std::optional<double> index = taken(edits, "animation");
-    return index && *index >= 0.0 ? std::optional(std::to_string(static_cast<uint64_t>(*index))) : std::nullopt;
+    return index && *index >= 0.0 ? std::optional(std::to_string(static_cast<uint64_t>(*index)))
+                                  : std::nullopt;
 }
 
 } // namespace touchstone

@@ -1,6 +1,6 @@
 #pragma once
-// The choices of a scene beside the edits of its materials, in recordings: the value at a volume's surface, and
-// the animation that plays.
+// The choices of a scene beside the edits of its materials, in recordings: the value at a volume's surface,
+// and the animation that plays.
 
 #include "engine/scene/scene.h"
 

@@ -218,6 +218,11 @@ uint64_t bytesOf(const std::vector<T>& values) {
 
 } // namespace
 
+Triangle deformedTriangle(const HapticObject& object, uint32_t index) noexcept {
+    const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
+    return {vertexOf(object, corner[0]), vertexOf(object, corner[1]), vertexOf(object, corner[2])};
+}
+
 AttributeBytes HapticObject::attributeBytes() const {
     return {.normals = anySmooth ? bytesOf(normals) + bytesOf(smooth) : 0,
             .tangents = bytesOf(tangents),

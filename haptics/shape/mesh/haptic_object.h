@@ -110,10 +110,16 @@ struct HapticObject {
     return object.instant != nullptr ? *object.instant->tree : object.tree;
 }
 
+/// triangleOf of an object that deforms. Out of line: a scene at rest keeps its code, and its last bits.
+[[nodiscard]] Triangle deformedTriangle(const HapticObject& object, uint32_t index) noexcept;
+
 /// Triangle `index` of the object, object frame.
 [[nodiscard]] inline Triangle triangleOf(const HapticObject& object, uint32_t index) noexcept {
+    if (object.instant != nullptr) [[unlikely]]
+        return deformedTriangle(object, index);
     const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
-    return {vertexOf(object, corner[0]), vertexOf(object, corner[1]), vertexOf(object, corner[2])};
+    return {glm::dvec3(object.vertices[corner[0]]), glm::dvec3(object.vertices[corner[1]]),
+            glm::dvec3(object.vertices[corner[2]])};
 }
 
 /// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails, and

@@ -83,8 +83,7 @@ inline long double distanceFrom(const std::array<LVec3, 3>& t, const LVec3& p) {
         const LVec3 &a = t[k], &b = t[(k + 1) % 3], edge = b - a;
         inside = inside && glm::dot(glm::cross(edge, p - a), n) > 0;
         const long double length2 = glm::dot(edge, edge);
-        const long double s =
-            length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0L, 1.0L) : 0.0L;
+        const long double s = length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0L, 1.0L) : 0.0L;
         least = std::min(least, glm::length(p - (a + s * edge)));
     }
     return inside ? std::abs(glm::dot(p - t[0], n)) / std::sqrt(area2) : least;
@@ -99,8 +98,8 @@ inline long double windingNumber(const HapticObject& object, const LVec3& p) {
         b -= p;
         c -= p;
         const long double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
-                                                                 glm::dot(b, c) * la + glm::dot(c, a) * lb);
+        sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                              la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
     }
     return sum / (4 * std::numbers::pi_v<long double>);
 }
@@ -109,10 +108,11 @@ inline long double windingNumber(const HapticObject& object, const LVec3& p) {
 struct DeformingReport {
     size_t ticks = 0, contacts = 0, jams = 0, starts = 0;
     long double deepest = -INFINITY; ///< below the clearance that the proxy should keep, object units
-    long double winding = 0;  ///< largest number of windings around a proxy that is placed
-    double overCone = -INFINITY; ///< N, of the friction over mu N; force shading has another frictionless place
+    long double winding = 0;         ///< largest number of windings around a proxy that is placed
+    double overCone =
+        -INFINITY; ///< N, of the friction over mu N; force shading has another frictionless place
     double largestForce = 0.0, overLimit = 0.0; ///< N
-    double work = 0.0;        ///< J, of the command on the hand's motion
+    double work = 0.0;                          ///< J, of the command on the hand's motion
 };
 
 class DeformingBench {
@@ -121,7 +121,8 @@ class DeformingBench {
         : DeformingBench(std::make_shared<const Scene>(std::move(made)), wanted) {}
     DeformingBench(ScenePtr made, const HapticSettings& wanted)
         : settings(wanted), source(std::move(made)),
-          haptic(compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace), {.rays = false, .progress = {}})),
+          haptic(compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace),
+                                    {.rays = false, .progress = {}})),
           hand(*haptic, source) {}
 
     /// A tick at `time` with the hand at `hip`; checks it.
@@ -167,7 +168,8 @@ class DeformingBench {
             for (size_t t = 0; t < object.triangleCount(); ++t) {
                 const Triangle roughly = triangleOf(object, static_cast<uint32_t>(t));
                 const glm::dvec3 offset = roughly.a - glm::dvec3(proxy);
-                const double size = std::max(glm::length(roughly.b - roughly.a), glm::length(roughly.c - roughly.a));
+                const double size =
+                    std::max(glm::length(roughly.b - roughly.a), glm::length(roughly.c - roughly.a));
                 if (static_cast<long double>(glm::length(offset) - 1.001 * size - 1e-6) > nearest)
                     continue;
                 nearest = std::min(nearest, distanceFrom(triangleNow(object, t), proxy));
@@ -179,17 +181,19 @@ class DeformingBench {
         if (output.contacts == 0)
             return;
         ++report.contacts;
-        // The cone stands where the proxy would be without friction [001 4.1.1]; without friction it is a line.
+        // The cone stands where the proxy would be without friction [001 4.1.1]; without friction it is a
+        // line.
         constexpr double kStiffness = 600.0; // N/m, of a material that states none
         const DeviceState& state = hand.state;
         const bool held = output.friction != FrictionState::Free;
-        const glm::dvec3 free = held ? motions[static_cast<size_t>(state.reference)].workspaceFromObject.point(
-                                           state.frictionless)
-                                     : output.proxy;
+        const glm::dvec3 free =
+            held ? motions[static_cast<size_t>(state.reference)].workspaceFromObject.point(state.frictionless)
+                 : output.proxy;
         const double friction = glm::length(output.force - kStiffness * (free - output.hip));
         const double load = kStiffness * glm::length(free - output.hip);
         if (!state.shaded && output.planeCount <= 1) // of several planes the loads add up
-            report.overCone = std::max(report.overCone, friction - std::max(settings.staticFriction, 0.0) * load);
+            report.overCone =
+                std::max(report.overCone, friction - std::max(settings.staticFriction, 0.0) * load);
     }
 };
 
@@ -198,9 +202,10 @@ inline void expectExact(const DeformingReport& report, const std::string& what) 
     EXPECT_LT(report.winding, 0.1L) << what;
     EXPECT_LT(report.overCone, 1e-6) << what;
     EXPECT_LE(report.overLimit, 1e-9) << what;
-    std::printf("%-44s %6zu ticks, %6zu in contact, %2zu jams, clearance %+.1Le, cone %+.1e N, force to %.2f N\n",
-                what.c_str(), report.ticks, report.contacts, report.jams, -report.deepest, report.overCone,
-                report.largestForce);
+    std::printf(
+        "%-44s %6zu ticks, %6zu in contact, %2zu jams, clearance %+.1Le, cone %+.1e N, force to %.2f N\n",
+        what.c_str(), report.ticks, report.contacts, report.jams, -report.deepest, report.overCone,
+        report.largestForce);
 }
 
 } // namespace touchstone::test

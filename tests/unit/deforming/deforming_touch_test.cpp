@@ -101,8 +101,8 @@ TEST(DeformingTouch, TwoRunsAreTheSameToTheLastBit) {
         DeformingBench bench(loadScene(kBreathing), with(0.001, 0.4));
         Hash64 hash;
         for (int k = 0; k < 3000; ++k) {
-            const HapticOutput& output =
-                bench.hand.tick(bench.settings, sampleAt(placeIn(bench, {-0.062, 0.03, 0.004})), 1e-3 * k, 1e-3);
+            const HapticOutput& output = bench.hand.tick(
+                bench.settings, sampleAt(placeIn(bench, {-0.062, 0.03, 0.004})), 1e-3 * k, 1e-3);
             for (const glm::dvec3& v : {output.proxy, output.force})
                 for (int c = 0; c < 3; ++c)
                     hash.add(v[c]);
@@ -117,7 +117,8 @@ TEST(DeformingTouch, TwoRunsAreTheSameToTheLastBit) {
 /// there has the same bits.
 TEST(DeformingTouch, APublishersTicksAreReplayedToTheLastBit) {
     const ScenePtr source = loadScene(kBreathing);
-    const auto haptic = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace), {.rays = false, .progress = {}});
+    const auto haptic = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace),
+                                           {.rays = false, .progress = {}});
     const HapticSettings settings = with(0.001, 0.4);
     const DeviceSample sample = sampleAt(haptic->workspaceFromScene.point({-0.062, 0.03, 0.004}));
     struct Tick {
@@ -151,7 +152,8 @@ TEST(DeformingTouch, APublishersTicksAreReplayedToTheLastBit) {
 
 TEST(DeformingTouch, ASceneThatDeformsNothingHasNoCopyAndNoThread) {
     const ScenePtr source = loadScene(std::string(TOUCHSTONE_ASSETS) + "/moving.glb");
-    const auto haptic = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace), {.rays = false, .progress = {}});
+    const auto haptic = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace),
+                                           {.rays = false, .progress = {}});
     const WorldState world(source, *haptic);
     EXPECT_EQ(&world.touched(*haptic), haptic.get());
     for (const auto& object : haptic->objects)

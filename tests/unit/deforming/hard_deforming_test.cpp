@@ -14,7 +14,8 @@ MorphCase boxCase(const glm::dvec3& half, int cells = 4) {
         const auto first = static_cast<uint32_t>(made.positions.size());
         for (int j = 0; j <= cells; ++j)
             for (int i = 0; i <= cells; ++i)
-                made.positions.emplace_back(centre + (2.0 * i / cells - 1.0) * u + (2.0 * j / cells - 1.0) * v);
+                made.positions.emplace_back(centre + (2.0 * i / cells - 1.0) * u +
+                                            (2.0 * j / cells - 1.0) * v);
         for (int j = 0; j < cells; ++j)
             for (int i = 0; i < cells; ++i) {
                 const auto a = first + static_cast<uint32_t>(j * (cells + 1) + i), b = a + 1;
@@ -77,8 +78,8 @@ TEST(HardDeforming, TrianglesCollapseAndInvert) {
         for (int way = 0; way < 3; ++way) {
             MorphCase made = boxCase({0.05, 0.02, 0.05}, 6);
             addTarget(made, [&](const glm::dvec3& p) {
-                return way == 0   ? glm::dvec3(0.0, -p.y, 0.0)              // a sheet
-                       : way == 1 ? glm::dvec3(-2.0 * p.x, 0.0, 0.0)        // inside out
+                return way == 0   ? glm::dvec3(0.0, -p.y, 0.0)               // a sheet
+                       : way == 1 ? glm::dvec3(-2.0 * p.x, 0.0, 0.0)         // inside out
                                   : glm::dvec3(-p.x, -p.y, -p.z) * 0.999999; // a point, almost
             });
             made.times = {0.0f, 0.5f, 1.0f};
@@ -95,8 +96,8 @@ TEST(HardDeforming, TrianglesCollapseAndInvert) {
             EXPECT_GT(bench.report.contacts, 100u);
             EXPECT_LT(bench.report.deepest, 2e-12L) << way;
             EXPECT_LE(bench.report.overLimit, 1e-9);
-            std::printf("way %d, radius %.0f mm: %zu in contact, %zu jams, %zu starts, clearance %+.1Le\n", way,
-                        1e3 * radius, bench.report.contacts, bench.report.jams, bench.report.starts,
+            std::printf("way %d, radius %.0f mm: %zu in contact, %zu jams, %zu starts, clearance %+.1Le\n",
+                        way, 1e3 * radius, bench.report.contacts, bench.report.jams, bench.report.starts,
                         -bench.report.deepest);
         }
 }
@@ -132,7 +133,8 @@ TEST(HardDeforming, AFigureThatClosesOnTheHandLetsItGo) {
 TEST(HardDeforming, AnyTickIsExact) {
     for (const double dt : {2e-2, 7e-3, 1e-3, 2.5e-4}) {
         MorphCase made = boxCase({0.05, 0.02, 0.05}, 5);
-        addTarget(made, [](const glm::dvec3& p) { return glm::dvec3(0.2 * p.z, 0.02 + 0.3 * p.x, -0.2 * p.y); });
+        addTarget(made,
+                  [](const glm::dvec3& p) { return glm::dvec3(0.2 * p.z, 0.02 + 0.3 * p.x, -0.2 * p.y); });
         made.times = {0.0f, 0.4f, 0.8f};
         made.weights = {0, 1, 0};
         DeformingBench bench(sceneOfMorph(made), with(0.001, 0.5));

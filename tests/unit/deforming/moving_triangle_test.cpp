@@ -12,8 +12,11 @@ long double leastDistance(const MovingTriangle& triangle, const glm::dvec3& from
     constexpr int kSamples = 2000;
     for (int i = 0; i <= kSamples; ++i) {
         const long double t = static_cast<long double>(i) / kSamples;
-        const auto at = [&](const glm::dvec3& a, const glm::dvec3& b) { return LVec3(a) + t * (LVec3(b) - LVec3(a)); };
-        const std::array<LVec3, 3> now{at(triangle.start.a, triangle.end.a), at(triangle.start.b, triangle.end.b),
+        const auto at = [&](const glm::dvec3& a, const glm::dvec3& b) {
+            return LVec3(a) + t * (LVec3(b) - LVec3(a));
+        };
+        const std::array<LVec3, 3> now{at(triangle.start.a, triangle.end.a),
+                                       at(triangle.start.b, triangle.end.b),
                                        at(triangle.start.c, triangle.end.c)};
         least = std::min(least, distanceFrom(now, at(from, to)));
     }

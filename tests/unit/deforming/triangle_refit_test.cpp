@@ -35,7 +35,8 @@ TEST(TriangleRefit, FindsAllTrianglesOfBothEndsAndBetween) {
             for (uint32_t k = 0; k < triangles; ++k) {
                 std::array<LVec3, 3> now;
                 for (size_t c = 0; c < 3; ++c)
-                    now[c] = LVec3(a[3 * k + c]) + static_cast<long double>(t) * (LVec3(b[3 * k + c]) - LVec3(a[3 * k + c]));
+                    now[c] = LVec3(a[3 * k + c]) +
+                             static_cast<long double>(t) * (LVec3(b[3 * k + c]) - LVec3(a[3 * k + c]));
                 if (distanceFrom(now, LVec3(centre)) < static_cast<long double>(radius)) {
                     ASSERT_TRUE(seen.contains(k)) << triangles << " triangles, " << k;
                 }

@@ -126,5 +126,52 @@ TEST_F(MovingScene, InspectNamesTheAnimation) {
     EXPECT_NE(result.out.find("animation 'moving', 4.0 s"), std::string::npos) << result.out;
 }
 
+const std::string kBreathing = TOUCHSTONE_ASSETS "/breathing.glb";
+
+TEST_F(MovingScene, AChosenAnimationIsTouchedAndReplayedToTheLastBit) {
+    writeTextFile(scratch / "hip.csv", straightPath({-0.062, 0.036, 0.003}, {-0.062, 0.036, 0.003}, 4001));
+    const std::string recording = (scratch / "r.tsrec").string();
+    std::vector<std::string> proxies;
+    for (const char* animation : {"bend and breathe", "1"}) {
+        const ProgramResult result =
+            runProgram({kProgram, "touch", kBreathing, "--animation", animation, "--set",
+                        "animationSpeed=0.75", "--path", (scratch / "hip.csv").string(), "--out", ticks,
+                        "--json", json, "--record", recording});
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(result.err.find("only one of"), std::string::npos) << result.err;
+        proxies.push_back(readFile(ticks));
+        const ProgramResult replay = runProgram({kProgram, "replay", recording});
+        EXPECT_EQ(replay.status, 0) << replay.err;
+        EXPECT_NE(replay.out.find("all equal"), std::string::npos) << replay.out;
+    }
+    EXPECT_NE(proxies[0], proxies[1]);
+    const auto figures = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(figures["flags"]["pinched"], 0);
+    EXPECT_EQ(figures["flags"]["force_fault"], 0);
+}
+
+TEST_F(MovingScene, ARunOnDeformingMeshesAllocatesNothingInItsTicksAndIsReplayed) {
+    const std::string recording = (scratch / "r.tsrec").string();
+    const ProgramResult result =
+        runProgram({kProgram, "run", kBreathing, "--seconds", "2", "--json", json, "--record", recording,
+                    "--screenshot", (scratch / "p.png").string()},
+                   {"TOUCHSTONE_VALIDATION=1", "DISPLAY=", "WAYLAND_DISPLAY="});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const auto figures = nlohmann::json::parse(readFile(json));
+    EXPECT_EQ(figures["allocations_in_tick"], 0);
+    EXPECT_EQ(figures["deallocations_in_tick"], 0);
+    EXPECT_EQ(figures["gpu"]["validation_messages"], 0) << result.err;
+    const ProgramResult replay = runProgram({kProgram, "replay", recording});
+    EXPECT_EQ(replay.status, 0) << replay.err << replay.out;
+}
+
+TEST_F(MovingScene, AnAnimationThatIsNotThereIsRefusedWithThoseThatAre) {
+    const ProgramResult result = runProgram({kProgram, "inspect", kBreathing, "--animation", "walk"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("0 'bend and breathe', 1 'twist'"), std::string::npos) << result.err;
+    EXPECT_NE(runProgram({kProgram, "inspect", kBreathing}).out.find("number 1, deforms 1 meshes"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace touchstone::test
