@@ -205,7 +205,7 @@ void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state,
                              output.zoom;
     output.force += force;
     if (tick.parts != nullptr && std::isfinite(force.x + force.y + force.z))
-        world.push(object, output.hip, -force);
+        world.push(object, output.hip, -force, 0.0); // a damper
 }
 
 /// Stages 1 to 7 of one hand.
