@@ -114,14 +114,13 @@ void WorldState::findMovers(const HapticScene& haptic) {
 ObjectMotions WorldState::advance(double time, bool hold) noexcept {
     if (!moving())
         return poses_;
+    if (deforming_ != nullptr) [[unlikely]]
+        for (ObjectMotion& motion : motions_)
+            motion.jumped = false; // also of objects that deform and do not move
     if (!movers_.empty())
         movePoses(time);
-    if (deforming_ != nullptr) [[unlikely]] {
-        if (movers_.empty())
-            for (ObjectMotion& motion : motions_)
-                motion.jumped = false;
+    if (deforming_ != nullptr) [[unlikely]]
         deforming_->advance(time, !sampled_, hold, motions_);
-    }
     if (bodies_ != nullptr)
         advanceBodies(time);
     sampled_ = true;
