@@ -81,7 +81,7 @@ struct RunOptions {
     std::string gpu;
     std::optional<double> iso;            ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
-    PartNames part;            ///< what is seen and felt
+    PartNames part;                       ///< what is seen and felt
     SculptOptions sculpt;
 };
 int runCommand(const RunOptions& options);

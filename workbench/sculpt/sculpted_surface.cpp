@@ -1,6 +1,6 @@
 #include "workbench/sculpt/sculpted_surface.h"
 
-#include "engine/math/bounds.h"
+#include "engine/math/similarity.h"
 #include "haptics/shape/field/field_shape.h"
 
 #include <algorithm>

@@ -76,7 +76,7 @@ class LiveTouch {
     void pose(double time, SceneRenderer& renderer);
     /// The scene has bodies; they go back to where the file puts them, and touch begins anew.
     [[nodiscard]] bool hasBodies() const { return hasModel() && shown_.model.scene->physics != nullptr; }
-    void resetBodies() { offerScene(); }
+    void resetBodies() { offerScene(SceneSwap::Anew, false); }
     /// The node (Scene::nodes) of that surface; -1: there is none.
     [[nodiscard]] int nodeAt(const Ray& ray);
     [[nodiscard]] const TickRecord& tick() const { return session_.tick(); } ///< the latest at `update`
