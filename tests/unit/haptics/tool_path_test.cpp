@@ -65,7 +65,7 @@ struct Hand {
         output.object = touches ? 1 : -1;
         std::array<SculptEntry, ToolPath::kMost> made;
         const size_t count = path.advance(tool, pressed, *bench.scene, bench.scene->restMotions,
-                                          {.tick = ++tick, .dt = 1e-3}, output, made);
+                                          {.tick = ++tick, .dt = 1e-3, .hands = {}}, output, made);
         return {made.begin(), made.begin() + static_cast<ptrdiff_t>(count)};
     }
 };

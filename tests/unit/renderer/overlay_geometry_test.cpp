@@ -49,8 +49,8 @@ TEST(LayOut, ArrowEndsAtItsTipInAnyDirection) {
         overlay.arrows.push_back({from, to, 0.01, glm::vec4(1.0f)});
         const OverlayDraw draw = layOut(overlay, glm::dvec3(0.0));
         ASSERT_EQ(draw.batches.size(), 2u);
-        ASSERT_EQ(draw.batches[0].shape, Shape::Cylinder);
-        ASSERT_EQ(draw.batches[1].shape, Shape::Cone);
+        ASSERT_EQ(draw.batches[0].shape, OverlayShape::Cylinder);
+        ASSERT_EQ(draw.batches[1].shape, OverlayShape::Cone);
         EXPECT_NEAR(glm::length(mapped(draw.shapes[0], glm::dvec3(0.0)) - from), 0.0, 1e-6);
         EXPECT_NEAR(glm::length(mapped(draw.shapes[1], {0.0, 1.0, 0.0}) - to), 0.0, 1e-6);
         // The head begins where the shaft ends.
@@ -94,7 +94,7 @@ TEST(LayOut, OpaqueComesFirstAndTranslucentFromTheFarthest) {
     const OverlayDraw draw = layOut(overlay, glm::dvec3(0.0));
     ASSERT_EQ(draw.batches.size(), 3u);
     EXPECT_FALSE(draw.batches[0].translucent);
-    EXPECT_EQ(draw.batches[1].shape, Shape::Disc);
+    EXPECT_EQ(draw.batches[1].shape, OverlayShape::Disc);
     EXPECT_EQ(draw.batches[2].count, 2u);
     EXPECT_EQ(draw.shapes[draw.batches[2].first].eyeFromShape[2].w, -2.0f);
     EXPECT_EQ(draw.shapes[draw.batches[2].first + 1].eyeFromShape[2].w, -1.0f);
