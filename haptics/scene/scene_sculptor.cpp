@@ -31,7 +31,8 @@ Similarity sceneFromObject(const HapticScene& scene, size_t object) {
     return scene.workspaceFromScene.inverseTimes(scene.objects[object]->workspaceFromObject);
 }
 
-SceneSculptor::SceneSculptor(std::shared_ptr<const HapticScene> scene) : scene_(std::move(scene)) {}
+SceneSculptor::SceneSculptor(std::shared_ptr<const HapticScene> scene)
+    : root_(scene), scene_(std::move(scene)) {}
 
 size_t SceneSculptor::objectNamed(const std::string& name) const {
     std::string names;
@@ -64,10 +65,12 @@ Sculptor& SceneSculptor::sculptorOf(size_t object) {
     return sculptors_.try_emplace(object, field(object)).first->second;
 }
 
+/// The shape that the object had before it was sculpted. That of now depends on when edits were settled, so a
+/// replay would stamp another one.
 std::shared_ptr<const FieldGrid> SceneSculptor::stampOf(size_t object) {
     if (const auto made = stamps_.find(object); made != stamps_.end())
         return made->second;
-    const HapticObject& shape = *scene_->objects[object];
+    const HapticObject& shape = *root_->objects[object];
     const FieldShape* const field = fieldOf(shape);
     return stamps_
         .emplace(object, field != nullptr ? field->sharedGrid() : fieldOfMesh(shape, FieldRequest{}))
@@ -205,6 +208,7 @@ uint64_t SceneSculptor::memoryBytes() const {
 }
 
 void SceneSculptor::moveTo(std::shared_ptr<const HapticScene> scene) {
+    root_ = scene;
     scene_ = std::move(scene);
     for (const auto& [object, sculptor] : sculptors_)
         if (fieldOf(*scene_->objects[object]) != nullptr) // else it is hidden

@@ -77,6 +77,7 @@ class SceneSculptor {
     void renew(size_t object);
 
     static constexpr size_t kMostDabs = 100'000;
+    std::shared_ptr<const HapticScene> root_; // as before any edit
     std::shared_ptr<const HapticScene> scene_;
     std::map<size_t, Sculptor> sculptors_;
     std::map<size_t, std::shared_ptr<const FieldGrid>> stamps_;

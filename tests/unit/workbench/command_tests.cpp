@@ -561,7 +561,7 @@ TEST(Inspect, TellsWhatAProgramIsAndCosts) {
     EXPECT_GT(answer["ns_per_tick"], 0.0);
     EXPECT_LT(answer["cost"], answer["budget"]);
     EXPECT_EQ(answer["flagged_share"], 0.0);
-    EXPECT_EQ(answer["parameters"].size(), 8);
+    EXPECT_EQ(answer["parameters"].size(), 10);
 }
 
 TEST(Inspect, RefusesWrongProgramsAtTheirLine) {

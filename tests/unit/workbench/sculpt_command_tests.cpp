@@ -168,7 +168,7 @@ TEST_F(SculptCommand, ARunSculptsWhatTheHandStrokes) {
                                           "--seconds",
                                           "2",
                                           "--stroke",
-                                          "scan",
+                                          "zigzag",
                                           "--size",
                                           "64x64",
                                           "--sculpt",
