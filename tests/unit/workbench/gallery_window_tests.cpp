@@ -71,9 +71,9 @@ TEST_F(GalleryWindow, ShowsPicturesAndOpensBySceneAndByKey) {
                                     std::filesystem::directory_iterator());
     EXPECT_EQ(static_cast<size_t>(kept), done["gallery"]["entries"].size());
 
-    display_.click(middleOf("gallery:prism_flat.glb"));
-    const Json prism = until("the prism", [](const Json& s) { return s["model"] == "prism_flat.glb"; });
-    EXPECT_EQ(prism["gallery"]["open"], false);
+    display_.click(middleOf("gallery:box.glb"));
+    const Json box = until("the box", [](const Json& s) { return s["model"] == "box.glb"; });
+    EXPECT_EQ(box["gallery"]["open"], false);
 
     // From the first entry one to the right: the arrows move no camera meanwhile.
     showGallery();

@@ -94,8 +94,13 @@ TEST_F(LayoutTest, SidePanelsAreMadeWiderByTheirEdgesAndKept) {
         return s["widgets"]["picture"][of].get<double>();
     };
     const Json before = later();
+    // An edge is 6 units wide; middleOf points 12 into a widget.
+    const auto onEdge = [&](const char* edge) {
+        const VirtualDisplay::Place place = middleOf(edge);
+        return VirtualDisplay::Place{place.x - 9, place.y};
+    };
     for (const auto& [edge, by] : {std::pair{"sceneEdge", 60}, std::pair{"feltEdge", -40}}) {
-        const VirtualDisplay::Place from = middleOf(edge);
+        const VirtualDisplay::Place from = onEdge(edge);
         display_.drag(from, {from.x + by, from.y});
     }
     until("wider panels", [&](const Json& s) {
@@ -103,10 +108,10 @@ TEST_F(LayoutTest, SidePanelsAreMadeWiderByTheirEdgesAndKept) {
                picture(s, "width") < picture(before, "width") - 85.0;
     });
     // Far beyond the other side: the picture keeps its least width. Then far to the left: the panel its own.
-    const VirtualDisplay::Place edge = middleOf("sceneEdge");
+    const VirtualDisplay::Place edge = onEdge("sceneEdge");
     display_.drag(edge, {edge.x + 900, edge.y});
     EXPECT_GE(picture(later(), "width"), 320.0);
-    const VirtualDisplay::Place far = middleOf("sceneEdge");
+    const VirtualDisplay::Place far = onEdge("sceneEdge");
     display_.drag(far, {corner_.x, far.y});
     EXPECT_EQ(picture(later(), "x"), picture(before, "x"));
     const double width = picture(status(), "width");
