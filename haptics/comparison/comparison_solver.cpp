@@ -21,6 +21,8 @@ bool handles(const HapticScene& scene, ContactMethod method) noexcept {
     return std::ranges::all_of(scene.objects, [&](const auto& object) {
         if (object->empty())
             return true; // hidden
+        if (object->instant != nullptr)
+            return false; // its rays and its adjacency are those of the static pose
         return isOfFields(method) ? object->shape != nullptr && object->shape->potential() != nullptr
                                   : object->shape == nullptr;
     });
@@ -66,6 +68,8 @@ std::string refusalOf(const HapticScene& scene, const HapticSettings& settings) 
     if (handles(scene, settings.contact))
         return {};
     const bool fields = isOfFields(settings.contact);
+    if (std::ranges::any_of(scene.objects, [](const auto& object) { return object->instant != nullptr; }))
+        return "contact=" + settingValue(settings, "contact") + " touches no surface that deforms: swept";
     return "contact=" + settingValue(settings, "contact") +
            (fields
                 ? " touches distance fields, and the scene has a mesh (representation: implicit makes it a "

@@ -30,6 +30,13 @@ uint64_t bitsOf(const StrokePath& path) {
 } // namespace
 
 int expectStrokes(const ScenePtr& scene, const std::string& name) {
+    // Strokes are laid over the surface at rest and do not follow one that deforms (docs/deforming.md) or
+    // bodies.
+    if (scene->physics != nullptr ||
+        std::ranges::any_of(scene->meshes, [](const Mesh& mesh) { return mesh.deformation != nullptr; })) {
+        std::printf("%s deforms or has bodies: left out\n", name.c_str());
+        return 0;
+    }
     const Similarity fit = workspaceFromScene(*scene, Fit::Workspace);
     const auto haptic = compileHapticScene(*scene, fit, {});
     const double diagonal = fit.scale * scene->bounds.diagonal();

@@ -87,9 +87,9 @@ TEST_F(ProgramPictures, ArePlainWhereThereIsNoResult) {
 TEST_F(ProgramPictures, DisplacementsBendTheNormalByTheirSlope) {
     const PixelData plain = picture({});
     const PixelData displaced =
-        picture(programOf(body("after.position += 0.02 * sin(9.0 * before.position.x) * before.normal;")));
+        picture(programOf(body("after.position += 0.1 * sin(9.0 * before.position.x) * before.normal;")));
     const PixelData perturbed = picture(
-        programOf(body("after.normal = normalize(before.normal - 0.18 * cos(9.0 * before.position.x) * "
+        programOf(body("after.normal = normalize(before.normal - 0.9 * cos(9.0 * before.position.x) * "
                        "vec3(1.0, 0.0, 0.0));")));
     EXPECT_GT(greatestDifference(displaced, plain), 20);
     EXPECT_LE(greatestDifference(displaced, perturbed), 4); // a pixel's difference quotient

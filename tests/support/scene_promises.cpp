@@ -55,8 +55,11 @@ std::optional<std::string> brokenPromise(const Scene& scene) {
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels) {
             PROMISE(static_cast<size_t>(channel.node) < scene.nodes.size() && !channel.times.empty());
-            PROMISE(channel.values.size() ==
-                    channel.times.size() * (channel.interpolation == Interpolation::CubicSpline ? 3 : 1));
+            const size_t keys =
+                channel.times.size() * (channel.interpolation == Interpolation::CubicSpline ? 3 : 1);
+            const bool weights = channel.path == AnimatedPath::Weights;
+            PROMISE(channel.values.size() == (weights ? 0 : keys));
+            PROMISE(channel.weights.size() == (weights ? keys * channel.targets : 0));
         }
     PROMISE(scene.bounds.empty() || std::isfinite(scene.bounds.diagonal()));
     return std::nullopt;

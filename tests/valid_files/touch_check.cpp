@@ -111,7 +111,7 @@ class Touch {
         require(!has(o.flags, TickFlag::ForceFault), "a fault of the force");
         if (usable)
             require(has(o.flags, TickFlag::NeighbourhoodMissing) ==
-                        !refusalOf(*model_.haptic, settings_).empty(),
+                        !refusalOf(hand_.world.touched(*model_.haptic), settings_).empty(),
                     "a contact method that is ready and was not used");
         require(has(o.flags, TickFlag::InputInvalid) == !usable, "a wrong InputInvalid");
         if (o.object >= 0) {
