@@ -1,5 +1,7 @@
 #include "engine/scene/mesh_deformation.h"
 
+#include "engine/scene/joint_mean.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,20 +48,11 @@ void DeformedVertices::pose(const ScenePose& pose) noexcept {
         weights_[t] = t < driven.size() ? driven[t] : d.weights[t];
 }
 
-/// The mean of the joints' matrices by weight, divided by the sum in double: weights are floats, and the
-/// rounding of their sum times the distance of the joints from the scene's origin would move the vertex.
 glm::dmat4 DeformedVertices::skinMatrix(size_t vertex) const noexcept {
     const MeshDeformation& d = *deformation_;
-    glm::dmat4 sum(0.0);
-    double total = 0.0;
-    for (size_t k = vertex * d.perVertex; k < (vertex + 1) * d.perVertex; ++k) {
-        const double weight = d.vertexWeights[k];
-        if (weight == 0.0)
-            continue;
-        sum += weight * meshFromVertex_[d.vertexJoints[k]];
-        total += weight;
-    }
-    return sum / total;
+    const size_t first = vertex * d.perVertex;
+    return meanOfJoints(std::span(d.vertexWeights).subspan(first, d.perVertex),
+                        std::span(d.vertexJoints).subspan(first, d.perVertex), meshFromVertex_);
 }
 
 glm::dvec3 DeformedVertices::morphed(size_t vertex) const noexcept {

@@ -179,7 +179,7 @@ uint32_t Replayer::rootOf(uint32_t scene) const {
 
 /// The root's scene after the journal's entries up to those of `number`.
 Replayer::Touched* Replayer::sculpted(uint32_t number) {
-    const Sculpted& wanted = sculpted_.at(number);
+    const EditedScene& wanted = sculpted_.at(number);
     std::unique_ptr<Edited>& edited = edited_[wanted.root];
     if (edited != nullptr && edited->number == number)
         return &edited->touched;

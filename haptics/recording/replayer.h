@@ -1,6 +1,7 @@
 #pragma once
 // Repeats a recorded touch and compares the results.
 
+#include "haptics/recording/edited_scene.h"
 #include "haptics/recording/recording_reader.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/scene/scene_sculptor.h"
@@ -123,12 +124,7 @@ class Replayer {
     std::map<uint32_t, std::unique_ptr<Touched>> loaded_;
     std::map<uint32_t, HapticSettings> settings_;
     LiveTool tool_;
-    struct Sculpted {
-        uint32_t root = 0;
-        uint64_t hash = 0;
-        size_t entries = 0; // of the root's journal
-    };
-    std::map<uint32_t, Sculpted> sculpted_;                 // scenes that are edits of others
+    std::map<uint32_t, EditedScene> sculpted_;              // scenes that are edits of others
     std::map<uint32_t, std::vector<SculptEntry>> journals_; // by root
     /// The root's scene after some entries: that of one number at a time.
     struct Edited {

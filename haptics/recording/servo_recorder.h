@@ -1,6 +1,7 @@
 #pragma once
 // Passes the servo's records to its recordings: the requested one and the flight recorder's.
 
+#include "haptics/recording/edited_scene.h"
 #include "haptics/recording/flight_recorder.h"
 #include "haptics/recording/recording_writer.h"
 #include "haptics/servo/servo_loop.h"
@@ -57,12 +58,7 @@ class ServoRecorder {
 
     ServoLoop& servo_;
     std::map<uint32_t, SceneIdentity> scenes_;
-    struct Sculpted {
-        uint32_t root = 0;
-        uint64_t hash = 0;
-        size_t entries = 0; // of the root's journal
-    };
-    std::map<uint32_t, Sculpted> sculpted_;                 // that a record may still name
+    std::map<uint32_t, EditedScene> sculpted_;              // that a record may still name
     std::map<uint32_t, std::vector<SculptEntry>> journals_; // by root
     std::optional<RecordingWriter> writer_;
     std::optional<FlightRecorder> flight_;

@@ -1,6 +1,7 @@
 #include "engine/import/geometry/skin.h"
 
 #include "engine/import/geometry/gltf_accessors.h"
+#include "engine/scene/joint_mean.h"
 
 #include <algorithm>
 #include <array>
@@ -78,19 +79,11 @@ bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The mean of the joints' matrices by weight. Divided by the sum in double: weights are floats, and the
-/// rounding of their sum times the distance of the joints from the scene's origin would move the vertex.
 glm::dmat4 sceneFromVertex(const VertexInfluences& influences, const SkinPose& skin, size_t vertex) {
-    glm::dmat4 sum(0.0);
-    double total = 0.0;
-    for (size_t k = vertex * influences.perVertex; k < (vertex + 1) * influences.perVertex; ++k) {
-        const double weight = influences.weights[k];
-        if (weight == 0.0)
-            continue;
-        sum += weight * skin.sceneFromMesh[influences.joints[k]];
-        total += weight;
-    }
-    return sum / total;
+    const size_t first = vertex * influences.perVertex;
+    return meanOfJoints(std::span(influences.weights).subspan(first, influences.perVertex),
+                        std::span(influences.joints).subspan(first, influences.perVertex),
+                        skin.sceneFromMesh);
 }
 
 /// Transforms normal and tangent of a vertex. Returns -1 where `linear` mirrors, else 1.
