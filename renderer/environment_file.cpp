@@ -1,14 +1,14 @@
 // Reads panoramas from files.
 
 #include "engine/core/error.h"
+#include "engine/image/image_codec.h"
 #include "renderer/environment.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace touchstone {
 
@@ -35,14 +35,16 @@ bool isPanoramaFormat(const std::filesystem::path& file) {
     return count == magic.size() && (exr || radiance);
 }
 
-void checkSize(const std::filesystem::path& file, const OIIO::ImageSpec& spec) {
-    const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " texels";
-    if (spec.width > kLargestSide || spec.height > kLargestSide / 2)
-        fail(file, "the environment has " + size + ", which is too large");
-    if (spec.width < 4 || spec.height < 2 || std::abs(spec.width - 2 * spec.height) > 2 || spec.depth > 1)
-        fail(file, "the environment has " + size + ", which is no panorama");
-    if (spec.nchannels < 1 || spec.nchannels > 64)
-        fail(file, "the environment has " + std::to_string(spec.nchannels) + " channels");
+/// What is wrong with the size; empty: nothing.
+std::string refusalOf(const ImageSize& is) {
+    const std::string size = std::to_string(is.width) + " x " + std::to_string(is.height) + " texels";
+    if (is.width > kLargestSide || is.height > kLargestSide / 2)
+        return "has " + size + ", which is too large";
+    if (is.width < 4 || is.height < 2 || std::abs(is.width - 2 * is.height) > 2 || is.depth > 1)
+        return "has " + size + ", which is no panorama";
+    if (is.channels < 1 || is.channels > 64)
+        return "has " + std::to_string(is.channels) + " channels";
+    return {};
 }
 
 /// Averages blocks of `factor` x `factor` texels, row by row.
@@ -86,29 +88,23 @@ class Reducer {
 Panorama readPanorama(const std::filesystem::path& file) {
     if (!isPanoramaFormat(file))
         fail(file, "the environment is neither OpenEXR nor Radiance");
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input)
-        fail(file, "the environment cannot be read: " + OIIO::geterror().substr(0, 200));
-    const OIIO::ImageSpec spec = input->spec();
-    checkSize(file, spec);
-    const bool tiled = spec.tile_width > 0;
-    const int rowsAtOnce = tiled ? std::clamp(spec.tile_height, 1, spec.height) : std::min(16, spec.height);
-    Reducer reducer(spec.width, spec.height, spec.nchannels);
-    const size_t row = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels);
-    std::vector<float> rows(row * static_cast<size_t>(rowsAtOnce));
-    for (int y = 0; y < spec.height; y += rowsAtOnce) {
-        const int count = std::min(rowsAtOnce, spec.height - y), first = spec.y + y;
-        const bool read = tiled
-                              ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, first, first + count, 0,
-                                                  1, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, rows.data())
-                              : input->read_scanlines(0, 0, first, first + count, 0, 0, spec.nchannels,
-                                                      OIIO::TypeDesc::FLOAT, rows.data());
-        if (!read)
-            fail(file, "the environment is damaged: " + input->geterror().substr(0, 200));
-        for (int i = 0; i < count; ++i)
-            reducer.add(y + i, rows.data() + static_cast<size_t>(i) * row);
-    }
-    return reducer.take();
+    std::string problem;
+    const ImageCodec* codec = imageCodec(problem);
+    if (codec == nullptr)
+        fail(file, problem);
+    std::optional<Reducer> reducer;
+    problem = codec->readRows(
+        file.string(),
+        [&](const ImageSize& size) {
+            std::string refusal = refusalOf(size);
+            if (refusal.empty())
+                reducer.emplace(size.width, size.height, size.channels);
+            return refusal;
+        },
+        [&](int row, const float* texels) { reducer->add(row, texels); });
+    if (!problem.empty())
+        fail(file, "the environment " + problem);
+    return reducer->take();
 }
 
 } // namespace touchstone

@@ -2,9 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "engine/image/image_codec.h"
 
 #include <algorithm>
 #include <array>
@@ -45,28 +43,26 @@ std::vector<std::byte> withoutAlpha(const PixelData& pixels) {
 /// The bytes of the file. In memory, so that one place writes files and cleans up behind itself.
 std::vector<unsigned char> encoded(const std::filesystem::path& file, const PictureFormat& format,
                                    const PixelData& pixels) {
-    const bool bytes = pixels.type == ComponentType::U8;
-    const OIIO::TypeDesc type = bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+    std::string problem;
+    const ImageCodec* codec = imageCodec(problem);
+    if (codec == nullptr)
+        throw Error(file.string(), "", problem, "");
     const std::vector<std::byte> rgb = format.opaque ? withoutAlpha(pixels) : std::vector<std::byte>();
-    OIIO::ImageSpec spec(pixels.width, pixels.height, format.opaque ? 3 : pixels.channels, type);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    // Alpha is straight; without this attribute the writer would divide by it.
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("png:compressionLevel", 6);
+    ImageToEncode image{.format = std::string(format.writer),
+                        .width = pixels.width,
+                        .height = pixels.height,
+                        .channels = format.opaque ? 3 : pixels.channels,
+                        .type = pixels.type,
+                        .pixels = format.opaque ? rgb.data() : pixels.bytes.data(),
+                        // Alpha is straight; without this attribute the writer would divide by it.
+                        .numbers = {{"oiio:UnassociatedAlpha", 1}, {"png:compressionLevel", 6}},
+                        .texts = {{"oiio:ColorSpace", "sRGB"}}};
     if (format.opaque)
-        spec.attribute("Compression", "jpeg:95");
-    std::vector<unsigned char> result;
-    OIIO::Filesystem::IOVecOutput memory(result);
-    const std::string writer(format.writer);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(writer);
-    if (!output || !output->supports("ioproxy"))
-        throw Error(file.string(), "", "OpenImageIO has no " + writer + " writer", "");
-    output->set_ioproxy(&memory);
-    const std::string name = "picture" + std::string(format.ending);
-    if (!output->open(name, spec) ||
-        !output->write_image(type, format.opaque ? rgb.data() : pixels.bytes.data()) || !output->close())
-        throw Error(file.string(), "", "the picture cannot be encoded: " + output->geterror(), "");
-    return result;
+        image.texts.emplace_back("Compression", "jpeg:95");
+    EncodedImage result = codec->encode(image);
+    if (!result.problem.empty())
+        throw Error(file.string(), "", result.problem, "");
+    return std::move(result.bytes);
 }
 
 } // namespace

@@ -1,37 +1,43 @@
 #pragma once
 // Images encoded as a file would hold them.
 
-#include "tests/support/gltf_maker.h"
+#include "engine/image/image_codec.h"
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 namespace touchstone::test {
 
-/// Pixels written with OpenImageIO into a file of the given name and read back as bytes.
+/// Pixels as the bytes of a file of this name; its ending gives the format.
 template <class T>
 std::vector<uint8_t> encodedImage(const std::string& name, int width, int height, int channels,
                                   const std::vector<T>& values) {
-    TemporaryFolder folder;
-    const std::string path = (folder.path() / name).string();
-    const auto output = OIIO::ImageOutput::create(path);
-    if (!output) {
-        ADD_FAILURE() << OIIO::geterror();
+    const std::string ending = name.substr(name.rfind('.') + 1);
+    const std::string format = ending == "jpg"   ? "jpeg"
+                               : ending == "exr" ? "openexr"
+                               : ending == "tif" ? "tiff"
+                                                 : ending;
+    std::string problem;
+    const ImageCodec* codec = imageCodec(problem);
+    if (codec == nullptr) {
+        ADD_FAILURE() << problem;
         return {};
     }
-    OIIO::ImageSpec spec(width, height, channels, OIIO::BaseTypeFromC<T>::value);
-    spec["oiio:UnassociatedAlpha"] = 1;
-    EXPECT_TRUE(output->open(path, spec) &&
-                output->write_image(OIIO::BaseTypeFromC<T>::value, values.data()) && output->close())
-        << output->geterror();
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    EncodedImage image = codec->encode({.format = format,
+                                        .width = width,
+                                        .height = height,
+                                        .channels = channels,
+                                        .type = sizeof(T) == 1   ? ComponentType::U8
+                                                : sizeof(T) == 2 ? ComponentType::U16
+                                                                 : ComponentType::F32,
+                                        .pixels = values.data(),
+                                        .numbers = {{"oiio:UnassociatedAlpha", 1}},
+                                        .texts = {}});
+    EXPECT_EQ(image.problem, "");
+    return std::move(image.bytes);
 }
 
 } // namespace touchstone::test

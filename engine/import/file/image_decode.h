@@ -1,6 +1,7 @@
 #pragma once
 // Decodes images in memory to pixels, through OpenImageIO.
 
+#include "engine/image/image_codec.h"
 #include "engine/import/file/gltf_file.h"
 
 #include <cstdint>
@@ -11,11 +12,6 @@ namespace touchstone {
 
 /// The problem reported when the pixel limit of import_context.h is reached.
 inline constexpr const char* kTooManyPixels = "the model's images together need more memory than is allowed";
-
-struct DecodedImage {
-    PixelData pixels;    ///< empty when `problem` is set
-    std::string problem; ///< why there are no pixels, as the end of a sentence
-};
 
 /// Decodes PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR, identified by their first bytes, as stored: no
 /// colour conversion, alpha not premultiplied, no EXIF rotation. `mayTake` must approve the pixels' size in
