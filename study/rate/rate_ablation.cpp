@@ -19,21 +19,6 @@ namespace {
 constexpr int kSettlingTicks = 12000;
 constexpr size_t kStrokedTriangles = 64'800;
 
-HapticSettings plainWall(double stiffness) {
-    HapticSettings settings;
-    settings.forceShading = ShadingMode::Off;
-    settings.texture = TextureMode::Off;
-    settings.friction = FrictionMode::Off;
-    settings.stiffness = stiffness;
-    settings.damping = 0.0;
-    return settings;
-}
-
-const HapticScene& plane() {
-    static const BenchScene scene = shapeScene("plane", assets::plane(0.2, 0.2), {});
-    return *scene.haptic;
-}
-
 const Subject& stroked() {
     static const Subject subject = [] {
         for (const ShapeKind& kind : shapeKinds())
@@ -97,6 +82,21 @@ Stroke strokeAt(double rateHz, double seconds) {
 
 } // namespace
 
+HapticSettings frictionlessWall(double stiffness) {
+    HapticSettings settings;
+    settings.forceShading = ShadingMode::Off;
+    settings.texture = TextureMode::Off;
+    settings.friction = FrictionMode::Off;
+    settings.stiffness = stiffness;
+    settings.damping = 0.0;
+    return settings;
+}
+
+const HapticScene& pressedPlane() {
+    static const BenchScene scene = shapeScene("plane", assets::plane(0.2, 0.2), {});
+    return *scene.haptic;
+}
+
 PlantParameters pressingDevice() {
     PlantParameters device;
     device.viscousFriction = 1.0;
@@ -112,7 +112,7 @@ double stiffnessBound(const PlantParameters& device, double rateHz) {
 
 bool pressedWallSettles(const PlantParameters& device, const HapticSettings& wall, double rateHz, int ticks) {
     constexpr double kDepth = 1e-3, kPush = 1e-4; // m
-    ClosedLoop loop(plane(), wall, device, rateHz, noLimits());
+    ClosedLoop loop(pressedPlane(), wall, device, rateHz, noLimits());
     loop.weight = {0, -wall.stiffness * kDepth, 0};
     const glm::dvec3 rest{0.013, -kDepth, 0.017};
     loop.intention = [rest](double) { return rest; };
@@ -134,7 +134,7 @@ bool pressedWallSettles(const PlantParameters& device, const HapticSettings& wal
 
 double stiffestStable(const PlantParameters& device, double rateHz) {
     const auto stable = [&](double stiffness) {
-        return pressedWallSettles(device, plainWall(stiffness), rateHz, kSettlingTicks);
+        return pressedWallSettles(device, frictionlessWall(stiffness), rateHz, kSettlingTicks);
     };
     constexpr double kStep = 2.0;
     double low = stiffnessBound(device, rateHz) / 64.0;

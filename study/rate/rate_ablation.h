@@ -3,6 +3,7 @@
 // load.
 
 #include "devices/plant/plant_parameters.h"
+#include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
 #include "study/result/result.h"
 
@@ -13,6 +14,10 @@
 namespace touchstone::study {
 
 inline constexpr double kServoRates[]{500.0, 1000.0, 2000.0, 4000.0};
+
+/// A plane of 0.2 m through the origin, normal y, and a wall of it that is a spring and nothing else.
+[[nodiscard]] const HapticScene& pressedPlane();
+[[nodiscard]] HapticSettings frictionlessWall(double stiffness);
 
 /// The device that presses walls: as heavy as a Phantom Premium 1.5, 1 N·s/m of viscous friction, no hand, no
 /// Coulomb friction, an exact sensor, motors that do not saturate. Its bound 2 b / T is the passivity
