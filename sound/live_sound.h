@@ -2,6 +2,7 @@
 // Lock-free transfer from the servo to the audio thread.
 
 #include "engine/exchange/record_ring.h"
+#include "sound/sound_source.h"
 #include "sound/synthesizer.h"
 
 #include <atomic>
@@ -33,7 +34,7 @@ class SoundFeed {
 /// The player's end. Servo and sound card have different clocks, and the servo may pause: the player queues
 /// the ticks of a block plus a margin, plays up to kMaxBend faster or slower to hold that level, and fades
 /// out on underrun or overflow.
-class SoundPlayer {
+class SoundPlayer final : public SoundSource {
   public:
     static constexpr double kCushion = 0.004;   ///< s of ticks beyond a block: margin for the servo's jitter
     static constexpr double kTooMuch = 0.06;    ///< s beyond that: then old ticks are skipped
@@ -46,10 +47,10 @@ class SoundPlayer {
 
     /// The player's thread (a sound card's callback): no allocation, lock or wait. |left|, |right| <= the
     /// volume.
-    void fill(std::span<SoundFrame> frames) noexcept;
+    void fill(std::span<SoundFrame> frames) noexcept override;
 
     /// Any thread; 0..1.
-    void setVolume(float volume) noexcept { volume_.store(volume, std::memory_order_relaxed); }
+    void setVolume(float volume) noexcept override { volume_.store(volume, std::memory_order_relaxed); }
     /// Any thread: fades to silence for kSwapSilence, before another model is touched.
     void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
     static constexpr double kSwapSilence = 0.1; ///< s

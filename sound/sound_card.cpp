@@ -50,14 +50,14 @@ bool ready(const auto& future) {
 /// A PortAudio session with one open stream.
 class SoundCard::Stream {
   public:
-    explicit Stream(SoundFeed& feed) {
+    explicit Stream(SoundCard& card) {
         hush();
         if (!alsaIsConfigured())
             fail(kNoCard);
         if (const PaError error = Pa_Initialize(); error != paNoError)
             fail(Pa_GetErrorText(error));
         try {
-            open(feed);
+            open(card);
         } catch (...) {
             Pa_Terminate();
             throw;
@@ -71,7 +71,8 @@ class SoundCard::Stream {
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
 
-    [[nodiscard]] SoundPlayer& player() { return *player_; }
+    [[nodiscard]] SoundSource& source() { return *source_; }
+    [[nodiscard]] SoundPlayer* player() { return dynamic_cast<SoundPlayer*>(source_.get()); } // null: another
     [[nodiscard]] const std::string& name() const { return name_; }
     /// False once the card is gone: PortAudio's thread has ended.
     [[nodiscard]] bool active() const { return Pa_IsStreamActive(stream_) == 1; }
@@ -81,7 +82,7 @@ class SoundCard::Stream {
     }
 
   private:
-    void open(SoundFeed& feed) {
+    void open(SoundCard& card) {
         const PaDeviceIndex device = Pa_GetDefaultOutputDevice();
         const PaDeviceInfo* info = device != paNoDevice ? Pa_GetDeviceInfo(device) : nullptr;
         if (info == nullptr)
@@ -94,12 +95,14 @@ class SoundCard::Stream {
         parameters.suggestedLatency = std::max(kAskedLatency, info->defaultLowOutputLatency);
         const bool usual = Pa_IsFormatSupported(nullptr, &parameters, kUsualRate) == paFormatIsSupported;
         const double rate = usual ? kUsualRate : info->defaultSampleRate;
-        player_ = std::make_unique<SoundPlayer>(feed, rate);
-        for (SoundTick old; feed.pop(old);) {
+        source_ = card.make_(rate);
+        if (card.feed_ != nullptr) {
+            for (SoundTick old; card.feed_->pop(old);) {
+            }
+            card.feed_->listen(true);
         }
-        feed.listen(true);
         PaError error = Pa_OpenStream(&stream_, nullptr, &parameters, rate, paFramesPerBufferUnspecified,
-                                      paNoFlag, &Stream::play, player_.get());
+                                      paNoFlag, &Stream::play, source_.get());
         if (error == paNoError) {
             error = Pa_StartStream(stream_);
             if (error != paNoError)
@@ -110,21 +113,29 @@ class SoundCard::Stream {
     }
 
     static int play(const void*, void* output, unsigned long frames, const PaStreamCallbackTimeInfo*,
-                    PaStreamCallbackFlags, void* player) {
+                    PaStreamCallbackFlags, void* source) {
         enterFloatMode();
-        static_cast<SoundPlayer*>(player)->fill({static_cast<SoundFrame*>(output), frames});
+        static_cast<SoundSource*>(source)->fill({static_cast<SoundFrame*>(output), frames});
         return paContinue;
     }
 
-    std::unique_ptr<SoundPlayer> player_;
+    std::unique_ptr<SoundSource> source_;
     PaStream* stream_ = nullptr;
     std::string name_;
 };
 
-SoundCard::SoundCard(SoundFeed& feed) : feed_(feed) {}
+SoundCard::SoundCard(SoundFeed& feed)
+    : feed_(&feed), make_([&feed](double rate) { return std::make_unique<SoundPlayer>(feed, rate); }) {}
+
+SoundCard::SoundCard(std::function<std::unique_ptr<SoundSource>(double)> source) : make_(std::move(source)) {}
+
+void SoundCard::listen(bool on) {
+    if (feed_ != nullptr)
+        feed_->listen(on);
+}
 
 SoundCard::~SoundCard() {
-    feed_.listen(false);
+    listen(false);
     if (opening_.valid())
         opening_.wait();
     if (closing_.valid())
@@ -142,7 +153,7 @@ void SoundCard::update(bool on, float volume) {
         } catch (const std::exception& error) {
             problem_ = error.what();
             state_ = State::Failed;
-            feed_.listen(false);
+            listen(false);
         }
     }
     if (state_ == State::Playing && !stream_->active()) {
@@ -151,10 +162,10 @@ void SoundCard::update(bool on, float volume) {
         close(std::chrono::milliseconds(0));
     }
     if (stream_ != nullptr)
-        stream_->player().setVolume(on ? volume : 0.0f);
+        stream_->source().setVolume(on ? volume : 0.0f);
     if (on && state_ == State::Off && !closing_.valid()) {
         state_ = State::Opening;
-        opening_ = std::async(std::launch::async, [this] { return std::make_shared<Stream>(feed_); });
+        opening_ = std::async(std::launch::async, [this] { return std::make_shared<Stream>(*this); });
     } else if (!on && state_ == State::Failed) {
         state_ = State::Off;
     } else if (!on && state_ == State::Playing) {
@@ -169,19 +180,19 @@ void SoundCard::close(std::chrono::milliseconds after) {
         std::async(std::launch::async, [this, after, stream = std::exchange(stream_, nullptr)]() mutable {
             std::this_thread::sleep_for(after);
             stream.reset();
-            feed_.listen(false);
+            listen(false);
         });
 }
 
 void SoundCard::interrupt() {
-    if (stream_ != nullptr)
-        stream_->player().interrupt();
+    if (stream_ != nullptr && stream_->player() != nullptr)
+        stream_->player()->interrupt();
 }
 
 SoundPlayer::Figures SoundCard::figures() const {
-    if (stream_ == nullptr)
+    if (stream_ == nullptr || stream_->player() == nullptr)
         return {};
-    SoundPlayer::Figures figures = stream_->player().figures();
+    SoundPlayer::Figures figures = stream_->player()->figures();
     figures.latency += stream_->cardLatency();
     return figures;
 }

@@ -3,6 +3,7 @@
 #include "sound/live_sound.h"
 
 #include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
@@ -16,6 +17,8 @@ class SoundCard {
   public:
     /// The feed outlives it.
     explicit SoundCard(SoundFeed& feed);
+    /// Another source than the force: made for the card's rate (frames per second), on another thread.
+    explicit SoundCard(std::function<std::unique_ptr<SoundSource>(double rate)> source);
     ~SoundCard();
     SoundCard(const SoundCard&) = delete;
     SoundCard& operator=(const SoundCard&) = delete;
@@ -36,8 +39,10 @@ class SoundCard {
     class Stream;
 
     void close(std::chrono::milliseconds after);
+    void listen(bool on);
 
-    SoundFeed& feed_;
+    SoundFeed* feed_ = nullptr; // null: another source
+    std::function<std::unique_ptr<SoundSource>(double)> make_;
     State state_ = State::Off;
     std::string problem_, name_;
     std::shared_ptr<Stream> stream_;

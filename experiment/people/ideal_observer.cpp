@@ -22,11 +22,11 @@ double Draw::normal() noexcept {
 
 double sensitivity(const Condition& condition, const StrokeDifference& difference, double force, double acuity,
                    const ObserverNoise& noise, Attention attention) {
-    const auto& comparison = std::get<PlanarStimulus>(condition.comparison);
+    const auto* curve = std::get_if<PlanarStimulus>(&condition.comparison);
     const Stroke nominal;
     // The direction's error scales with the force; that of the depth, with the stiffness, does not.
     const double scale = force / nominal.force, ofForce = noise.force * force, ofPlace = noise.location;
-    const bool moves = comparison.rendering.location != PlanarLocation::Held;
+    const bool moves = curve != nullptr && curve->rendering.location != PlanarLocation::Held;
     double sum = difference.normal / (ofForce * ofForce);
     if (!(attention == Attention::TactileFirst && moves))
         sum += difference.tangential * scale * scale / (ofForce * ofForce);
@@ -42,11 +42,7 @@ double shareRight(double dPrime) {
 }
 
 DifferenceTable::DifferenceTable(const Condition& condition, const Stroke& stroke)
-    : condition_(condition), stroke_(stroke) {
-    if (!std::holds_alternative<PlanarStimulus>(condition.comparison))
-        throw Error("observer", condition.name, "it compares models: the observer knows curves alone",
-                    "run this condition with people");
-}
+    : condition_(condition), stroke_(stroke) {}
 
 const StrokeDifference& DifferenceTable::at(double level) {
     const long key = std::lround(level);
@@ -54,8 +50,10 @@ const StrokeDifference& DifferenceTable::at(double level) {
                                         [](const auto& entry, long wanted) { return entry.first < wanted; });
     if (found != known_.end() && found->first == key)
         return found->second;
+    const auto* curve = std::get_if<PlanarStimulus>(&condition_.reference);
     const StrokeDifference made =
-        compare(std::get<PlanarStimulus>(condition_.reference), std::get<PlanarStimulus>(condition_.comparison), level, stroke_);
+        curve != nullptr ? compare(*curve, std::get<PlanarStimulus>(condition_.comparison), level, stroke_)
+                         : compareModels(condition_, level, models_, stroke_);
     rendered_ += 2 * made.ticks;
     return known_.insert(found, {key, made})->second;
 }

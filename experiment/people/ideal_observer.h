@@ -1,8 +1,9 @@
 #pragma once
-// An ideal observer of the study's curves: it knows both stimuli and is limited by the noise that published
+// An ideal observer of the study's curves and models: it knows both stimuli and is limited by the noise that published
 // just noticeable differences of force and contact location imply, and by nothing else (docs/experiment.md).
 
 #include "experiment/plan/study_plan.h"
+#include "experiment/stimulus/model_stroke.h"
 #include "experiment/stimulus/planar_stimulus.h"
 
 #include <cstdint>
@@ -52,6 +53,7 @@ class DifferenceTable {
   private:
     const Condition& condition_;
     Stroke stroke_;
+    ModelStore models_;
     std::vector<std::pair<long, StrokeDifference>> known_; // sorted by level
     size_t rendered_ = 0;
 };

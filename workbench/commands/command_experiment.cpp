@@ -1,12 +1,18 @@
-// `touchstone experiment`: a study with simulated people, and the report of any sessions.
+// `touchstone experiment`: a session in the window, a study with simulated people, and the report of any
+// sessions.
 
+#include "devices/choice/device_choice.h"
 #include "engine/core/error.h"
+#include "engine/core/output_file.h"
 #include "experiment/people/ideal_observer.h"
 #include "experiment/people/power.h"
 #include "experiment/report/experiment_report.h"
 #include "study/result/provenance.h"
+#include "workbench/experiment/experiment_window.h"
+#include "workbench/guards/interrupt.h"
 #include "workbench/options/experiment_options.h"
 
+#include <array>
 #include <cstdio>
 
 namespace touchstone {
@@ -82,7 +88,7 @@ int observe(const ExperimentOptions& options) {
         sessions.push_back(PersonSession::read(sessionFile(options, person)));
     ExperimentResult result = evaluate(sessions);
     for (ConditionResult& row : result.conditions)
-        if (plan.conditions[row.condition].varied == Varied::Segments)
+        if (plan.conditions[row.condition].varied != Varied::Nothing)
             row.observer = thresholdOf(tables[row.condition], {}, {}, attention);
     if (!options.pilots && result.compared.size() > 1) {
         std::vector<DifferenceTable> compared;
@@ -91,6 +97,52 @@ int observe(const ExperimentOptions& options) {
         result.power = powerOf(compared, {.seed = options.seed, .attention = attention});
     }
     return publish(result, sessions, options);
+}
+
+/// A new session, or the one that the file holds. Throws Error where that is of another study.
+PersonSession sessionOf(const ExperimentOptions& options, const std::filesystem::path& file) {
+    const StudyPlan plan = studyOf(options);
+    const auto person = static_cast<size_t>(options.person) - 1;
+    if (!std::filesystem::exists(file))
+        return PersonSession(file, plan,
+                             {.person = person,
+                              .seed = options.seed,
+                              .pilots = options.pilots,
+                              .device = options.device.empty() ? "mouse" : options.device});
+    const PersonSession found = PersonSession::read(file); // changes nothing
+    if (found.plan().source != plan.source)
+        throw Error(file.string(), "",
+                    "it is a session of another study, or of this one before it was changed",
+                    "give the study it was begun with, or another --out");
+    if (found.start().person != person || found.start().pilots != options.pilots)
+        throw Error(file.string(), "", "it is the session of another person", "give that person's number");
+    PersonSession session(file);
+    if (!session.note().empty())
+        std::fprintf(stderr, "touchstone: warning: %s: %s\n", file.c_str(), session.note().c_str());
+    return session;
+}
+
+/// A person in the window.
+int lead(const ExperimentOptions& options) {
+    catchInterrupts();
+    if (!options.device.empty() && options.device != "mouse")
+        requireDevice(options.device, "mouse");
+    makeFolder(options.out);
+    const std::filesystem::path file = sessionFile(options, static_cast<size_t>(options.person) - 1);
+    std::vector<PersonSession> sessions;
+    sessions.push_back(sessionOf(options, file));
+    {
+        ExperimentWindow window(options, sessions.front());
+        while (!window.closed())
+            window.frame();
+    }
+    std::filesystem::path csv = file;
+    csv.replace_extension(".csv");
+    writeFile(csv, trialsCsv(sessions));
+    std::printf("%s: %zu trials, %s; %s\n", file.c_str(), sessions.front().trials().size(),
+                sessions.front().finished() ? "finished" : "to be resumed with the same command",
+                csv.c_str());
+    return 0;
 }
 
 int report(const ExperimentOptions& options) {
@@ -115,6 +167,8 @@ int experimentCommand(const ExperimentOptions& options) {
     }
     if (options.observer)
         return observe(options);
+    if (options.person > 0)
+        return lead(options);
     return report(options);
 }
 

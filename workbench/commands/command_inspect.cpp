@@ -4,6 +4,7 @@
 #include "engine/core/output_file.h"
 #include "workbench/commands/inspect_program.h"
 #include "workbench/figures/inspection.h"
+#include "workbench/figures/perception_figures.h"
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
 
@@ -95,6 +96,7 @@ void printInspection(const Json& json) {
                     text(object["name"]).c_str(), text(object["triangles"]).c_str(),
                     object["closed"].get<bool>() ? "closed" : "open", text(object["welded_vertices"]).c_str(),
                     text(object["dropped_triangles"]).c_str());
+    print("%s", perceptionText(json["perception"]));
     for (const Json& material : json["materials"]) {
         print("  material %s '%s'\n", text(material["index"]), text(material["name"]));
         printEffects(material);

@@ -13,6 +13,7 @@
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
+#include "workbench/figures/perception_figures.h"
 #include "workbench/figures/program_figures.h"
 
 #include <algorithm>
@@ -315,6 +316,7 @@ Json inspectionOf(const Model& model) {
               {"images", imagesJson(scene)},
               {"materials", materialsJson(model)},
               {"objects", objectsJson(model)},
+              {"perception", perceptionJson(model)},
               {"tick_p50_ns", tickCostJson(model)},
               {"neighbourhood", neighbourhoodJson(model)},
               {"slopes", slopesJson(model)},

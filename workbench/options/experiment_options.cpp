@@ -1,5 +1,7 @@
 #include "workbench/options/experiment_options.h"
 
+#include "workbench/options/shared_options.h"
+
 namespace touchstone {
 
 void defineExperiment(CLI::App& app, ExperimentOptions& options) {
@@ -14,8 +16,13 @@ void defineExperiment(CLI::App& app, ExperimentOptions& options) {
                      "Run it with simulated people, in seconds, and say how many people and trials it needs");
     CLI::Option* report =
         app.add_flag("--report", options.report, "Tables, analysis and plots of the sessions in --out");
-    for (CLI::Option* option : {print, observer, report})
-        for (CLI::Option* other : {print, observer, report})
+    CLI::Option* person =
+        app.add_option("--person", options.person,
+                       "Lead a person through the session in a window, or go on with it; N counts from 1")
+            ->type_name("N")
+            ->check(CLI::Range(1, 100000));
+    for (CLI::Option* option : {print, observer, report, person})
+        for (CLI::Option* other : {print, observer, report, person})
             if (option != other)
                 option->excludes(other);
     app.add_option("--seed", options.seed, "Of the order of the stimuli, and of the simulated people [1]")
@@ -33,11 +40,21 @@ void defineExperiment(CLI::App& app, ExperimentOptions& options) {
         ->needs(observer);
     app.add_flag("--pilots", options.pilots, "The study's pilot conditions instead of the others")
         ->excludes(report);
+    app.add_option("--device", options.device, "What the person holds: see touchstone devices [mouse]")
+        ->type_name("NAME")
+        ->needs(person);
+    addRate(app, options.rateHz, "Rate of the haptic thread [1000]");
+    app.add_flag("!--no-noise", options.noise, "No white noise while something is felt")->needs(person);
+    addSize(app, "--size", options.size, "Size of the window [1280x800]");
+    addGpu(app, options.gpu);
+    app.add_option("--status-json", options.statusJson, "What the window shows, for scripts")
+        ->type_name("FILE")
+        ->needs(person);
     app.parse_complete_callback([&options] {
-        const int modes =
-            (options.printStudy ? 1 : 0) + (options.observer ? 1 : 0) + (options.report ? 1 : 0);
+        const int modes = (options.printStudy ? 1 : 0) + (options.observer ? 1 : 0) +
+                          (options.report ? 1 : 0) + (options.person > 0 ? 1 : 0);
         if (modes == 0)
-            throw CLI::RequiredError("one of --observer, --report and --print-study");
+            throw CLI::RequiredError("one of --person, --observer, --report and --print-study");
         if (!options.printStudy && options.out.empty())
             throw CLI::RequiredError("--out");
     });

@@ -2,6 +2,7 @@
 // touchstone experiment
 
 #include <CLI/CLI.hpp>
+#include <glm/glm.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,14 @@ struct ExperimentOptions {
     std::string attention = "everything";
     bool pilots = false;
     std::string commandLine; ///< as typed
+    // The window:
+    int person = 0;                     ///< from 1; 0: no window
+    std::string device{};               ///< openDevice's choice; empty: the mouse
+    double rateHz = 1000.0;             ///< of the servo
+    bool noise = true;                  ///< white noise while something is felt
+    glm::ivec2 size{1280, 800};         ///< screen coordinates
+    std::string gpu{};                  ///< part of a Vulkan device's name
+    std::filesystem::path statusJson{}; ///< written ten times a second if given, for scripts and tests
 };
 void defineExperiment(CLI::App& app, ExperimentOptions& options);
 /// Status 1 where a session or plot is missing from a report.

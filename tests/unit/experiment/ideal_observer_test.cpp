@@ -160,5 +160,41 @@ TEST(Report, GroupsConditionsThatAreNotToldApart) {
     EXPECT_EQ(groupLetters(variance), (std::vector<std::string>{"b", "c", "a", "c"})) << "[004 Fig. 13]";
 }
 
+/// A study of one model against itself, with settings.
+StudyPlan modelStudy(const std::string& reference, const std::string& comparison, const std::string& vary) {
+    const std::string model = R"({"model": ")" TOUCHSTONE_ASSETS R"(/doughnut.glb", "set": )";
+    return parseStudy(
+        R"({"touchstoneStudy": 1, "name": "n", "question": "q", "conditions": [{"name": "M", "reference": )" +
+            model + reference + R"(}, "comparison": )" + model + comparison + "}, " + vary + "}]}",
+        "study");
+}
+
+TEST(IdealObserver, TellsModelsByWhatTheyMakeFelt) {
+    const StudyPlan same =
+        modelStudy(R"({"friction": "off"})", R"({"friction": "off"})", R"("vary": "nothing", "trials": 5)");
+    ModelStore models;
+    const StrokeDifference none = compareModels(same.conditions[0], 0.0, models);
+    EXPECT_GT(none.ticks, 500u);
+    EXPECT_EQ(none.normal, 0.0);
+    EXPECT_EQ(none.tangential, 0.0);
+    const StudyPlan facets =
+        modelStudy(R"({"friction": "off", "forceShading": "twoPass"})",
+                   R"({"friction": "off", "forceShading": "off"})", R"("vary": "nothing", "trials": 5)");
+    const StrokeDifference turned = compareModels(facets.conditions[0], 0.0, models);
+    EXPECT_GT(turned.tangential, 1e-8) << "facets turn the force";
+    EXPECT_LT(turned.tangential, 1e-2);
+}
+
+TEST(IdealObserver, FindsAThresholdOfASetting) {
+    // The scale of the force: at 0 % the comparison is half as strong, at 100 % the same.
+    const StudyPlan study = modelStudy(
+        R"({"friction": "off"})", R"({"friction": "off"})",
+        R"("vary": {"setting": "forceScale", "easy": 0.5, "hard": 1.0}, "start": 20, "largeStep": 20, "smallStep": 10)");
+    DifferenceTable table(study.conditions[0]);
+    // Constant differences do not count, and a force at constant depth is nearly constant: never told.
+    EXPECT_EQ(table.at(100.0).normal, 0.0);
+    EXPECT_LE(thresholdOf(table, {}), 100.0);
+}
+
 } // namespace
 } // namespace touchstone::experiment

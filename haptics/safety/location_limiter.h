@@ -1,0 +1,28 @@
+#pragma once
+// Stage 8 of a contact location: range and rate, as force_limiter.h's of a force. Pure: all state is in the
+// state.
+
+#include "engine/device_io/pad_command.h"
+
+namespace touchstone {
+
+struct LocationLimiterState {
+    glm::dvec2 last{0.0}; ///< m, the last command
+};
+
+/// Makes every PadCommand. Invariants, for any input:
+/// - the command is finite and |location| <= limits.reach; a device without a display gets the middle;
+/// - |location - previous location| <= limits.rate dt, except where the reach has become smaller, and dt
+/// counts for at
+///   most kServoSilence;
+/// - without contact, and where `wanted` is not finite, the location stays where it is: the display does not
+/// tell a
+///   finger in the air where a surface would be.
+class LocationLimiter {
+  public:
+    /// Servo thread. `dt`: s since the last command.
+    [[nodiscard]] static PadCommand limit(const glm::dvec2& wanted, bool touching, const PadLimits& limits,
+                                          double dt, LocationLimiterState& state) noexcept;
+};
+
+} // namespace touchstone
