@@ -11,7 +11,8 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::string_view kPlaceHead = "TSXP", kForceHead = "TSXF";
+constexpr std::string_view kPlaceHead = "TSXP", kForceHead = "TSXF", kPadHead = "TSXD",
+                           kLocationHead = "TSXL";
 constexpr uint16_t kVersion = 1;
 constexpr size_t kVersionAt = 4, kSizeAt = 6, kSequenceAt = 8, kWordAt = 12, kNumbersAt = 16;
 
@@ -76,6 +77,36 @@ std::optional<ForcePacket> parseForcePacket(std::span<const uint8_t> bytes) {
         return std::nullopt;
     return ForcePacket{readU32(bytes, kSequenceAt), readU32(bytes, kWordAt), readVector(bytes, 0),
                        readVector(bytes, 3)};
+}
+
+std::optional<PadPacket> parsePadPacket(std::span<const uint8_t> bytes) {
+    if (!wellFormed(bytes, kPadHead, kPadPacketSize))
+        return std::nullopt;
+    const PadPacket packet{readU32(bytes, kSequenceAt), readDouble(bytes, 0), readDouble(bytes, 1)};
+    const bool within = packet.reach >= 0.0 && packet.reach <= kLargestPad && packet.rate >= 0.0 &&
+                        packet.rate <= kFastestPad;
+    return within ? std::optional(packet) : std::nullopt; // NaN is not within
+}
+
+std::optional<LocationPacket> parseLocationPacket(std::span<const uint8_t> bytes) {
+    if (!wellFormed(bytes, kLocationHead, kPadPacketSize))
+        return std::nullopt;
+    return LocationPacket{
+        readU32(bytes, kSequenceAt), readU32(bytes, kWordAt), {readDouble(bytes, 0), readDouble(bytes, 1)}};
+}
+
+std::array<uint8_t, kPadPacketSize> padPacket(const PadPacket& packet) {
+    auto bytes = begun<kPadPacketSize>(kPadHead, packet.sequence, 0);
+    writeDouble(bytes, 0, packet.reach);
+    writeDouble(bytes, 1, packet.rate);
+    return bytes;
+}
+
+std::array<uint8_t, kPadPacketSize> locationPacket(const LocationPacket& packet) {
+    auto bytes = begun<kPadPacketSize>(kLocationHead, packet.sequence, packet.answers);
+    writeDouble(bytes, 0, packet.location.x);
+    writeDouble(bytes, 1, packet.location.y);
+    return bytes;
 }
 
 std::array<uint8_t, kPlacePacketSize> placePacket(const PlacePacket& packet) {

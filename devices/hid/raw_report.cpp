@@ -6,7 +6,7 @@ namespace {
 
 // Byte offsets; docs/devices.md has the same table.
 constexpr size_t kKind = 2, kFlags = 3, kSequence = 4, kTime = 8, kAnswered = 12, kButtons = 16, kAxes = 20;
-constexpr size_t kAnswers = 8, kValues = 12, kWatchdogMs = 36;
+constexpr size_t kAnswers = 8, kValues = 12, kWatchdogMs = 36, kLocation = 40;
 constexpr size_t kChecksum = 60;
 
 constexpr std::array<uint32_t, 256> makeCrcTable() {
@@ -70,6 +70,8 @@ std::optional<RawCommand> parseRawCommand(std::span<const uint8_t> report) {
                        .watchdogMs = readU16(report, kWatchdogMs)};
     for (size_t i = 0; i < command.values.size(); ++i)
         command.values[i] = readI32(report, kValues + 4 * i);
+    for (size_t i = 0; i < command.location.size(); ++i)
+        command.location[i] = readI32(report, kLocation + 4 * i);
     return command;
 }
 
@@ -91,6 +93,8 @@ std::array<uint8_t, kRawReportSize> rawCommand(const RawCommand& command) {
     for (size_t i = 0; i < command.values.size(); ++i)
         writeU32(report, kValues + 4 * i, static_cast<uint32_t>(command.values[i]));
     writeU16(report, kWatchdogMs, command.watchdogMs);
+    for (size_t i = 0; i < command.location.size(); ++i)
+        writeU32(report, kLocation + 4 * i, static_cast<uint32_t>(command.location[i]));
     seal(report);
     return report;
 }

@@ -41,6 +41,7 @@ struct RawCommand {
     uint32_t answers = 0; ///< sequence of the state that the force answers
     uint16_t watchdogMs = 0;
     std::array<int32_t, 6> values{};
+    std::array<int32_t, 2> location{}; ///< nm along and across the pad; zeros for a device without a display
 };
 
 /// Requires exactly 64 bytes with valid magic, version, kind and checksum; else nullopt.

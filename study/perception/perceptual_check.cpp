@@ -20,7 +20,7 @@ constexpr std::array<FacetLimit, 5> kLimits{{
     {"C4", "force without shading, tactile shading", 3.5, true},
     {"P1", "force and tactile shading", 14.8, true},
 }};
-constexpr double kShare = 0.99;              // of the edges that are to be within a limit
+constexpr double kShare = 0.9;               // of the edges that are to be within a limit
 constexpr double kLevel = 0.70710678;        // of the triangles, from one level to the next
 constexpr size_t kFewest = 8;                // triangles of a level
 constexpr double kSameNormal = 0.9998476952; // cosine of 1 degree
@@ -209,18 +209,19 @@ PerceptualCheck checkPerception(const HapticScene& scene) {
             meshes.emplace_back(*object, check, angles);
     if (!angles.empty()) {
         check.median = quantile(angles, 0.5);
-        check.most99 = quantile(angles, kShare);
+        check.most90 = quantile(angles, kShare);
+        check.most99 = quantile(angles, 0.99);
     }
     bool anyWithin = false;
     for (const FacetLimit& limit : kLimits) {
         FacetCheck row{.limit = limit};
         row.beyond = static_cast<size_t>(
             std::count_if(angles.begin(), angles.end(), [&](double angle) { return angle > limit.degrees; }));
-        if (!angles.empty() && check.most99 <= limit.degrees) {
+        if (!angles.empty() && check.most90 <= limit.degrees) {
             row.enough = check.triangles;
             anyWithin = true;
         } else if (!angles.empty()) {
-            const double finer = check.most99 / limit.degrees;
+            const double finer = check.most90 / limit.degrees;
             row.needed = static_cast<size_t>(std::ceil(static_cast<double>(check.triangles) * finer * finer));
         }
         check.limits.push_back(row);

@@ -26,7 +26,8 @@ struct FacetLimit {
 struct FacetCheck {
     FacetLimit limit{};
     size_t beyond = 0; ///< edges whose angle is larger
-    /// Where at most 1 % of the edges are beyond: the fewest triangles, of those tried, that keep it so.
+    /// Where nine edges of ten are within the limit: the fewest triangles, of those tried, that keep it so.
+    /// Not all, since meshoptimizer leaves slivers, which meet their neighbours at any angle.
     std::optional<size_t> enough{};
     double error = 0.0; ///< m in the workspace, of `enough`: meshoptimizer's estimate of the largest distance
     /// Else: about how many triangles it takes, since the angle falls as the edges' length.
@@ -38,7 +39,8 @@ struct PerceptualCheck {
     size_t edges = 0;       ///< with two triangles
     size_t creases = 0;     ///< of these, with other vertex normals on their two sides: meant to be edges
     bool anySmooth = false; ///< there are normals to shade with; else every edge is a facet's
-    double median = 0.0, most99 = 0.0, largest = 0.0; ///< degrees, of the edges that are no creases
+    double median = 0.0, most90 = 0.0, most99 = 0.0,
+           largest = 0.0;      ///< degrees, of the edges that are no creases
     glm::dvec3 largestAt{0.0}; ///< m, workspace: the middle of the edge with the largest angle
     bool simplified = false;   ///< `enough` was looked for
     std::vector<FacetCheck> limits;

@@ -51,6 +51,7 @@ Json perceptionJson(const Model& model) {
             {"edges", check.edges},
             {"creases", check.creases},
             {"median_deg", rounded(check.median)},
+            {"p90_deg", rounded(check.most90)},
             {"p99_deg", rounded(check.most99)},
             {"largest_deg", rounded(check.largest)},
             {"largest_at_m", {at.x, at.y, at.z}},

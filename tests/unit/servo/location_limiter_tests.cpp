@@ -20,8 +20,11 @@ TEST(LocationLimiter, AMillionRandomTicksKeepRangeAndRate) {
     glm::dvec2 before(0.0);
     double worstRange = 0.0, worstRate = 0.0;
     size_t moved = 0;
+    glm::dvec2 place(0.0);
     for (int i = 0; i < 1'000'000; ++i) {
-        glm::dvec2 wanted = 0.02 * glm::dvec2(unit(random), unit(random));
+        if (random() % 200 == 0) // some places are held until they are reached
+            place = 0.02 * glm::dvec2(unit(random), unit(random));
+        glm::dvec2 wanted = random() % 10 == 0 ? 0.02 * glm::dvec2(unit(random), unit(random)) : place;
         switch (random() % 100) {
         case 0:
             wanted.x = NAN;
@@ -42,7 +45,7 @@ TEST(LocationLimiter, AMillionRandomTicksKeepRangeAndRate) {
         const double most = dt > 0.0 ? kPad.rate * std::min(dt, kServoSilence) : 0.0;
         const double step = glm::length(now - before);
         ASSERT_LE(glm::length(now), kPad.reach) << i;
-        ASSERT_LE(step, most * (1.0 + 1e-12)) << i;
+        ASSERT_LE(step, most * (1.0 + 1e-12) + 1e-17) << i; // rounding of places of 8 mm
         worstRange = std::max(worstRange, glm::length(now));
         worstRate = std::max(worstRate, most > 0.0 ? step / most : 0.0);
         moved += step > 0.0 ? 1 : 0;

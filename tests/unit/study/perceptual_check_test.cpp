@@ -57,7 +57,7 @@ TEST(PerceptualCheck, FewerTrianglesWouldDoWhereTheFacetsAreFine) {
     ASSERT_TRUE(check.simplified);
     ASSERT_TRUE(shaded.enough.has_value());
     EXPECT_LT(*shaded.enough, check.triangles);
-    EXPECT_GT(*shaded.enough, check.triangles / 20) << "facets of the torus meet at 3 degrees";
+    EXPECT_GT(*shaded.enough, check.triangles / 20) << "facets of the torus meet at 1.5 and 3 degrees";
     EXPECT_GE(shaded.error, 0.0);
     EXPECT_LT(shaded.error, 0.5e-3);
     ASSERT_TRUE(rowOf(check, "P1").enough.has_value());
