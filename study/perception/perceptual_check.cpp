@@ -125,8 +125,9 @@ class Reduced {
         float error = 0.0f;
         const float* positions = &object_.vertices[0].x;
         const size_t count = object_.vertices.size() - 1; // the last one is spare
-        fewer.resize(meshopt_simplify(fewer.data(), indices_.data(), indices_.size(), positions, count,
-                                      sizeof(glm::vec3), 3 * std::max(triangles, kFewest), 1.0f, 0, &error));
+        fewer.resize(meshopt_simplify(
+            fewer.data(), indices_.data(), indices_.size(), positions, count, sizeof(glm::vec3),
+            3 * std::min(std::max(triangles, kFewest), indices_.size() / 3), 1.0f, 0, &error));
         indices_ = std::move(fewer);
         const double scale = static_cast<double>(meshopt_simplifyScale(positions, count, sizeof(glm::vec3)));
         error_ += static_cast<double>(error) * scale * object_.workspaceFromObject.scale;

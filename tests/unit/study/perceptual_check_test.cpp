@@ -51,6 +51,15 @@ TEST(PerceptualCheck, SidesJustBelowAndAboveALimit) {
                 std::pow(720.0 / 710.0, 2.0), 0.01);
 }
 
+TEST(PerceptualCheck, TakesTheSmallestMeshes) {
+    // Two triangles in a plane, less than any level keeps.
+    const PerceptualCheck check = checked(assets::plane(0.1, 0.1));
+    EXPECT_EQ(check.triangles, 2u);
+    EXPECT_EQ(check.edges, 1u);
+    EXPECT_EQ(rowOf(check, "C3").beyond, 0u);
+    EXPECT_EQ(rowOf(check, "C3").enough, std::optional<size_t>(2));
+}
+
 TEST(PerceptualCheck, FewerTrianglesWouldDoWhereTheFacetsAreFine) {
     const PerceptualCheck check = checked(assets::torus(0.05, 0.02, 240, 120));
     const FacetCheck& shaded = rowOf(check, "C2");
