@@ -27,7 +27,6 @@ using Clock = std::chrono::steady_clock;
 constexpr size_t kMostClients = 16, kMostMessage = size_t{24} << 20, kMostFragments = 64;
 constexpr size_t kMostQueued = 64, kMostQueuedReplies = 1000; // of states and ticks; of everything
 constexpr double kMessagesASecond = 2000.0;
-constexpr lws_usec_t kPeriod = 16'667; // us
 constexpr auto kUnknownFor = std::chrono::seconds(5);
 constexpr const char* kSocketHost = "unix";
 
@@ -99,7 +98,8 @@ void readKeys() {
 }
 
 void onTimer(lws_sorted_usec_list_t*) {
-    lws_sul_schedule(network.context, 0, &network.timer, onTimer, kPeriod);
+    lws_sul_schedule(network.context, 0, &network.timer, onTimer,
+                     static_cast<lws_usec_t>(1e6 * network.server->pumpPeriod()));
     readKeys();
     network.server->pump();
     deliver();
@@ -337,6 +337,17 @@ int main(int count, char** arguments) {
     app.add_option("--rate", options.rate, "Servo rate [1000]")
         ->type_name("HZ")
         ->check(CLI::Range(100.0, 4000.0));
+    app.add_option(
+           "--control", options.control,
+           "Control loop apart from contact, at HZ (docs/control.md): contact may be slower (--rate), or a "
+           "client's [none]")
+        ->type_name("HZ")
+        ->check(CLI::Range(100.0, 4000.0));
+    app.add_option(
+           "--goal-power", options.goalPower,
+           "Power that a client's contact may give the hand; 0: late or wrong contact gives no energy [0]")
+        ->type_name("W")
+        ->check(CLI::Range(0.0, 10.0));
     app.add_flag("--allow-write", options.allowWrite, "Clients may record into new files below the root");
     std::string web = TOUCHSTONE_WEB;
     CLI11_PARSE(app, count, arguments);

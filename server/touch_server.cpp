@@ -65,6 +65,8 @@ TouchServer::TouchServer(const ServeOptions& options, std::string token)
     session.device = options_.device.c_str();
     session.rate = options_.rate;
     session.keep = kKept;
+    session.control = options_.control;
+    session.goal_power = options_.goalPower;
     ts::check(ts_session_create(&session, session_.out()));
     if (!options_.scene.empty())
         beginLoading([file = options_.scene] { return std::make_unique<ts::Scene>(file, TS_FIT_WORKSPACE); },
@@ -78,15 +80,28 @@ TouchServer::Client* TouchServer::find(uint64_t client) {
 }
 
 void TouchServer::join(uint64_t client, bool trusted) {
-    clients_.push_back({client, trusted, false});
+    clients_.push_back({.number = client, .known = trusted});
 }
 
 void TouchServer::leave(uint64_t client) {
     std::erase_if(clients_, [&](const Client& known) { return known.number == client; });
-    if (driver_ != client)
-        return;
+    if (driver_ == client)
+        dismissDriver();
+}
+
+/// Nobody drives, and nobody's contact is followed.
+void TouchServer::dismissDriver() {
     driver_ = 0;
+    if (rendered_)
+        render(false);
     tell({{"event", "driver"}, {"driver", nullptr}});
+}
+
+void TouchServer::render(bool byClient) {
+    if (touching_ || byClient)
+        ts::check(ts_session_render(session_.get(), byClient ? 1 : 0));
+    rendered_ = byClient;
+    tell({{"event", "render"}, {"on", byClient}});
 }
 
 bool TouchServer::mayRead(std::string_view token) const {
@@ -144,10 +159,8 @@ TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, c
                 {"write", options_.allowWrite}};
     if (verb == "ping")
         return Json::object();
-    if (verb == "subscribe") {
-        client.ticks = member<bool>(message, "ticks");
-        return Json::object();
-    }
+    if (verb == "subscribe")
+        return subscribe(client, message);
     if (verb == "settings") {
         Json all = Json::array();
         for (size_t i = 0; i < ts_setting_count(); ++i) {
@@ -174,10 +187,57 @@ TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, c
             ts::check(ts_session_force(session_.get(), 0));
         return Json::object();
     }
+    return drive(client, verb, message);
+}
+
+TouchServer::Json TouchServer::subscribe(Client& client, const Json& message) {
+    if (!message.contains("ticks") && !message.contains("states"))
+        throw Refusal("'ticks' is missing");
+    if (message.contains("states")) {
+        const auto rate = member<double>(message, "states");
+        if (!(rate >= 1.0 && rate <= 1000.0))
+            throw Refusal("'states' is not within 1 .. 1000 Hz");
+        client.stateRate = rate;
+    }
+    if (message.contains("ticks"))
+        client.ticks = member<bool>(message, "ticks");
+    return Json::object();
+}
+
+/// What a client sends that renders contact.
+void TouchServer::hearGoal(const Json& message) {
+    if (!rendered_)
+        throw Refusal("you do not render: send \"render\" first");
+    ts_goal goal = TS_STRUCT(ts_goal);
+    goal.touching = member<bool>(message, "touching") ? 1 : 0;
+    const auto vector = [](const std::vector<double>& from, double(&to)[3], const char* name) {
+        if (from.size() != 3)
+            throw Refusal(std::string("'") + name + "' is not three numbers");
+        std::ranges::copy(from, to);
+    };
+    if (goal.touching != 0) {
+        vector(member<std::vector<double>>(message, "proxy"), goal.proxy, "proxy");
+        goal.stiffness = message.contains("stiffness") ? member<double>(message, "stiffness") : 0.0;
+        goal.damping = message.contains("damping") ? member<double>(message, "damping") : 0.0;
+        if (message.contains("planes")) {
+            const auto planes = member<std::vector<std::vector<double>>>(message, "planes");
+            if (planes.size() > 3)
+                throw Refusal("'planes' has more than 3 normals");
+            for (const std::vector<double>& plane : planes)
+                vector(plane, goal.planes[goal.plane_count++], "planes");
+        }
+    }
+    ts::check(ts_session_goal(session_.get(), &goal));
+}
+
+TouchServer::Json TouchServer::drive(Client& client, const std::string& verb, const Json& message) {
     requireDriver(client);
     if (verb == "release") {
-        driver_ = 0;
-        tell({{"event", "driver"}, {"driver", nullptr}});
+        dismissDriver();
+    } else if (verb == "render") {
+        render(member<bool>(message, "on"));
+    } else if (verb == "contact") {
+        hearGoal(message);
     } else if (verb == "force") {
         forceOn_ = true;
         if (touching_)
@@ -248,6 +308,8 @@ void TouchServer::finishLoading() {
         ts::check(ts_session_force(session_.get(), forceOn_ ? 1 : 0));
         ts::check(ts_session_start(session_.get()));
         touching_ = true;
+        if (rendered_)
+            render(true);
         sceneFile_ = loadingFile_;
         triangles_ = loaded.triangles;
         const ts_scene_info info = loaded.scene->info();
@@ -268,25 +330,46 @@ void TouchServer::pump() {
     ts_state state = TS_STRUCT(ts_state);
     ts::check(ts_session_pump(session_.get(), &state));
     sendTicks();
-    if (state.touching == 0 || state.tick == lastTick_)
+    if (state.touching == 0 || (state.tick == lastTick_ && state.rendered == 0))
         return;
     lastTick_ = state.tick;
-    tell({{"event", "state"},
-          {"tick", state.tick},
-          {"time", state.time},
-          {"hip", vectorOf(state.hip)},
-          {"proxy", vectorOf(state.proxy)},
-          {"normal", vectorOf(state.normal)},
-          {"force", vectorOf(state.force)},
-          {"command", vectorOf(state.command)},
-          {"penetration", state.penetration},
-          {"contacts", state.contacts},
-          {"friction", state.friction},
-          {"flags", state.flags},
-          {"ticks", state.ticks},
-          {"missed", state.missed},
-          {"force_on", forceOn_},
-          {"driver", driver_ != 0 ? Json(driver_) : Json()}});
+    sendState(state, pumpPeriod());
+}
+
+double TouchServer::pumpPeriod() const {
+    double fastest = kUsualStates;
+    for (const Client& client : clients_)
+        fastest = std::max(fastest, client.stateRate);
+    return 1.0 / fastest;
+}
+
+/// To each client as often as it has asked for.
+void TouchServer::sendState(const ts_state& state, double elapsed) {
+    const Json event{{"event", "state"},
+                     {"tick", state.tick},
+                     {"time", state.time},
+                     {"hip", vectorOf(state.hip)},
+                     {"proxy", vectorOf(state.proxy)},
+                     {"normal", vectorOf(state.normal)},
+                     {"force", vectorOf(state.force)},
+                     {"command", vectorOf(state.command)},
+                     {"penetration", state.penetration},
+                     {"contacts", state.contacts},
+                     {"friction", state.friction},
+                     {"flags", state.flags},
+                     {"ticks", state.ticks},
+                     {"missed", state.missed},
+                     {"rendered", state.rendered != 0},
+                     {"force_on", forceOn_},
+                     {"driver", driver_ != 0 ? Json(driver_) : Json()}};
+    for (Client& client : clients_) {
+        constexpr double kSlack = 0.01; // of a period
+        client.sinceState += elapsed;
+        if (!client.known || client.sinceState * client.stateRate < 1.0 - kSlack)
+            continue;
+        client.sinceState = 0.0;
+        tell(event, client.number);
+    }
 }
 
 void TouchServer::sendTicks() {
@@ -317,6 +400,8 @@ void TouchServer::sendTicks() {
 void TouchServer::takeBack() {
     driver_ = 0;
     forceOn_ = !forceOn_;
+    if (rendered_)
+        render(false);
     if (touching_)
         ts::check(ts_session_force(session_.get(), forceOn_ ? 1 : 0));
     tell({{"event", "driver"}, {"driver", nullptr}, {"taken_back", true}, {"force_on", forceOn_}});

@@ -27,6 +27,8 @@ struct ServeOptions {
     std::string device = "stroke";
     bool allowWrite = false;
     double rate = 1000.0;
+    double control = 0.0;   ///< Hz, of the control loop apart from contact; 0: none
+    double goalPower = 0.0; ///< W that a client's contact may give
 };
 
 /// A message to a client, or to all.
@@ -47,8 +49,9 @@ class TouchServer {
     void leave(uint64_t client);
     /// A whole text message. False: the connection is to be closed.
     [[nodiscard]] bool receive(uint64_t client, std::string_view text);
-    /// Reads the servo and gives everybody the state: some 60 times a second.
+    /// Reads the servo and gives everybody the state, as often as it has asked for. Once in `pumpPeriod`.
     void pump();
+    [[nodiscard]] double pumpPeriod() const; ///< s
     /// The person at the device: the driver is dismissed and the force taken away; again: given back.
     void takeBack();
     [[nodiscard]] std::vector<Outgoing> takeOutgoing() { return std::move(outgoing_); }
@@ -61,7 +64,10 @@ class TouchServer {
     struct Client {
         uint64_t number = 0;
         bool known = false, ticks = false;
+        double stateRate = kUsualStates; ///< Hz
+        double sinceState = 0.0;         ///< s
     };
+    static constexpr double kUsualStates = 60.0;
     struct Loaded {
         std::unique_ptr<ts::Scene> scene;
         std::string error;
@@ -74,15 +80,21 @@ class TouchServer {
     void beginLoading(std::function<std::unique_ptr<ts::Scene>()> make, std::string file, uint64_t client);
     void finishLoading();
     void requireDriver(const Client& client) const;
+    [[nodiscard]] Json drive(Client& client, const std::string& verb, const Json& message);
+    [[nodiscard]] Json subscribe(Client& client, const Json& message);
+    void hearGoal(const Json& message);
+    void render(bool byClient);
+    void dismissDriver();
     void tell(const Json& event, uint64_t client = 0);
     void sendTicks();
+    void sendState(const ts_state& state, double elapsed);
 
     ServeOptions options_;
     std::string token_;
     ts::Handle<ts_session, ts_session_close> session_;
     std::vector<Client> clients_;
     uint64_t driver_ = 0;
-    bool forceOn_ = true, touching_ = false;
+    bool forceOn_ = true, touching_ = false, rendered_ = false;
     std::future<Loaded> loading_;
     std::string loadingFile_, sceneFile_;
     uint64_t loader_ = 0, lastTick_ = ~uint64_t{0};

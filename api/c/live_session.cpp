@@ -16,11 +16,11 @@ namespace {
 
 constexpr const char* kStroke = "stroke";
 
-double limitOr(double given, double usual, const char* member) {
+double limitOr(double given, double usual, const char* member, const char* of = "options.own.") {
     if (given == 0.0)
         return usual;
     if (!std::isfinite(given) || given < 0.0)
-        refuseArgument(std::string("options.own.") + member, "is not finite and above 0");
+        refuseArgument(std::string(of) + member, "is not finite and above 0");
     return given;
 }
 
@@ -38,6 +38,16 @@ std::string strokeOf(const char* device) {
     if (const std::string problem = strokeProblem(name); !problem.empty())
         refuseArgument("options.device", problem);
     return name;
+}
+
+ControlConfig controlOf(const ts_session_options& options) {
+    ControlConfig control;
+    if (!(options.control >= kMinServoRate && options.control <= kMaxServoRate))
+        refuseArgument("options.control", "is not within 100 .. 4000 Hz");
+    control.rateHz = options.control;
+    control.contactPower = limitOr(options.contact_power, control.contactPower, "contact_power", "options.");
+    control.goalPower = limitOr(options.goal_power, control.goalPower, "goal_power", "options.");
+    return control;
 }
 
 } // namespace
@@ -83,6 +93,8 @@ LiveSession::LiveSession(const ts_session_options& options)
         refuseArgument("options.rate", "is not within 100 .. 4000 Hz");
     if (keep_ > kMostKept)
         refuseArgument("options.keep", "is above " + std::to_string(kMostKept));
+    if (options.control != 0.0)
+        controlled_ = controlOf(options);
     if ((options.device == nullptr) == (options.own == nullptr))
         refuseArgument("options.device", "give either a device or `own`");
     if (options.own != nullptr)
@@ -97,6 +109,8 @@ LiveSession::LiveSession(const ts_session_options& options)
 LiveSession::~LiveSession() {
     if (session_ != nullptr && running_)
         session_->stop();
+    if (control_ != nullptr)
+        control_->stop();
 }
 
 void LiveSession::requireOpen() const {
@@ -123,6 +137,10 @@ void LiveSession::makeSession() {
     } else if (device == nullptr) {
         device = &simulatedHand();
     }
+    if (controlled_) {
+        control_ = std::make_unique<ControlLoop>(*device, *controlled_);
+        device = control_.get();
+    }
     session_ =
         std::make_unique<Session>(std::vector<DevicePort>{portOf(*device)}, ServoConfig{.rateHz = rate_});
     recorder_.emplace(session_->servo());
@@ -138,6 +156,7 @@ void LiveSession::touch(std::shared_ptr<TouchedScene> scene) {
     if (session_ == nullptr || (!running_ && !stroke_.empty())) {
         recorder_.reset();
         session_.reset();
+        control_.reset(); // before the device that it calls
         makeSession();
     }
     (void)session_->touch(scene_->haptic(), scene_->source(), scene_->identity());
@@ -159,6 +178,8 @@ void LiveSession::force(bool on) {
     requireOpen();
     if (session_ == nullptr)
         throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    if (control_ != nullptr)
+        control_->enableForce(on);
     ForceSwitch& force = session_->forceSwitch();
     if (on)
         (void)force.giveBack(force.state());
@@ -187,8 +208,11 @@ void LiveSession::start() {
     requireOpen();
     if (session_ == nullptr)
         throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
-    if (!running_)
+    if (!running_) {
+        if (control_ != nullptr)
+            control_->start();
         session_->start();
+    }
     running_ = true;
 }
 
@@ -197,11 +221,60 @@ void LiveSession::stop() {
     if (session_ == nullptr || !running_)
         return;
     session_->stop();
+    if (control_ != nullptr)
+        control_->stop();
     running_ = false;
     session_->pump(secondsNow());
 }
 
-ts_state LiveSession::state() const {
+ControlLoop& LiveSession::controlLoop() {
+    requireOpen();
+    if (!controlled_)
+        throw Refused(TS_STATE, "session: it has no control loop; give options.control");
+    if (control_ == nullptr)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    return *control_;
+}
+
+void LiveSession::render(bool byCaller) {
+    const std::lock_guard lock(mutex_);
+    controlLoop().follow(byCaller ? GoalSource::Caller : GoalSource::Servo);
+}
+
+void LiveSession::goal(const ts_goal& given) {
+    const std::lock_guard lock(mutex_);
+    ControlLoop& control = controlLoop();
+    ContactGoal goal{.touching = given.touching != 0,
+                     .proxy = {given.proxy[0], given.proxy[1], given.proxy[2]},
+                     .stiffness = given.stiffness != 0.0 ? given.stiffness : control.stiffness(),
+                     .damping = given.damping,
+                     .planeCount = static_cast<uint32_t>(std::min<size_t>(given.plane_count, 4))};
+    for (size_t i = 0; i < goal.planes.size(); ++i)
+        goal.planes[i] = {given.planes[i][0], given.planes[i][1], given.planes[i][2]};
+    if (const char* problem = control.hear(goal); problem != nullptr)
+        refuseArgument("goal", problem);
+}
+
+/// What the device gets is the loop's; what is felt is, too, where it follows the caller.
+void LiveSession::stateFrom(const ControlLoop::State& control, ts_state& state) const {
+    state.control_ticks = control.ticks;
+    state.control_missed = control.missed;
+    setVector(state.command, control.command);
+    if (static_cast<GoalSource>(control.source) != GoalSource::Caller)
+        return;
+    state.rendered = 1;
+    setVector(state.hip, control.hip);
+    setVector(state.proxy, control.end);
+    setVector(state.force, control.force);
+    setVector(state.normal, glm::dvec3(0.0));
+    state.penetration = glm::length(control.end - control.hip);
+    state.contacts = control.holds && state.penetration > 0.0 ? 1 : 0;
+    state.friction = 0;
+    state.flags = control.flags;
+    state.object = -1;
+}
+
+ts_state LiveSession::state() {
     ts_state state{};
     const TickRecord& tick = session_->tick();
     const ServoLoop::Counters counters = session_->servo().counters();
@@ -223,6 +296,8 @@ ts_state LiveSession::state() const {
     state.skipped = counters.skipped;
     state.dropped = counters.droppedRecords;
     state.realtime = running_ && session_->servo().scheduling().policy.starts_with("SCHED_FIFO") ? 1 : 0;
+    if (control_ != nullptr)
+        stateFrom(control_->state(), state);
     return state;
 }
 

@@ -7,6 +7,7 @@
 #include "devices/plant/hand_impedance.h"
 #include "devices/simulated/simulated_hand.h"
 #include "haptics/recording/servo_recorder.h"
+#include "session/control_loop.h"
 #include "session/session.h"
 
 #include <atomic>
@@ -44,6 +45,8 @@ class LiveSession final : public Object, private TickSubscriber {
     void touch(std::shared_ptr<TouchedScene> scene);
     void set(std::string_view name, std::string_view value);
     void force(bool on);
+    void render(bool byCaller);
+    void goal(const ts_goal& goal);
     void record(const char* file);
     void start();
     void stop();
@@ -60,18 +63,22 @@ class LiveSession final : public Object, private TickSubscriber {
 
     void requireOpen() const;
     void makeSession();
+    [[nodiscard]] ControlLoop& controlLoop();
+    void stateFrom(const ControlLoop::State& control, ts_state& state) const;
     [[nodiscard]] Device& simulatedHand();
-    [[nodiscard]] ts_state state() const;
+    [[nodiscard]] ts_state state();
 
     mutable std::recursive_mutex mutex_;
     double rate_;
+    std::optional<ControlConfig> controlled_;
     std::string stroke_; // of a simulated hand; empty: a device
     std::unique_ptr<CallersDevice> own_;
     std::unique_ptr<LinkedDevice> linked_;
     std::unique_ptr<SimulatedHand> path_;
     std::unique_ptr<HandImpedance> yielding_;
     std::unique_ptr<MappedDevice> mapped_;
-    std::unique_ptr<Session> session_; // null: no scene yet
+    std::unique_ptr<ControlLoop> control_; // null: the servo commands the device
+    std::unique_ptr<Session> session_;     // null: no scene yet
     std::optional<ServoRecorder> recorder_;
     std::shared_ptr<TouchedScene> scene_;
     HapticSettings settings_;

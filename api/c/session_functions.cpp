@@ -42,6 +42,17 @@ ts_status ts_session_force(ts_session session, int on) {
     return call([&] { live(session)->force(on != 0); });
 }
 
+ts_status ts_session_render(ts_session session, int by_caller) {
+    return call([&] { live(session)->render(by_caller != 0); });
+}
+
+ts_status ts_session_goal(ts_session session, const ts_goal* goal) {
+    return call([&] {
+        (void)given(goal, "goal");
+        live(session)->goal(structOf(goal, "goal"));
+    });
+}
+
 ts_status ts_session_record(ts_session session, const char* file) {
     return call([&] { live(session)->record(file); });
 }

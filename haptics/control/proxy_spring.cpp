@@ -1,7 +1,6 @@
 #include "haptics/control/proxy_spring.h"
 
 #include "haptics/sample/hip_sample.h"
-#include "haptics/solve/sub_goal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,20 +22,6 @@ bool finite(const glm::dvec3& v) {
 
 double squared(const glm::dvec3& v) {
     return glm::dot(v, v);
-}
-
-/// Where the end of the spring belongs for a hand at `hand`: the goal's place, or the place of its planes
-/// that is nearest to the hand.
-glm::dvec3 placeOf(const ContactGoal& goal, const glm::dvec3& hand, const DeviceMapping& mapping) {
-    const Similarity& map = mapping.workspaceFromDevice;
-    const glm::dvec3 proxy = map.inversePoint(goal.proxy);
-    if (goal.planeCount == 0)
-        return proxy;
-    std::array<ConstraintPlane, 3> planes;
-    for (size_t i = 0; i < goal.planeCount; ++i)
-        planes[i].normal = glm::normalize(glm::conjugate(map.rotation) * goal.planes[i]);
-    const SubGoal nearest = nearestFeasible(hand - proxy, std::span(planes.data(), goal.planeCount));
-    return proxy + nearest.point;
 }
 
 /// The last point of the way from `from` to `to` that is within the square root of `most` of `hand`, as
@@ -79,7 +64,8 @@ bool ProxySpring::hear(const ContactGoal& goal) noexcept {
     return true;
 }
 
-void ProxySpring::forget() noexcept {
+void ProxySpring::forget(double power) noexcept {
+    settings_.power = power;
     goal_ = ContactGoal{};
     silent_ = 0.0;
 }
@@ -98,20 +84,53 @@ void ProxySpring::measure(const glm::dvec3& hand, double dt) noexcept {
     credit_ = std::clamp(credit_ - glm::dot(damping_, way), -kMostCredit, kMostCredit);
 }
 
+/// Between goals: along the planes, through where the end is, to the place nearest to the hand.
+void ProxySpring::slide(const glm::dvec3& hand) noexcept {
+    if (planeCount_ > 0)
+        end_ += nearestFeasible(hand - end_, std::span(planes_.data(), planeCount_)).point;
+}
+
+void ProxySpring::takePlanes(const DeviceMapping& mapping) noexcept {
+    planeCount_ = goal_.planeCount;
+    for (size_t i = 0; i < planeCount_; ++i)
+        planes_[i].normal =
+            glm::normalize(glm::conjugate(mapping.workspaceFromDevice.rotation) * goal_.planes[i]);
+}
+
+/// 0..1: what silence has left of the spring.
+double ProxySpring::left() const noexcept {
+    return std::clamp(1.0 - (silent_ - settings_.silence) / kFadeTime, 0.0, 1.0);
+}
+
 void ProxySpring::moveEnd(const glm::dvec3& hand, const DeviceMapping& mapping, double dt) noexcept {
     if (!holds()) {
         end_ = hand;
+        planeCount_ = 0;
+        stiffness_ = 0.0;
         credit_ = 0.0;
         return;
     }
-    const glm::dvec3 place = placeOf(goal_, hand, mapping);
-    const double half = 0.5 * goal_.stiffness;
-    const double before = squared(end_ - hand);
+    slide(hand);
+    const double stored = 0.5 * stiffness_ * squared(end_ - hand);
+    stiffness_ = left() * goal_.stiffness;
+    const double half = 0.5 * stiffness_;
+    takePlanes(mapping);
+    const glm::dvec3 proxy = mapping.workspaceFromDevice.inversePoint(goal_.proxy);
+    const glm::dvec3 place =
+        planeCount_ > 0 ? proxy + nearestFeasible(hand - proxy, std::span(planes_.data(), planeCount_)).point
+                        : proxy;
     const double allowed = std::max(0.0, credit_) + settings_.power * std::max(dt, 1e-9);
-    const double most = before + allowed / half;
-    end_ = squared(place - hand) <= most ? place : lastWithin(end_, place, hand, most);
-    const double risen = half * (squared(end_ - hand) - before);
-    if (risen > 0.0) {
+    // At the last instant of the fade the quotient is huge; the spring is not.
+    const double most = (stored + allowed) / std::max(half, 1e-12), wanted = squared(place - hand);
+    if (const double has = squared(end_ - hand); has > most) // a stiffer spring holds as much with less
+        end_ = hand + std::sqrt(most / has) * (end_ - hand);
+    if (wanted <= most)
+        end_ = place;
+    else if (planeCount_ > 0) // as deep as may be, without a pull along the planes
+        end_ = hand + std::sqrt(most / wanted) * (place - hand);
+    else
+        end_ = lastWithin(end_, place, hand, most);
+    if (const double risen = half * squared(end_ - hand) - stored; risen > 0.0) {
         const double lent = std::min(risen, std::max(0.0, credit_));
         credit_ -= lent;
         added_ += risen - lent;
@@ -133,10 +152,8 @@ DeviceCommand ProxySpring::step(const DeviceSample& sample, double dt, bool forc
     }
     damping_ = glm::dvec3(0.0);
     if (known && holds() && end_ != sample.position) {
-        // A spring that becomes softer gives less than it took.
-        const double left = std::clamp(1.0 - (silent_ - settings_.silence) / kFadeTime, 0.0, 1.0);
-        damping_ = -left * goal_.damping * velocity_;
-        force_ = left * goal_.stiffness * (end_ - sample.position) + damping_;
+        damping_ = -left() * goal_.damping * velocity_;
+        force_ = stiffness_ * (end_ - sample.position) + damping_;
     }
     const SafetyInputs inputs{.limits = sample.limits,
                               .dt = dt,

@@ -5,6 +5,7 @@
 
 #include "engine/device_io/device_io.h"
 #include "haptics/safety/force_limiter.h"
+#include "haptics/solve/sub_goal.h"
 
 #include <glm/glm.hpp>
 
@@ -52,19 +53,23 @@ class ProxySpring {
 
     /// The newest goal. False, and the one before stays, where problemOf names something.
     bool hear(const ContactGoal& goal) noexcept;
-    /// No goal holds any more.
-    void forget() noexcept;
+    /// No goal holds any more; those that come may add `power` W.
+    void forget(double power) noexcept;
     /// Control loop: the command of the tick, `dt` s after the last, from the safety stage.
     [[nodiscard]] DeviceCommand step(const DeviceSample& sample, double dt, bool forceEnabled) noexcept;
 
     [[nodiscard]] const glm::dvec3& end() const { return end_; }     ///< of the spring, m, device frame
     [[nodiscard]] const glm::dvec3& force() const { return force_; } ///< N, device frame, before safety
+    [[nodiscard]] double stiffness() const { return stiffness_; }    ///< N/m, of the last step
     [[nodiscard]] uint32_t flags() const { return flags_; }          ///< TickFlag bits of the last step
     /// J that goals have added to the spring beyond what its damper had taken; at most power times time.
     [[nodiscard]] double added() const { return added_; }
     [[nodiscard]] bool holds() const { return goal_.touching && silent_ < settings_.silence + kFadeTime; }
 
   private:
+    void slide(const glm::dvec3& hand) noexcept;
+    void takePlanes(const DeviceMapping& mapping) noexcept;
+    [[nodiscard]] double left() const noexcept;
     void moveEnd(const glm::dvec3& hand, const DeviceMapping& mapping, double dt) noexcept;
     void measure(const glm::dvec3& hand, double dt) noexcept;
 
@@ -74,6 +79,10 @@ class ProxySpring {
     glm::dvec3 end_{0.0}, force_{0.0}, damping_{0.0};
     glm::dvec3 last_{0.0}, velocity_{0.0};
     bool placed_ = false; ///< last_ is of the last step
+    /// Of the goal that holds, device frame: the spring's end slides along them.
+    std::array<ConstraintPlane, 3> planes_{};
+    size_t planeCount_ = 0;
+    double stiffness_ = 0.0; ///< N/m, of the last step, faded
     double credit_ = 0.0, added_ = 0.0;
     ForceLimiterState limiter_;
     uint32_t flags_ = 0;

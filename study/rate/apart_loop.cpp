@@ -11,9 +11,14 @@ namespace touchstone::study {
 
 namespace {
 
-/// Largest distance from a place.
+/// Of the depth its range, of the speed aside its largest: the wall may have been met deeper than it lies.
 struct Swing {
-    double early = 0.0, late = 0.0;
+    double low = INFINITY, high = -INFINITY, aside = 0.0;
+    void take(const Plant& plant) {
+        low = std::min(low, plant.position().y);
+        high = std::max(high, plant.position().y);
+        aside = std::max(aside, std::abs(plant.velocity().x));
+    }
 };
 
 double stiffestApart(ApartOptions options) {
@@ -124,24 +129,21 @@ bool apartSettles(const PlantParameters& device, const ApartOptions& options, do
     loop.intention = [rest](double) { return rest; };
     loop.hold(rest + glm::dvec3(0, 2.0 * kDepth, 0), rest);
     loop.release(rest - glm::dvec3(0, kPush, 0), {kAside, 0, 0});
-    Swing down, aside;
+    Swing early, late;
     const auto ticks = static_cast<int>(seconds * options.controlHz);
     for (int i = 0; i < ticks; ++i) {
         loop.tick();
-        const glm::dvec3& at = loop.plant().position();
-        const double fell = std::abs(at.y + kDepth), ran = std::abs(loop.plant().velocity().x);
-        if (!(fell < 0.9 * kDepth) || !(ran < 100.0 * kAside))
+        if (!(std::abs(loop.plant().position().y + kDepth) < 0.9 * kDepth) ||
+            !(std::abs(loop.plant().velocity().x) < 100.0 * kAside))
             return false; // has left the wall, is about to, or was thrown along it
-        const bool late = i >= 3 * (ticks / 4), early = i >= ticks / 4 && i < ticks / 2;
-        if (late || early) {
-            double& falls = late ? down.late : down.early;
-            double& runs = late ? aside.late : aside.early;
-            falls = std::max(falls, fell);
-            runs = std::max(runs, ran);
-        }
+        if (i >= 3 * (ticks / 4))
+            late.take(loop.plant());
+        else if (i >= ticks / 4 && i < ticks / 2)
+            early.take(loop.plant());
     }
     // The residual of a decayed oscillation is rounding.
-    return down.late < std::max(down.early, 1e-12) && aside.late <= std::max(aside.early, 1e-9);
+    return late.high - late.low < std::max(early.high - early.low, 1e-12) &&
+           late.aside <= std::max(early.aside, 1e-9);
 }
 
 ContactRateResult studyContactRate(int controlTicks) {

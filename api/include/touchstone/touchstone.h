@@ -241,7 +241,23 @@ typedef struct ts_session_options {
     const char* device;
     const ts_device* own; /* copied; its context outlives the session */
     size_t keep;          /* ticks kept for ts_session_take; 0: none */
+    /* Hz, 100 to 4000, of a control loop apart from contact (docs/control.md); 0: none, the servo commands
+     * the device. Its own thread then calls the device. */
+    double control;
+    double contact_power; /* W that the servo's contact may add to the loop's spring; 0: 1 */
+    double goal_power;    /* W that ts_session_goal may */
 } ts_session_options;
+
+/* Contact that the caller renders: what the control loop's spring pulls the hand to. Workspace. */
+typedef struct ts_goal {
+    size_t size;
+    int touching;        /* 0: no force; the rest is then not read */
+    double proxy[3];     /* m, within 1 km */
+    double stiffness;    /* N/m, above 0; 0: the device's recommended one */
+    double damping;      /* N s/m, of the loop, at its rate */
+    double planes[3][3]; /* unit normals of planes through the proxy along which its end slides */
+    size_t plane_count;  /* 0 to 3 */
+} ts_goal;
 
 /* The newest tick. */
 typedef struct ts_state {
@@ -256,6 +272,11 @@ typedef struct ts_state {
     /* Counters since the start. */
     uint64_t ticks, missed, skipped, dropped;
     int realtime; /* 1: the servo has SCHED_FIFO */
+    /* With a control loop, else 0: its ticks; 1 in `rendered` where it follows ts_session_goal. `command` is
+     * then the loop's, and where it follows goals `hip`, `proxy` (the spring's end), `force`, `penetration`
+     * and `contacts` (0 or 1) are. */
+    uint64_t control_ticks, control_missed;
+    int rendered;
 } ts_state;
 
 typedef struct ts_session_s* ts_session;
@@ -265,6 +286,12 @@ TS_API ts_status ts_session_touch(ts_session session, ts_scene scene);
 TS_API ts_status ts_session_set(ts_session session, const char* name, const char* value);
 /* Other than 0: on. Any thread, also while another one is in ts_session_run. */
 TS_API ts_status ts_session_force(ts_session session, int on);
+/* Other than 0: the control loop follows ts_session_goal from now on; 0: the servo's contact. TS_STATE
+ * without a control loop or a scene. */
+TS_API ts_status ts_session_render(ts_session session, int by_caller);
+/* The newest goal; 0.25 s after the last one the hand is let go. Late, lost and wrong ones make touch sticky
+ * and give no energy beyond goal_power. */
+TS_API ts_status ts_session_goal(ts_session session, const ts_goal* goal);
 /* From the next tick on to `file`, for `touchstone replay`; NULL ends the recording. */
 TS_API ts_status ts_session_record(ts_session session, const char* file);
 TS_API ts_status ts_session_start(ts_session session);

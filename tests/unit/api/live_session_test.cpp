@@ -70,6 +70,102 @@ TEST(LiveSession, GivesTheForceToAnOwnDeviceWithinItsLimits) {
     EXPECT_GT(pressing.samples, 100);
 }
 
+ts_goal floorGoal(double height) {
+    ts_goal goal = TS_STRUCT(ts_goal);
+    goal.touching = 1;
+    goal.proxy[1] = height;
+    goal.stiffness = 200.0;
+    goal.planes[0][1] = 1.0;
+    goal.plane_count = 1;
+    return goal;
+}
+
+// 250 Hz of contact, 4 kHz of control; then the caller renders it.
+TEST(LiveSession, HoldsAnOwnDeviceByAControlLoopApart) {
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.own = &device;
+    options.rate = 250.0;
+    options.control = 4000.0;
+    options.goal_power = 10.0;
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts::check(ts_session_create(&options, handle.out()));
+    ts_session session = handle.get();
+    EXPECT_EQ(ts_session_render(session, 1), TS_STATE);
+    ts::check(ts_session_touch(session, ts::Scene({floorMesh()}).get()));
+    ts::check(ts_session_start(session));
+    const auto until = [&](const auto& done) {
+        ts_state state = TS_STRUCT(ts_state);
+        for (int i = 0; i < 6000; ++i) {
+            ts::check(ts_session_pump(session, &state));
+            if (done(state))
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    };
+    EXPECT_TRUE(until([&](const ts_state& s) { return pressing.force > 0.99 && s.rendered == 0; }));
+    EXPECT_TRUE(until([](const ts_state& s) { return s.control_ticks > s.ticks; }));
+
+    ts::check(ts_session_render(session, 1));
+    EXPECT_TRUE(until([&](const ts_state& s) { return s.rendered == 1 && pressing.force == 0.0; }));
+    const ts_goal goal = floorGoal(0.0); // 200 N/m, 2 mm deep
+    EXPECT_TRUE(until([&](const ts_state& s) {
+        ts::check(ts_session_goal(session, &goal));
+        return std::abs(pressing.force - 0.4) < 1e-9 && std::abs(s.command[1] - 0.4) < 1e-9;
+    }));
+    EXPECT_TRUE(until([&](const ts_state&) { return pressing.force == 0.0; })) << "after a silence";
+    const ts_goal far = floorGoal(900.0);
+    EXPECT_TRUE(until([&](const ts_state&) {
+        ts::check(ts_session_goal(session, &far));
+        return pressing.force > 0.99;
+    }));
+    ts::check(ts_session_force(session, 0));
+    EXPECT_TRUE(until([&](const ts_state&) {
+        ts::check(ts_session_goal(session, &far));
+        return pressing.force == 0.0;
+    }));
+    ts::check(ts_session_stop(session));
+    EXPECT_LE(pressing.largest, 1.0 + 1e-12);
+}
+
+TEST(LiveSession, RefusesGoalsThatAreNone) {
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.device = "stroke";
+    for (const double wrong : {-1.0, 99.0, 4001.0, std::nan(""), double{INFINITY}}) {
+        options.control = wrong;
+        ts_session none = nullptr;
+        EXPECT_EQ(ts_session_create(&options, &none), TS_ARGUMENT) << wrong;
+    }
+    options.control = 1000.0;
+    options.goal_power = std::nan("");
+    ts_session none = nullptr;
+    EXPECT_EQ(ts_session_create(&options, &none), TS_ARGUMENT);
+    options.goal_power = 0.0;
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts::check(ts_session_create(&options, handle.out()));
+    ts_goal goal = floorGoal(0.0);
+    EXPECT_EQ(ts_session_goal(handle.get(), &goal), TS_STATE);
+    ts::check(ts_session_touch(handle.get(), ts::Scene({floorMesh()}).get()));
+    EXPECT_EQ(ts_session_goal(handle.get(), &goal), TS_OK);
+    EXPECT_EQ(ts_session_goal(handle.get(), nullptr), TS_ARGUMENT);
+    const auto refuse = [&](auto&& change) {
+        ts_goal wrong = floorGoal(0.0);
+        change(wrong);
+        EXPECT_EQ(ts_session_goal(handle.get(), &wrong), TS_ARGUMENT) << ts_last_error();
+    };
+    refuse([](ts_goal& g) { g.proxy[2] = std::nan(""); });
+    refuse([](ts_goal& g) { g.proxy[0] = 1e300; });
+    refuse([](ts_goal& g) { g.stiffness = -5.0; });
+    refuse([](ts_goal& g) { g.stiffness = INFINITY; });
+    refuse([](ts_goal& g) { g.damping = -1.0; });
+    refuse([](ts_goal& g) { g.plane_count = 4; });
+    refuse([](ts_goal& g) { g.plane_count = size_t{1} << 33; });
+    refuse([](ts_goal& g) { g.planes[0][1] = 1.1; });
+    refuse([](ts_goal& g) { g.planes[0][1] = std::nan(""); });
+}
+
 TEST(LiveSession, CallsBackAndRecordsAStroke) {
     const ScratchFolder folder;
     const std::string file = (folder / "stroke.tsrec").string();

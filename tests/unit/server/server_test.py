@@ -212,6 +212,106 @@ class Recording(Server):
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
 
+class Rendering(Server):
+    """A client is the contact renderer [000 §8]; the control loop holds the hand."""
+    options = ("--control", "4000")
+
+    def setUp(self):
+        super().setUp()
+        self.renderer = self.client(self.path)
+        self.touching(self.renderer)
+        self.renderer.ask("subscribe", states=1000)
+        self.renderer.ask("drive")
+
+    def floor(self, state):
+        """A plane 1 mm above the hand, wherever it is."""
+        x, y, z = state["hip"]
+        return dict(touching=True, proxy=[x, y + 0.001, z], stiffness=500, planes=[[0, 1, 0]])
+
+    def test_holds_the_hand_by_the_contact_of_a_client(self):
+        self.refused(self.renderer, "you do not render", "contact", touching=False)
+        self.assertFalse(self.renderer.state()["rendered"])
+        self.renderer.ask("render", on=True)
+        state = self.renderer.state()
+        while not state["rendered"]:
+            state = self.renderer.state()
+        height = state["hip"][1] + 0.002
+        pushed = 0
+        for _ in range(300):
+            x, y, z = state["hip"]
+            self.renderer.ask("contact", touching=y < height, proxy=[x, height, z], stiffness=500, planes=[[0, 1, 0]])
+            state = self.renderer.state()
+            if state["contacts"] and state["hip"][1] < height - 1e-4:
+                pushed += state["force"][1] > 0
+                self.assertLess(abs(state["force"][0]), 1e-6)  # along the plane it is free
+                self.assertLessEqual(state["force"][1], 500 * (height - state["hip"][1]) + 1e-6)
+        self.assertGreater(pushed, 50)
+        # Silence: the hand is let go.
+        deadline = time.monotonic() + 20
+        while self.renderer.state()["command"] != [0.0, 0.0, 0.0] and time.monotonic() < deadline:
+            pass
+        self.assertEqual(self.renderer.state()["command"], [0.0, 0.0, 0.0])
+        self.renderer.ask("render", on=False)
+        state = self.renderer.state()
+        while state["rendered"]:
+            state = self.renderer.state()
+        self.touching(self.renderer)  # the server's own contact again
+
+    def test_bears_wrong_late_and_random_contact(self):
+        watcher = self.client()
+        self.refused(watcher, "another client drives", "render", on=True)
+        self.renderer.ask("render", on=True)
+        self.refused(watcher, "another client drives", "contact", touching=False)
+        good = dict(touching=True, proxy=[0, 0, 0])
+        for part, wrong in (("'touching' is missing", {}), ("'proxy' is missing", dict(touching=True)),
+                            ("three numbers", {**good, "proxy": [1, 2]}), ("wrong type", {**good, "proxy": [1, 2, "3"]}),
+                            ("wrong type", {**good, "proxy": [1, 2, None]}), ("within 1 km", {**good, "proxy": [1e300, 0, 0]}),
+                            ("'stiffness'", {**good, "stiffness": -1}), ("'stiffness'", {**good, "stiffness": 1e9}),
+                            ("'damping'", {**good, "damping": -1}), ("'planes'", {**good, "planes": [[0, 2, 0]]}),
+                            ("'planes'", {**good, "planes": [[0, 0, 0]]}), ("'planes'", {**good, "planes": [[0, 1, 0]] * 4}),
+                            ("'planes'", {**good, "planes": [[0, 1]]}), ("wrong type", {**good, "planes": 7})):
+            self.refused(self.renderer, part, "contact", **wrong)
+        generator = numpy.random.default_rng(5)
+        for i in range(400):  # proxies anywhere, now and then late
+            plane = generator.normal(size=3)
+            self.renderer.ask("contact", touching=True, proxy=list(generator.normal(size=3)), stiffness=3000, damping=1,
+                              planes=[list(plane / numpy.linalg.norm(plane))] if i % 2 else [])
+            if i % 100 == 50:
+                time.sleep(0.1)
+            self.assertLessEqual(numpy.linalg.norm(self.renderer.state()["command"]), 8.5 + 1e-9)
+        self.renderer.close()  # who vanishes renders no more
+        for _ in range(2000):
+            if not watcher.state()["rendered"]:
+                break
+        state = watcher.state()
+        self.assertFalse(state["rendered"])
+        self.assertIsNone(state["driver"])
+        self.touching(watcher)
+
+    def test_the_person_takes_the_force_away_from_it(self):
+        self.renderer.ask("render", on=True)
+        self.renderer.ask("contact", **self.floor(self.renderer.state()))
+        self.server.stdin.write(" ")
+        self.server.stdin.flush()
+        while not self.renderer.event("driver").get("taken_back"):
+            pass
+        self.refused(self.renderer, "you do not drive", "contact", **self.floor(self.renderer.state()))
+        for _ in range(600):
+            if self.renderer.state()["command"] == [0.0, 0.0, 0.0]:
+                break
+        self.assertEqual(self.renderer.state()["command"], [0.0, 0.0, 0.0])
+
+
+class WithoutControlLoop(Server):
+    def test_says_what_is_missing(self):
+        client = self.client()
+        self.touching(client)
+        client.ask("drive")
+        self.refused(client, "no control loop", "render", on=True)
+        for rate in (0, 1001, "fast"):
+            self.refused(client, "'states'", "subscribe", states=rate)
+
+
 class Abuse(Server):
     def test_no_client_stops_the_others_or_the_servo(self):
         watcher = self.client(self.path)
