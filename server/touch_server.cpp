@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <stdexcept>
@@ -60,7 +61,8 @@ void append(std::string& bytes, const void* data, size_t size) {
 } // namespace
 
 TouchServer::TouchServer(const ServeOptions& options, std::string token)
-    : options_(options), token_(std::move(token)), ticks_(kTickBlock) {
+    : options_(options), token_(std::move(token)), changedMaterials_(Json::object()),
+      changedSettings_(Json::object()), ticks_(kTickBlock) {
     ts_session_options session = TS_STRUCT(ts_session_options);
     session.device = options_.device.c_str();
     session.rate = options_.rate;
@@ -170,10 +172,13 @@ TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, c
                            {"unit", info.unit},
                            {"meaning", info.meaning},
                            {"allowed", info.allowed},
-                           {"initial", info.initial}});
+                           {"initial", info.initial},
+                           {"value", changedSettings_.value(info.name, info.initial)}});
         }
         return {{"settings", all}};
     }
+    if (verb == "materials")
+        return materials();
     if (verb == "drive") {
         if (driver_ != 0 && driver_ != client.number)
             throw Refusal("another client drives");
@@ -202,6 +207,56 @@ TouchServer::Json TouchServer::subscribe(Client& client, const Json& message) {
     if (message.contains("ticks"))
         client.ticks = member<bool>(message, "ticks");
     return Json::object();
+}
+
+/// The numbers that may change, and what the materials of the scene have of them; null: not stated.
+TouchServer::Json TouchServer::materials() const {
+    Json numbers = Json::array(), all = Json::array();
+    for (size_t i = 0; i < ts_material_number_count(); ++i) {
+        ts_number_info info = TS_STRUCT(ts_number_info);
+        ts::check(ts_material_number_get_info(i, &info));
+        numbers.push_back({{"name", info.name},
+                           {"label", info.label},
+                           {"unit", info.unit},
+                           {"meaning", info.meaning},
+                           {"least", info.least},
+                           {"most", info.most},
+                           {"low", info.low},
+                           {"high", info.high},
+                           {"logarithmic", info.logarithmic != 0}});
+    }
+    for (uint64_t m = 0, count = scene_ != nullptr ? scene_->info().materials : 0; m < count; ++m) {
+        Json values = Json::object();
+        for (const Json& number : numbers) {
+            const auto name = number["name"].get<std::string>();
+            double value = 0.0;
+            ts::check(ts_scene_material_number(scene_->get(), m, name.c_str(), &value));
+            values[name] = std::isnan(value) ? Json() : Json(value);
+        }
+        if (const std::string key = std::to_string(m); changedMaterials_.contains(key))
+            values.update(changedMaterials_[key]);
+        all.push_back({{"name", ts::text([&](char* text, size_t room, size_t* needed) {
+                            return ts_scene_material_name(scene_->get(), m, text, room, needed);
+                        })},
+                       {"values", values}});
+    }
+    return {{"numbers", numbers}, {"materials", all}};
+}
+
+void TouchServer::setMaterial(const Json& message) {
+    const auto number = member<int64_t>(message, "material");
+    if (number < 0)
+        throw Refusal("'material' is negative");
+    const auto material = static_cast<uint64_t>(number);
+    const auto name = member<std::string>(message, "name");
+    const bool asInFile = message.contains("value") && message["value"].is_null();
+    double value = asInFile ? std::nan("") : member<double>(message, "value");
+    ts::check(ts_session_material(session_.get(), material, name.c_str(), value));
+    if (asInFile)
+        ts::check(ts_scene_material_number(scene_->get(), material, name.c_str(), &value));
+    const Json now = std::isnan(value) ? Json() : Json(value);
+    changedMaterials_[std::to_string(material)][name] = now;
+    tell({{"event", "material"}, {"material", material}, {"name", name}, {"value", now}});
 }
 
 /// What a client sends that renders contact.
@@ -245,7 +300,10 @@ TouchServer::Json TouchServer::drive(Client& client, const std::string& verb, co
     } else if (verb == "set") {
         const auto name = member<std::string>(message, "name"), value = member<std::string>(message, "value");
         ts::check(ts_session_set(session_.get(), name.c_str(), value.c_str()));
+        changedSettings_[name] = value;
         tell({{"event", "setting"}, {"name", name}, {"value", value}});
+    } else if (verb == "material") {
+        setMaterial(message);
     } else if (verb == "load") {
         return load(message, client.number);
     } else if (verb == "record") {
@@ -299,7 +357,7 @@ void TouchServer::beginLoading(std::function<std::unique_ptr<ts::Scene>()> make,
 void TouchServer::finishLoading() {
     if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return;
-    const Loaded loaded = loading_.get();
+    Loaded loaded = loading_.get();
     try {
         if (loaded.scene == nullptr)
             throw ts::Error(TS_INPUT, loaded.error);
@@ -313,6 +371,8 @@ void TouchServer::finishLoading() {
         sceneFile_ = loadingFile_;
         triangles_ = loaded.triangles;
         const ts_scene_info info = loaded.scene->info();
+        scene_ = std::move(loaded.scene);
+        changedMaterials_ = Json::object();
         tell({{"event", "scene"},
               {"file", sceneFile_},
               {"triangles", info.triangles},

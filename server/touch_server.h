@@ -82,6 +82,8 @@ class TouchServer {
     void requireDriver(const Client& client) const;
     [[nodiscard]] Json drive(Client& client, const std::string& verb, const Json& message);
     [[nodiscard]] Json subscribe(Client& client, const Json& message);
+    [[nodiscard]] Json materials() const;
+    void setMaterial(const Json& message);
     void hearGoal(const Json& message);
     void render(bool byClient);
     void dismissDriver();
@@ -96,6 +98,9 @@ class TouchServer {
     uint64_t driver_ = 0;
     bool forceOn_ = true, touching_ = false, rendered_ = false;
     std::future<Loaded> loading_;
+    std::unique_ptr<ts::Scene> scene_; ///< that is touched
+    Json changedMaterials_;            ///< what clients have changed of it: {"0": {"stiffness": 900}}
+    Json changedSettings_;             ///< by name, since the start
     std::string loadingFile_, sceneFile_;
     uint64_t loader_ = 0, lastTick_ = ~uint64_t{0};
     std::vector<Outgoing> outgoing_;

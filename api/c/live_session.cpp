@@ -4,6 +4,7 @@
 #include "devices/choice/device_choice.h"
 #include "devices/stroke/stroke_library.h"
 #include "engine/time/seconds_now.h"
+#include "haptics/scene/built_for.h"
 #include "session/device_port.h"
 
 #include <chrono>
@@ -153,6 +154,7 @@ void LiveSession::touch(std::shared_ptr<TouchedScene> scene) {
     requireOpen();
     scene->prepareFor(settings_);
     scene_ = std::move(scene);
+    changed_.reset();
     if (session_ == nullptr || (!running_ && !stroke_.empty())) {
         recorder_.reset();
         session_.reset();
@@ -169,8 +171,23 @@ void LiveSession::set(std::string_view name, std::string_view value) {
         refuseArgument("value", problem);
     if (scene_ != nullptr)
         scene_->prepareFor(settings_);
+    if (changed_)
+        buildFor(*changed_->haptic(), settings_);
     if (session_ != nullptr)
         session_->set(settings_);
+}
+
+void LiveSession::material(uint64_t material, std::string_view name, double value) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    if (session_ == nullptr)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    if (!changed_)
+        changed_.emplace(scene_);
+    changed_->set(material, name, value);
+    buildFor(*changed_->haptic(), settings_);
+    (void)session_->touch(changed_->haptic(), scene_->source(), changed_->identity(),
+                          SceneSwap::SameGeometry);
 }
 
 void LiveSession::force(bool on) {

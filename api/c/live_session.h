@@ -1,5 +1,6 @@
 #pragma once
 
+#include "api/c/changed_materials.h"
 #include "api/c/tick_arrays.h"
 #include "api/c/touched_scene.h"
 #include "devices/device/mapped_device.h"
@@ -44,6 +45,7 @@ class LiveSession final : public Object, private TickSubscriber {
 
     void touch(std::shared_ptr<TouchedScene> scene);
     void set(std::string_view name, std::string_view value);
+    void material(uint64_t material, std::string_view name, double value);
     void force(bool on);
     void render(bool byCaller);
     void goal(const ts_goal& goal);
@@ -81,6 +83,7 @@ class LiveSession final : public Object, private TickSubscriber {
     std::unique_ptr<Session> session_;     // null: no scene yet
     std::optional<ServoRecorder> recorder_;
     std::shared_ptr<TouchedScene> scene_;
+    std::optional<ChangedMaterials> changed_; // of scene_; none: as it says
     HapticSettings settings_;
     bool running_ = false;
     std::atomic<bool> closed_{false};

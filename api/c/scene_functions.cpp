@@ -1,11 +1,13 @@
 // ts_scene_*, ts_setting*, ts_touch, ts_hand_* and ts_stroke.
 
 #include "api/c/calls.h"
+#include "api/c/changed_materials.h"
 #include "api/c/named_settings.h"
 #include "api/c/offline_hand.h"
 #include "api/c/scene_arrays.h"
 #include "devices/stroke/stroke_library.h"
 #include "engine/load/scene_loader.h"
+#include "engine/scene/haptic_numbers.h"
 
 #include <cmath>
 
@@ -69,6 +71,32 @@ size_t trianglesOf(const TouchedScene& scene, float* corners, size_t capacity) {
         count += mesh.triangleCount();
     }
     return count;
+}
+
+/// Those that change no geometry.
+const std::vector<const HapticNumber*>& materialNumbers() {
+    static const std::vector<const HapticNumber*> all = [] {
+        std::vector<const HapticNumber*> numbers;
+        for (const HapticNumber& number : hapticNumbers())
+            if (number.settled != nullptr)
+                numbers.push_back(&number);
+        return numbers;
+    }();
+    return all;
+}
+
+ts_number_info infoOf(const HapticNumber& number) {
+    ts_number_info info{};
+    info.name = number.name.data(); // literals
+    info.label = number.label.data();
+    info.unit = number.unit.data();
+    info.meaning = number.meaning.data();
+    info.least = number.least;
+    info.most = number.most;
+    info.low = number.low;
+    info.high = number.high;
+    info.logarithmic = number.logarithmic ? 1 : 0;
+    return info;
 }
 
 std::shared_ptr<OfflineHand> newHand(ts_scene scene, ts_settings settings) {
@@ -166,6 +194,36 @@ ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t ca
             refuseArgument("index", std::to_string(index) + ", and there are " +
                                         std::to_string(touched->warnings().size()) + " warnings");
         giveText(touched->warnings()[index], text, capacity, needed);
+    });
+}
+
+size_t ts_material_number_count(void) {
+    return materialNumbers().size();
+}
+
+ts_status ts_material_number_get_info(size_t index, ts_number_info* info) {
+    return call([&] {
+        if (index >= materialNumbers().size())
+            refuseArgument("index", "is not below ts_material_number_count");
+        giveStruct(infoOf(*materialNumbers()[index]), info, "info");
+    });
+}
+
+ts_status ts_scene_material_name(ts_scene scene, uint64_t material, char* text, size_t capacity,
+                                 size_t* needed) {
+    return call([&] {
+        const std::shared_ptr<TouchedScene> touched = take<TouchedScene>(scene, kScene);
+        const std::vector<Material>& all = touched->source()->materials;
+        if (material >= all.size())
+            refuseArgument("material", "is not below the scene's materials");
+        giveText(all[static_cast<size_t>(material)].name, text, capacity, needed);
+    });
+}
+
+ts_status ts_scene_material_number(ts_scene scene, uint64_t material, const char* name, double* value) {
+    return call([&] {
+        (void)given(value, "value");
+        *value = feltNumber(*take<TouchedScene>(scene, kScene)->source(), material, textOf(name, "name"));
     });
 }
 

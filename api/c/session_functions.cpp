@@ -42,6 +42,10 @@ ts_status ts_session_force(ts_session session, int on) {
     return call([&] { live(session)->force(on != 0); });
 }
 
+ts_status ts_session_material(ts_session session, uint64_t material, const char* name, double value) {
+    return call([&] { live(session)->material(material, textOf(name, "name"), value); });
+}
+
 ts_status ts_session_render(ts_session session, int by_caller) {
     return call([&] { live(session)->render(by_caller != 0); });
 }

@@ -28,6 +28,9 @@ function connect() {
     socket.onclose = () => { $('status').textContent = 'connection closed'; };
 }
 
+/// Its slider is being dragged here: what comes back is older than the hand.
+const editing = id => document.activeElement === $(`slide-${id}`) && $(`slide-${id}`).matches(':active');
+
 function take(message) {
     if (message.id !== undefined && waiting.has(message.id)) {
         const {resolve, reject} = waiting.get(message.id);
@@ -39,28 +42,92 @@ function take(message) {
         history_.push(message.force);
         if (history_.length > 320) history_.shift();
     } else if (message.event === 'scene') showScene(message.file);
-    else if (message.event === 'setting') { const field = $(`set-${message.name}`); if (field) field.value = message.value; }
+    else if (message.event === 'setting') { if (!editing(`set-${message.name}`)) shown.settings[message.name]?.(message.value); }
+    else if (message.event === 'material') {
+        if (materials[message.material]) materials[message.material].values[message.name] = message.value;
+        if (message.material === $('material').selectedIndex && !editing(`mat-${message.name}`)) shown.materials[message.name]?.(message.value);
+    }
     else if (message.event === 'error') $('status').textContent = message.error;
 }
 
-// ---- Settings
+// ---- Settings and materials: a slider and a field for each number, for who drives
+const say = text => { $('status').textContent = text; };
+/// Slider of 0..1000 to a value and back. Where the least is above 0 by decades: by the logarithm; else by the cube, finer near the least.
+function scaleOf(low, high, logarithmic) {
+    if (logarithmic && low > 0)
+        return {at: t => low * Math.pow(high / low, t / 1000), of: v => 1000 * Math.log(v / low) / Math.log(high / low)};
+    const wide = high - low > 100;
+    return {at: t => low + (high - low) * Math.pow(t / 1000, wide ? 3 : 1), of: v => 1000 * Math.pow((v - low) / (high - low), wide ? 1 / 3 : 1)};
+}
+/// A row; `send` gets a number as it is dragged or typed. Returns its way to show a value.
+function numberRow(parent, {id, label, unit, title, least, most, low, high, logarithmic}, send) {
+    const row = document.createElement('label'), slider = document.createElement('input'), field = document.createElement('input');
+    const scale = scaleOf(low, high, logarithmic);
+    row.title = title;
+    Object.assign(slider, {id: `slide-${id}`, type: 'range', min: 0, max: 1000, step: 'any'});
+    Object.assign(field, {id, type: 'number', min: least, max: most, step: 'any'});
+    const show = value => { field.value = value === null ? '' : Number(Number(value).toPrecision(6)); slider.value = value === null ? 0 : Math.min(1000, Math.max(0, scale.of(Number(value)))); };
+    slider.oninput = () => { const value = Number(scale.at(Number(slider.value)).toPrecision(4)); field.value = value; send(value); };
+    field.onchange = () => { slider.value = scale.of(Number(field.value)); send(field.value === '' ? null : Number(field.value)); };
+    row.append(label, slider, field, unit);
+    parent.append(row);
+    return show;
+}
+/// Sends the newest value once the answer to the one before is here: a drag is no flood.
+function sender(send) {
+    let busy = false, next;
+    const go = async value => {
+        if (busy) { next = [value]; return; }
+        busy = true;
+        try { await drive(); await send(value); } catch (error) { say(error.message); }
+        busy = false;
+        if (next) { const [value] = next; next = undefined; go(value); }
+    };
+    return go;
+}
+const shown = {settings: {}, materials: {}};
 function showSettings(all) {
     for (const setting of all) {
-        const label = document.createElement('label');
-        label.title = `${setting.meaning} [${setting.allowed}]`;
-        label.append(setting.name);
-        const range = setting.allowed.match(/^(\S+) \.\. (\S+)/);
-        const field = document.createElement(range ? 'input' : 'select');
-        field.id = `set-${setting.name}`;
-        if (range) { field.type = 'number'; field.min = range[1]; field.max = range[2]; field.step = 'any'; }
-        else for (const word of setting.allowed.split(', ')) field.append(new Option(word));
-        field.value = setting.initial;
-        field.onchange = () => drive().then(() => ask('set', {name: setting.name, value: field.value}))
-            .then(() => { $('status').textContent = `${setting.name} = ${field.value}`; }, error => { $('status').textContent = error.message; });
-        label.append(field, setting.unit);
-        $('settings').append(label);
+        const range = setting.allowed.match(/^(\S+) \.\. (\S+)/), title = `${setting.meaning} [${setting.allowed}]`;
+        const send = sender(value => ask('set', {name: setting.name, value: String(value)}).then(() => say(`${setting.name} = ${value}`)));
+        if (range) {
+            const least = Number(range[1]), most = Number(range[2]);
+            shown.settings[setting.name] = numberRow($('settings'), {id: `set-${setting.name}`, label: setting.name, unit: setting.unit, title, least, most, low: least, high: most}, send);
+        } else {
+            const label = document.createElement('label'), field = document.createElement('select');
+            label.title = title;
+            field.id = `set-${setting.name}`;
+            for (const word of setting.allowed.split(', ')) field.append(new Option(word));
+            field.onchange = () => send(field.value);
+            label.append(setting.name, field, setting.unit);
+            $('settings').append(label);
+            shown.settings[setting.name] = value => { field.value = value; };
+        }
+        shown.settings[setting.name](setting.value);
     }
 }
+let materials = [];
+async function showMaterials() {
+    const {numbers, materials: all} = await ask('materials');
+    materials = all;
+    const choice = $('material');
+    const before = choice.selectedIndex;
+    choice.replaceChildren(...all.map((material, i) => new Option(material.name || `material ${i}`)));
+    choice.selectedIndex = before >= 0 && before < all.length ? before : 0;
+    $('numbers').replaceChildren();
+    shown.materials = {};
+    for (const number of numbers) {
+        const send = sender(([material, value]) => ask('material', {material, name: number.name, value}).then(() => say(`${number.label} = ${value ?? 'as in the file'}`)));
+        shown.materials[number.name] = numberRow($('numbers'), {...number, id: `mat-${number.name}`, title: `${number.meaning} [${number.least} .. ${number.most}; empty: as in the file]`},
+            value => send([choice.selectedIndex, value]));
+    }
+    showMaterial();
+}
+function showMaterial() {
+    const values = materials[$('material').selectedIndex]?.values ?? {};
+    for (const [name, show] of Object.entries(shown.materials)) show(values[name] ?? null);
+}
+$('material').onchange = showMaterial;
 const drive = () => state && state.driver === me ? Promise.resolve() : ask('drive');
 $('drive').onclick = () => (state && state.driver === me ? ask('release') : ask('drive')).catch(error => { $('status').textContent = error.message; });
 $('force').onclick = () => (forceOn ? ask('force', {on: false}) : drive().then(() => ask('force', {on: true})))
@@ -80,6 +147,7 @@ async function showScene(file) {
     }
     model = upload(positions, normals);
     $('scene').textContent += `, ${model.count / 3} triangles`;
+    await showMaterials();
 }
 
 // ---- Vectors; matrices are columns of four

@@ -126,6 +126,21 @@ TS_API ts_status ts_scene_get_info(ts_scene scene, ts_scene_info* info);
  * the bytes that it needs with it. */
 TS_API ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t capacity,
                                   size_t* needed);
+/* The numbers of a material that may change while it is touched (docs/materials.md). */
+typedef struct ts_number_info {
+    size_t size;
+    const char *name, *label, *unit, *meaning; /* static texts */
+    double least, most;                        /* what is allowed, SI */
+    double low, high;                          /* ends of a slider */
+    int logarithmic;                           /* the slider */
+} ts_number_info;
+TS_API size_t ts_material_number_count(void);
+TS_API ts_status ts_material_number_get_info(size_t index, ts_number_info* info);
+/* As ts_scene_warning. */
+TS_API ts_status ts_scene_material_name(ts_scene scene, uint64_t material, char* text, size_t capacity,
+                                        size_t* needed);
+/* What is felt of the file, before maps; NaN: the session's setting or the device's recommendation. */
+TS_API ts_status ts_scene_material_number(ts_scene scene, uint64_t material, const char* name, double* value);
 /* The corners of the first `capacity` triangles at rest, 9 floats each, m, workspace (`corners` may be NULL
  * where it is 0); all of them are counted in `triangles`. */
 TS_API ts_status ts_scene_triangles(ts_scene scene, float* corners, size_t capacity, size_t* triangles);
@@ -284,6 +299,9 @@ TS_API ts_status ts_session_create(const ts_session_options* options, ts_session
 /* From the next tick on. A simulated hand strokes the scene of the last call before the start. */
 TS_API ts_status ts_session_touch(ts_session session, ts_scene scene);
 TS_API ts_status ts_session_set(ts_session session, const char* name, const char* value);
+/* A number of a material of the touched scene, from the next tick on; touch goes on. NaN: what the file says
+ * again. The next ts_session_touch begins with what the scene says. A recording has it. */
+TS_API ts_status ts_session_material(ts_session session, uint64_t material, const char* name, double value);
 /* Other than 0: on. Any thread, also while another one is in ts_session_run. */
 TS_API ts_status ts_session_force(ts_session session, int on);
 /* Other than 0: the control loop follows ts_session_goal from now on; 0: the servo's contact. TS_STATE

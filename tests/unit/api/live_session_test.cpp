@@ -130,6 +130,58 @@ TEST(LiveSession, HoldsAnOwnDeviceByAControlLoopApart) {
     EXPECT_LE(pressing.largest, 1.0 + 1e-12);
 }
 
+TEST(LiveSession, ChangesAMaterialWhileItIsTouched) {
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.own = &device;
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts::check(ts_session_create(&options, handle.out()));
+    ts_session session = handle.get();
+    EXPECT_EQ(ts_session_material(session, 0, "stiffness", 100.0), TS_STATE);
+    const ts::Scene scene({floorMesh()});
+    ts::check(ts_session_touch(session, scene.get()));
+    ts::check(ts_session_start(session));
+    const auto reaches = [&](double newtons) {
+        ts_state state = TS_STRUCT(ts_state);
+        for (int i = 0; i < 6000; ++i) {
+            ts::check(ts_session_pump(session, &state));
+            if (std::abs(pressing.force - newtons) < 1e-3)
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    };
+    EXPECT_TRUE(reaches(1.0)); // 600 N/m, 2 mm deep, at most 1 N
+    ts::check(ts_session_material(session, 0, "stiffness", 100.0));
+    EXPECT_TRUE(reaches(0.2));
+    ts::check(ts_session_material(session, 0, "stiffness", 300.0));
+    EXPECT_TRUE(reaches(0.6));
+    EXPECT_EQ(ts_session_material(session, 1, "stiffness", 1.0), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_material(session, ~uint64_t{0}, "stiffness", 1.0), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_material(session, 0, "voxelSize", 1.0), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_material(session, 0, nullptr, 1.0), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_material(session, 0, "stiffness", -1.0), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_material(session, 0, "stiffness", INFINITY), TS_ARGUMENT);
+    EXPECT_TRUE(reaches(0.6)) << "a refused call changes nothing";
+    ts::check(ts_session_material(session, 0, "stiffness", NAN));
+    EXPECT_TRUE(reaches(1.0));
+
+    double value = 0.0;
+    ts::check(ts_scene_material_number(scene.get(), 0, "stiffness", &value));
+    EXPECT_TRUE(std::isnan(value));
+    EXPECT_EQ(ts_scene_material_number(scene.get(), 9, "stiffness", &value), TS_ARGUMENT);
+    EXPECT_EQ(ts_scene_material_number(scene.get(), 0, "stiffness", nullptr), TS_ARGUMENT);
+    ts_number_info info = TS_STRUCT(ts_number_info);
+    EXPECT_GT(ts_material_number_count(), 4u);
+    ts::check(ts_material_number_get_info(0, &info));
+    EXPECT_LT(info.least, info.most);
+    EXPECT_EQ(ts_material_number_get_info(ts_material_number_count(), &info), TS_ARGUMENT);
+    size_t needed = 0;
+    ts::check(ts_scene_material_name(scene.get(), 0, nullptr, 0, &needed));
+    EXPECT_GT(needed, 1u);
+}
+
 TEST(LiveSession, RefusesGoalsThatAreNone) {
     ts_session_options options = TS_STRUCT(ts_session_options);
     options.device = "stroke";

@@ -3,6 +3,7 @@ arguments PROGRAM SCENES [BROWSER]. Loopback only; no time is asserted."""
 
 import base64
 import http.client
+import json
 import os
 import pathlib
 import socket
@@ -12,6 +13,7 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.request
 
 import numpy
 
@@ -207,6 +209,8 @@ class Recording(Server):
             self.refused(client, "new file below the root", "record", file=name)
         client.ask("record", file="a.tsrec")
         time.sleep(0.3)
+        client.ask("material", material=0, name="stiffness", value=431.5)
+        time.sleep(0.3)
         client.ask("record", file="")
         replay = subprocess.run([PROGRAM, "replay", str(self.folder / "root" / "a.tsrec")], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
@@ -368,7 +372,132 @@ class Abuse(Server):
         self.assertAlmostEqual(float(numpy.median(steps)), 1e-3, places=9)
 
 
+class Materials(Server):
+    def test_clients_change_what_is_felt(self):
+        driver, watcher = self.client(), self.client(self.path)
+        self.touching(driver)
+        table = driver.ask("materials")
+        self.assertEqual(len(table["materials"]), 1)
+        self.assertIn("stiffness", [number["name"] for number in table["numbers"]])
+        self.refused(watcher, "you do not drive", "material", material=0, name="stiffness", value=900)
+        driver.ask("drive")
+        for part, wrong in (("'material' is missing", dict(name="stiffness", value=1)), ("1, and there are 1", dict(material=1, name="stiffness", value=1)),
+                            ("wrong type", dict(material="a", name="stiffness", value=1)), ("'hardness'", dict(material=0, name="hardness", value=1)),
+                            ("not within", dict(material=0, name="stiffness", value=-1)), ("not within", dict(material=0, name="stiffness", value=1e300)),
+                            ("'value' is missing", dict(material=0, name="stiffness")), ("wrong type", dict(material=0, name="stiffness", value="9")),
+                            ("is negative", dict(material=-1, name="stiffness", value=1))):
+            with self.assertRaisesRegex(ServerError, part):
+                driver.ask("material", **wrong)
+
+        def stiffness():
+            """Force over depth, where the hand is in contact."""
+            for _ in range(3000):
+                state = watcher.state()
+                if state["contacts"] == 1 and state["penetration"] > 2e-4 and numpy.linalg.norm(state["force"]) < 8:
+                    normal = numpy.array(state["proxy"]) - state["hip"]
+                    return float(numpy.dot(state["force"], normal) / numpy.dot(normal, normal))
+            self.fail("no contact")
+
+        driver.ask("set", name="damping", value="0")
+        for name in ("staticFriction", "dynamicFriction"):
+            driver.ask("material", material=0, name=name, value=0)
+        for wanted in (300, 900):
+            driver.ask("material", material=0, name="stiffness", value=wanted)
+            self.assertEqual({**watcher.event("material"), "name": ""}.keys(), {"event", "material", "name", "value"})
+            for _ in range(50):
+                if abs(stiffness() - wanted) < 0.01 * wanted:
+                    break
+            self.assertAlmostEqual(stiffness() / wanted, 1.0, delta=0.01)
+        self.assertEqual(watcher.ask("materials")["materials"][0]["values"]["stiffness"], 900)
+        driver.ask("material", material=0, name="stiffness", value=None)
+        self.assertEqual(watcher.ask("materials")["materials"][0]["values"]["stiffness"], table["materials"][0]["values"]["stiffness"])
+        driver.ask("load", scene="box.glb")
+        driver.event("scene")
+        self.assertNotEqual(watcher.ask("materials")["materials"][0]["values"].get("staticFriction"), 0)
+
+
+class Browser(Client):
+    """The DevTools of a page, over the client's own frames."""
+
+    def __init__(self, port, path):
+        self.path = path
+        super().__init__(port, timeout=30.0)
+
+    def _open(self, host, where, token):
+        self._socket.sendall((f"GET {self.path} HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                              "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+        self._buffer = b""
+        while b"\r\n\r\n" not in self._buffer:
+            self._more()
+        self._buffer = self._buffer.split(b"\r\n\r\n", 1)[1]
+
+    def run(self, script):
+        """The value of an expression in the page."""
+        self._asked += 1
+        self.send(json.dumps({"id": self._asked, "method": "Runtime.evaluate", "params": {"expression": script, "returnByValue": True}}).encode())
+        while True:
+            message = self.receive()
+            if message.get("id") == self._asked:
+                return message["result"]["result"].get("value")
+
+
 class Page(Server):
+    @unittest.skipUnless(len(sys.argv) > 3 and sys.argv[3], "there is no Chromium")
+    def test_its_sliders_change_what_another_client_feels(self):
+        watcher = self.client(self.path)
+        self.touching(watcher)
+        port = free_port()
+        browser = subprocess.Popen([sys.argv[3], "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                                    "--enable-unsafe-swiftshader", f"--user-data-dir={self.folder}/sliders", f"--remote-debugging-port={port}",
+                                    f"http://127.0.0.1:{self.port}/#{token_of(self.port)}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(browser.wait)
+        self.addCleanup(browser.terminate)
+
+        def until(what, seconds=60):
+            end = time.monotonic() + seconds
+            while time.monotonic() < end:
+                try:
+                    value = what()
+                except (OSError, ValueError):
+                    value = None
+                if value:
+                    return value
+                time.sleep(0.1)
+            self.fail("waited in vain")
+
+        def target():
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=5) as answer:
+                return [page["webSocketDebuggerUrl"] for page in json.load(answer) if page["type"] == "page" and str(self.port) in page["url"]]
+
+        page = Browser(port, "/" + until(target)[0].split("/", 3)[3])
+        self.addCleanup(page.close)
+        until(lambda: page.run("document.querySelectorAll('#numbers input[type=range]').length") or 0)
+        self.assertGreater(page.run("document.querySelectorAll('#settings input[type=range]').length"), 10)
+
+        def drag(slider, to):
+            page.run(f"(() => {{ const s = document.getElementById('{slider}'); s.value = {to}; s.dispatchEvent(new Event('input')); }})()")
+
+        drag("slide-set-stiffness", 500)
+        event = watcher.event("setting")
+        self.assertEqual(event["name"], "stiffness")
+        self.assertEqual(float(event["value"]), float(page.run("document.getElementById('set-stiffness').value")))
+        drag("slide-mat-staticFriction", 800)
+        event = watcher.event("material")
+        self.assertEqual((event["material"], event["name"]), (0, "staticFriction"))
+        self.assertGreater(event["value"], 0)
+        self.assertEqual(watcher.ask("materials")["materials"][0]["values"]["staticFriction"], event["value"])
+        self.assertEqual(watcher.state()["driver"], until(lambda: page.run("state.driver === me && me")))
+        # Another client drives: the page shows what that one changes.
+        page.run("document.getElementById('drive').click()")
+        until(lambda: watcher.state()["driver"] is None)
+        watcher.ask("drive")
+        watcher.ask("set", name="stiffness", value="777")
+        until(lambda: page.run("document.getElementById('set-stiffness').value") == "777")
+        watcher.ask("material", material=0, name="staticFriction", value=0.25)
+        until(lambda: page.run("document.getElementById('mat-staticFriction').value") == "0.25")
+        drag("slide-set-stiffness", 100)  # who does not drive is told so
+        until(lambda: "another client drives" in page.run("document.getElementById('status').textContent"))
+
     @unittest.skipUnless(len(sys.argv) > 3 and sys.argv[3], "there is no Chromium")
     def test_shows_the_model_and_the_force(self):
         self.touching(self.client(self.path))
