@@ -1,5 +1,6 @@
 #include "haptics/comparison/comparison_solver.h"
 #include "workbench/figures/quantity.h"
+#include "workbench/panels/pad_view.h"
 #include "workbench/screen/keys.h"
 #include "workbench/workbench_window.h"
 
@@ -12,6 +13,8 @@ void WorkbenchWindow::draw() {
     auto widgets = drawPanels(input, state_);
     widgets.merge(drawMaterials(input.scale));
     const auto points = static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x);
+    if (const auto pad = touch_.padShown())
+        widgets["pad"] = drawPadView(*pad, widgets["picture"], input.scale);
     view_.update({.origin = glm::dvec2(area.x, area.y) / points,
                   .area = glm::dvec2(area.width, area.height) / points,
                   .probe = shownTick().output.proxy,

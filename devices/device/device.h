@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/device_io/device_io.h"
+#include "engine/device_io/pad_command.h"
 
 #include <string>
 
@@ -20,6 +21,10 @@ class Device {
     /// Servo thread; time in s since start. Without limits: see sampleWithLimits.
     [[nodiscard]] virtual DeviceSample sample(double time) noexcept = 0;
     virtual void apply(const DeviceCommand& command) noexcept = 0; ///< servo thread
+    /// Servo thread, after `sample`: of its contact location display; none by default.
+    [[nodiscard]] virtual PadLimits pad() const noexcept { return {}; }
+    /// Servo thread, before `apply`, where pad() has a reach.
+    virtual void applyPad(const PadCommand& command) noexcept { (void)command; }
 };
 
 /// The input of a tick: the device's sample with the limits that its command must keep. Servo thread.

@@ -23,6 +23,8 @@ class MappedDevice final : public Device {
         return sample;
     }
     void apply(const DeviceCommand& command) noexcept override { device_.apply(command); }
+    [[nodiscard]] PadLimits pad() const noexcept override { return device_.pad(); }
+    void applyPad(const PadCommand& command) noexcept override { device_.applyPad(command); }
 
   private:
     Device& device_;

@@ -105,6 +105,8 @@ void ExternalDevice::receive() {
 }
 
 void ExternalDevice::take(std::span<const uint8_t> bytes, const Client& from, int64_t arrivedNs) {
+    if (const auto pad = parsePadPacket(bytes))
+        return declare(*pad, from);
     const auto packet = parsePlacePacket(bytes);
     const bool local = ntohl(from.address) >> 24 == 127;
     if (!packet)
@@ -131,14 +133,24 @@ void ExternalDevice::take(std::span<const uint8_t> bytes, const Client& from, in
     LinkMonitor::count(monitor_.reports);
 }
 
+/// Of the client that is connected alone; anybody else's is ignored.
+void ExternalDevice::declare(const PadPacket& packet, const Client& from) {
+    if (client_ == Client{} || !(client_ == from))
+        return LinkMonitor::count(monitor_.ignored);
+    padRate_.store(packet.rate, std::memory_order_relaxed);
+    padReach_.store(packet.reach, std::memory_order_relaxed);
+}
+
 void ExternalDevice::welcome(const Client& client) {
     client_ = client;
+    padReach_.store(0.0, std::memory_order_relaxed);
     monitor_.connected("127.0.0.1:" + std::to_string(ntohs(client.port)));
 }
 
 void ExternalDevice::leave() {
     send(ForceOrder{}, steadyNs());
     client_ = {};
+    padReach_.store(0.0, std::memory_order_relaxed);
     mailbox_.publish(DeviceReading{});
     monitor_.disconnected(LinkState::Searching, waitingFor(port_));
 }
@@ -151,6 +163,12 @@ void ExternalDevice::send(const ForceOrder& order, int64_t nowNs) {
     const ssize_t sent =
         ::sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to);
     LinkMonitor::count(sent == static_cast<ssize_t>(bytes.size()) ? monitor_.sent : monitor_.sendFailures);
+    if (padReach_.load(std::memory_order_relaxed) <= 0.0)
+        return;
+    const auto location = locationPacket({said_, heard_, order.location});
+    if (::sendto(socket_, location.data(), location.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to) !=
+        static_cast<ssize_t>(location.size()))
+        LinkMonitor::count(monitor_.sendFailures);
 }
 
 } // namespace touchstone

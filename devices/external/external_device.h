@@ -36,6 +36,11 @@ class ExternalDevice final : public LinkedDevice {
         return limits;
     }
 
+    /// As its client declares.
+    [[nodiscard]] PadLimits pad() const noexcept override {
+        return {padReach_.load(std::memory_order_relaxed), padRate_.load(std::memory_order_relaxed)};
+    }
+
   private:
     struct Client {
         uint32_t address = 0; ///< network byte order; 0: none
@@ -47,6 +52,7 @@ class ExternalDevice final : public LinkedDevice {
     void run();
     void receive();
     void take(std::span<const uint8_t> packet, const Client& from, int64_t arrivedNs);
+    void declare(const PadPacket& packet, const Client& from);
     void welcome(const Client& client);
     void leave();
     void send(const ForceOrder& order, int64_t nowNs);
@@ -58,6 +64,7 @@ class ExternalDevice final : public LinkedDevice {
     int64_t heardNs_ = 0; ///< time of the client's last well-formed packet
     int64_t sentNs_ = 0;  ///< time of the last force sent
     int64_t emptyNs_ = 0; ///< time when the socket was last empty
+    std::atomic<double> padReach_{0.0}, padRate_{0.0};
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };

@@ -199,6 +199,11 @@ DeviceLimits readLimits(const Node& node, const std::optional<ArmKinematics>& ar
     return limits;
 }
 
+PadLimits readPad(const Node& node) {
+    node.object({"reach", "rate"});
+    return {.reach = node["reach"].number(0, 0.1), .rate = node["rate"].number(0, 100)};
+}
+
 DeviceProtocol readProtocol(const Node& node) {
     const std::string name = node.text();
     if (name == "woodenhaptics")
@@ -221,7 +226,7 @@ DeviceFile parseDeviceFile(std::string_view text, const std::string& name) {
         throw Error(name, "", "has a number that is too large", "SI units: m, rad, N, A, s");
     }
     const Node root(json, name, "");
-    root.object({"format", "version", "name", "protocol", "usb", "arm", "limits"});
+    root.object({"format", "version", "name", "protocol", "usb", "arm", "limits", "pad"});
     if (root["format"].text() != "touchstone-device")
         root["format"].fail("this is no device file", "\"format\": \"touchstone-device\"");
     if (root["version"].number(1, kUnlimited) != 1.0)
@@ -240,6 +245,10 @@ DeviceFile parseDeviceFile(std::string_view text, const std::string& name) {
                 root["arm"]["motors"].at(m).fail("this protocol drives three motors",
                                                  "leave torqueConstant out of the gimbal's encoders");
     file.limits = readLimits(root["limits"], file.arm);
+    if (root.has("pad") && file.protocol != DeviceProtocol::RawHid)
+        root["pad"].fail("this protocol has no contact location", "leave it out");
+    if (root.has("pad"))
+        file.pad = readPad(root["pad"]);
     return file;
 }
 

@@ -3,6 +3,7 @@
 
 #include "devices/hid/arm_kinematics.h"
 #include "engine/device_io/device_io.h"
+#include "engine/device_io/pad_command.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,6 +29,7 @@ struct DeviceFile {
     /// Absent where the firmware sends positions and takes forces.
     std::optional<ArmKinematics> arm;
     DeviceLimits limits;
+    PadLimits pad; ///< raw HID
 };
 
 /// Reads and checks a device file. Throws Error with file, place in the file and remedy for: invalid JSON, an

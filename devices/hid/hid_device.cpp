@@ -41,6 +41,7 @@ HidRecipe recipeOf(const DeviceFile& file, const std::string& path) {
     recipe.usb = file.usb;
     recipe.path = path;
     recipe.limits = file.limits;
+    recipe.pad = file.pad;
     recipe.protocol = makeProtocol(file);
     return recipe;
 }

@@ -31,6 +31,7 @@ struct HidRecipe {
     /// with the same ids.
     std::optional<HidIdentity> identity;
     DeviceLimits limits;
+    PadLimits pad;
     std::unique_ptr<HidProtocol> protocol;
     std::optional<RateSettings> rate; ///< for devices with rate control
 };
@@ -55,6 +56,7 @@ class HidDevice final : public LinkedDevice {
 
     [[nodiscard]] std::string name() const override { return recipe_.name; }
     [[nodiscard]] DeviceLimits limits() const override { return recipe_.limits; }
+    [[nodiscard]] PadLimits pad() const noexcept override { return recipe_.pad; }
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void face(const glm::dquat& deviceFromView) override { deviceFromView_.write(deviceFromView); }
 

@@ -137,6 +137,9 @@ class RawProtocol final : public HidProtocol {
                 command.values[3 + i] = quantised<int32_t>(order.torque[static_cast<int>(i)], kMicro);
             }
         }
+        constexpr double kNano = 1e9;
+        for (size_t i = 0; i < command.location.size(); ++i)
+            command.location[i] = quantised<int32_t>(order.location[static_cast<int>(i)], kNano);
         const auto bytes = rawCommand(command);
         report[0] = 0; // report id 0: none
         std::copy(bytes.begin(), bytes.end(), report.begin() + 1);

@@ -3,6 +3,7 @@
 
 #include "devices/link/steady_clock.h"
 #include "engine/device_io/device_io.h"
+#include "engine/device_io/pad_command.h"
 #include "engine/device_io/servo_silence.h"
 #include "engine/exchange/triple_buffer.h"
 
@@ -28,6 +29,8 @@ struct ForceOrder {
     glm::dvec3 force{0.0};  ///< N
     glm::dvec3 torque{0.0}; ///< N·m
     int64_t givenNs = 0;    ///< steadyNs; 0: never
+    glm::dvec2 location{
+        0.0}; ///< m, on the pad; it outlives the force: a display that is left stays where it is
 };
 
 /// Wait-free in both directions: the servo never waits for a bus.
@@ -49,7 +52,9 @@ class DeviceMailbox {
         const ForceOrder& newest = orders_.value();
         const bool alive =
             newest.givenNs != 0 && static_cast<double>(nowNs - newest.givenNs) < 1e9 * kServoSilence;
-        return alive && newest.givenNs > voidNs_.load(std::memory_order_acquire) ? newest : ForceOrder{};
+        return alive && newest.givenNs > voidNs_.load(std::memory_order_acquire)
+                   ? newest
+                   : ForceOrder{.location = newest.location};
     }
 
     // Owner thread.
@@ -60,8 +65,10 @@ class DeviceMailbox {
 
     // Servo thread.
     void give(const DeviceCommand& command) noexcept {
-        orders_.write({command.force(), command.torque(), steadyNs()});
+        orders_.write({command.force(), command.torque(), steadyNs(), location_});
     }
+    /// With the next order.
+    void show(const PadCommand& command) noexcept { location_ = command.location(); }
     /// The latest reading; valid until the next call.
     [[nodiscard]] const DeviceReading& reading() noexcept {
         readings_.update();
@@ -73,6 +80,7 @@ class DeviceMailbox {
     TripleBuffer<ForceOrder> orders_;
     std::atomic<int64_t> voidNs_{0}; ///< steadyNs: orders given until then are void
     int64_t seenVoidNs_ = 0;         ///< I/O thread
+    glm::dvec2 location_{0.0};       ///< servo thread
 };
 
 /// The sample of a reading at `nowNs`. Servo thread.

@@ -64,6 +64,7 @@ class LinkedDevice : public Device {
         return sampleOf(mailbox_.reading(), steadyNs());
     }
     void apply(const DeviceCommand& command) noexcept override { mailbox_.give(command); }
+    void applyPad(const PadCommand& command) noexcept override { mailbox_.show(command); }
 
     /// Owner thread: the device is no longer in use. It receives zero force at once, without waiting for
     /// kServoSilence after the servo's last order. New orders are held back.

@@ -44,8 +44,6 @@ void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     haptic.program = feltProgram(ours);
     if (!ours.shader.is_null() && !haptic.program)
         haptic.unavailable["shader"] = ours.shader;
-    if (ours.forceShading == ShadingChoice::Bezier)
-        haptic.unavailable["forceShading"] = KeptJson("bezier");
 }
 
 void offerMpeg(const HapticLayers& says, HapticMaterial& haptic) {

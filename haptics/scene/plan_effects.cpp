@@ -1,6 +1,7 @@
 #include "haptics/scene/plan_effects.h"
 
 #include "haptics/program/felt_program.h"
+#include "haptics/settings/bezier_shading.h"
 
 #include <algorithm>
 #include <array>
@@ -53,6 +54,7 @@ Verdict shading(const HapticMaterialData& data, const MaterialUse& use) {
         return {false, "vertex normals equal the face normals: facets are meant"};
     const char* kind = data.shading == ShadingMode::TwoPass     ? "two-pass"
                        : data.shading == ShadingMode::Projected ? "projected"
+                       : data.shading == kBezierShading         ? "two-pass with tactile shading's patch"
                                                                 : "direction";
     return {true, (use.field ? "the gradient of the distance field, "
                              : "vertex normals leave the face normals: the surface is meant to be smooth, ") +
@@ -210,8 +212,8 @@ void settlePlan(HapticScene& scene) {
         const ShadingMode mode = m.shading;
         const bool shaded = object->anySmooth && mode != ShadingMode::Off;
         plan.anyShading |= shaded;
-        plan.twoPassShading |= shaded && mode == ShadingMode::TwoPass;
-        plan.oneFacetShading |= shaded && mode != ShadingMode::TwoPass;
+        plan.twoPassShading |= shaded && (mode == ShadingMode::TwoPass || mode == kBezierShading);
+        plan.oneFacetShading |= shaded && mode != ShadingMode::TwoPass && mode != kBezierShading;
     }
     for (const auto& object : scene.objects)
         plan.plainSample &= scene.materials[static_cast<size_t>(object->material)].plain;

@@ -25,7 +25,8 @@ double pitchOf(const glm::dquat& orientation) {
 
 } // namespace
 
-PlanarServo::PlanarServo(DevicePort port, const ServoConfig& config) : port_(port), config_(config) {
+PlanarServo::PlanarServo(DevicePort port, const ServoConfig& config, PadPort pad)
+    : port_(port), pad_(pad), config_(config) {
     if (port.sample == nullptr || port.apply == nullptr)
         throw Error("servo", "", "the device port is incomplete", "");
     if (!(config.rateHz >= kMinServoRate && config.rateHz <= kMaxServoRate))
@@ -126,6 +127,14 @@ void PlanarServo::makeTick(double dt, bool late) noexcept {
                                         .springLength = now_.felt.touching ? now_.felt.depth : 0.0,
                                         .coupling = sample.mapping.coupling},
                                        sample.mapping.workspaceFromDevice, limiter_, now_.flags);
+    if (pad_.limits != nullptr) {
+        const PadLimits limits = pad_.limits(pad_.context);
+        // The pitch alone moves it along; across, the plane has nothing.
+        now_.location =
+            LocationLimiter::limit({now_.felt.location, 0.0}, now_.felt.touching, limits, dt, location_);
+        if (limits.reach > 0.0)
+            pad_.apply(pad_.context, now_.location);
+    }
     port_.apply(port_.context, now_.command);
 }
 

@@ -4,6 +4,7 @@
 #include "engine/exchange/handover.h"
 #include "engine/exchange/triple_buffer.h"
 #include "haptics/finger/planar_touch.h"
+#include "haptics/safety/location_limiter.h"
 #include "haptics/servo/force_switch.h"
 #include "haptics/servo/servo_loop.h"
 
@@ -13,6 +14,14 @@
 #include <thread>
 
 namespace touchstone {
+
+/// The display of a device's contact location, where it may have one. Servo thread; must not block, allocate
+/// or throw.
+struct PadPort {
+    void* context = nullptr;
+    PadLimits (*limits)(void* context) noexcept = nullptr;
+    void (*apply)(void* context, const PadCommand& command) noexcept = nullptr;
+};
 
 /// What the finger touches: a curve and how it is rendered. The plane is z = 0 of the workspace.
 struct PlanarScene {
@@ -30,6 +39,7 @@ struct PlanarTick {
     PlanarTouch::Felt felt; ///< before safety
     glm::dvec3 force{0.0};  ///< N, before safety: of the curve, and of the plane
     DeviceCommand command;  ///< after safety
+    PadCommand location;    ///< after safety; the middle for a device without a display
     uint32_t flags = 0;     ///< TickFlag
     bool missed = false;    ///< the tick ended after the next deadline
 };
@@ -43,7 +53,7 @@ class PlanarServo {
     static constexpr double kPlaneStiffness = 300.0, kPlaneForce = 1.5;
 
     /// Throws Error where the rate or the port is none of ServoLoop's.
-    explicit PlanarServo(DevicePort port, const ServoConfig& config = {});
+    explicit PlanarServo(DevicePort port, const ServoConfig& config = {}, PadPort pad = {});
     ~PlanarServo();
     PlanarServo(const PlanarServo&) = delete;
     PlanarServo& operator=(const PlanarServo&) = delete;
@@ -85,6 +95,7 @@ class PlanarServo {
     void feel(const Offer& offer, const DeviceSample& sample) noexcept;
 
     DevicePort port_;
+    PadPort pad_;
     ServoConfig config_;
     ForceSwitch forceSwitch_;
     Handover<Held> scene_;
@@ -99,6 +110,7 @@ class PlanarServo {
     bool mustLeave_ = false;
     double unsampled_ = 0.0; // s since the last known position
     ForceLimiterState limiter_;
+    LocationLimiterState location_;
     TouchFeedback felt_; // of the last tick
     glm::dvec3 plane_{0.0};
 };

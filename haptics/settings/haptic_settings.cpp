@@ -14,7 +14,7 @@ using S = HapticSettings;
 
 constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays", "virtualPoint", "potential"},
     kPrecision[]{"double", "single"},
-    kShading[]{"off", "twoPass", "projected", "direction", "material", "singleRound"},
+    kShading[]{"off", "twoPass", "projected", "direction", "material", "singleRound", "bezier"},
     kTexture[]{"off", "law", "blinn", "minsky", "blinnMagnitude"},
     kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
     kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold", "kim"},

@@ -2,6 +2,7 @@
 
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/settings/tick_flags.h"
+#include "haptics/shading/patch_normal.h"
 #include "haptics/shading/tilt_limit.h"
 #include "haptics/shape/mesh/triangle.h"
 
@@ -53,11 +54,12 @@ ShadedGoal shadedGoal(const HapticScene& scene, ObjectMotions motions, const Hap
     ShadedGoal result;
     for (uint32_t i = 0; i < rest.contactCount; ++i) {
         const Contact& contact = rest.contacts[i];
-        const bool shaded = isTwoPass(shadingMode(settings, materialOf(scene, contact)));
-        planes[i] = {
-            shaded ? interpolatedNormal(scene, motions, state.reference, contact, settings.shadingTiltLimit)
-                   : contact.normal,
-            0.0};
+        const ShadingMode mode = shadingMode(settings, materialOf(scene, contact));
+        const bool shaded = isTwoPass(mode);
+        planes[i] = {shaded ? interpolatedNormal(scene, motions, state.reference, contact,
+                                                 settings.shadingTiltLimit, mode == kBezierShading)
+                            : contact.normal,
+                     0.0};
         result.tilted |= planes[i].normal != contact.normal;
     }
     const glm::dvec3 target = hip - state.proxy;
@@ -81,13 +83,17 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
     return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
 }
 
-/// The interpolated vertex normal at a point of a triangle; object frame, not of unit length.
-glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point) {
+/// The interpolated vertex normal at a point of a triangle, or that of its patch; object frame, not of unit
+/// length.
+glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point, bool patch) {
     const size_t first = 3 * static_cast<size_t>(triangle);
     const glm::dvec3 a = normalOf(object, object.sourceIndices[first]),
                      b = normalOf(object, object.sourceIndices[first + 1]),
                      c = normalOf(object, object.sourceIndices[first + 2]);
-    const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
+    const Triangle corners = triangleOf(object, triangle);
+    const glm::dvec3 weight = barycentric(corners, point);
+    if (patch) [[unlikely]]
+        return patchNormal({corners.a, corners.b, corners.c}, {a, b, c}, weight);
     return weight.x * a + weight.y * b + weight.z * c;
 }
 
@@ -105,7 +111,7 @@ bool cameTo(const FirstGoal& first, const DeviceState& state, const SolveResult&
 } // namespace
 
 glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int reference,
-                              const Contact& contact, double tiltLimit) noexcept {
+                              const Contact& contact, double tiltLimit, bool patch) noexcept {
     const auto k = static_cast<size_t>(contact.object);
     const HapticObject& object = *scene.objects[k];
     if (object.shape == nullptr && object.smooth[contact.feature] == 0)
@@ -121,7 +127,7 @@ glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, i
         trueNormal = back.direction(trueNormal);
     }
     glm::dvec3 normal = object.shape != nullptr ? object.shape->shadingNormal(contact.feature, point)
-                                                : interpolated(object, contact.feature, point);
+                                                : interpolated(object, contact.feature, point, patch);
     const double length = glm::length(normal);
     if (!(length > 1e-6))
         return contact.normal; // opposed vertex normals cancel: no shading

@@ -15,9 +15,11 @@ namespace touchstone {
 /// The interpolated vertex normal at a contact (reference object frame, unit), on the proxy's side and tilted
 /// from the true normal by at most `tiltLimit` (rad). Barycentric weights [000 §4.1, eq. 1]; on an edge they
 /// are the two vertices' weights by inverse distance and at a vertex its own normal, which agrees with the
-/// paper's cases. The true normal where the triangle is flat.
+/// paper's cases. The true normal where the triangle is flat. `patch`: of tactile shading's patch
+/// (kBezierShading).
 [[nodiscard]] glm::dvec3 interpolatedNormal(const HapticScene& scene, ObjectMotions motions, int reference,
-                                            const Contact& contact, double tiltLimit) noexcept;
+                                            const Contact& contact, double tiltLimit,
+                                            bool patch = false) noexcept;
 
 /// Ruspini's two-pass shading iterated to its fixed point: goal = nearest point to the HIP on the
 /// interpolated planes through the proxy; the proxy then moves to the point of the true surface nearest to

@@ -2,6 +2,7 @@
 // The kind of force shading at a contact, from material and session.
 
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/settings/bezier_shading.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/solve/solve_result.h"
 
@@ -22,7 +23,7 @@ namespace touchstone {
 
 /// True where interpolated planes move the proxy, to the fixed point or once a tick.
 [[nodiscard]] constexpr bool isTwoPass(ShadingMode mode) noexcept {
-    return mode == ShadingMode::TwoPass || mode == ShadingMode::SingleRound;
+    return mode == ShadingMode::TwoPass || mode == ShadingMode::SingleRound || mode == kBezierShading;
 }
 
 /// True where two-pass shading applies to some surface of the scene: else stage 4 moves nothing.

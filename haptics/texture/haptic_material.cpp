@@ -1,5 +1,7 @@
 #include "haptics/texture/haptic_material.h"
 
+#include "haptics/settings/bezier_shading.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -55,7 +57,6 @@ double numberOr(const HapticMaterial::Field<float>& field, double otherwise) {
     return field.value ? static_cast<double>(*field.value) : otherwise;
 }
 
-/// "bezier" is reserved for later and felt as two-pass; the import reports this.
 ShadingMode shadingOf(ShadingChoice choice) {
     switch (choice) {
     case ShadingChoice::Off:
@@ -66,8 +67,9 @@ ShadingMode shadingOf(ShadingChoice choice) {
         return ShadingMode::Direction;
     case ShadingChoice::Auto:
     case ShadingChoice::TwoPass:
-    case ShadingChoice::Bezier:
         break;
+    case ShadingChoice::Bezier:
+        return kBezierShading;
     }
     return ShadingMode::TwoPass;
 }

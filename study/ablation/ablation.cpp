@@ -49,6 +49,7 @@ constexpr std::array kConfigurations{
     ConfigurationLine{"shading", "direction", "forceShading=direction", Need::SmoothNormals},
     ConfigurationLine{"shading", "projected", "forceShading=projected", Need::SmoothNormals},
     ConfigurationLine{"shading", "two-pass", "forceShading=twoPass", Need::SmoothNormals},
+    ConfigurationLine{"shading", "bezier", "forceShading=bezier", Need::SmoothNormals},
     ConfigurationLine{"shading", "single round", "forceShading=singleRound", Need::SmoothNormals},
 
     ConfigurationLine{"texture", "off", "texture=off", Need::Bump},

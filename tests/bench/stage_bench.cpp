@@ -353,7 +353,7 @@ void addWholeTicks() {
     addTicks("tick/sweep", torus, {});
     addTicks("tick/sweep_r0.5mm", torus, {{"proxyRadius", "0.0005"}});
     addTicks("tick/neighbourhood", torus, {{"contact", "neighbourhood"}});
-    for (const char* mode : {"direction", "projected", "twoPass", "singleRound"})
+    for (const char* mode : {"direction", "projected", "twoPass", "bezier", "singleRound"})
         addTicks(std::string("tick/shading_") + mode, torus, {{"forceShading", mode}});
     // On the material that asks for everything: what no setting switches off (maps of stiffness, damping)
     // stays.

@@ -41,7 +41,7 @@ HapticSettings anySettings(Draw& draw) {
     };
     set("contact", {"sweep", "sweep", "neighbourhood", "rays", "virtualPoint", "potential"});
     set("precision", {"double", "single"});
-    set("forceShading", {"material", "off", "twoPass", "projected", "direction", "singleRound"});
+    set("forceShading", {"material", "off", "twoPass", "projected", "direction", "bezier", "singleRound"});
     set("texture", {"law", "off", "blinn", "minsky", "blinnMagnitude"});
     set("textureFilter", {"mip", "nearest", "bilinear", "bicubic"});
     set("textureGradient", {"central", "precomputed", "analytic"});

@@ -61,7 +61,7 @@ class TickReader final : public TickSubscriber {
             statistics.emplace_back(hand == 0 ? 0 : 1);
         for (const std::filesystem::path& file : options.recordTicks) {
             csv_.push_back(std::make_unique<OutputFile>(file));
-            csv_.back()->write(kTickCsvHeader);
+            csv_.back()->write(tickCsvHeader(options.pad));
         }
     }
 
@@ -75,6 +75,8 @@ class TickReader final : public TickSubscriber {
                 proxyGap(world_.touched(*model_.haptic), motions, record.output, options_.settings));
         if (record.hand < rows_.size())
             appendTickRow(rows_[record.hand], record.time, record.output, record.stepNs);
+        if (record.hand < rows_.size() && options_.pad)
+            appendPadPlace(rows_[record.hand], record.sample, record.output);
         if (record.hand > 0)
             return;
         last = record;

@@ -381,7 +381,7 @@ int touchCommand(const TouchOptions& options) {
     std::optional<OutputFile> report;
     if (!options.json.empty())
         report.emplace(options.json);
-    out.write(kTickCsvHeader);
+    out.write(tickCsvHeader(options.pad));
     std::optional<OfflineRecorder> recorder;
     if (!options.record.empty()) {
         Model whole = model; // as its file is, before anything was sculpted
@@ -426,6 +426,8 @@ int touchCommand(const TouchOptions& options) {
         rows.clear();
         for (const OfflineTick& tick : block) {
             appendTickRow(rows, tick.time, tick.output, tick.stepNs);
+            if (options.pad)
+                appendPadPlace(rows, tick.sample, tick.output);
             statistics.add(tick.output, tick.stepNs);
             if (recorder)
                 recorder->add(tick, first, bodies);

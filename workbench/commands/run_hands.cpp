@@ -33,7 +33,8 @@ std::vector<DevicePort> RunHands::connect(const Model& model) {
             place = stroke->place();
         }
         hand.mapped = std::make_unique<MappedDevice>(*device, options_.zoom, place);
-        ports.push_back(portOf(*hand.mapped));
+        hand.padded = std::make_unique<PaddedHand>(*hand.mapped);
+        ports.push_back(portOf(*hand.padded));
     }
     return ports;
 }

@@ -136,7 +136,7 @@ constexpr std::array<std::string_view, 2> kSides{"both", "front"}, kRepresentati
 
 constexpr std::array kChoices{
     ChoiceField{"forceShading", "force shading", kShading, 0,
-                "how the force follows the vertex normals; bezier is not yet available",
+                "how the force follows the vertex normals; bezier: two-pass with a patch of normals",
                 getChoice<&HapticStatement::forceShading, ShadingChoice>,
                 setChoice<&HapticStatement::forceShading, ShadingChoice>},
     ChoiceField{"sides", "sides", kSides, 0, "front: from behind the hand comes through",

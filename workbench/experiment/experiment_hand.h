@@ -17,6 +17,7 @@ class ExperimentHand {
     [[nodiscard]] Device& device() { return linked_ ? static_cast<Device&>(*linked_) : mouse_; }
     [[nodiscard]] std::string name() const { return linked_ ? linked_->name() : mouse_.name(); }
     [[nodiscard]] bool isMouse() const { return linked_ == nullptr; }
+    [[nodiscard]] PadLimits pad() const { return linked_ ? linked_->pad() : PadLimits{}; }
     /// Null: a device is held.
     [[nodiscard]] MouseDevice* mouse() { return linked_ ? nullptr : &mouse_; }
 

@@ -137,7 +137,7 @@ std::vector<std::string> ExperimentWindow::warnings() const {
     if (hand_.isMouse())
         warnings.emplace_back(
             "A mouse gives no force: this session tries the procedure, it measures nobody.");
-    if (needsLocation(session_.plan(), session_.order()))
+    if (needsLocation(session_.plan(), session_.order()) && hand_.pad().reach <= 0.0)
         warnings.emplace_back(
             "This hand has no contact location display: conditions with a location show none.");
     return warnings;

@@ -6,6 +6,7 @@
 #include "haptics/query/surface_pick.h"
 #include "haptics/servo/planar_servo.h"
 #include "session/device_port.h"
+#include "session/padded_hand.h"
 #include "session/session.h"
 #include "workbench/model/model.h"
 
@@ -25,7 +26,8 @@ using experiment::StudyPlan;
 class PlanarPlayer final : public StimulusPlayer {
   public:
     PlanarPlayer(const StudyPlan& plan, ExperimentHand& hand, double rateHz)
-        : plan_(plan), hand_(hand), servo_(portOf(hand.device()), {.rateHz = rateHz}) {
+        : plan_(plan), hand_(hand),
+          servo_(portOf(hand.device()), {.rateHz = rateHz}, padPortOf(hand.device())) {
         servo_.start();
     }
 
@@ -69,7 +71,7 @@ class PlanarPlayer final : public StimulusPlayer {
 class ModelPlayer final : public StimulusPlayer {
   public:
     ModelPlayer(const StudyPlan& plan, size_t condition, ExperimentHand& hand, double rateHz)
-        : plan_(plan), hand_(hand), session_({portOf(hand.device())}, {.rateHz = rateHz}) {
+        : plan_(plan), hand_(hand), padded_(hand.device()), session_({portOf(padded_)}, {.rateHz = rateHz}) {
         for (const auto* choice :
              {&plan.conditions[condition].reference, &plan.conditions[condition].comparison})
             (void)modelOf(std::get<experiment::ModelStimulus>(*choice));
@@ -143,6 +145,7 @@ class ModelPlayer final : public StimulusPlayer {
 
     const StudyPlan& plan_;
     ExperimentHand& hand_;
+    PaddedHand padded_;
     Session session_;
     std::map<std::filesystem::path, Model> models_;
     std::shared_ptr<const HapticScene> felt_;

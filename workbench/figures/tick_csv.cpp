@@ -1,5 +1,7 @@
 #include "workbench/figures/tick_csv.h"
 
+#include "haptics/finger/finger_pad.h"
+
 #include <array>
 #include <charconv>
 
@@ -34,6 +36,23 @@ void appendTickRow(std::string& text, double time, const HapticOutput& output, i
     append(text, output.penetration);
     append(text, stepNs);
     append(text, output.commandInWorkspace);
+    text.back() = '\n';
+}
+
+std::string tickCsvHeader(bool pad) {
+    std::string header(kTickCsvHeader);
+    if (pad)
+        header.insert(header.size() - 1, ",pad_along,pad_across");
+    return header;
+}
+
+void appendPadPlace(std::string& text, const DeviceSample& sample, const HapticOutput& output) {
+    const glm::dquat turn = sample.mapping.workspaceFromDevice.rotation * sample.orientation;
+    const glm::dvec2 place =
+        output.contacts > 0 ? FingerPad{}.locationOn(turn, output.normal) : glm::dvec2(0.0);
+    text.back() = ',';
+    append(text, place.x);
+    append(text, place.y);
     text.back() = '\n';
 }
 

@@ -47,6 +47,10 @@ class DeviceMultiplexer final : public Device {
     }
     /// Frees what the servo no longer uses.
     void collect() { held_.collect(); }
+    /// Owner thread: of the device in use.
+    [[nodiscard]] PadLimits heldPad() const noexcept {
+        return device_ != nullptr ? device_->pad() : PadLimits{};
+    }
     [[nodiscard]] MouseDevice& mouse() { return mouse_; }
 
     [[nodiscard]] std::string name() const override;
@@ -54,6 +58,13 @@ class DeviceMultiplexer final : public Device {
     void feel(const TouchFeedback& felt) noexcept override;
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void apply(const DeviceCommand& command) noexcept override;
+    [[nodiscard]] PadLimits pad() const noexcept override {
+        return driven_ != nullptr ? driven_->pad() : PadLimits{};
+    }
+    void applyPad(const PadCommand& command) noexcept override {
+        if (driven_ != nullptr)
+            driven_->applyPad(command);
+    }
 
   private:
     struct Held {

@@ -213,6 +213,8 @@ void defineRun(CLI::App& app, RunOptions& options) {
         ->type_name("FILE")
         ->expected(1)
         ->take_all();
+    app.add_flag("--pad", options.pad, "With two more columns: where a finger's pad touches")
+        ->needs("--record-ticks");
     addRecording(app, options.recording);
     addSculpt(app, options.sculpt);
     CLI::Option* open = app.add_flag("--open-loop", options.openLoop,
@@ -259,6 +261,7 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
             throw CLI::RequiredError("--path or --stroke");
     });
     app.add_option("--out", options.out, "Every tick: CSV")->type_name("TICKS.csv")->required();
+    app.add_flag("--pad", options.pad, "With two more columns in TICKS.csv: where a finger's pad touches");
     app.add_option("--json", options.json, "Write the figures here: step times, Embree's ray floor, contact")
         ->type_name("FILE");
     app.add_option_function<std::string>(

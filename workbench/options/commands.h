@@ -72,6 +72,7 @@ struct RunOptions {
     std::vector<std::string> devices{"hand"};
     std::filesystem::path json, screenshot;         ///< empty: not requested
     std::vector<std::filesystem::path> recordTicks; ///< one per hand, or fewer
+    bool pad = false; ///< with the contact location on the finger's pad in recordTicks
     RecordingOptions recording;
     StrokeRequest stroke;              ///< of the simulated hands
     double zoom = 1.0;                 ///< workspace metres for one metre of the hands
@@ -89,6 +90,7 @@ int runCommand(const RunOptions& options);
 /// touchstone touch SCENE --path HIP.csv|--stroke NAME --out TICKS.csv
 struct TouchOptions {
     std::filesystem::path scene, out;
+    bool pad = false;             ///< with the contact location on the finger's pad in `out`
     std::filesystem::path path;   ///< empty: the stroke
     StrokeRequest stroke;         ///< instead of a path
     double seconds = 0.0;         ///< of the stroke; 0: one period

@@ -27,6 +27,8 @@ class SoundingHand final : public Device {
 
     [[nodiscard]] std::string name() const override { return hand_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return hand_.limits(); }
+    [[nodiscard]] PadLimits pad() const noexcept override { return hand_.pad(); }
+    void applyPad(const PadCommand& command) noexcept override { hand_.applyPad(command); }
     void feel(const TouchFeedback& felt) noexcept override { hand_.feel(felt); }
     [[nodiscard]] DeviceSample sample(double time) noexcept override {
         sampled_ = time;

@@ -73,6 +73,8 @@ class PlaybackDevice final : public Device {
     void feel(const TouchFeedback& felt) noexcept override;
     [[nodiscard]] DeviceSample sample(double time) noexcept override;
     void apply(const DeviceCommand& command) noexcept override { own_.apply(command); }
+    [[nodiscard]] PadLimits pad() const noexcept override { return own_.pad(); }
+    void applyPad(const PadCommand& command) noexcept override { own_.applyPad(command); }
 
   private:
     Device& own_;

@@ -2,6 +2,7 @@
 
 #include "engine/scene/scene.h"
 #include "renderer/scene_renderer.h"
+#include "session/padded_hand.h"
 #include "session/session.h"
 #include "workbench/editor/live_materials.h"
 #include "workbench/files/recording_controller.h"
@@ -89,6 +90,10 @@ class LiveTouch {
     [[nodiscard]] const ServoView& figures() const { return readings_.servo(); }
     [[nodiscard]] const ForceHistory& forces() const { return readings_.forces(); }
     [[nodiscard]] DeviceMultiplexer& hand() { return hand_; }
+    /// What the contact location display of the device in use shows, m; none without one.
+    [[nodiscard]] std::optional<glm::dvec2> padShown() const {
+        return hand_.heldPad().reach > 0.0 ? std::optional(padded_.shown()) : std::nullopt;
+    }
     [[nodiscard]] DeviceMenu& devices() { return menu_; }
     [[nodiscard]] PlaybackDevice& again() { return again_; }
     [[nodiscard]] SoundController& sound() { return sound_; }
@@ -104,6 +109,7 @@ class LiveTouch {
     DeviceMenu menu_;
     PlaybackDevice again_{hand_};
     SoundController sound_{again_};
+    PaddedHand padded_{sound_.hand()};
     Session session_;
     RecordingController controller_;
     WindowReadings readings_;

@@ -78,15 +78,9 @@ std::optional<FactorMap> factorField(ImportContext& context, const GltfDocument&
     return map.texture ? std::optional(map) : std::nullopt;
 }
 
-/// Fields reserved for later are kept for saving and for `inspect`.
-void tellUnavailable(ImportContext& context, const HapticStatement& ours, const std::string& place) {
-    const auto tell = [&](const char* name, const std::string& what) {
-        context.warn(place + "." + name, what + " is not yet available; felt without it");
-    };
+void tellMeaningless(ImportContext& context, const HapticStatement& ours, const std::string& place) {
     if (ours.voxelSize && !ours.implicit.value_or(false))
         context.warn(place + ".voxelSize", "has no meaning without representation \"implicit\"");
-    if (ours.forceShading == ShadingChoice::Bezier)
-        tell("forceShading", "force shading \"bezier\"");
 }
 
 void readChoices(ImportContext& context, const json& object, const std::string& place,
@@ -191,7 +185,7 @@ HapticStatement readStatement(ImportContext& context, const GltfDocument& docume
     readChoices(context, object, place, ours);
     if (object.contains("shader"))
         shaders.read(object["shader"], place + ".shader", ours);
-    tellUnavailable(context, ours, place);
+    tellMeaningless(context, ours, place);
     warnOfUnknown(context, object, known, place);
     return ours;
 }

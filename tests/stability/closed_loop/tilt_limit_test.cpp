@@ -46,7 +46,7 @@ TEST(TiltLimit, BlinnsBumpsThrowAHandToAndFroBeyondTheFiveDegreesOfThePaper) {
 
 TEST(TiltLimit, ShadedNormalsHoldStillUpToTheDefaultAndBeyondIt) {
     const BenchScene prism = tiltedPrism();
-    for (const char* mode : {"twoPass", "singleRound", "direction"})
+    for (const char* mode : {"twoPass", "bezier", "singleRound", "direction"})
         EXPECT_EQ(
             swings(*prism.haptic, "forceShading", mode, &HapticSettings::shadingTiltLimit, 30.0, onPrism)
                 .first,

@@ -46,6 +46,17 @@ TEST(DeviceFile, ReadsWhatItSays) {
     EXPECT_NEAR(file.limits.positionResolution, 2 * 3.14159265358979 / 4000 * 0.1 * 0.1, 1e-12);
 }
 
+TEST(DeviceFile, ADisplayOfTheContactLocationIsDeclared) {
+    EXPECT_EQ(parseDeviceFile(kGood, "good.json").pad, PadLimits{});
+    const std::string pad = R"("pad": { "reach": 0.008, "rate": 0.1 }, "limits")";
+    const PadLimits declared{.reach = 0.008, .rate = 0.1};
+    EXPECT_EQ(parseDeviceFile(replaced("\"limits\"", pad), "pad.json").pad, declared);
+    for (const char* bad :
+         {R"("pad": { "reach": 0.2, "rate": 0.1 }, "limits")", R"("pad": { "reach": 0.008 }, "limits")",
+          R"("pad": { "reach": 0.008, "rate": -1 }, "limits")", R"("pad": 3, "limits")"})
+        EXPECT_THROW((void)parseDeviceFile(replaced("\"limits\"", bad), "pad.json"), Error) << bad;
+}
+
 TEST(DeviceFile, TheFilesThatWeShipAreGood) {
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(TOUCHSTONE_SOURCE "/devices/files")) {

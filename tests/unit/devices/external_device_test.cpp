@@ -2,6 +2,7 @@
 
 #include "devices/external/external_device.h"
 #include "engine/core/error.h"
+#include "haptics/safety/location_limiter.h"
 #include "tests/support/device_commands.h"
 #include "tests/support/eventually.h"
 
@@ -47,20 +48,25 @@ class Client {
         say(placePacket({.sequence = sequence, .buttons = buttons, .position = position}));
     }
     /// The newest force that has come; waits for one.
-    std::optional<ForcePacket> force() {
-        std::optional<ForcePacket> newest;
+    std::optional<ForcePacket> force() { return newest<ForcePacket>(parseForcePacket); }
+    std::optional<LocationPacket> location() { return newest<LocationPacket>(parseLocationPacket); }
+
+  private:
+    template <class Packet>
+    std::optional<Packet> newest(std::optional<Packet> (*parse)(std::span<const uint8_t>)) {
+        std::optional<Packet> newest;
         pollfd waiting{socket_, POLLIN, 0};
         while (::poll(&waiting, 1, newest ? 0 : 2000) > 0) {
             std::array<uint8_t, 256> bytes;
             const ssize_t size = ::recv(socket_, bytes.data(), bytes.size(), 0);
             if (size < 0)
                 break;
-            newest = parseForcePacket(std::span(bytes).first(static_cast<size_t>(size)));
+            if (const auto packet = parse(std::span(bytes).first(static_cast<size_t>(size))))
+                newest = packet;
         }
         return newest;
     }
 
-  private:
     int socket_;
 };
 
@@ -159,6 +165,66 @@ TEST(ExternalDevice, TakesPlacesAndGivesForces) {
     client.sayPlace(5, {0.0, 0.0, 0.0});
     ASSERT_TRUE(eventually([&] { return device.report().reports == 2; }));
     EXPECT_EQ(device.report().lost, 3u);
+}
+
+/// What a device without a servo shows: at once, as far as the pad reaches.
+PadCommand padCommand(const glm::dvec2& wanted, const PadLimits& limits) {
+    LocationLimiterState state;
+    PadCommand command;
+    for (int i = 0; i < 1000; ++i)
+        command = LocationLimiter::limit(wanted, true, limits, 1e-3, state);
+    return command;
+}
+
+TEST(ExternalDevice, AClientThatDeclaresAPadHearsTheContactLocation) {
+    ExternalDevice device(0);
+    Client client(device.port()), other(device.port());
+    client.say(padPacket({.sequence = 1, .reach = 0.008, .rate = 0.1}));
+    ASSERT_TRUE(eventually([&] { return device.report().ignored == 1; })) << "no client yet";
+    client.sayPlace(2, {0.0, 0.0, 0.0});
+    ASSERT_TRUE(eventually([&] { return device.sample(0.0).valid; }));
+    EXPECT_EQ(device.pad(), PadLimits{});
+    device.apply(command({0.5, 0.0, 0.0}));
+    EXPECT_TRUE(client.force()) << "and nothing else is sent";
+    other.say(padPacket({.sequence = 1, .reach = 0.05, .rate = 1.0}));
+    ASSERT_TRUE(eventually([&] { return device.report().ignored == 2; }));
+    EXPECT_EQ(device.pad(), PadLimits{});
+    client.say(padPacket({.sequence = 3, .reach = 0.008, .rate = 0.1}));
+    ASSERT_TRUE(eventually([&] { return device.pad() == PadLimits{0.008, 0.1}; }));
+    EXPECT_TRUE(eventually([&] {
+        device.applyPad(padCommand({0.003, -0.002}, device.pad()));
+        device.apply(command({0.5, 0.0, 0.0}));
+        const auto location = client.location();
+        return location && location->location == glm::dvec2(0.003, -0.002) && location->answers == 2;
+    }));
+    // A servo that falls silent leaves the display where it is: nothing jumps to the middle.
+    ASSERT_TRUE(eventually([&] {
+        const auto force = client.force();
+        return force && force->force == glm::dvec3(0.0);
+    }));
+    const auto last = client.location();
+    ASSERT_TRUE(last);
+    EXPECT_EQ(last->location, glm::dvec2(0.003, -0.002));
+    client.say(padPacket({.sequence = 4, .reach = 0.0, .rate = 0.0}));
+    EXPECT_TRUE(eventually([&] { return device.pad().reach == 0.0; }));
+}
+
+TEST(ExternalPacket, APadBeyondItsRangeIsRefused) {
+    EXPECT_TRUE(parsePadPacket(padPacket({.reach = 0.1, .rate = 100.0})));
+    for (const double bad : {std::nan(""), -1e-9, 0.1001, 1e300})
+        EXPECT_FALSE(parsePadPacket(padPacket({.reach = bad, .rate = 1.0}))) << bad;
+    for (const double bad : {std::nan(""), -1e-9, 100.1})
+        EXPECT_FALSE(parsePadPacket(padPacket({.reach = 0.01, .rate = bad}))) << bad;
+    const auto good = padPacket({.sequence = 5, .reach = 0.008, .rate = 0.2});
+    EXPECT_EQ(good.size(), 32u);
+    EXPECT_EQ(std::string(good.begin(), good.begin() + 4), "TSXD");
+    for (size_t size = 0; size < good.size(); ++size)
+        EXPECT_FALSE(parsePadPacket(std::span(good).first(size)));
+    const auto location = locationPacket({.sequence = 7, .answers = 8, .location = {1.0, -0.5}});
+    EXPECT_EQ(std::string(location.begin(), location.begin() + 4), "TSXL");
+    EXPECT_EQ(parseLocationPacket(location)->location, glm::dvec2(1.0, -0.5));
+    EXPECT_FALSE(parsePadPacket(location));
+    EXPECT_FALSE(parseForcePacket(location));
 }
 
 TEST(ExternalDevice, CountsWhatIsMalformedRepeatedOrFromAnother) {

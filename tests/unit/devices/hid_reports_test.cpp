@@ -114,16 +114,20 @@ TEST(RawReport, StatesAndCommandsHaveTheDocumentedBytes) {
                                      .sequence = 7,
                                      .answers = 0x01020304,
                                      .watchdogMs = 20,
-                                     .values = {1000000, -1, 0, 0, 0, 0}});
+                                     .values = {1000000, -1, 0, 0, 0, 0},
+                                     .location = {8000000, -3}});
     EXPECT_EQ(command[2], 2);
     EXPECT_EQ(readU32(command, 4), 7u);
     EXPECT_EQ(readU32(command, 8), 0x01020304u);
     EXPECT_EQ(readI32(command, 12), 1000000);
     EXPECT_EQ(readI32(command, 16), -1);
     EXPECT_EQ(readU16(command, 36), 20);
+    EXPECT_EQ(readI32(command, 40), 8000000) << "nm";
+    EXPECT_EQ(readI32(command, 44), -3);
     const auto back = parseRawCommand(command);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->values[0], 1000000);
+    EXPECT_EQ(back->location[1], -3);
     EXPECT_EQ(back->answers, 0x01020304u);
 }
 

@@ -197,7 +197,7 @@ TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
     EXPECT_EQ(haptic.voxelSize, 0.001f);
     EXPECT_EQ(haptic.forceShading, ShadingChoice::Bezier);
     EXPECT_FALSE(warns(*scene, ".representation", ""));
-    EXPECT_TRUE(warns(*scene, ".forceShading", "not yet available"));
+    EXPECT_FALSE(warns(*scene, ".forceShading", ""));
     EXPECT_TRUE(warns(*scene, ".shader", "wood.glsl")); // there is no such file
     EXPECT_TRUE(warns(*scene, ".shader", "the surface is plain"));
 }

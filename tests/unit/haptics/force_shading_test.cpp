@@ -246,7 +246,7 @@ TEST(ForceShading, AMaterialChoosesItsKindAndTheSessionMayOverrule) {
     const std::vector<std::pair<ShadingChoice, ShadingMode>> same{
         {ShadingChoice::Auto, ShadingMode::TwoPass},
         {ShadingChoice::TwoPass, ShadingMode::TwoPass},
-        {ShadingChoice::Bezier, ShadingMode::TwoPass},
+        {ShadingChoice::Bezier, kBezierShading},
         {ShadingChoice::Projected, ShadingMode::Projected},
         {ShadingChoice::Direction, ShadingMode::Direction},
         {ShadingChoice::Off, ShadingMode::Off}};
@@ -264,6 +264,74 @@ TEST(ForceShading, AMaterialChoosesItsKindAndTheSessionMayOverrule) {
               forceOnPrism(ShadingChoice::Auto, ShadingMode::Projected));
     EXPECT_NE(forceOnPrism(ShadingChoice::Auto, ShadingMode::Off),
               forceOnPrism(ShadingChoice::Auto, ShadingMode::Direction));
+}
+
+/// Of a hand that goes round the outer half of a torus obliquely, 0.5 mm deep: how far the force is from the
+/// smooth torus's normal under the hand, and how far it turns in a step beyond what that normal turns;
+/// degrees.
+struct TorusError {
+    double mean = 0.0, most = 0.0, jump = 0.0;
+};
+
+TorusError onTorus(ShadingMode mode, uint32_t aroundRing, double step) {
+    constexpr double kRing = 0.05, kTube = 0.02, kDepth = 0.5e-3;
+    TouchBench bench(sceneOf(assets::torus(kRing, kTube, aroundRing, aroundRing / 2)), shadedOnly(mode));
+    const auto angle = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / M_PI;
+    };
+    const auto normalAt = [](double t) {
+        const double u = t, v = 0.4 * std::sin(1.7 * t);
+        return glm::dvec3(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+    };
+    const auto placeAt = [&](double t, double depth) {
+        return kRing * glm::dvec3(std::cos(t), std::sin(t), 0.0) + (kTube - depth) * normalAt(t);
+    };
+    bench.step(placeAt(0.0, -0.01));
+    bench.moveTo(placeAt(0.0, kDepth), 0.05);
+    TorusError error;
+    glm::dvec3 before(0.0), normalBefore(0.0);
+    size_t count = 0;
+    for (double t = 0.0; t < 1.5; t += step) {
+        bench.step(placeAt(t, kDepth));
+        const glm::dvec3 force = bench.output.force, normal = normalAt(t);
+        const double off = angle(force, normal);
+        error.mean += off;
+        error.most = std::max(error.most, off);
+        if (count++ > 0)
+            error.jump = std::max(error.jump, angle(force, before) - angle(normal, normalBefore));
+        before = force;
+        normalBefore = normal;
+    }
+    error.mean /= static_cast<double>(count);
+    return error;
+}
+
+TEST(BezierShading, OnATorusIsNearerToTheSmoothNormalThanTwoPassAndOfSecondOrder) {
+    double before = 0.0, last = 0.0;
+    for (const uint32_t sides : {48u, 96u, 192u}) {
+        const TorusError plain = onTorus(ShadingMode::TwoPass, sides, 1e-3),
+                         patch = onTorus(kBezierShading, sides, 1e-3);
+        std::printf("%u x %u: two-pass %.5f (at most %.5f), bezier %.5f (%.5f) degrees\n", sides, sides / 2,
+                    plain.mean, plain.most, patch.mean, patch.most);
+        EXPECT_LT(patch.mean, plain.mean) << sides;
+        EXPECT_LE(patch.most, plain.most * (1.0 + 1e-9)) << sides;
+        if (sides == 48)
+            before = patch.mean;
+        last = patch.mean;
+    }
+    EXPECT_GT(0.5 * std::log2(before / last), 1.75) << "over two halvings, on one path";
+}
+
+TEST(BezierShading, TheDirectionDoesNotJumpAtBorders) {
+    // In steps a hundredth as long what is left is the tolerance of the rounds, 1.5 nm over a depth of 0.5 mm.
+    constexpr double kTolerance = 1.5e-9 / 0.5e-3 * 180.0 / M_PI;
+    const double coarse = onTorus(kBezierShading, 48, 1e-3).jump,
+                 fine = onTorus(kBezierShading, 48, 1e-5).jump;
+    std::printf(
+        "largest turn beyond the smooth one: %.3g degrees in steps of 1e-3 rad, %.3g in steps of 1e-5\n",
+        coarse, fine);
+    EXPECT_LT(coarse, 0.01);
+    EXPECT_LT(fine, kTolerance);
 }
 
 } // namespace

@@ -103,6 +103,46 @@ TEST(PlanarServo, ACurveAroundTheFingerIsNotFeltBeforeItHasLeft) {
         ASSERT_FALSE(servo.step().felt.touching);
 }
 
+TEST(PlanarServo, ADisplayGetsTheContactLocationWithinItsLimits) {
+    Hand hand;
+    struct Display {
+        PadLimits limits{.reach = 0.008, .rate = 0.05};
+        glm::dvec2 location{0.0};
+        uint64_t commands = 0;
+    } display;
+    const PadPort pad{.context = &display,
+                      .limits = [](void* self) noexcept { return static_cast<Display*>(self)->limits; },
+                      .apply =
+                          [](void* self, const PadCommand& command) noexcept {
+                              static_cast<Display*>(self)->location = command.location();
+                              ++static_cast<Display*>(self)->commands;
+                          }};
+    PlanarServo servo(hand.port(), {}, pad);
+    servo.offer(std::make_shared<const PlanarScene>(PlanarSurface(SmoothArc{}),
+                                                    PlanarRendering{.location = PlanarLocation::Facets}));
+    hand.sample.position = at(-0.01);
+    servo.step();
+    glm::dvec2 before(0.0);
+    double worst = 0.0;
+    for (int i = 0; i < 2000; ++i) { // to and fro over the arc; the pad's middle is below the circle's centre
+        const double angle = 0.3 * std::sin(0.01 * i);
+        const glm::dvec2 centre =
+            SmoothArc{}.centre() + 0.1195 * glm::dvec2(std::sin(angle), std::cos(angle));
+        hand.sample.position = {centre.x, centre.y - 0.02, 0.0};
+        const PlanarTick tick = servo.step();
+        worst = std::max(worst, glm::length(display.location - before));
+        before = display.location;
+        EXPECT_TRUE(tick.felt.touching);
+        EXPECT_EQ(tick.location.location(), display.location);
+    }
+    EXPECT_LE(worst, 0.05e-3 * (1.0 + 1e-12));
+    EXPECT_GT(worst, 0.04e-3) << "faster than the display";
+    display.limits = {};
+    const uint64_t commands = display.commands;
+    EXPECT_EQ(servo.step().location.location(), glm::dvec2(0.0));
+    EXPECT_EQ(display.commands, commands) << "a device without a display gets none";
+}
+
 TEST(PlanarServo, ForceOffIsZeroWithinTheSlewLimit) {
     Hand hand;
     hand.sample.position = at(-0.001);

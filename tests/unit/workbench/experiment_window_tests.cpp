@@ -1,16 +1,26 @@
 // A person's session in the real window: keys alone, killed in the middle, resumed, exported; and nothing on
 // the screen that tells the two objects apart.
 
+#include "devices/external/external_packet.h"
 #include "experiment/people/person_session.h"
 #include "tests/unit/workbench/virtual_display.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
 #include <csignal>
 #include <functional>
+#include <span>
 #include <thread>
+#include <utility>
 
 namespace touchstone::test {
 namespace {
@@ -33,20 +43,20 @@ constexpr const char* kStudy = R"json({
 
 class ExperimentWindowTest : public testing::Test {
   protected:
-    void begin(const std::string& study) {
+    void begin(const std::string& study, const std::vector<std::string>& more = {}) {
         writeTextFile(study_, study);
-        start();
+        start(more);
     }
-    void start() {
+    void start(const std::vector<std::string>& more = {}) {
         std::filesystem::remove(status_);
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
         environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
-        program_ = std::make_unique<BackgroundProgram>(
-            std::vector<std::string>{TOUCHSTONE_BINARY, "experiment", study_.string(), "--person", "1",
+        std::vector<std::string> arguments{TOUCHSTONE_BINARY, "experiment", study_.string(), "--person", "1",
                                      "--out", out_.string(), "--size", "1000x780", "--no-noise",
-                                     "--status-json", status_.string()},
-            environment, scratch_ / "log");
+                                     "--status-json", status_.string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
         corner_ = display_.waitForWindow("Touchstone experiment");
         page("welcome");
     }
@@ -231,6 +241,86 @@ TEST_F(ExperimentWindowTest, ComparesModelsWithSettings) {
     page("finished");
     EXPECT_EQ(program_->stop(), 0) << readFile(scratch_ / "log");
     EXPECT_TRUE(session().finished());
+}
+
+/// A finger with a contact location display, as a program of its own: it comes down onto the arc and goes to and fro.
+class DisplayedFinger {
+  public:
+    explicit DisplayedFinger(uint16_t port) : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        to.sin_port = htons(port);
+        (void)::connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to);
+        thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    }
+    ~DisplayedFinger() {
+        thread_.request_stop();
+        thread_.join();
+        ::close(socket_);
+    }
+    std::atomic<bool> declares{false};
+    std::atomic<int> locations{0};
+    std::atomic<double> least{0.0}, most{0.0}, force{0.0}, fastest{0.0}; // m, N; m a packet
+
+  private:
+    void run(const std::stop_token& stop) {
+        bool declared = false;
+        for (uint32_t n = 1; !stop.stop_requested(); ++n) {
+            // The middle of the pad is 20 mm below the circle's centre, which goes round the arc's own.
+            const double angle = 0.35 * std::sin(0.004 * n), depth = std::min(0.0015, -0.02 + 5e-5 * n);
+            const double radius = 0.12 - depth;
+            const glm::dvec3 pad(radius * std::sin(angle), radius * std::cos(angle) - 0.1 - 0.02, 0.0);
+            say(placePacket({.sequence = 2 * n, .position = pad}));
+            if (declares && !std::exchange(declared, true))
+                say(padPacket({.sequence = 2 * n + 1, .reach = 0.008, .rate = 0.2}));
+            listen();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    void say(std::span<const uint8_t> bytes) { (void)!::send(socket_, bytes.data(), bytes.size(), 0); }
+    void listen() {
+        std::array<uint8_t, 256> bytes{};
+        for (ssize_t size; (size = ::recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0;) {
+            const std::span packet(bytes.data(), static_cast<size_t>(size));
+            if (const auto heard = parseForcePacket(packet))
+                force = std::max(force.load(), glm::length(heard->force));
+            const auto heard = parseLocationPacket(packet);
+            if (!heard)
+                continue;
+            least = std::min(least.load(), heard->location.x);
+            most = std::max(most.load(), heard->location.x);
+            fastest = std::max(fastest.load(), std::abs(heard->location.x - last_));
+            last_ = heard->location.x;
+            ++locations;
+        }
+    }
+
+    int socket_;
+    double last_ = 0.0;
+    std::jthread thread_;
+};
+
+TEST_F(ExperimentWindowTest, ADeviceThatDeclaresADisplayHearsTheContactLocation) {
+    const std::string arc = R"json({"arc": {"radius": 0.1, "angle": 0.902}, "force": "facets", "location": "facets"})json";
+    begin(R"json({"touchstoneStudy": 1, "name": "L", "question": "q?", "conditions": [{"name": "C3", "reference": )json" + arc +
+              R"json(, "comparison": {"polygon": {"radius": 0.1, "angle": 0.902, "segments": 9}, "location": "bezier"},
+               "vary": "nothing", "trials": 1}]})json",
+          {"--device", "udp:47913"});
+    DisplayedFinger finger(47913);
+    display_.key("Return");
+    page("training");
+    until("a force", [&](const Json&) { return finger.force > 0.5; });
+    EXPECT_EQ(finger.locations, 0) << "it has declared none";
+    finger.declares = true;
+    until("locations to both sides", [&](const Json&) { return finger.least < -0.005 && finger.most > 0.005; });
+    EXPECT_LE(finger.most, 0.008);
+    EXPECT_GE(finger.least, -0.008);
+    display_.key("Return");
+    page("first");
+    const int before = finger.locations;
+    until("locations of the interval", [&](const Json&) { return finger.locations > before + 500; });
+    EXPECT_EQ(program_->stop(), 0) << readFile(scratch_ / "log");
 }
 
 TEST_F(ExperimentWindowTest, RefusesASessionOfAnotherStudyAndKeepsIt) {
