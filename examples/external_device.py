@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A device for Touchstone in seventy lines: a finger on a spring that presses down and up again.
+"""A device for Touchstone in eighty lines: a finger on a spring that presses down and up again.
 
 Start Touchstone with `touchstone SCENE --device udp` (or `touchstone run SCENE --device udp`), then this.
 It sends where the finger is a thousand times a second and moves the finger by the force that comes back.
@@ -15,6 +15,7 @@ import time
 
 PLACE = struct.Struct("<4sHHII3d4d")  # magic, version, size, sequence, buttons, position, orientation w x y z
 FORCE = struct.Struct("<4sHHII3d3d")  # magic, version, size, sequence, answers, force, torque
+PAD = struct.Struct("<4sHHII2d")  # declared: reach (m) and rate (m/s) of a contact location display; heard: the location
 
 MASS = 0.08  # kg, of a finger and a light device
 SPRING = 300.0  # N/m, from the finger to where it wants to be
@@ -34,6 +35,7 @@ def main():
     parser.add_argument("--port", type=int, default=47470)
     parser.add_argument("--seconds", type=float, default=10.0)
     parser.add_argument("--depth", type=float, default=0.0, help="how far down, m")
+    parser.add_argument("--pad", action="store_true", help="with a contact location display of 8 mm, 0.1 m/s")
     options = parser.parse_args()
 
     link = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -42,6 +44,7 @@ def main():
     place, speed, force = list(wish(0.0, options.depth)), [0.0] * 3, (0.0, 0.0, 0.0)
     sequence = answers = malformed = 0
     greatest = 0.0
+    location = (0.0, 0.0)
     start = due = heard = time.monotonic()
     while (now := time.monotonic()) - start < options.seconds:
         if now - heard > SILENCE:
@@ -56,10 +59,15 @@ def main():
         due = max(due + PERIOD, now)  # what was slept through is not made up for in a burst
         try:
             link.send(packet)
+            if options.pad and answers == 1:  # Touchstone knows this program by now
+                link.send(PAD.pack(b"TSXD", 1, PAD.size, sequence, 0, 0.008, 0.1))
             while True:  # what comes until the next place is due, and once if that is now; the newest force counts
                 if not select.select([link], [], [], max(due - time.monotonic(), 0.0))[0]:
                     break
                 answer = link.recv(256)
+                if len(answer) == PAD.size and answer[:4] == b"TSXL":
+                    location = PAD.unpack(answer)[5:7]
+                    continue
                 if len(answer) != FORCE.size or answer[:4] != b"TSXF":
                     malformed += 1
                     continue
@@ -71,6 +79,8 @@ def main():
             force = (0.0, 0.0, 0.0)  # Touchstone is not (or no longer) there
             time.sleep(0.1)
     print(f"sent {sequence} places, heard {answers} forces ({malformed} malformed), at most {greatest:.2f} N")
+    if options.pad:
+        print(f"the last contact location: {1e3 * location[0]:.2f} mm along, {1e3 * location[1]:.2f} mm across")
 
 
 if __name__ == "__main__":

@@ -323,7 +323,8 @@ TEST(BezierShading, OnATorusIsNearerToTheSmoothNormalThanTwoPassAndOfSecondOrder
 }
 
 TEST(BezierShading, TheDirectionDoesNotJumpAtBorders) {
-    // In steps a hundredth as long what is left is the tolerance of the rounds, 1.5 nm over a depth of 0.5 mm.
+    // In steps a hundredth as long what is left is the tolerance of the rounds, 1.5 nm over a depth of 0.5
+    // mm.
     constexpr double kTolerance = 1.5e-9 / 0.5e-3 * 180.0 / M_PI;
     const double coarse = onTorus(kBezierShading, 48, 1e-3).jump,
                  fine = onTorus(kBezierShading, 48, 1e-5).jump;

@@ -5,10 +5,9 @@
 #include "experiment/people/person_session.h"
 #include "tests/unit/workbench/virtual_display.h"
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -52,9 +51,10 @@ class ExperimentWindowTest : public testing::Test {
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
         environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
-        std::vector<std::string> arguments{TOUCHSTONE_BINARY, "experiment", study_.string(), "--person", "1",
-                                     "--out", out_.string(), "--size", "1000x780", "--no-noise",
-                                     "--status-json", status_.string()};
+        std::vector<std::string> arguments{
+            TOUCHSTONE_BINARY, "experiment",    study_.string(), "--person", "1",
+            "--out",           out_.string(),   "--size",        "1000x780", "--no-noise",
+            "--status-json",   status_.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
         corner_ = display_.waitForWindow("Touchstone experiment");
@@ -243,7 +243,8 @@ TEST_F(ExperimentWindowTest, ComparesModelsWithSettings) {
     EXPECT_TRUE(session().finished());
 }
 
-/// A finger with a contact location display, as a program of its own: it comes down onto the arc and goes to and fro.
+/// A finger with a contact location display, as a program of its own: it comes down onto the arc and goes to
+/// and fro.
 class DisplayedFinger {
   public:
     explicit DisplayedFinger(uint16_t port) : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
@@ -302,18 +303,22 @@ class DisplayedFinger {
 };
 
 TEST_F(ExperimentWindowTest, ADeviceThatDeclaresADisplayHearsTheContactLocation) {
-    const std::string arc = R"json({"arc": {"radius": 0.1, "angle": 0.902}, "force": "facets", "location": "facets"})json";
-    begin(R"json({"touchstoneStudy": 1, "name": "L", "question": "q?", "conditions": [{"name": "C3", "reference": )json" + arc +
-              R"json(, "comparison": {"polygon": {"radius": 0.1, "angle": 0.902, "segments": 9}, "location": "bezier"},
+    const std::string arc =
+        R"json({"arc": {"radius": 0.1, "angle": 0.902}, "force": "facets", "location": "facets"})json";
+    begin(
+        R"json({"touchstoneStudy": 1, "name": "L", "question": "q?", "conditions": [{"name": "C3", "reference": )json" +
+            arc +
+            R"json(, "comparison": {"polygon": {"radius": 0.1, "angle": 0.902, "segments": 9}, "location": "bezier"},
                "vary": "nothing", "trials": 1}]})json",
-          {"--device", "udp:47913"});
+        {"--device", "udp:47913"});
     DisplayedFinger finger(47913);
     display_.key("Return");
     page("training");
     until("a force", [&](const Json&) { return finger.force > 0.5; });
     EXPECT_EQ(finger.locations, 0) << "it has declared none";
     finger.declares = true;
-    until("locations to both sides", [&](const Json&) { return finger.least < -0.005 && finger.most > 0.005; });
+    until("locations to both sides",
+          [&](const Json&) { return finger.least < -0.005 && finger.most > 0.005; });
     EXPECT_LE(finger.most, 0.008);
     EXPECT_GE(finger.least, -0.008);
     display_.key("Return");
