@@ -79,7 +79,7 @@ void drawConfigurations(PanelState& state, Widgets& widgets) {
     way(widgets, "shadingModel", settings.forceShading, ShadingMode::Off, ShadingMode::TwoPass,
         std::array{"shading: two passes (Ruspini)", "shading: projected (Ho)",
                    "shading: direction (Morgenbesser)", "shading: as each material says",
-                   "shading: two passes once a tick"});
+                   "shading: two passes once a tick", "shading: two passes, patch of normals"});
     way(widgets, "textureLaw", settings.texture, TextureMode::Off, TextureMode::Law,
         std::array{"texture: displacement law", "texture: Blinn's normal", "texture: Minsky's lateral force",
                    "texture: Blinn's normal and magnitude"});

@@ -139,7 +139,7 @@ TEST(EffectsInClosedLoop, EveryShadingIsBounded) {
     const ScenePtr prism = loadScene(TOUCHSTONE_ASSETS "/prism_smooth.glb");
     const ScenePtr doughnut = loadScene(TOUCHSTONE_ASSETS "/doughnut.glb");
     for (const Scene* scene : {prism.get(), doughnut.get()})
-        for (const char* shading : {"off", "twoPass", "projected", "direction", "singleRound"}) {
+        for (const char* shading : {"off", "twoPass", "projected", "direction", "bezier", "singleRound"}) {
             Case c{.name = std::string(scene == prism.get() ? "prism" : "doughnut") + ", shading " + shading,
                    .scene = scene,
                    .path = strokes(*scene, 0.2, 0.002),

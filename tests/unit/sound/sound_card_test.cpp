@@ -1,13 +1,19 @@
 // The sound card that is not there. Each test runs in a process of its own (ctest), where ALSA reads a
 // configuration that names no card, so that nothing is heard on a machine that has one.
 
+#include "sound/masking_noise.h"
 #include "sound/sound_card.h"
 #include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 namespace touchstone::test {
@@ -80,6 +86,37 @@ TEST_F(SoundCardTest, PlaysOnWhatTheSystemCallsItsDefault) {
     EXPECT_GT(card.figures().latency, 0.0);
     card.update(false, 0.5f);
     EXPECT_EQ(card.state(), SoundCard::State::Off);
+}
+
+TEST_F(SoundCardTest, PlaysAnotherSourceThanTheForce) {
+    const auto file = scratch_ / "played.raw";
+    configure("pcm.!default { type file slave.pcm { type null } file \"" + file.string() +
+              "\" format raw }\n");
+    NoiseControl noise;
+    {
+        SoundCard card([&noise](double rate) { return std::make_unique<MaskingNoise>(noise, rate); });
+        ASSERT_EQ(awaitState(card, true), SoundCard::State::Playing) << card.problem();
+        EXPECT_EQ(card.figures().runsDry, 0u) << "of the force alone";
+        noise.cue();
+        // What was played before the volume was known is silent; the card takes frames faster than any clock.
+        const auto size = [&] {
+            return std::filesystem::exists(file) ? std::filesystem::file_size(file) : 0;
+        };
+        const auto before = size();
+        for (int i = 0; i < 1000 && size() < before + 1'000'000; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        card.interrupt(); // of the force: nothing happens
+    }
+    std::string played = test::readFile(file);
+    played.resize(played.size() / sizeof(float) * sizeof(float));
+    float most = 0.0f;
+    for (size_t i = 0; i < played.size(); i += sizeof(float)) {
+        float value = 0.0f;
+        std::memcpy(&value, played.data() + i, sizeof value);
+        most = std::max(most, std::abs(value));
+    }
+    EXPECT_GT(most, 0.2f) << "a volume of 0.5";
+    EXPECT_LE(most, 0.5f);
 }
 
 TEST_F(SoundCardTest, SaysThatTheCardIsGone) {
