@@ -69,7 +69,7 @@ SceneIdentity ChangedMaterials::identity() const {
                 patches[static_cast<size_t>(inFile)][name] = jsonOf(value);
     }
     if (!patches.empty())
-        identity.edits = textOf(patches);
+        identity.edits = touchstone::textOf(patches); // in a unit with calls.cpp its own would hide it
     identity.feltHash = feltHash(*haptic_, *scene_->source());
     return identity;
 }
