@@ -107,6 +107,8 @@ std::vector<SceneFile> allScenes() {
     scenes.push_back(programs());
     scenes.push_back(surfaces());
     scenes.push_back(heights());
+    scenes.push_back(plaque());
+    scenes.push_back(mapped());
     return scenes;
 }
 

@@ -1,12 +1,9 @@
 #include "assets/glb_writer.h"
+#include "assets/program_material.h"
 #include "assets/scenes.h"
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <span>
-#include <stdexcept>
-#include <string>
 
 namespace touchstone::assets {
 
@@ -15,36 +12,7 @@ namespace {
 constexpr glm::dvec3 kSlab{0.090, 0.050, 0.010}; // m
 constexpr double kGap = 0.006;                   // m
 
-struct Slab {
-    const char* program;
-    glm::dvec3 colour; ///< linear
-    double metallic = 0.0, roughness = 0.6;
-    Json haptic = Json::object(); ///< besides the program
-    Json parameters = Json::object();
-};
-
-std::string sourceOf(const std::string& program) {
-    std::ifstream file(std::string(TOUCHSTONE_PROGRAM_SOURCES) + "/" + program, std::ios::binary);
-    std::string text((std::istreambuf_iterator<char>(file)), {});
-    if (text.empty())
-        throw std::runtime_error("there is no program " + program);
-    return text;
-}
-
-/// A material that brings its program along, as a buffer view.
-int addMaterial(GlbWriter& glb, const Slab& slab) {
-    Json haptic = slab.haptic;
-    haptic["shader"] = {{"bufferView", glb.addText(sourceOf(slab.program))}, {"name", slab.program}};
-    if (!slab.parameters.empty())
-        haptic["shader"]["parameters"] = slab.parameters;
-    Json material{{"name", slab.program},
-                  {"pbrMetallicRoughness",
-                   {{"baseColorFactor", {slab.colour.x, slab.colour.y, slab.colour.z, 1.0}},
-                    {"metallicFactor", slab.metallic},
-                    {"roughnessFactor", slab.roughness}}}};
-    material["extensions"]["TOUCHSTONE_materials_haptic"] = haptic;
-    return glb.addMaterial(std::move(material));
-}
+using Slab = ProgramMaterial;
 
 /// Boards side by side from the upper left, row by row, facing +z. Each is a mesh about its own origin, so
 /// that its program has coordinates of its own.

@@ -45,6 +45,10 @@ struct SceneFile {
 [[nodiscard]] SceneFile programs();
 [[nodiscard]] SceneFile surfaces();
 [[nodiscard]] SceneFile heights();
+/// The tooth of [003]: plaque on six charts of a persistent texture, which touch wears off.
+[[nodiscard]] SceneFile plaque();
+/// Two-part mapping: one image on a doughnut [000 Fig. 8a], a rod, a box and a ball without coordinates.
+[[nodiscard]] SceneFile mapped();
 /// Rigid bodies (docs/bodies.md): blocks, a ball and a ramp; Newton's cradle; a stack of ten; a seesaw; a
 /// panel of button, switch, slider and knob [000 Fig. 11]; a screw [001 Fig. 4-1].
 [[nodiscard]] std::vector<SceneFile> bodies();

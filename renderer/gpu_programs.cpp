@@ -51,16 +51,19 @@ uint32_t alignedFor(const Gpu::Impl& gpu, size_t size) {
 } // namespace
 
 GpuPrograms::GpuPrograms(const Gpu::Impl& gpu, const Pipelines& pipelines, const Scene& scene,
-                         std::span<const glm::dvec3> centres, std::vector<MaterialProgram> programs)
+                         std::span<const glm::dvec3> centres, std::vector<MaterialProgram> programs,
+                         GpuPrograms* before)
     : programs_(std::move(programs)), sets_(scene.materials.size()) {
     programs_.resize(scene.materials.size());
     const auto count =
         static_cast<uint32_t>(std::ranges::count_if(programs_, &MaterialProgram::operator bool));
     if (count == 0)
         return;
+    placeTexels(gpu, scene, before);
     placeInstances(gpu, scene, centres);
     const std::array sizes{vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
-                           vk::DescriptorPoolSize{vk::DescriptorType::eUniformBufferDynamic, count}};
+                           vk::DescriptorPoolSize{vk::DescriptorType::eUniformBufferDynamic, count},
+                           vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, count}};
     pool_ = {gpu.device, vk::DescriptorPoolCreateInfo{
                              .maxSets = count, .poolSizeCount = sizes.size(), .pPoolSizes = sizes.data()}};
     constexpr size_t kBlock = 16 * kMaxProgramParameters; // parameterBlock's, at most
@@ -90,6 +93,7 @@ vk::DescriptorSet GpuPrograms::makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLa
                 *gpu.device.getDispatcher())
             .front();
     const vk::DescriptorBufferInfo parameters{*parameters_.buffer, at, size};
+    const vk::DescriptorBufferInfo texels{*texels_.buffer, 0, texels_.size};
     const vk::DescriptorBufferInfo instances{*instances_.buffer, 0, sizeof(shared::ProgramObjectUniforms)};
     gpu.device.updateDescriptorSets(
         {vk::WriteDescriptorSet{.dstSet = set,
@@ -101,9 +105,54 @@ vk::DescriptorSet GpuPrograms::makeSet(const Gpu::Impl& gpu, vk::DescriptorSetLa
                                 .dstBinding = 1,
                                 .descriptorCount = 1,
                                 .descriptorType = vk::DescriptorType::eUniformBufferDynamic,
-                                .pBufferInfo = &instances}},
+                                .pBufferInfo = &instances},
+         vk::WriteDescriptorSet{.dstSet = set,
+                                .dstBinding = 2,
+                                .descriptorCount = 1,
+                                .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                .pBufferInfo = &texels}},
         {});
     return set;
+}
+
+/// Every texture at its initial value, or as `before` has it.
+void GpuPrograms::placeTexels(const Gpu::Impl& gpu, const Scene& scene, GpuPrograms* before) {
+    size_t floats = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+        const MaterialProgram& program = programs_[static_cast<size_t>(mesh.material)];
+        TexelBlock& block = blocks_.emplace_back();
+        // As for the hand: a program that does not name the texture has none, and it needs coordinates.
+        if (!program || program.texture.width == 0 || mesh.uv0.empty() ||
+            program.compiled->text.find("persistent") == std::string::npos)
+            continue;
+        block = {program.texture, static_cast<uint32_t>(floats)};
+        floats += size_t{block.size.width} * block.size.height;
+    }
+    if (before != nullptr && before->blocks_ == blocks_ && before->texels_.size > 0) {
+        texels_ = std::move(before->texels_);
+        return;
+    }
+    texels_ = createBuffer(gpu, std::max<size_t>(floats, 4) * sizeof(float),
+                           vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::Upload);
+    float* const all = reinterpret_cast<float*>(texels_.mapped);
+    for (const TexelBlock& block : blocks_)
+        std::fill_n(all + block.first, size_t{block.size.width} * block.size.height, block.size.initial);
+}
+
+bool GpuPrograms::setTexels(const PersistentTexels& texels) {
+    const auto instance = static_cast<size_t>(texels.instance);
+    if (instance >= blocks_.size())
+        return false;
+    const TexelBlock& block = blocks_[instance];
+    if (block.size.width != texels.textureWidth || block.size.height != texels.textureHeight ||
+        texels.x + texels.width > block.size.width || texels.y + texels.height > block.size.height)
+        return false;
+    for (uint32_t row = 0; row < texels.height; ++row)
+        std::memcpy(texels_.mapped +
+                        sizeof(float) * (block.first + size_t{texels.y + row} * block.size.width + texels.x),
+                    texels.values + size_t{row} * texels.textureWidth, sizeof(float) * texels.width);
+    return true;
 }
 
 void GpuPrograms::placeInstances(const Gpu::Impl& gpu, const Scene& scene,
@@ -114,8 +163,11 @@ void GpuPrograms::placeInstances(const Gpu::Impl& gpu, const Scene& scene,
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const auto mesh = static_cast<size_t>(scene.instances[i].mesh);
         const auto material = static_cast<size_t>(scene.meshes[mesh].material);
-        const shared::ProgramObjectUniforms place =
+        shared::ProgramObjectUniforms place =
             placeOf(centres[mesh], scene.instances[i], scene.materials[material].haptic);
+        const PersistentTextureSize &size = blocks_[i].size, &declared = programs_[material].texture;
+        place.texels = {size.width, size.height, blocks_[i].first, 0};
+        place.persistent.x = declared.width > 0 ? declared.initial : 1.0f;
         std::memcpy(instances_.mapped + i * stride_, &place, sizeof place);
     }
 }

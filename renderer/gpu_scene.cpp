@@ -213,7 +213,9 @@ void GpuScene::setPrograms(std::vector<MaterialProgram> programs) {
     std::vector<glm::dvec3> centres;
     for (const DrawnMesh& drawn : meshes_)
         centres.push_back(drawn.mesh.centre);
-    programs_.emplace(gpu_, pipelines_, *scene_, centres, std::move(programs));
+    GpuPrograms made(gpu_, pipelines_, *scene_, centres, std::move(programs),
+                     programs_ ? &*programs_ : nullptr);
+    programs_ = std::move(made);
 }
 
 void GpuScene::planTexture(const TextureLevels& levels, GpuImage& image) {

@@ -47,6 +47,7 @@ class GpuScene {
     [[nodiscard]] const GpuPrograms& programs() const { return *programs_; }
     /// One for each material, in place of the file's. No frame may be in flight.
     void setPrograms(std::vector<MaterialProgram> programs);
+    bool setTexels(const PersistentTexels& texels) { return programs_ && programs_->setTexels(texels); }
     /// Draws other triangles in place of a mesh's from the next frame on; its buffers are
     ///  those of kGenerations calls ago, which no frame in flight uses: at most one call a frame.
     void reshape(int index, const ReshapedMesh& reshaped);

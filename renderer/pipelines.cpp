@@ -56,7 +56,7 @@ vk::raii::DescriptorSetLayout makeKeptSetLayout(const Gpu::Impl& gpu) {
 
 vk::raii::DescriptorSetLayout makeProgramSetLayout(const Gpu::Impl& gpu) {
     constexpr vk::ShaderStageFlags kFragment = vk::ShaderStageFlagBits::eFragment;
-    const std::array<vk::DescriptorSetLayoutBinding, 2> bindings{
+    const std::array<vk::DescriptorSetLayoutBinding, 3> bindings{
         {{.binding = 0,
           .descriptorType = vk::DescriptorType::eUniformBuffer,
           .descriptorCount = 1,
@@ -64,7 +64,11 @@ vk::raii::DescriptorSetLayout makeProgramSetLayout(const Gpu::Impl& gpu) {
          {.binding = 1,
           .descriptorType = vk::DescriptorType::eUniformBufferDynamic,
           .descriptorCount = 1,
-          .stageFlags = kObjectStages}}};
+          .stageFlags = kObjectStages},
+         {.binding = 2,
+          .descriptorType = vk::DescriptorType::eStorageBuffer,
+          .descriptorCount = 1,
+          .stageFlags = kFragment}}};
     return {gpu.device,
             vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(), .pBindings = bindings.data()}};
 }

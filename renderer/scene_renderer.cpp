@@ -307,6 +307,10 @@ void SceneRenderer::setPrograms(const std::vector<MaterialProgram>& programs) {
     translatingErrors("showing programs", [&] { impl_->setPrograms(programs); });
 }
 
+void SceneRenderer::setTexels(const PersistentTexels& texels) {
+    impl_->setTexels(texels);
+}
+
 std::string SceneRenderer::programProblem(const std::shared_ptr<const SurfaceProgram>& program) const {
     return impl_->programProblem(program);
 }

@@ -7,6 +7,7 @@
 #include "renderer/false_color.h"
 #include "renderer/gpu.h"
 #include "renderer/overlay.h"
+#include "renderer/persistent_texels.h"
 #include "renderer/prepared_scene.h"
 #include "renderer/reshaped_mesh.h"
 #include "renderer/view.h"
@@ -82,6 +83,10 @@ class SceneRenderer {
     /// The haptic program of each material, in place of the file's; until another scene. Waits for the frames
     /// in flight where they differ from the last ones. Throws std::invalid_argument for another count.
     void setPrograms(const std::vector<MaterialProgram>& programs);
+    /// A part of an instance's persistent texture as touch has made it; until another scene, or until
+    /// programs with other textures. Ignored where the instance has no texture of that size. May be seen at
+    /// once, also in a frame in flight.
+    void setTexels(const PersistentTexels& texels);
     /// Empty, or why a program that was to be drawn is not: its surfaces look plain.
     [[nodiscard]] std::string programProblem(const std::shared_ptr<const SurfaceProgram>& program) const;
 

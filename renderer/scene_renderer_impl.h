@@ -56,6 +56,10 @@ struct SceneRenderer::Impl {
     void setMaterialColors(std::vector<glm::vec3> colors);
     void setMeshVertices(int mesh, const DrawnVertices& vertices);
     void setPrograms(const std::vector<MaterialProgram>& programs);
+    void setTexels(const PersistentTexels& texels) {
+        if (scene_ && scene_->setTexels(texels))
+            ++content_;
+    }
     [[nodiscard]] std::string programProblem(const std::shared_ptr<const SurfaceProgram>& program) const {
         return pipelines_.programProblem(program);
     }

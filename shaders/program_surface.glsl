@@ -4,6 +4,9 @@ layout(location = 7) in vec3 programNormal;
 layout(location = 8) in vec4 programTangent;
 layout(set = 2, binding = 1) uniform ProgramObject { ProgramObjectUniforms programObject; };
 
+/// The persistent textures of all instances, row by row.
+layout(std430, set = 2, binding = 2) readonly buffer ProgramTexels { float programTexels[]; };
+
 #include "program_host.glsl"
 
 struct Programmed {
@@ -47,6 +50,19 @@ vec3 eyeNormalOf(vec3 normal) {
                           dot(object.normalFromMesh[2].xyz, inMesh)));
 }
 
+/// The persistent texture, bilinear and repeating, as for the hand.
+float persistentAt(vec2 uv) {
+    const uvec2 size = programObject.texels.xy;
+    if (size.x == 0u) return programObject.persistent.x;
+    const vec2 at = (uv - floor(uv)) * vec2(size) - 0.5, corner = floor(at), part = at - corner;
+    const ivec2 n = ivec2(size), low = (ivec2(corner) + n) % n, high = (low + 1) % n;
+    const int first = int(programObject.texels.z);
+    const vec2 upper = vec2(programTexels[first + low.y * n.x + low.x], programTexels[first + low.y * n.x + high.x]);
+    const vec2 lower = vec2(programTexels[first + high.y * n.x + low.x], programTexels[first + high.y * n.x + high.x]);
+    const vec2 rows = vec2(mix(upper.x, upper.y, part.x), mix(lower.x, lower.y, part.x));
+    return mix(rows.x, rows.y, part.y);
+}
+
 /// The program runs as if nothing moved: a force of 1 N, no stroke, and the filter width of a pixel. Where it has no
 /// result the pixel is plain. A displacement bends the normal by its slope, the difference between neighbouring pixels.
 Programmed programmedSurface(vec3 base) {
@@ -61,6 +77,7 @@ Programmed programmedSurface(vec3 base) {
     touchstone_material = programObject.material;
     touchstone_tick = vec2(sqrt(max(dot(dx, dx), dot(dy, dy))), 0.0);
     touchstone_look = vec4(base, statedRoughness());
+    touchstone_persistent = persistentAt(uvs.xy);
     const bool done = runProgram();
     float height = 0.0;
     if (done) height = dot(touchstone_outPosition - programPosition, n);

@@ -109,7 +109,8 @@ class Run {
     [[nodiscard]] Truth truthOf(const Ablation& ablation) const {
         if (ablation.against == Against::Coulomb)
             return Truth::Coulomb;
-        if ((ablation.against == Against::Smooth && subject_.smooth == nullptr) ||
+        if (ablation.against == Against::Exact ||
+            (ablation.against == Against::Smooth && subject_.smooth == nullptr) ||
             (ablation.against == Against::Bump && !subject_.bump))
             return Truth::Reference;
         return subject_.smooth != nullptr ? Truth::Analytic : Truth::Oracle;

@@ -81,7 +81,7 @@ PersistentTextureSize textureSize(const SurfaceProgram& program, const json& sta
     const auto wrong = [&](const std::string& member, const std::string& problem) {
         throw Error(program.source.name, "persistentTexture" + member, problem,
                     "give width and height from 1 to " + std::to_string(kMaxPersistentSide) +
-                        ", and initial from -1e6 to 1e6");
+                        ", and minimum <= initial <= maximum from -1e6 to 1e6");
     };
     if (!stated.is_object())
         wrong("", "should be an object");
@@ -95,11 +95,19 @@ PersistentTextureSize textureSize(const SurfaceProgram& program, const json& sta
             wrong(std::string(".") + name, shown(value) + " texels are out of range");
         *side = static_cast<uint32_t>(value);
     }
-    if (const auto found = stated.find("initial"); found != stated.end()) {
+    const auto number = [&](const char* name, float otherwise) {
+        const auto found = stated.find(name);
+        if (found == stated.end())
+            return otherwise;
         if (!found->is_number() || !(std::abs(found->get<double>()) <= 1e6))
-            wrong(".initial", "should be a number that is not out of range");
-        size.initial = found->get<float>();
-    }
+            wrong(std::string(".") + name, "should be a number that is not out of range");
+        return found->get<float>();
+    };
+    size.initial = number("initial", 1.0f);
+    size.minimum = number("minimum", std::min(size.initial, 0.0f));
+    size.maximum = number("maximum", std::max(size.initial, 1.0f));
+    if (!(size.minimum <= size.initial && size.initial <= size.maximum))
+        wrong(".initial", shown(static_cast<double>(size.initial)) + " is not between minimum and maximum");
     return size;
 }
 

@@ -41,8 +41,9 @@ inline constexpr uint32_t kMaxPersistentSide = 2048;
 
 /// `persistentTexture` of a shader: floats addressed by the texture coordinates, which touch changes.
 struct PersistentTextureSize {
-    uint32_t width = 0, height = 0; ///< 0: none
-    float initial = 1.0f;           ///< every texel's value when the scene is loaded
+    uint32_t width = 0, height = 0;       ///< 0: none
+    float initial = 1.0f;                 ///< every texel's value when the scene is loaded
+    float minimum = 0.0f, maximum = 1.0f; ///< what touch cannot go beyond; `initial` lies inside
     bool operator==(const PersistentTextureSize&) const = default;
 };
 

@@ -83,9 +83,11 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
         const double speed = glm::length(velocity - glm::dot(velocity, turned.normal) * turned.normal);
         load.feel = readSurface(scene, motions, settings, limits, reference, contact, turned.normal,
                                 load.length / turned.cosine, speed, dt);
-        if (programs != nullptr)
-            runProgram(scene, motions, settings, limits, reference, contact, reachOf(load), *programs,
-                       load.feel);
+        if (programs != nullptr) {
+            const double reach = reachOf(load);
+            programs->part = reach > 0.0 ? load.feel.depth / reach : 1.0;
+            runProgram(scene, motions, settings, limits, reference, contact, reach, *programs, load.feel);
+        }
         if (zoom > 1.0) {
             const double share = bearableShare(load.feel.stiffness, zoom, settings, limits);
             load.feel.stiffness *= share;

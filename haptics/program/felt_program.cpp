@@ -15,7 +15,8 @@ namespace touchstone::program {
 
 namespace {
 
-constexpr size_t kPosition = 0, kTangent = 2, kBinormal = 3, kUv = 4; // locations of interface.glsl
+constexpr size_t kPosition = 0, kTangent = 2, kBinormal = 3, kUv = 4, kPersistent = 12,
+                 kOutPersistent = 5; // locations of interface.glsl
 
 const Port* portAt(const std::vector<Port>& ports, size_t location) {
     const auto found = std::ranges::find(ports, location, &Port::location);
@@ -64,12 +65,18 @@ bool writesPosition(const RegisterProgram& program) {
     return false;
 }
 
-uint64_t identityOf(const MaterialProgram& material) {
+uint64_t identityOf(const MaterialProgram& material, const PersistentTextureSize& texture) {
     Hash64 hash;
     hash.addBytes(material.compiled->spirv);
     for (const std::array<double, 4>& value : material.values)
         for (const double part : value)
             hash.add(part);
+    if (texture.width > 0) {
+        hash.add(texture.width);
+        hash.add(texture.height);
+        for (const float value : {texture.initial, texture.minimum, texture.maximum})
+            hash.add(value);
+    }
     return hash.value();
 }
 
@@ -89,7 +96,10 @@ FeltProgram feltProgram(const MaterialProgram& material, const FeltProgram* befo
     felt.displaces = writesPosition(felt.code);
     for (const size_t location : {kTangent, kBinormal, kUv})
         felt.usesCoordinates |= felt.code.reads(location);
-    felt.identity = identityOf(material);
+    if (felt.code.reads(kPersistent) || portAt(felt.code.outputs, kOutPersistent) != nullptr)
+        felt.texture = material.texture;
+    felt.usesCoordinates |= felt.texture.width > 0;
+    felt.identity = identityOf(material, felt.texture);
     return felt;
 }
 

@@ -16,8 +16,9 @@ struct FeltProgram {
     std::string name;     ///< of its source
     /// It may write another position than that which it gets: a displacement has a gradient.
     bool displaces = true;
-    bool usesCoordinates = false; ///< it reads uv, tangent or binormal
-    uint64_t identity = 0;        ///< hash of its SPIR-V and its values
+    bool usesCoordinates = false;  ///< it reads uv, tangent or binormal, or has a persistent texture
+    PersistentTextureSize texture; ///< of the material; 0 texels where the program does not name it
+    uint64_t identity = 0;         ///< hash of its SPIR-V and its values
     /// Translated from it; null in programs that no material brought.
     std::shared_ptr<const SurfaceProgram> compiled;
 

@@ -21,9 +21,10 @@ enum InputLocation : size_t {
     kForce,
     kMaterial,
     kTick,
-    kLook
+    kLook,
+    kPersistent
 };
-enum OutputLocation : size_t { kOutPosition, kOutNormal, kOutForce, kOutMaterial };
+enum OutputLocation : size_t { kOutPosition, kOutNormal, kOutForce, kOutMaterial, kOutLook, kOutPersistent };
 
 using Ports = std::array<PortValue, kMaxLocations>;
 
@@ -48,6 +49,7 @@ void fill(const ProgramContact& contact, Ports& in) {
                      static_cast<float>(contact.stiffness), static_cast<float>(contact.damping)};
     in[kTick] = {static_cast<float>(contact.filterWidth), static_cast<float>(contact.time)};
     in[kLook] = {1.0f, 1.0f, 1.0f, 1.0f};
+    in[kPersistent] = {static_cast<float>(contact.persistent)};
 }
 
 /// The displacement along the normal, model m: its value and its gradient in the object's frame.
@@ -64,12 +66,17 @@ double heightOf(const ProgramContact& contact, const Ports& in, const Ports& out
 RunResult runWithSlope(const RegisterProgram& program, const ProgramContact& contact, const Ports& in,
                        Ports& out, Displacement& displacement) {
     std::array<DualPortValue, kMaxLocations> dual{}, dualOut{};
-    for (size_t i = 0; i <= kLook; ++i)
+    for (size_t i = 0; i <= kPersistent; ++i)
         dual[i].v = in[i];
-    for (size_t k = 0; k < 3; ++k)
+    for (size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<glm::length_t>(k);
         dual[kPosition].d[k][k] = 1.0f;
+        for (size_t i = 0; i < 2; ++i)
+            dual[kUv].d[i][k] = static_cast<float>(contact.uvSlope[i][axis]);
+        dual[kPersistent].d[0][k] = static_cast<float>(contact.persistentSlope[axis]);
+    }
     const RunResult result = runDual(program, dual, dualOut, contact.budget);
-    for (size_t i = 0; i <= kOutMaterial; ++i)
+    for (size_t i = 0; i <= kOutPersistent; ++i)
         out[i] = dualOut[i].v;
     for (size_t k = 0; k < 3; ++k) {
         const auto axis = static_cast<glm::length_t>(k);
@@ -88,7 +95,12 @@ RunResult runWithDifferences(const RegisterProgram& program, const ProgramContac
         double difference = 0.0, distance = 0.0;
         for (const double sign : {1.0, -1.0}) {
             Ports beside = in, there{};
-            beside[kPosition][k] += static_cast<float>(sign * contact.differenceStep);
+            const double step = sign * contact.differenceStep;
+            const auto axis = static_cast<glm::length_t>(k);
+            beside[kPosition][k] += static_cast<float>(step);
+            for (size_t i = 0; i < 2; ++i)
+                beside[kUv][i] += static_cast<float>(step * contact.uvSlope[i][axis]);
+            beside[kPersistent][0] += static_cast<float>(step * contact.persistentSlope[axis]);
             const RunResult other =
                 run(program, beside, there, contact.budget - std::min(contact.budget, result.cost));
             result.cost += other.cost;
@@ -180,6 +192,8 @@ ProgramFelt feelProgram(const RegisterProgram& program, ProgramGradient gradient
     felt.damping = std::max(static_cast<double>(material[3]), 0.0);
     felt.staticFriction = std::max(static_cast<double>(material[0]), 0.0);
     felt.dynamicFriction = std::clamp(static_cast<double>(material[1]), 0.0, felt.staticFriction);
+    felt.persistentChange = static_cast<double>(out[kOutPersistent][0]);
+    felt.brush = std::max(static_cast<double>(out[kOutPersistent][1]), 0.0);
     return felt;
 }
 

@@ -18,6 +18,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 
 namespace touchstone::program {
@@ -37,12 +38,15 @@ struct ProgramContact {
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0, 0.0, 1.0}, tangent{1.0, 0.0, 0.0}, binormal{0.0, 1.0, 0.0}; ///< unit
     glm::dvec2 uv{0.0};
-    glm::dvec3 toolDirection{0.0};    ///< unit, of the last motion along the surface; 0 before any
-    glm::dvec3 toolVelocity{0.0};     ///< m/s
-    glm::dvec3 toolAcceleration{0.0}; ///< m/s^2
-    double depth = 0.0;               ///< d >= 0, workspace m
-    double stiffness = 0.0;           ///< k > 0, N/m
-    double damping = 0.0;             ///< N s/m
+    std::array<glm::dvec3, 2> uvSlope{}; ///< of u and of v along the surface, 1/m
+    double persistent = 1.0;             ///< value of the persistent texture
+    glm::dvec3 persistentSlope{0.0};     ///< along the surface, 1/m
+    glm::dvec3 toolDirection{0.0};       ///< unit, of the last motion along the surface; 0 before any
+    glm::dvec3 toolVelocity{0.0};        ///< m/s
+    glm::dvec3 toolAcceleration{0.0};    ///< m/s^2
+    double depth = 0.0;                  ///< d >= 0, workspace m
+    double stiffness = 0.0;              ///< k > 0, N/m
+    double damping = 0.0;                ///< N s/m
     double staticFriction = 0.0, dynamicFriction = 0.0;
     double filterWidth = 0.0;       ///< model m
     double time = 0.0;              ///< s
@@ -58,7 +62,10 @@ struct ProgramFelt {
     glm::dvec3 force{0.0}; ///< elastic, N
     double stiffness = 0.0, damping = 0.0, staticFriction = 0.0, dynamicFriction = 0.0;
     double height = 0.0; ///< s(h, d), workspace m
-    uint32_t cost = 0;   ///< of all runs, see operation.h
+    /// What the program changes of the persistent texture: its integral a second, m^2/s, within `brush`
+    /// (model m, at least 0).
+    double persistentChange = 0.0, brush = 0.0;
+    uint32_t cost = 0; ///< of all runs, see operation.h
 };
 
 /// One call a tick and contact. On the servo: bounded, no allocation.

@@ -92,7 +92,7 @@ class Readings {
 } // namespace
 
 void shorten(RegisterProgram& program) {
-    std::erase_if(program.outputs, [](const Port& port) { return port.location >= kFeltOutputs; });
+    std::erase_if(program.outputs, [](const Port& port) { return port.location == kLookOutput; });
     const Readings readings(program);
     std::erase_if(program.inputs,
                   [&](const Port& port) { return !readings.anyRead(port.first, port.count); });

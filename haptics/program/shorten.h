@@ -5,8 +5,8 @@
 
 namespace touchstone::program {
 
-/// Outputs from this location on are the eye's (shaders/material/interface.glsl).
-inline constexpr size_t kFeltOutputs = 4;
+/// The output of the eye alone (shaders/material/interface.glsl).
+inline constexpr size_t kLookOutput = 4;
 
 /// Drops the eye's outputs, then each instruction and each input whose value nothing reads. Jumps, and what
 /// may end a run, stay. Before costs are added up; jumps lead to instructions of the program.

@@ -475,6 +475,65 @@ void get(ByteReader& bytes, RecordedBodies& bodies) {
     }
 }
 
+void put(ByteWriter& bytes, const RecordedTextures& textures) {
+    bytes.put(textures.tick);
+    bytes.put(textures.part);
+    bytes.put(static_cast<uint32_t>(textures.tiles.size()));
+    for (const RecordedTextures::Tile& tile : textures.tiles) {
+        bytes.put(tile.object);
+        bytes.put(tile.tile);
+        bytes.put(static_cast<uint32_t>(tile.values.size()));
+        bytes.put(std::as_bytes(std::span(tile.values)));
+    }
+}
+void get(ByteReader& bytes, RecordedTextures& textures) {
+    uint32_t count = 0;
+    bytes.get(textures.tick);
+    bytes.get(textures.part);
+    bytes.get(count);
+    for (uint32_t i = 0; i < count; ++i) { // the reader throws at the end of the chunk
+        RecordedTextures::Tile& tile = textures.tiles.emplace_back();
+        uint32_t values = 0;
+        bytes.get(tile.object);
+        bytes.get(tile.tile);
+        bytes.get(values);
+        if (values == 0 || values > PersistentTexture::kTile * PersistentTexture::kTile)
+            throw Error("", "", "has a tile of another size than it can have", "");
+        tile.values.resize(values);
+        for (float& value : tile.values)
+            bytes.get(value);
+    }
+}
+
+void put(ByteWriter& bytes, const RecordedStrokes& strokes) {
+    bytes.put(static_cast<uint32_t>(strokes.strokes.size()));
+    for (const BrushStroke& stroke : strokes.strokes) {
+        bytes.put(stroke.tick);
+        bytes.put(stroke.object);
+        bytes.put(stroke.most);
+        bytes.put(stroke.point);
+        bytes.put(stroke.normal);
+        bytes.put(stroke.radius);
+        bytes.put(stroke.change);
+    }
+}
+void get(ByteReader& bytes, RecordedStrokes& strokes) {
+    uint32_t count = 0;
+    bytes.get(count);
+    if (bytes.left() != size_t{count} * kBrushStrokeSize)
+        throw Error("", "", "holds another number of strokes than it says", "");
+    strokes.strokes.resize(count);
+    for (BrushStroke& stroke : strokes.strokes) {
+        bytes.get(stroke.tick);
+        bytes.get(stroke.object);
+        bytes.get(stroke.most);
+        bytes.get(stroke.point);
+        bytes.get(stroke.normal);
+        bytes.get(stroke.radius);
+        bytes.get(stroke.change);
+    }
+}
+
 void put(ByteWriter& bytes, const RecordedLoss& loss) {
     bytes.put(loss.ticks);
 }

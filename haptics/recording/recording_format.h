@@ -8,6 +8,7 @@
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/shape/field/sculpt/live_tool.h"
 #include "haptics/state/touch_checkpoint.h"
+#include "haptics/texture/persistent_texture.h"
 
 #include <array>
 #include <cstdint>
@@ -26,7 +27,8 @@ inline constexpr uint32_t kRecordingVersion = 3;
 /// Like PNG's: a byte that is not text, both line ends and an end of file, each of which a faulty copy
 /// changes.
 inline constexpr std::string_view kRecordingMagic{"\x89TSR\r\n\x1a\n", 8};
-inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224, kSculptEntrySize = 90;
+inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224, kSculptEntrySize = 90,
+                        kBrushStrokeSize = 80;
 inline constexpr uint32_t kChunkSync = 0x6b6e6843;  ///< "Chnk": where reading resumes after damage
 inline constexpr uint32_t kLargestChunk = 1u << 20; ///< bytes of payload: the reader's memory is bounded
 inline constexpr std::string_view kRecordingEnding = ".tsrec";
@@ -102,6 +104,21 @@ struct RecordedBodies {
     uint64_t tick = 0;
     std::vector<std::byte> bytes;
 };
+/// The persistent textures before a tick, whole: the tiles that differ from the initial value. Large ones
+/// take several chunks, the first of which has `part` 0.
+struct RecordedTextures {
+    struct Tile {
+        uint32_t object = 0, tile = 0;
+        std::vector<float> values; ///< PersistentTexture::tileValues; one: all are equal
+    };
+    uint64_t tick = 0;
+    uint32_t part = 0;
+    std::vector<Tile> tiles;
+};
+/// What the ticks that follow change of the textures; only of scenes that have some.
+struct RecordedStrokes {
+    std::vector<BrushStroke> strokes;
+};
 /// Ticks that were made but not recorded.
 struct RecordedLoss {
     uint64_t ticks = 0;
@@ -117,12 +134,12 @@ struct RecordedEnd {
 using RecordedItem =
     std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
                  RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState, RecordedTool,
-                 RecordedSculpt, RecordedContacts, RecordedBodies>;
+                 RecordedSculpt, RecordedContacts, RecordedBodies, RecordedTextures, RecordedStrokes>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 14> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK",
-                                                              "LOST", "NOTE", "DONE", "HTIC", "HSTA",
-                                                              "TOOL", "SCLP", "BCON", "BSTA"};
+inline constexpr std::array<std::string_view, 16> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
+                                                              "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP",
+                                                              "BCON", "BSTA", "PTEX", "PSTR"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);

@@ -1,5 +1,7 @@
 #include "haptics/recording/recording_writer.h"
 
+#include "haptics/texture/persistent_textures.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -62,6 +64,8 @@ void RecordingWriter::add(const TickToRecord& tick) {
                 file_.append(RecordedHandState{*other.checkpoint});
         if (tick.bodies != nullptr)
             file_.append(RecordedBodies{tick.tick.tick, *tick.bodies});
+        if (tick.textures != nullptr)
+            addTextures(tick, root);
     }
     if (newScene)
         scenes_[root] = true;
@@ -69,6 +73,7 @@ void RecordingWriter::add(const TickToRecord& tick) {
     tool_ = tick.toolNumber;
     begun_ = true;
     block_.ticks.push_back(tick.tick);
+    strokes_.strokes.insert(strokes_.strokes.end(), tick.strokes.begin(), tick.strokes.end());
     for (const HandToRecord& other : tick.others)
         otherBlocks_[other.hand].ticks.push_back(other.tick);
 }
@@ -91,6 +96,35 @@ void RecordingWriter::addSculpt(uint32_t scene, const SculptToRecord& sculpt) {
     sculpted_ = scene;
 }
 
+/// The state before the tick, where one is due: behind it the strokes alone make the state of any tick.
+void RecordingWriter::addTextures(const TickToRecord& tick, uint32_t root) {
+    if (texturesOf_ == root && ++texturesAge_ < kTexturesEvery)
+        return;
+    texturesOf_ = root;
+    texturesAge_ = 0;
+    constexpr size_t kMost = 200; // tiles of a chunk, which a reader's memory holds
+    RecordedTextures state;
+    state.tick = tick.tick.tick;
+    for (size_t object = 0; object < tick.textures->objects(); ++object) {
+        const PersistentTexture* const texture = tick.textures->at(static_cast<int>(object));
+        for (uint32_t tile = 0; texture != nullptr && tile < texture->tiles(); ++tile) {
+            std::vector<float> values = texture->tileValues(tile);
+            const bool even = std::ranges::all_of(values, [&](float value) { return value == values[0]; });
+            if (even && values[0] == texture->size().initial)
+                continue;
+            if (even)
+                values.resize(1);
+            if (state.tiles.size() == kMost) {
+                file_.append(state);
+                ++state.part;
+                state.tiles.clear();
+            }
+            state.tiles.push_back({static_cast<uint32_t>(object), tile, std::move(values)});
+        }
+    }
+    file_.append(state);
+}
+
 void RecordingWriter::note(uint64_t tick, std::string text) {
     flush();
     file_.append(RecordedNote{tick, std::move(text)});
@@ -105,6 +139,9 @@ void RecordingWriter::flush() {
             contacts.found.push_back({tick.tick, tick.found});
     if (!contacts.found.empty())
         file_.append(contacts);
+    if (!strokes_.strokes.empty())
+        file_.append(strokes_);
+    strokes_.strokes.clear();
     for (auto& [hand, block] : otherBlocks_) {
         file_.append(RecordedHandTicks{hand, block});
         block.ticks.clear();

@@ -41,6 +41,8 @@ struct TickToRecord {
     uint32_t toolNumber = 0;                     ///< TickRecord::tool
     LiveTool tool{};
     const std::vector<std::byte>* bodies = nullptr; ///< of a scene with bodies, at a checkpoint
+    const PersistentTextures* textures = nullptr;   ///< of a scene with some: before this tick
+    std::span<const BrushStroke> strokes{};         ///< what this tick changes of them
 };
 
 /// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are
@@ -62,7 +64,10 @@ class RecordingWriter {
 
   private:
     static constexpr size_t kBlock = 256;
+    /// Checkpoints from one whole state of the textures to the next.
+    static constexpr uint32_t kTexturesEvery = 32;
     void addSculpt(uint32_t scene, const SculptToRecord& sculpt);
+    void addTextures(const TickToRecord& tick, uint32_t root);
 
     RecordingFile file_;
     RecordingOrigin origin_;
@@ -72,6 +77,9 @@ class RecordingWriter {
     std::map<uint32_t, bool> scenes_; // written
     uint32_t settings_ = 0, tool_ = 0, sculpted_ = 0;
     std::map<uint32_t, size_t> journals_; // by root: entries written
+    RecordedStrokes strokes_;             // of the ticks in `block_`
+    uint32_t texturesOf_ = 0;             // scene of the last whole state of textures
+    uint32_t texturesAge_ = 0;            // checkpoints since
     bool begun_ = false;
 };
 

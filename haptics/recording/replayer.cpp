@@ -5,6 +5,7 @@
 #include "haptics/body/body_world.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/texture/persistent_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace touchstone {
 
 std::string whichHand(const ReplayReport& report) {
     if (report.hands == 1 || !report.first || report.first->stage == "poses" ||
-        report.first->stage == "field")
+        report.first->stage == "field" || report.first->stage == "textures")
         return "";
     return "of hand " + std::to_string(report.first->hand + 1) + ", ";
 }
@@ -75,6 +76,19 @@ void Replayer::take(const RecordedContacts& contacts) {
 
 void Replayer::take(const RecordedBodies& bodies) {
     bodies_ = bodies;
+}
+
+void Replayer::take(const RecordedTextures& textures) {
+    if (textures.part == 0) {
+        textures_.clear();
+        strokes_.clear();
+        nextStroke_ = 0;
+    }
+    textures_.push_back(textures);
+}
+
+void Replayer::take(const RecordedStrokes& strokes) {
+    strokes_.insert(strokes_.end(), strokes.strokes.begin(), strokes.strokes.end());
 }
 
 void Replayer::take(const RecordedHandTicks& ticks) {
@@ -196,7 +210,8 @@ Replayer::Touched* Replayer::sculpted(uint32_t number) {
     edited->sculptor.settle();
     edited->number = number;
     edited->touched.scene = {edited->sculptor.scene(), root->scene.source};
-    edited->touched.world = WorldState(root->scene.source, *edited->touched.scene.haptic);
+    edited->touched.world = WorldState(root->scene.source, *edited->touched.scene.haptic,
+                                       WorldBodies::Simulated, nullptr, root->world.textures());
     if (edited->sculptor.hash() != wanted.hash && !change_)
         differs({.stage = "field"});
     return &edited->touched;
@@ -263,9 +278,55 @@ void Replayer::resume(const RecordedTick& tick) {
         if (std::isfinite(came))
             touched->world.advance(came);
     }
+    if (touched->world.textures() != nullptr && !goesOn)
+        known_ &= restoreTextures(tick, *touched->world.textures());
+    if (!known_)
+        return;
     // A scene with bodies is known where their state is.
     if (touched->world.bodies() != nullptr && !(goesOn && change_))
         known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
+}
+
+/// The state before `tick`: the last whole one and the strokes since. False where that does not fit.
+bool Replayer::restoreTextures(const RecordedTick& tick, PersistentTextures& textures) const {
+    if (textures_.empty() || textures_[0].tick > tick.tick)
+        return false;
+    textures.reset();
+    for (const RecordedTextures& part : textures_)
+        for (const RecordedTextures::Tile& tile : part.tiles) {
+            PersistentTexture* const texture = textures.at(static_cast<int>(tile.object));
+            if (texture == nullptr || tile.tile >= texture->tiles())
+                return false;
+            const PersistentTexture::Place place = texture->placeOf(tile.tile);
+            std::vector<float> values = tile.values;
+            if (values.size() == 1)
+                values.resize(size_t{place.width} * place.height, tile.values[0]);
+            if (!texture->setTile(tile.tile, values))
+                return false;
+        }
+    for (size_t k = 0; k < textures.objects(); ++k)
+        if (PersistentTexture* const texture = textures.at(static_cast<int>(k)))
+            texture->settle();
+    for (const BrushStroke& stroke : strokes_)
+        if (stroke.tick < tick.tick)
+            textures.apply({&stroke, 1});
+    return true;
+}
+
+/// True where the tick made the recorded strokes, so that the textures are the recorded ones.
+bool Replayer::sameStrokes(const RecordedTick& tick, const PersistentTextures* textures) {
+    while (nextStroke_ < strokes_.size() && strokes_[nextStroke_].tick < tick.tick)
+        ++nextStroke_;
+    const size_t first = nextStroke_;
+    while (nextStroke_ < strokes_.size() && strokes_[nextStroke_].tick == tick.tick)
+        ++nextStroke_;
+    const auto recorded = std::span(strokes_).subspan(first, nextStroke_ - first);
+    const std::span<const BrushStroke> made =
+        textures != nullptr ? textures->strokes() : std::span<const BrushStroke>();
+    return std::ranges::equal(recorded, made, [](BrushStroke a, BrushStroke b) {
+        a.tick = b.tick = 0;
+        return a == b;
+    });
 }
 
 void Replayer::step(const RecordedTick& tick) {
@@ -280,6 +341,7 @@ void Replayer::step(const RecordedTick& tick) {
     std::ranges::fill(traces_, StageTrace{});
     int64_t stepNs = 0;
     uint32_t poses = 0;
+    bool texturesEqual = true;
     double animated = tick.time;
     if (Touched* const touched = this->touched(tick.scene)) {
         const HapticScene& scene = *touched->scene.haptic;
@@ -313,6 +375,7 @@ void Replayer::step(const RecordedTick& tick) {
         StageTracer tracer(devices_, traces_);
         const long long begin = monotonicNs();
         hapticStep(scene, settings->second, input, touched->world, devices_, outputs_, tracer);
+        texturesEqual = sameStrokes(tick, touched->world.textures().get());
         stepNs = monotonicNs() - begin;
         report_.seconds += report_.replayed > 0 ? tick.dt : 0.0;
     }
@@ -327,9 +390,11 @@ void Replayer::step(const RecordedTick& tick) {
     if (!posesEqual)
         differs({.tick = tick.tick, .time = tick.time, .stage = "poses"});
     const bool equal = compare(0, tick);
-    bool allEqual = equal && posesEqual;
+    bool allEqual = equal && posesEqual && texturesEqual;
     for (uint32_t hand = 1; hand < ticks_.size(); ++hand)
         allEqual &= compare(hand, ticks_[hand]);
+    if (!texturesEqual)
+        differs({.tick = tick.tick, .time = tick.time, .stage = "textures"});
     report_.differing += allEqual ? 0 : 1;
     if (each_ != nullptr && *each_)
         (*each_)(tick, outputs_[0], stepNs, equal);

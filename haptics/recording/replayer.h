@@ -104,6 +104,8 @@ class Replayer {
     void take(const RecordedSculpt& sculpt);
     void take(const RecordedContacts& contacts);
     void take(const RecordedBodies& bodies);
+    void take(const RecordedTextures& textures);
+    void take(const RecordedStrokes& strokes);
 
     void lose();
     void resume(const RecordedTick& tick);
@@ -115,6 +117,8 @@ class Replayer {
     [[nodiscard]] Touched* sculpted(uint32_t number);
     [[nodiscard]] uint32_t rootOf(uint32_t scene) const;
     bool takeUp(const RecordedTick& tick);
+    [[nodiscard]] bool restoreTextures(const RecordedTick& tick, PersistentTextures& textures) const;
+    [[nodiscard]] bool sameStrokes(const RecordedTick& tick, const PersistentTextures* textures);
 
     Load load_;
     Change change_; ///< empty: the recorded settings
@@ -139,6 +143,9 @@ class Replayer {
     std::map<uint32_t, std::deque<RecordedTick>> others_; // of the next ticks, by hand
     std::map<uint64_t, uint32_t> found_;                  // RecordedTick::found of the next ticks
     std::optional<RecordedBodies> bodies_;                // of the next tick
+    std::vector<RecordedTextures> textures_;              // the last whole state, in its parts
+    std::vector<BrushStroke> strokes_;                    // since
+    size_t nextStroke_ = 0;                               // in `strokes_`: of the next tick
     // Present state of the replay.
     bool known_ = false; // the state is that of the recording's last tick
     uint32_t scene_ = 0;

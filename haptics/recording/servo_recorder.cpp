@@ -59,6 +59,10 @@ void ServoRecorder::take(const TickRecord& record) {
            servo_.popBodyState(bodiesTick_, bodies_))
         continue;
     const bool bodies = record.checkpoint && !bodies_.empty() && bodiesTick_ == record.tick;
+    const std::shared_ptr<PersistentTextures> textures = servo_.texturesOf(record.root);
+    textures_.follow(textures);
+    const std::span<const BrushStroke> strokes = textures_.next(record.tick);
+    found &= textures == nullptr || textures_.state() != nullptr; // no replay begins where they are lost
     const std::vector<HandToRecord> others = std::exchange(others_, {});
     const uint64_t lost = record.step - nextStep_;
     nextStep_ = record.step + 1;
@@ -81,7 +85,9 @@ void ServoRecorder::take(const TickRecord& record) {
                             .sculpt = isSculpted ? &sculpt : nullptr,
                             .toolNumber = record.tool,
                             .tool = servo_.toolOf(record.tool),
-                            .bodies = bodies ? &bodies_ : nullptr};
+                            .bodies = bodies ? &bodies_ : nullptr,
+                            .textures = textures_.state(),
+                            .strokes = strokes};
     if (writer_)
         guarded([&] { writer_->add(tick); }, false);
     if (flight_)

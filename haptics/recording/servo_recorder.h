@@ -5,6 +5,7 @@
 #include "haptics/recording/flight_recorder.h"
 #include "haptics/recording/recording_writer.h"
 #include "haptics/servo/servo_loop.h"
+#include "haptics/texture/texture_copy.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -44,6 +45,9 @@ class ServoRecorder {
 
     /// Those of one tick with that of hand 0 last, as the servo gives them.
     void take(const TickRecord& record);
+    /// The persistent textures before the record that was taken last; null: the scene has none, or they have
+    /// been lost since no record was taken for long.
+    [[nodiscard]] const PersistentTextures* textures() const { return textures_.state(); }
     /// After each batch: passes all data to the system.
     void flush();
     /// After the last record.
@@ -65,7 +69,8 @@ class ServoRecorder {
     std::filesystem::path file_;
     uint64_t ticks_ = 0, nextStep_ = 0;
     std::vector<HandToRecord> others_; // of the next tick
-    std::vector<std::byte> bodies_;    // the state that was popped last
+    TextureCopy textures_;
+    std::vector<std::byte> bodies_; // the state that was popped last
     uint64_t bodiesTick_ = 0;
     std::string problem_;
     bool failed_ = false;

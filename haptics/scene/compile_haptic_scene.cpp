@@ -47,6 +47,7 @@ std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     copy->boundingRadii = scene.boundingRadii;
     copy->materials = scene.materials;
     copy->programFromObject = scene.programFromObject;
+    copy->texels = scene.texels;
     copy->plan = scene.plan;
     copy->workspaceFromScene = scene.workspaceFromScene;
     if (scene.hasRays())
@@ -131,6 +132,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
     for (size_t m = 0; m < scene.materials.size(); ++m)
         planMaterial(static_cast<int>(m), scene.materials[m], haptic->materials[m], uses[m], haptic->plan);
     placePrograms(scene, *haptic);
+    placeTexels(nullptr, *haptic, progress.part(0.9, 1.0));
     settlePlan(*haptic);
     if (options.rays)
         haptic->buildRays(options.progress.part(0.7, 1.0));
@@ -176,6 +178,7 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
     for (size_t m = 0; m < after.size(); ++m)
         planMaterial(static_cast<int>(m), after[m], haptic->materials[m], uses[m], haptic->plan);
     placePrograms(scene, *haptic);
+    placeTexels(&compiled, *haptic);
     settlePlan(*haptic);
     return haptic;
 }

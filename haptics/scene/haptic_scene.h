@@ -10,6 +10,7 @@
 #include "haptics/shape/mesh/haptic_object.h"
 #include "haptics/shape/mesh/mesh_adjacency.h"
 #include "haptics/texture/haptic_material.h"
+#include "haptics/texture/texel_map.h"
 
 #include <atomic>
 #include <memory>
@@ -33,6 +34,9 @@ class HapticScene {
     /// One per object where some material has a program, else empty: the frame of programs
     /// (engine/scene/program_frame.h), from the object's.
     std::vector<Similarity> programFromObject;
+    /// One per object where some material has a persistent texture, else empty: where its texels lie; null
+    /// for an object without one.
+    std::vector<std::shared_ptr<const TexelMap>> texels;
     EffectPlan plan;
     Similarity workspaceFromScene;
     std::vector<Warning> warnings;

@@ -276,6 +276,13 @@ std::vector<float>* attributeOf(Effect effect, HapticObject& object) {
 
 void removeEffect(HapticScene& scene, int material, Effect effect) {
     takeOff(effect, scene.materials[static_cast<size_t>(material)]);
+    if (effect == Effect::Program && !scene.texels.empty()) {
+        for (size_t k = 0; k < scene.texels.size(); ++k)
+            if (scene.objects[k]->material == material)
+                scene.texels[k] = nullptr;
+        if (std::ranges::all_of(scene.texels, [](const auto& texels) { return texels == nullptr; }))
+            scene.texels.clear();
+    }
     for (auto& object : scene.objects) {
         if (object->material != material)
             continue;

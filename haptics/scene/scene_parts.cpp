@@ -2,6 +2,7 @@
 
 #include "engine/scene/clip_mesh.h"
 #include "haptics/program/felt_program.h"
+#include "haptics/scene/scene_programs.h"
 
 #include <optional>
 #include <utility>
@@ -111,6 +112,7 @@ std::shared_ptr<HapticScene> partOf(const HapticScene& whole, const Scene& sourc
         felt->restSpheres[k] = boundingSphere(*object, object->workspaceFromObject);
         felt->boundingRadii[k] = object->boundingRadius;
     }
+    placeTexels(&whole, *felt);
     if (whole.hasRays())
         felt->buildRays(); // of the objects that are new
     return felt;

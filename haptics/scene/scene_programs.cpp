@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace touchstone {
 
@@ -41,6 +43,69 @@ void placePrograms(const Scene& source, HapticScene& haptic) {
         haptic.programFromObject.push_back(
             sceneFromProgram(instance.sceneFromMesh).inverseTimes(sceneFromObject));
     }
+}
+
+namespace {
+
+/// What the object's material declares; without texels where it has none.
+PersistentTextureSize textureOf(const HapticScene& haptic, const HapticObject& object) {
+    const HapticMaterialData& material = haptic.materials[static_cast<size_t>(object.material)];
+    return material.program != nullptr ? material.program->texture : PersistentTextureSize{};
+}
+
+/// A part of a scene has the warnings of the whole.
+void warnOnce(HapticScene& haptic, Warning warning) {
+    if (std::ranges::none_of(haptic.warnings, [&](const Warning& known) {
+            return known.place == warning.place && known.message == warning.message;
+        }))
+        haptic.warnings.push_back(std::move(warning));
+}
+
+} // namespace
+
+void placeTexels(const HapticScene* before, HapticScene& haptic, const Progress& progress) {
+    haptic.texels.clear();
+    const size_t count = haptic.objects.size();
+    for (size_t k = 0; k < count; ++k) {
+        const HapticObject& object = *haptic.objects[k];
+        const PersistentTextureSize size = textureOf(haptic, object);
+        if (size.width == 0 || object.empty())
+            continue;
+        haptic.texels.resize(count);
+        std::shared_ptr<const TexelMap>& texels = haptic.texels[k];
+        if (before != nullptr && k < before->texels.size() && before->objects[k] == haptic.objects[k])
+            texels = before->texels[k];
+        if (texels == nullptr || texels->width() != size.width || texels->height() != size.height)
+            texels = TexelMap::of(object, size.width, size.height,
+                                  progress.part(static_cast<double>(k) / static_cast<double>(count),
+                                                static_cast<double>(k + 1) / static_cast<double>(count)));
+        if (texels == nullptr)
+            warnOnce(haptic,
+                     {object.name,
+                      "has no texture coordinates that a persistent texture can follow: the program of "
+                      "its material reads the initial value, and touch changes nothing; give the mesh a "
+                      "TEXCOORD_0 that repeats less than 64 times"});
+    }
+}
+
+std::shared_ptr<PersistentTextures> persistentTextures(const HapticScene& haptic,
+                                                       std::shared_ptr<PersistentTextures> goOn) {
+    if (haptic.texels.empty())
+        return nullptr;
+    bool fits = goOn != nullptr && goOn->objects() == haptic.texels.size();
+    for (size_t k = 0; k < haptic.texels.size() && fits; ++k) {
+        const PersistentTexture* const texture = goOn->at(static_cast<int>(k));
+        fits = (texture != nullptr ? texture->map() : nullptr) == haptic.texels[k] &&
+               (texture == nullptr || texture->size() == textureOf(haptic, *haptic.objects[k]));
+    }
+    if (fits)
+        return goOn;
+    std::vector<std::unique_ptr<PersistentTexture>> textures(haptic.texels.size());
+    for (size_t k = 0; k < textures.size(); ++k)
+        if (haptic.texels[k] != nullptr)
+            textures[k] =
+                std::make_unique<PersistentTexture>(haptic.texels[k], textureOf(haptic, *haptic.objects[k]));
+    return std::make_shared<PersistentTextures>(std::move(textures));
 }
 
 } // namespace touchstone

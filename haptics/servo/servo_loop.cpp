@@ -5,6 +5,7 @@
 #include "engine/core/realtime_guard.h"
 #include "haptics/body/body_world.h"
 #include "haptics/proxy/place_proxy.h"
+#include "haptics/texture/persistent_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,12 +132,14 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         bodies_ = nullptr;
         return 0;
     }
-    WorldState world(std::move(source), *scene, WorldBodies::Simulated,
-                     swap == SceneSwap::SameGeometry ? bodies_ : nullptr);
+    const bool goesOn = swap == SceneSwap::SameGeometry;
+    WorldState world(std::move(source), *scene, WorldBodies::Simulated, goesOn ? bodies_ : nullptr,
+                     goesOn ? newestTextures() : nullptr);
     if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
         world.bodies()->setFinding(body::BodyWorld::Finding::Apart);
     bodies_ = world.bodies();
     const uint32_t number = nextSceneNumber();
+    holdTextures(number, world);
     auto offer =
         std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_, number);
     // A stepped loop computes the vertices itself, so that it is deterministic.
@@ -153,7 +156,9 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
 void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
     if (swap == SceneSwap::Anew)
         ++offeredGeometry_;
-    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, bodies_);
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, bodies_,
+                     newestTextures());
+    holdTextures(scene.root, world);
     scene_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number,
                                                offeredGeometry_, scene.root, std::move(scene.reshaped)));
 }
@@ -161,10 +166,31 @@ void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
 void ServoLoop::offerEdited(ReshapedScene scene) {
     // Read where there are bodies alone: another thread may offer edits.
     const bool moves = scene.source != nullptr && scene.source->physics != nullptr;
-    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated,
-                     moves ? bodies_ : nullptr);
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, moves ? bodies_ : nullptr,
+                     newestTextures());
     edited_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number, 0u,
                                                 scene.root, std::move(scene.reshaped), scene.oldestEdit));
+}
+
+/// The strokes of a scene's textures, which a world is about to give to the servo, can be popped.
+void ServoLoop::holdTextures(uint32_t number, const WorldState& world) {
+    const std::lock_guard lock(newestMutex_);
+    newestTextures_ = world.textures();
+    if (newestTextures_ == nullptr)
+        return;
+    newestTextures_->keepStrokes();
+    textures_.emplace_back(number, newestTextures_);
+}
+
+std::shared_ptr<PersistentTextures> ServoLoop::newestTextures() {
+    const std::lock_guard lock(newestMutex_);
+    return newestTextures_;
+}
+
+std::shared_ptr<PersistentTextures> ServoLoop::texturesOf(uint32_t scene) const {
+    const auto found =
+        std::ranges::find(textures_, scene, &std::pair<uint32_t, std::shared_ptr<PersistentTextures>>::first);
+    return found != textures_.end() ? found->second : nullptr;
 }
 
 void ServoLoop::setTool(const LiveTool& tool) {
@@ -199,6 +225,8 @@ bool ServoLoop::popRecord(TickRecord& record) {
         offeredSettings_.pop_front();
     while (offeredTools_.front().number < record.tool)
         offeredTools_.pop_front();
+    while (textures_.size() > 1 && textures_[1].first <= record.root)
+        textures_.pop_front();
     return true;
 }
 
@@ -364,6 +392,8 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         touch.previousTime = animationTime(*touch.settings, record.time);
         if (touch.tool != nullptr)
             sculpt(touch, input, world.poses());
+        if (world.textures() != nullptr)
+            world.textures()->publishStrokes(number);
     }
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         if (touch.offer != nullptr)

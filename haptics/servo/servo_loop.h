@@ -18,7 +18,9 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
@@ -163,6 +165,9 @@ class ServoLoop {
     bool popCheckpoint(TouchCheckpoint& checkpoint) { return checkpoints_.pop(checkpoint); }
     /// Owner thread: the next state of the scene's bodies that was kept at a checkpoint, in order.
     bool popBodyState(uint64_t& tick, std::vector<std::byte>& bytes);
+    /// Owner thread: the persistent textures of a scene offered under this number, whose strokes can be
+    /// popped (TextureCopy); null: it has none, or records of later scenes have been popped.
+    [[nodiscard]] std::shared_ptr<PersistentTextures> texturesOf(uint32_t scene) const;
     /// Owner thread: where the bodies of the newest scene are; null: it has none.
     [[nodiscard]] const body::BodyPoses* bodyPoses();
     [[nodiscard]] size_t hands() const { return ports_.size(); }
@@ -206,6 +211,8 @@ class ServoLoop {
 
     void run() noexcept;
     static void adopt(Touch& touch, const Offer* offer) noexcept;
+    void holdTextures(uint32_t number, const WorldState& world);
+    [[nodiscard]] std::shared_ptr<PersistentTextures> newestTextures();
     void prepare(Touch& touch) noexcept;
     void takeCheckpoints(Touch& touch) noexcept;
     void sampleHands(Touch& touch, const TickRecord& record) noexcept;
@@ -232,6 +239,9 @@ class ServoLoop {
     std::shared_ptr<const Offer> waiting_;    // the scene that was offered before `start`
     std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
     bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart
+    std::deque<std::pair<uint32_t, std::shared_ptr<PersistentTextures>>> textures_; // by scene offered
+    std::mutex newestMutex_;
+    std::shared_ptr<PersistentTextures> newestTextures_; // also of the thread that edits
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;

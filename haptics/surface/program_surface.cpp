@@ -4,6 +4,7 @@
 #include "haptics/program/program_touch.h"
 #include "haptics/sample/hip_sample.h"
 #include "haptics/state/device_state.h"
+#include "haptics/texture/persistent_textures.h"
 #include "haptics/texture/surface_spot.h"
 
 #include <algorithm>
@@ -32,13 +33,18 @@ glm::dvec3 anyTangent(const glm::dvec3& n) {
     return glm::normalize(axis - glm::dot(axis, n) * n);
 }
 
-/// Along u: dP/du of the triangle, in the surface of normal n. Object frame.
-glm::dvec3 tangentOf(const SurfaceSpot& spot, const glm::dvec3& n) {
+/// Gradients of u and v over the triangle, object frame.
+std::array<glm::dvec3, 2> slopesOf(const SurfaceSpot& spot) {
     std::array<glm::dvec2, 3> uv;
     for (size_t k = 0; k < 3; ++k)
         uv[k] = spot.uvAt(0, k);
-    const glm::dvec3 alongV = gradientOver(spot.triangle, uv[0].y, uv[1].y, uv[2].y);
-    const glm::dvec3 alongU = gradientOver(spot.triangle, uv[0].x, uv[1].x, uv[2].x);
+    return {gradientOver(spot.triangle, uv[0].x, uv[1].x, uv[2].x),
+            gradientOver(spot.triangle, uv[0].y, uv[1].y, uv[2].y)};
+}
+
+/// Along u: dP/du of the triangle, in the surface of normal n. Object frame.
+glm::dvec3 tangentOf(const std::array<glm::dvec3, 2>& slopes, const glm::dvec3& n) {
+    const auto& [alongU, alongV] = slopes;
     glm::dvec3 tangent = glm::cross(alongV, n); // perpendicular to grad v, on the side of grad u
     if (glm::dot(tangent, alongU) < 0.0)
         tangent = -tangent;
@@ -67,10 +73,20 @@ void locate(const HapticObject& object, const HapticMaterialData& material, cons
         spot.weight = barycentric(spot.triangle, point);
         for (size_t k = 0; k < 3; ++k)
             at.uv += spot.weight[static_cast<glm::length_t>(k)] * spot.uvAt(0, k);
-        tangent = tangentOf(spot, n);
+        const std::array<glm::dvec3, 2> slopes = slopesOf(spot);
+        tangent = tangentOf(slopes, n);
+        for (size_t i = 0; i < 2; ++i)
+            at.uvSlope[i] = programFromObject.direction(slopes[i]) / programFromObject.scale;
     }
     at.tangent = programFromObject.direction(tangent);
     at.binormal = glm::cross(at.normal, at.tangent);
+}
+
+/// The persistent texture's value and slope there.
+void readTexture(const PersistentTexture& texture, ProgramContact& at) {
+    glm::dvec2 slope(0.0);
+    at.persistent = texture.at(at.uv, &slope);
+    at.persistentSlope = slope.x * at.uvSlope[0] + slope.y * at.uvSlope[1];
 }
 
 /// What the program returns, in place of the sample's. `programFromReference` turns directions.
@@ -90,8 +106,14 @@ void take(const ProgramFelt& felt, const HapticSettings& settings, const glm::dq
 
 } // namespace
 
-ProgramRun programRun(const ToolMotion& tool, const glm::dvec3& velocity, double zoom, double dt) noexcept {
-    return {.tool = tool, .velocity = velocity, .zoom = zoom, .dt = dt, .budget = program::kBudget};
+ProgramRun programRun(const ToolMotion& tool, const glm::dvec3& velocity, double zoom, double dt,
+                      PersistentTextures* textures) noexcept {
+    return {.tool = tool,
+            .velocity = velocity,
+            .zoom = zoom,
+            .dt = dt,
+            .budget = program::kBudget,
+            .textures = textures};
 }
 
 void runProgram(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
@@ -134,6 +156,12 @@ void runProgram(const HapticScene& scene, ObjectMotions motions, const HapticSet
     at.maxStiffness = std::max({feel.stiffness, settings.stiffness, limits.maxStiffness});
     at.differenceStep = 1e-4 * programFromObject.scale; // of the object's longest side
     at.budget = run.budget;
+    const PersistentTexture* const texture =
+        run.textures != nullptr ? run.textures->at(contact.object) : nullptr;
+    if (texture != nullptr)
+        readTexture(*texture, at);
+    else if (program.texture.width > 0)
+        at.persistent = static_cast<double>(program.texture.initial);
     const ProgramFelt felt =
         program::feelProgram(program.code, gradientOf(settings.programs, program.displaces), at);
     run.budget -= std::min(run.budget, felt.cost);
@@ -141,6 +169,13 @@ void runProgram(const HapticScene& scene, ObjectMotions motions, const HapticSet
         run.failed = true;
     else
         take(felt, settings, programFromReference, depth, feel);
+    if (texture != nullptr && felt.persistentChange != 0.0 && felt.brush > 0.0)
+        run.textures->queue({.object = static_cast<uint32_t>(contact.object),
+                             .point = point,
+                             .normal = n,
+                             .radius = felt.brush / programFromObject.scale,
+                             .change = run.part * felt.persistentChange * run.dt /
+                                       (programFromObject.scale * programFromObject.scale)});
 }
 
 void followTool(const glm::dvec3& velocity, double dt, ToolMotion& tool) noexcept {

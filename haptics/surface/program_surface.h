@@ -9,7 +9,8 @@
 
 namespace touchstone {
 
-struct ToolMotion; // haptics/state/device_state.h
+struct ToolMotion;        // haptics/state/device_state.h
+class PersistentTextures; // haptics/texture/persistent_textures.h
 
 /// Of one hand in one tick. The contacts of a corner share the budget: what the first leaves is the second's.
 struct ProgramRun {
@@ -19,11 +20,14 @@ struct ProgramRun {
     double dt = 1e-3;         ///< s
     uint32_t budget = 0;      ///< left, in the units of haptics/program/operation.h
     bool failed = false;      ///< some program had no result: its surface is plain
+    /// The world's; null where it has none. Programs read them, and queue the strokes of this tick.
+    PersistentTextures* textures = nullptr;
+    double part = 1.0; ///< of the next contact: its fraction of the load, as in withProgram
 };
 
 /// The run of a tick, with the whole budget.
 [[nodiscard]] ProgramRun programRun(const ToolMotion& tool, const glm::dvec3& velocity, double zoom,
-                                    double dt) noexcept;
+                                    double dt, PersistentTextures* textures) noexcept;
 
 /// Runs the program of the touched material, if it has one, at a contact that `feel` (readSurface) describes:
 /// stiffness, damping and friction become those that it returns, and feel.programForce what it adds to the

@@ -27,7 +27,7 @@ ProgramRun beginPrograms(const HandTick& tick, DeviceState& state, const glm::dv
                          const glm::dvec3& velocity) {
     followDirection(velocity, normal, tick.motions[static_cast<size_t>(state.reference)].workspaceFromObject,
                     state.tool);
-    return programRun(state.tool, velocity, tick.zoom, tick.dt);
+    return programRun(state.tool, velocity, tick.zoom, tick.dt, tick.textures);
 }
 
 uint32_t failureOf(const ProgramRun& programs) {

@@ -8,6 +8,8 @@
 
 namespace touchstone {
 
+class PersistentTextures;
+
 /// Everything outside of the hand that the stages of its tick read.
 struct HandTick {
     const HapticScene& scene;
@@ -20,6 +22,7 @@ struct HandTick {
     double zoom = 1.0;          ///< workspace metres for one device metre
     /// Filled where the world collects reactions; else null.
     ContactForces* parts = nullptr;
+    PersistentTextures* textures = nullptr; ///< the world's; null: none
 };
 
 } // namespace touchstone

@@ -240,7 +240,8 @@ void feelHand(const HapticScene& scene, const HapticSettings& settings, const Ti
                         .still = world.still(),
                         .dt = input.dt,
                         .zoom = output.zoom,
-                        .parts = world.collectsReactions() ? &parts : nullptr};
+                        .parts = world.collectsReactions() ? &parts : nullptr,
+                        .textures = world.textures().get()};
     if (sampled && !scene.objects.empty())
         touchWithModel(tick, world, state, output, stopwatch);
     else if (tick.moving)

@@ -3,6 +3,8 @@
 #include "engine/core/checksum.h"
 #include "engine/math/nearest_similarity.h"
 #include "haptics/body/body_world.h"
+#include "haptics/scene/scene_programs.h"
+#include "haptics/texture/persistent_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,11 +54,13 @@ WorldState::WorldState(WorldState&&) noexcept = default;
 WorldState& WorldState::operator=(WorldState&&) noexcept = default;
 
 WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies,
-                       std::shared_ptr<body::BodyWorld> goOn)
+                       std::shared_ptr<body::BodyWorld> goOn, std::shared_ptr<PersistentTextures> textures)
     : scene_(std::move(source)), animation_(scene_ != nullptr ? playedAnimation(*scene_) : nullptr),
       workspaceFromScene_(haptic.workspaceFromScene) {
     if (animation_ != nullptr)
         findMovers(haptic);
+    if (bodies == WorldBodies::Simulated)
+        textures_ = persistentTextures(haptic, std::move(textures));
     if (scene_ == nullptr || scene_->physics == nullptr)
         return;
     bodies_ = goOn != nullptr ? std::move(goOn) : body::BodyWorld::make(*scene_, haptic);
@@ -177,6 +181,14 @@ void WorldState::pushBody(int object, const glm::dvec3& point, const glm::dvec3&
 void WorldState::integrateBodies(const HapticSettings& settings, double dt) noexcept {
     if (shown_ == nullptr)
         bodies_->integrate(settings.integrator, settings.gravity, dt);
+}
+
+void WorldState::applyStrokes() noexcept {
+    textures_->applyQueued();
+}
+
+void WorldState::shareTextures(std::shared_ptr<PersistentTextures> textures) noexcept {
+    textures_ = std::move(textures);
 }
 
 bool WorldState::restoreBodies(std::span<const std::byte> bytes) noexcept {

@@ -24,6 +24,7 @@ namespace body {
 class BodyWorld;
 struct BodyPoses;
 } // namespace body
+class PersistentTextures; // haptics/texture/persistent_textures.h
 
 /// Warnings where the playing animation is felt differently from what is seen.
 [[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
@@ -51,9 +52,10 @@ class WorldState {
     WorldState() noexcept;
     /// The animation that plays in `source` moves the objects of `haptic`, which was compiled from it, and so
     /// do its bodies. A null source: nothing moves. `goOn`: the bodies of a world of the same geometry, which
-    /// go on here.
+    /// go on here, as do its `textures` where they fit. WorldBodies::Shown: without persistent textures.
     WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies = WorldBodies::Simulated,
-               std::shared_ptr<body::BodyWorld> goOn = nullptr);
+               std::shared_ptr<body::BodyWorld> goOn = nullptr,
+               std::shared_ptr<PersistentTextures> textures = nullptr);
     ~WorldState();
     WorldState(WorldState&&) noexcept;
     WorldState& operator=(WorldState&&) noexcept;
@@ -115,12 +117,18 @@ class WorldState {
 
     /// Null where no body moves.
     [[nodiscard]] const std::shared_ptr<body::BodyWorld>& bodies() const noexcept { return bodies_; }
-    /// The bodies' state after `dt` s under the forces that were pushed. The last phase of a tick before
-    /// safety.
+    /// The bodies' state after `dt` s under the forces that were pushed, and the textures after the strokes
+    /// of this tick. The last phase of a tick before safety.
     void integrate(const HapticSettings& settings, double dt) noexcept {
         if (bodies_ != nullptr)
             integrateBodies(settings, dt);
+        if (textures_ != nullptr) [[unlikely]]
+            applyStrokes();
     }
+    /// Of the scene's objects; null where none has one.
+    [[nodiscard]] const std::shared_ptr<PersistentTextures>& textures() const noexcept { return textures_; }
+    /// Those of another world, of the same scene, which this one then reads and changes.
+    void shareTextures(std::shared_ptr<PersistentTextures> textures) noexcept;
     /// WorldBodies::Shown: the next `advance` puts the bodies there.
     void showBodies(const body::BodyPoses& poses);
     /// From a recording: as after the ticks before. False where the bytes do not fit.
@@ -140,6 +148,7 @@ class WorldState {
 
     void pushBody(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept;
     void integrateBodies(const HapticSettings& settings, double dt) noexcept;
+    void applyStrokes() noexcept;
     void findMovers(const HapticScene& haptic);
     void movePoses(double time) noexcept;
     void advanceBodies(double time) noexcept;
@@ -156,6 +165,7 @@ class WorldState {
     bool collects_ = false, still_ = false;
     std::shared_ptr<body::BodyWorld> bodies_;
     std::unique_ptr<body::BodyPoses> shown_; // WorldBodies::Shown
+    std::shared_ptr<PersistentTextures> textures_;
     std::vector<uint8_t> animated_;          // by object: a mover
     std::vector<glm::dmat4> objectFromMesh_; // by object
     std::vector<int> instanceOf_;            // by object

@@ -27,10 +27,17 @@ void main() {
     after.damping = before.damping;
     after.colour = touchstone_look.rgb;
     after.roughness = touchstone_look.a;
+#ifdef TOUCHSTONE_PERSISTENT
+    before.persistent = touchstone_persistent;
+    after.persistentChange = after.brush = 0.0;
+#endif
     touch(before, after);
     touchstone_outPosition = after.position;
     touchstone_outNormal = after.normal;
     touchstone_outForce = after.force;
     touchstone_outMaterial = vec4(after.staticFriction, after.dynamicFriction, after.stiffness, after.damping);
     touchstone_outLook = vec4(after.colour, after.roughness);
+#ifdef TOUCHSTONE_PERSISTENT
+    touchstone_outPersistent = vec2(after.persistentChange, after.brush);
+#endif
 }

@@ -23,6 +23,7 @@ struct Touch {
     float damping;         // N s/m
     float filterWidth;     // model m that the tool moves along the surface in this tick
     float time;            // s since touch began on this scene
+    float persistent;      // value of the persistent texture here; 1 where the material declares none
 };
 
 struct Surface {
@@ -35,6 +36,10 @@ struct Surface {
     float damping;
     vec3 colour;     // 0..1, linear: what is seen; before that, the material's with its textures. The hand's is white
     float roughness; // 0..1, of the highlight, likewise; the hand's is 1. Neither is felt
+    // What touch does to the persistent texture (before that, 0): its integral over the surface changes by so much a
+    // second, within a disc of this radius. Wear of a cover at a rate in m^2/(N s): -rate * length(before.force).
+    float persistentChange; // m^2/s
+    float brush;            // model m
 };
 
 layout(location = 0) in vec3 touchstone_position;
@@ -49,9 +54,15 @@ layout(location = 8) in vec3 touchstone_force;
 layout(location = 9) in vec4 touchstone_material; // static and dynamic friction, stiffness, damping
 layout(location = 10) in vec2 touchstone_tick;    // filter width, time
 layout(location = 11) in vec4 touchstone_look;    // colour, roughness
+#ifdef TOUCHSTONE_PERSISTENT // the source names it
+layout(location = 12) in float touchstone_persistent;
+#endif
 
 layout(location = 0) out vec3 touchstone_outPosition;
 layout(location = 1) out vec3 touchstone_outNormal;
 layout(location = 2) out vec3 touchstone_outForce;
 layout(location = 3) out vec4 touchstone_outMaterial;
 layout(location = 4) out vec4 touchstone_outLook;
+#ifdef TOUCHSTONE_PERSISTENT
+layout(location = 5) out vec2 touchstone_outPersistent; // change, brush
+#endif

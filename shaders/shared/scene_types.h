@@ -13,6 +13,7 @@
 namespace touchstone::shared {
 using glm::mat4;
 using glm::vec4;
+using glm::uvec4;
 using uint = uint32_t;
 #define TOUCHSTONE_CONST inline constexpr
 #else
@@ -92,6 +93,8 @@ struct ProgramObjectUniforms {
     vec4 programFromMesh[3];
     vec4 normalFromMesh[3];
     vec4 material;         ///< static and dynamic friction, stiffness N/m, damping N s/m
+    uvec4 texels;          ///< persistent texture: width (0: none), height, its first float
+    vec4 persistent;       ///< x: the value where there is no texture
 };
 
 /// Push constants, once an object: the rows of the affine map eyeFromMesh, and those of its cofactor matrix,

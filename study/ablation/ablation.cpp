@@ -27,6 +27,8 @@ constexpr std::array kAblations{
     Ablation{"friction", "how the surface holds the hand back",
              "texture=off stiffness=600 damping=0 staticFriction=0.4 dynamicFriction=0.3",
              "contact=sweep friction=off", Against::Coulomb},
+    Ablation{"program", "where the slope of a program's displacement comes from", kBare,
+             "contact=sweep programs=dual", Against::Exact},
     Ablation{"tessellation", "into how many triangles a shape is cut", kUntextured,
              "contact=sweep forceShading=twoPass iterationBudget=1000", Against::Smooth},
     Ablation{"combination", "everything about the shape at once", kUntextured,
@@ -78,6 +80,11 @@ constexpr std::array kConfigurations{
     ConfigurationLine{"friction", "Ho", "friction=ho"},
     ConfigurationLine{"friction", "elasto-plastic", "friction=elastoplastic"},
     ConfigurationLine{"friction", "velocity threshold", "friction=velocityThreshold"},
+
+    ConfigurationLine{"program", "off", "programs=off", Need::Program},
+    ConfigurationLine{"program", "no gradient", "programs=noGradient", Need::Program},
+    ConfigurationLine{"program", "central differences", "programs=central", Need::Program},
+    ConfigurationLine{"program", "dual numbers", "programs=dual", Need::Program},
 
     ConfigurationLine{"tessellation", "flat", "forceShading=off"},
     ConfigurationLine{"tessellation", "direction", "forceShading=direction", Need::SmoothNormals},

@@ -20,6 +20,7 @@ enum class Against : uint8_t {
     Smooth,  ///< the same; smooth normals have no truth on a mesh, so there the most exact configuration
     Bump,    ///< the closed form of the height map where known; else the most exact configuration
     Coulomb, ///< ideal friction on the frictionless result
+    Exact,   ///< the most exact configuration
 };
 
 /// A stage with alternatives. Settings as `--set` takes them, separated by spaces.
@@ -31,7 +32,7 @@ struct Ablation {
 };
 
 /// What a scene must have for a configuration to be meaningful.
-enum class Need : uint8_t { Nothing, SmoothNormals, Bump, HeightMap };
+enum class Need : uint8_t { Nothing, SmoothNormals, Bump, HeightMap, Program };
 
 struct ConfigurationLine {
     std::string_view ablation, name, settings;

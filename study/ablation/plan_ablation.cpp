@@ -24,6 +24,8 @@ bool has(const HapticScene& scene, Need need) {
         return isOn(scene, Effect::NormalMap) || isOn(scene, Effect::HeightMap);
     case Need::HeightMap:
         return isOn(scene, Effect::HeightMap);
+    case Need::Program:
+        return scene.plan.programs;
     case Need::Nothing:
         break;
     }
@@ -44,6 +46,8 @@ const char* wordFor(Need need) {
         return "a normal or height map";
     case Need::HeightMap:
         return "a height map";
+    case Need::Program:
+        return "a haptic program";
     case Need::Nothing:
         break;
     }
@@ -138,6 +142,8 @@ HapticSettings inEffect(HapticSettings settings, const HapticScene& scene) {
         settings.textureGradient = defaults.textureGradient;
     if (settings.texture == TextureMode::Off && !hasFactorMaps(scene))
         settings.textureFilter = defaults.textureFilter;
+    if (!has(scene, Need::Program))
+        settings.programs = defaults.programs;
     const bool rough = settings.staticFriction > 0.0 ||
                        (settings.staticFriction < 0.0 &&
                         (isOn(scene, Effect::Friction) || isOn(scene, Effect::ViscousFriction)));

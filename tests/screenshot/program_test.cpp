@@ -68,6 +68,49 @@ TEST_F(ProgramPictures, ShowTheColourOfThePlaceInMetresOfTheScene) {
     EXPECT_TRUE(isGreen(at(small, 115, 64)));  // 0.55
 }
 
+TEST_F(ProgramPictures, ShowThePersistentTextureAsTouchHasMadeIt) {
+    MaterialProgram program = programOf(body("after.colour = mix(vec3(0.0, 0.8, 0.0), vec3(0.8, 0.0, 0.0), "
+                                             "before.persistent);"));
+    program.texture = {.width = 64, .height = 64};
+    const auto isGreen = [](const glm::ivec3& c) { return c.y > 2 * c.x; };
+    const ScenePtr scene = square(program);
+    const PixelData covered = draw(scene, view(), {}, kSide, kSide);
+    EXPECT_FALSE(isGreen(at(covered, 40, 40)));
+    EXPECT_FALSE(isGreen(at(covered, 90, 90)));
+    // The upper left quarter of the texture, whose origin is the upper left of the picture.
+    const std::vector<float> clean(64 * 64, 0.0f);
+    const PersistentTexels quarter{.instance = 0,
+                                   .textureWidth = 64,
+                                   .textureHeight = 64,
+                                   .width = 32,
+                                   .height = 32,
+                                   .values = clean.data()};
+    renderer_->setTexels(quarter);
+    renderer_->render(view(), {}, kSide, kSide);
+    PixelData worn = renderer_->readPixels();
+    EXPECT_TRUE(isGreen(at(worn, 40, 40)));
+    EXPECT_FALSE(isGreen(at(worn, 90, 40)));
+    EXPECT_FALSE(isGreen(at(worn, 90, 90)));
+    // A program with other parameters goes on with it; textures of other sizes and instances are ignored.
+    MaterialProgram edited = programOf(body("after.colour = mix(vec3(0.0, 0.7, 0.0), vec3(0.7, 0.0, 0.0), "
+                                            "before.persistent);"));
+    edited.texture = program.texture;
+    renderer_->setPrograms({edited});
+    PersistentTexels wrong = quarter;
+    wrong.instance = 7;
+    renderer_->setTexels(wrong);
+    wrong = quarter;
+    wrong.textureWidth = 32;
+    renderer_->setTexels(wrong);
+    wrong = quarter;
+    wrong.y = 40;
+    renderer_->setTexels(wrong);
+    renderer_->render(view(), {}, kSide, kSide);
+    worn = renderer_->readPixels();
+    EXPECT_TRUE(isGreen(at(worn, 40, 40)));
+    EXPECT_FALSE(isGreen(at(worn, 40, 90)));
+}
+
 TEST_F(ProgramPictures, ArePlainWhereThereIsNoResult) {
     const PixelData plain = picture({});
     for (const char* text :

@@ -1,5 +1,6 @@
 #include "tests/support/touch_bench.h"
 
+#include "haptics/scene/scene_programs.h"
 #include "haptics/tick/stepped_hand.h"
 
 #include <cmath>
@@ -58,7 +59,9 @@ Scene sceneOf(const assets::Shape& shape, const glm::dmat4& sceneFromMesh) {
 }
 
 TouchBench::TouchBench(const Scene& from, const HapticSettings& chosen, Fit fit)
-    : settings(chosen), scene(compileHapticScene(from, workspaceFromScene(from, fit))), state(1) {}
+    : settings(chosen), scene(compileHapticScene(from, workspaceFromScene(from, fit))), state(1) {
+    world.shareTextures(persistentTextures(*scene));
+}
 
 const HapticOutput& TouchBench::step(const glm::dvec3& hip) {
     DeviceSample sample = sampleAt(hip);

@@ -44,6 +44,12 @@ void printEffects(const Json& material) {
                     text(program["ns_with_gradients"]).c_str(), text(program["ns_with_differences"]).c_str(),
                     text(program["cost"]).c_str(), text(program["budget"]).c_str(),
                     program["flagged_share"] > 0.0 ? "; plain at places without a result" : "");
+        if (program.contains("persistentTexture")) {
+            const Json& texture = program["persistentTexture"];
+            std::printf("      persistent texture of %s x %s texels on %s objects, %s bytes\n",
+                        text(texture["width"]).c_str(), text(texture["height"]).c_str(),
+                        text(texture["objects"]).c_str(), text(texture["memory_bytes"]).c_str());
+        }
         for (const auto& [name, value] : program["parameters"].items())
             print("      %s = %s\n", name, value.dump());
     }

@@ -1,20 +1,27 @@
+#include "devices/stroke/stroke_library.h"
 #include "engine/core/error.h"
+#include "engine/core/float_mode.h"
+#include "haptics/tick/stepped_hand.h"
 #include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
 #include "workbench/commands/render_camera.h"
+#include "workbench/figures/texture_figures.h"
 #include "workbench/model/animate.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
+#include "workbench/model/shown_textures.h"
 #include "workbench/options/commands.h"
 #include "workbench/options/gpu_options.h"
 #include "workbench/screen/effect_colors.h"
 #include "workbench/screen/ground_grid.h"
 #include "workbench/screen/gui_pixels.h"
+#include "workbench/screen/overlays.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <thread>
 
 namespace touchstone {
@@ -33,6 +40,32 @@ ViewMode viewModeOf(const std::string& name) {
     return static_cast<ViewMode>(found - kViewModeNames.begin()); // the command line admits only these
 }
 
+/// The hand where a stroke over the model ends, and what it has made of the textures.
+struct Touched {
+    Touched(const RenderOptions& options, Model& model) {
+        HapticSettings settings;
+        prepareFor(model, settings);
+        const StrokePath stroke =
+            layStroke(*sceneOf(model.scene, model.part), model.workspaceFromScene, options.stroke);
+        const double seconds = options.seconds > 0.0 ? options.seconds : stroke.period();
+        enterFloatMode();
+        hand.emplace(*model.haptic, model.scene);
+        record.settings = 0;
+        const auto count = static_cast<uint64_t>(seconds * kRate);
+        for (uint64_t tick = 0; tick <= count; ++tick) {
+            const double time = static_cast<double>(tick) / kRate;
+            record.sample = sampleAt(stroke.positionIn(time, time));
+            record.output = hand->tick(settings, record.sample, time, 1.0 / kRate);
+        }
+        look.frictionCoefficient = frictionCoefficientAt(record, settings, *model.scene, *model.haptic);
+    }
+
+    static constexpr double kRate = 1000.0; // Hz
+    std::optional<SteppedHand> hand;
+    TickRecord record; ///< of the last tick
+    TickLook look;
+};
+
 } // namespace
 
 int renderCommand(const RenderOptions& options) {
@@ -41,7 +74,7 @@ int renderCommand(const RenderOptions& options) {
     loading.iso = options.iso;
     loading.animation = options.animation;
     // The plan belongs to the haptic scene.
-    Model model = mode == ViewMode::Effects
+    Model model = mode == ViewMode::Effects || options.touched
                       ? loadModel(options.scene, Fit::Workspace, loading)
                       : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso,
                                        options.animation);
@@ -68,6 +101,19 @@ int renderCommand(const RenderOptions& options) {
     if (options.grid)
         grid.draw(model.workspaceFromScene, 1.0f, overlay);
     poseAt(options.time, *model.scene, renderer);
+    if (options.touched) {
+        const Touched touched(options, model);
+        drawTick(touched.record, {}, touched.look, overlay);
+        view.probe = probeShadow(touched.record, {});
+        ShownTextures().show(*model.haptic, touched.hand->world.textures().get(), renderer);
+        if (const nlohmann::ordered_json textures =
+                texturesJson(*model.haptic, touched.hand->world.textures().get());
+            !textures.is_null())
+            for (const auto& texture : textures)
+                std::printf("%s: %.1f %% of the texture is left\n",
+                            texture["object"].get<std::string>().c_str(),
+                            100.0 * texture["mean"].get<double>());
+    }
     PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);
     if (options.grid)
         drawGui(picture, 1.0f, [&] {

@@ -21,6 +21,7 @@
 #include "workbench/model/animate.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
+#include "workbench/model/shown_textures.h"
 #include "workbench/options/commands.h"
 #include "workbench/options/gpu_options.h"
 #include "workbench/screen/overlays.h"
@@ -120,7 +121,8 @@ TickLook lookOf(const TickRecord& tick, const HapticSettings& settings, const Mo
 }
 
 /// Draws at the frame rate until the time is over, beside the servo.
-Frames drawFrames(const RunOptions& options, const Model& model, Session& session, SceneRenderer& renderer) {
+Frames drawFrames(const RunOptions& options, const Model& model, Session& session,
+                  const ServoRecorder& recorder, SceneRenderer& renderer) {
     View view = firstView(model, options.size);
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / kFrameRate));
@@ -132,6 +134,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
     DrawQuality resolution({.largestPixels = options.size.x * options.size.y});
     Overlay overlay;
     WorldState shown(model.scene, *model.haptic, WorldBodies::Shown);
+    ShownTextures textures;
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
         session.pump(secondsNow());
@@ -143,6 +146,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
             poseBodies(*poses, tick.time, shown, renderer);
         else
             poseAt(animationTime(options.settings, tick.time), *model.scene, renderer);
+        textures.show(*model.haptic, recorder.textures(), renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);
         frames.smallest = glm::min(frames.smallest, size);
         renderer.render(view, overlay, size.x, size.y);
@@ -316,7 +320,7 @@ int runCommand(const RunOptions& options) {
     realtime::resetViolations();
     const StolenTime stolenTime;
     session.start();
-    const Frames frames = drawFrames(options, model, session, renderer);
+    const Frames frames = drawFrames(options, model, session, controller.recorder(), renderer);
     session.stop();
     const std::optional<double> stolen = stolenTime.seconds();
     const RealtimeViolations violations = realtime::violations();

@@ -11,6 +11,7 @@
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/query/ray_floor.h"
 #include "haptics/recording/recording_writer.h"
+#include "haptics/scene/scene_programs.h"
 #include "haptics/servo/realtime_thread.h"
 #include "haptics/servo/servo_loop.h"
 #include "haptics/tick/stepped_hand.h"
@@ -18,6 +19,7 @@
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/commands/touch_sculpt.h"
 #include "workbench/figures/settings_json.h"
+#include "workbench/figures/texture_figures.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/model/model.h"
@@ -59,6 +61,7 @@ struct OfflineTick {
     Similarity touched; // workspaceFromObject of the touched object
     double gap = 0.0;   // m, of the proxy; in contact, if a report was requested
     uint32_t scene = 0; // its number in a recording
+    std::vector<BrushStroke> strokes;
 };
 
 /// A stroke over the model as a path: one period, or the given duration.
@@ -179,7 +182,7 @@ class OfflineRecorder {
 
     OfflineRecorder(const TouchOptions& options, const Model& model)
         : writer_(options.record, recordingOrigin("touch", options.rateHz)), settings_(options.settings),
-          identity_(identityOf(model, options.fit)) {}
+          identity_(identityOf(model, options.fit)), textures_(persistentTextures(*model.haptic)) {}
 
     void add(const OfflineTick& tick, const TouchCheckpoint& first, const std::vector<std::byte>& bodies) {
         TickRecord record;
@@ -208,7 +211,11 @@ class OfflineRecorder {
                                    : record.checkpoint ? &first
                                                        : nullptr,
                      .sculpt = edited ? &sculpt : nullptr,
-                     .bodies = bodies.empty() || !record.checkpoint ? nullptr : &bodies});
+                     .bodies = bodies.empty() || !record.checkpoint ? nullptr : &bodies,
+                     .textures = textures_.get(),
+                     .strokes = tick.strokes});
+        if (textures_ != nullptr)
+            textures_->apply(tick.strokes);
     }
     /// The scene that the journal makes before `tick`, with the hand's state there. Returns its number.
     uint32_t sculpted(TouchSculpt& sculpt, uint64_t tick, TouchCheckpoint state) {
@@ -233,6 +240,7 @@ class OfflineRecorder {
     };
     const HapticSettings& settings_;
     SceneIdentity identity_;
+    std::shared_ptr<PersistentTextures> textures_; // before the next tick
     std::vector<SculptEntry> journal_;
     std::map<uint32_t, Edit> edits_; // by the scene's number
 };
@@ -296,6 +304,8 @@ class OfflineTouch {
     [[nodiscard]] ObjectMotions objects() const { return touch_.world.poses(); }
     [[nodiscard]] const HapticScene& scene() const { return touch_.world.touched(*model_.haptic); }
     [[nodiscard]] const Plant& plant() const { return yielding_.plant(); }
+    /// Null: the scene has none.
+    [[nodiscard]] const PersistentTextures* textures() const { return touch_.world.textures().get(); }
 
   private:
     const Model& model_;
@@ -418,6 +428,9 @@ int touchCommand(const TouchOptions& options) {
             }
             touch.step(planned[begin + i], block[i]);
             block[i].scene = scene;
+            if (touch.textures() != nullptr)
+                block[i].strokes.assign(touch.textures()->strokes().begin(),
+                                        touch.textures()->strokes().end());
             if (changes && report && block[i].output.contacts > 0)
                 block[i].gap = proxyGap(touch.scene(), touch.objects(), block[i].output, options.settings);
         }
@@ -467,6 +480,7 @@ int touchCommand(const TouchOptions& options) {
             {"energy", statistics.energyJson()},
             {"flags", statistics.flagsJson()},
             {"sculpt", sculpt ? sculpt->json() : nlohmann::ordered_json()},
+            {"persistent_textures", texturesJson(touch.scene(), touch.textures())},
             {"allocations_in_tick", violations.allocations},
             {"deallocations_in_tick", violations.deallocations},
         };

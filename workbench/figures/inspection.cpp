@@ -90,6 +90,19 @@ Json costJson(const EffectCost& cost) {
     return *cost.nanoseconds;
 }
 
+/// What the program's texture takes: its texels, and where they lie on each object.
+Json persistentTextureJson(const HapticScene& haptic, const PersistentTextureSize& size, size_t material) {
+    uint64_t bytes = 0, objects = 0;
+    for (size_t k = 0; k < haptic.texels.size(); ++k)
+        if (haptic.texels[k] != nullptr && haptic.objects[k]->material == static_cast<int>(material)) {
+            bytes += haptic.texels[k]->memoryBytes() + sizeof(float) * size.width * size.height;
+            ++objects;
+        }
+    return {{"width", size.width},     {"height", size.height},   {"initial", size.initial},
+            {"minimum", size.minimum}, {"maximum", size.maximum}, {"objects", objects},
+            {"memory_bytes", bytes}};
+}
+
 Json programJson(const program::FeltProgram& program, const MaterialProgram& material) {
     Json parameters = Json::object();
     const auto& declared = material.compiled->source.parameters;
@@ -128,8 +141,12 @@ Json materialsJson(const Model& model) {
                   {"effects", effects}};
         if (!material.haptic.unavailable.is_null())
             json["not_yet_available"] = material.haptic.unavailable;
-        if (const auto& program = model.haptic->materials[m].program; program != nullptr)
+        if (const auto& program = model.haptic->materials[m].program; program != nullptr) {
             json["program"] = programJson(*program, material.haptic.program);
+            if (program->texture.width > 0)
+                json["program"]["persistentTexture"] =
+                    persistentTextureJson(*model.haptic, program->texture, m);
+        }
         materials.push_back(std::move(json));
     }
     return materials;

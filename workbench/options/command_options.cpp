@@ -195,6 +195,16 @@ void addSculpt(CLI::App& app, SculptOptions& options) {
     addSculpted(app, options.files)->needs(sculpt);
 }
 
+/// --seconds, and what else has no meaning without a stroke.
+void addStrokeSeconds(CLI::App& app, double& seconds, CLI::Option* stroke) {
+    app.add_option("--seconds", seconds, "How long it strokes [once round]")
+        ->type_name("S")
+        ->check(CLI::Range(0.01, 86400.0))
+        ->needs(stroke);
+    for (const char* of : {"--stroke-speed", "--stroke-depth"})
+        app.get_option(of)->needs(stroke);
+}
+
 } // namespace
 
 void defineRun(CLI::App& app, RunOptions& options) {
@@ -250,12 +260,7 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
     CLI::Option* stroke =
         addStroke(app, options.stroke, "In place of a path: a stroke (listed at the end of --help)")
             ->excludes(path);
-    app.add_option("--seconds", options.seconds, "How long it strokes [once round]")
-        ->type_name("S")
-        ->check(CLI::Range(0.01, 86400.0))
-        ->needs(stroke);
-    for (const char* of : {"--stroke-speed", "--stroke-depth"})
-        app.get_option(of)->needs(stroke);
+    addStrokeSeconds(app, options.seconds, stroke);
     app.parse_complete_callback([path, stroke] {
         if (path->count() == 0 && stroke->count() == 0)
             throw CLI::RequiredError("--path or --stroke");
@@ -372,6 +377,12 @@ void defineRender(CLI::App& app, RenderOptions& options) {
         ->check(CLI::IsMember(views));
     app.add_flag("--wireframe", options.wireframe, "Draw the edges of the triangles over the surface");
     app.add_flag("--grid", options.grid, "Draw a grid on the ground; its spacing stands in the picture");
+    CLI::Option* stroke =
+        addStroke(app, options.stroke,
+                  "Touch the model before, at 1000 Hz, by a stroke (listed at the end of touch "
+                  "--help): shows the hand where it ends, and what it has worn off");
+    addStrokeSeconds(app, options.seconds, stroke);
+    stroke->each([&options](const std::string&) { options.touched = true; });
     addCamera(app, options.camera);
     addPart(app, options.part);
     addEnvironment(app, options.environment);

@@ -158,6 +158,9 @@ struct RenderOptions {
     CameraOptions camera;
     PartNames part; ///< what is drawn
     bool wireframe = false, grid = false;
+    bool touched = false; ///< by `stroke`, before the picture
+    StrokeRequest stroke;
+    double seconds = 0.0;              ///< 0: once round
     std::filesystem::path environment; ///< as in the window
     std::string gpu;
     std::optional<double> iso;            ///< of a volume: the value at its surface; none: Volume::defaultIso

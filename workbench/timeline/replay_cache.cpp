@@ -73,6 +73,12 @@ class SegmentReader {
         for (const RecordedSculpt& sculpt : timeline_.sculpts())
             replayer.take(RecordingReader::Item{.item = sculpt});
         replayer.take(RecordingReader::Item{.item = timeline_.segments()[result_->number].tool});
+        RecordingReader before(timeline_.file());
+        for (const TimelineTextures& chunk : timeline_.texturesBefore(result_->number)) {
+            before.goTo(chunk.offset);
+            if (const std::optional<RecordingReader::Item> item = before.next())
+                replayer.take(RecordingReader::Item{.item = item->item});
+        }
         for (const RecordingReader::Item& item : items_) {
             if (std::holds_alternative<RecordedSculpt>(item.item))
                 continue; // the replay has all of them

@@ -74,6 +74,8 @@ class TimelineMaker {
     }
     void take(const RecordedContacts&) {}
     void take(const RecordedBodies&) {}
+    void take(const RecordedTextures& textures) { line_.textures_.push_back({offset_, textures.part == 0}); }
+    void take(const RecordedStrokes&) { line_.textures_.push_back({offset_, false}); }
     void take(const RecordedTicks& ticks);
     void take(const RecordedTick& tick);
     void changeScene(uint32_t scene);
@@ -85,6 +87,15 @@ class TimelineMaker {
     double time_ = 0.0; // of the previous tick
     bool touching_ = false;
 };
+
+std::span<const TimelineTextures> Timeline::texturesBefore(size_t segment) const {
+    const auto end =
+        std::ranges::lower_bound(textures_, segments_[segment].offset, {}, &TimelineTextures::offset);
+    auto begin = end;
+    while (begin != textures_.begin() && !(--begin)->whole) {
+    }
+    return {begin, end};
+}
 
 void TimelineMaker::take(const RecordedTicks& ticks) {
     if (line_.segments_.empty() || line_.size() - line_.segments_.back().first >= kLongestSegment)

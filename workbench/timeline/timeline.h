@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,12 @@ struct TimelineSegment {
     uint64_t offset = 0;     ///< byte of the first chunk
     bool checkpoint = false; ///< starts with a checkpoint: its ticks can be recomputed
     RecordedTool tool{};     ///< before its first tick
+};
+
+/// A chunk with the state of the persistent textures, or a change of it.
+struct TimelineTextures {
+    uint64_t offset = 0; ///< byte
+    bool whole = false;  ///< begins a whole state
 };
 
 /// 17 bytes per tick, 61 MB per hour at 1 kHz; the ticks themselves stay in the file. Immutable once loaded;
@@ -59,6 +66,8 @@ class Timeline {
     [[nodiscard]] const std::map<uint32_t, HapticSettings>& settings() const { return settings_; }
     /// What sculpted the scenes, in order.
     [[nodiscard]] const std::vector<RecordedSculpt>& sculpts() const { return sculpts_; }
+    /// What makes the textures before the segment, in order.
+    [[nodiscard]] std::span<const TimelineTextures> texturesBefore(size_t segment) const;
     /// The scene that a tick's scene is an edit of, or itself.
     [[nodiscard]] uint32_t rootOf(uint32_t scene) const {
         const auto found = roots_.find(scene);
@@ -94,6 +103,7 @@ class Timeline {
     std::map<uint32_t, HapticSettings> settings_;
     std::map<uint32_t, uint32_t> roots_; // of sculpted scenes
     std::vector<RecordedSculpt> sculpts_;
+    std::vector<TimelineTextures> textures_;
     RecordedTool tool_; // the last
     Runs sceneRuns_, settingsRuns_;
     std::vector<TimelineSegment> segments_;

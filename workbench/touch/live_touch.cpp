@@ -110,6 +110,7 @@ void LiveTouch::pose(double time, SceneRenderer& renderer) {
         poseBodies(*poses, time, picker_.world(), renderer);
     else
         poseAt(time, *shown_.model.scene, renderer);
+    textures_.show(*shown_.model.haptic, controller_.recorder().textures(), renderer);
 }
 
 void LiveTouch::prepare(const HapticSettings& settings) {

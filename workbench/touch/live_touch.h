@@ -13,6 +13,7 @@
 #include "workbench/model/background_build.h"
 #include "workbench/model/felt_part.h"
 #include "workbench/model/model_loader.h"
+#include "workbench/model/shown_textures.h"
 #include "workbench/options/commands.h"
 #include "workbench/readings/window_readings.h"
 #include "workbench/sculpt/sculpt_controller.h"
@@ -121,6 +122,7 @@ class LiveTouch {
     bool builtAgain_ = false;
     BackgroundBuild build_;
     Picker picker_;
+    ShownTextures textures_;
     SculptController sculpt_{session_, picker_};
     StrokeController strokes_;
 };

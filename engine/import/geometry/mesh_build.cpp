@@ -4,6 +4,7 @@
 #include "engine/import/geometry/gltf_accessors.h"
 #include "engine/import/geometry/morph.h"
 #include "engine/import/geometry/primitive_restart.h"
+#include "engine/import/geometry/texture_mapping.h"
 #include "engine/import/geometry/vertex_attributes.h"
 #include "engine/scene/mesh_deformation.h"
 #include "engine/scene/mesh_vertices.h"
@@ -180,6 +181,18 @@ void settleTangents(ImportContext& context, Mesh& mesh, const Material& material
     generateTangents(mesh, map.texCoord, context.part().silent()); // the estimate reports
 }
 
+/// The texture coordinates of a material that makes its own.
+void applyMapping(ImportContext& context, const GltfDocument& document, int material, Mesh& mesh) {
+    (void)context.attempt("the mesh keeps its own coordinates", [&] {
+        std::string place;
+        const std::optional<TextureMapping> mapping = readTextureMapping(context, document, material, place);
+        if (!mapping)
+            return;
+        context.spendGeometry(mesh.indices.size() * sizeof(glm::vec2) * 4, place);
+        (void)mapTexture(*mapping, mesh);
+    });
+}
+
 /// The displacements of `attribute` by a target; empty where it has none. MorphTargets::displace refuses what
 /// it cannot use, which here costs the displacement alone: the static pose is right without it.
 std::vector<glm::vec3> displacements(ImportContext& context, const GltfDocument& document,
@@ -317,6 +330,7 @@ std::optional<PosedMesh> buildMesh(ImportContext& context, const GltfDocument& d
         makeFlat(context, mesh, place);
     else
         mendNormals(mesh);
+    applyMapping(context, document, primitive.material, mesh);
     settleTangents(context, mesh, material, place);
     checkMesh(mesh, context.file(), place);
     return posed;

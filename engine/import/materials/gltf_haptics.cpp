@@ -1,5 +1,6 @@
 #include "engine/import/materials/gltf_haptics.h"
 
+#include "engine/import/file/choice_field.h"
 #include "engine/import/file/json_fields.h"
 #include "engine/import/materials/gltf_mpeg.h"
 #include "engine/scene/haptic_numbers.h"
@@ -19,23 +20,6 @@ using nlohmann::json;
 constexpr double kUnbounded = kLargestHapticNumber;
 constexpr const char* kOurs = "TOUCHSTONE_materials_haptic";
 constexpr const char* kPhysics = "KHR_physics_rigid_bodies";
-
-template <class Choice, size_t N>
-std::optional<Choice> choiceField(const ImportContext& context, const json& object, const char* name,
-                                  const std::string& place,
-                                  const std::array<std::pair<const char*, Choice>, N>& choices) {
-    const auto text = textField(context, object, name, place);
-    if (!text)
-        return std::nullopt;
-    std::string known;
-    for (const auto& [spelling, choice] : choices) {
-        if (*text == spelling)
-            return choice;
-        known += (known.empty() ? "" : ", ") + std::string(spelling);
-    }
-    context.fail(place + "." + name, "\"" + text->substr(0, 40) + "\" is not a choice",
-                 "use one of: " + known);
-}
 
 /// Warns of unknown fields, so that a misspelt field does not pass unnoticed.
 void warnOfUnknown(ImportContext& context, const json& object, std::span<const std::string_view> known,
@@ -171,8 +155,9 @@ HapticStatement readStatement(ImportContext& context, const GltfDocument& docume
     const json& object = *found;
     const std::string place = owner + ".extensions." + kOurs;
     std::vector<std::string_view> known{
-        "heightTexture", "frictionTexture", "stiffnessTexture", "dampingTexture",
-        "forceShading",  "representation",  "shader",           "sides"};
+        "heightTexture",  "frictionTexture", "stiffnessTexture",
+        "dampingTexture", "forceShading",    "representation",
+        "shader",         "sides",           "textureMapping"}; // geometry/texture_mapping
     for (const HapticNumber& number : hapticNumbers()) {
         ours.*number.stated =
             numberField(context, object, number.name.data(), place, number.least, number.most);

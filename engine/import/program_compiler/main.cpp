@@ -28,7 +28,8 @@
 namespace touchstone {
 namespace {
 
-constexpr std::string_view kVersion = "#version 450\n";
+constexpr std::string_view kVersion = "#version 450\n",
+                           kPersistentVersion = "#version 450\n#define TOUCHSTONE_PERSISTENT\n";
 
 /// The next text, up to its zero.
 std::string take(std::span<const uint8_t>& input) {
@@ -64,8 +65,10 @@ TBuiltInResource limits() {
 
 std::vector<uint32_t> compile(const std::string& name, const std::string& parameters,
                               const std::string& source) {
-    const std::array<std::string_view, 6> texts = {kVersion, kInterface, parameters,
-                                                   kLibrary, source,     kEntry};
+    // Programs that do not name the persistent texture have no input and output for it.
+    const bool persistent = source.find("persistent") != std::string::npos;
+    const std::array<std::string_view, 6> texts = {
+        persistent ? kPersistentVersion : kVersion, kInterface, parameters, kLibrary, source, kEntry};
     std::array<const char*, 6> starts{};
     std::array<int, 6> lengths{};
     for (size_t i = 0; i < texts.size(); ++i) {

@@ -75,12 +75,13 @@ TEST(Scenes, HaveTheSurfacesThatTheirNamesPromise) {
         {"breathing.glb", {12 + 2 * 31 * 24 + 2 * 23 * 32, 8 + 31 * 24 + 2 + 23 * 32 + 2, true, 6}},
         {"wood.glb", {6 * 8 * 8 * 2, 6 * 8 * 8 + 2, true, 2}},
         {"heights.glb", {2 * 64 * 32 + 2 * (2 * 31 * 64), 64 * 32 + 2 * (31 * 64 + 2), true, 4}},
+        {"plaque.glb", {6 * 28 * 28 * 2, 6 * 28 * 28 + 2, true, 2}},
         {"swatches.glb", {2 * (2 * 11 * 5 + 2 * 11 + 2 * 5), 2 * 12 * 6, true, 2}},
         {"effects.glb", {2 * (2 * 7 * 3 + 2 * 7 + 2 * 3) + 2 * 7 + 2 * 5, 2 * 8 * 4 + 2 * 7, true, 4}},
     };
-    EXPECT_EQ(promises.size() + 3 + bodies().size(), allScenes().size())
-        << "materials.glb is one ball many times, programs.glb and surfaces.glb one board, bodies many "
-           "meshes";
+    EXPECT_EQ(promises.size() + 4 + bodies().size(), allScenes().size())
+        << "materials.glb is one ball many times, programs.glb and surfaces.glb one board, mapped.glb and "
+           "bodies many meshes";
     for (const auto& [name, promise] : promises) {
         SCOPED_TRACE(name);
         const test::Primitive surface = surfaceOf(name);

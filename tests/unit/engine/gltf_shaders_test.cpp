@@ -163,12 +163,17 @@ TEST(GltfShaders, APersistentTextureIsBounded) {
     const ScenePtr scene = sized({{"width", 256}, {"height", 128}, {"initial", 0.5}});
     ASSERT_TRUE(programOf(scene)) << warningsOf(*scene);
     EXPECT_EQ(programOf(scene).texture, (PersistentTextureSize{256, 128, 0.5f}));
+    EXPECT_EQ(programOf(sized({{"width", 8}, {"height", 8}, {"initial", 5}, {"minimum", -2}})).texture,
+              (PersistentTextureSize{8, 8, 5.0f, -2.0f, 5.0f}));
     const json wrong[] = {{{"width", 32768}, {"height", 32768}}, // 4 GiB of floats
                           {{"width", 0}, {"height", 1}},
                           {{"width", 1}},
                           {{"width", 1.5}, {"height", 1}},
                           {{"width", 1}, {"height", 1}, {"initial", "full"}},
                           {{"width", 1}, {"height", 1}, {"initial", 1e30}},
+                          {{"width", 1}, {"height", 1}, {"minimum", 2}},
+                          {{"width", 1}, {"height", 1}, {"initial", 3}, {"maximum", 2}},
+                          {{"width", 1}, {"height", 1}, {"maximum", "much"}},
                           3};
     for (const json& texture : wrong) {
         const ScenePtr plain = sized(texture);

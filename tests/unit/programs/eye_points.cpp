@@ -14,7 +14,7 @@ namespace {
 
 #include "shaders/program_points_comp.h"
 
-constexpr size_t kInputs = 12, kOutputs = 6, kGroup = 64, kVector = 16; ///< of program_points.comp
+constexpr size_t kInputs = 13, kOutputs = 7, kGroup = 64, kVector = 16; ///< of program_points.comp
 
 vk::raii::DescriptorSetLayout layoutOf(const Gpu::Impl& gpu, vk::DescriptorType type, uint32_t count) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;

@@ -15,7 +15,7 @@ namespace touchstone::program {
 
 /// Outputs by location, and whether there is a result.
 struct EyeResult {
-    std::array<PortValue, 5> out{};
+    std::array<PortValue, 6> out{};
     bool done = false;
 };
 

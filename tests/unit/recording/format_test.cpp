@@ -154,7 +154,15 @@ std::vector<RecordedItem> oneOfEach() {
                              .strength = 0.25,
                              .falloff = 0.5}}},
             RecordedContacts{{{12, 1}, {20, 9}}},
-            RecordedBodies{12, {std::byte{1}, std::byte{2}, std::byte{3}}}};
+            RecordedBodies{12, {std::byte{1}, std::byte{2}, std::byte{3}}},
+            RecordedTextures{12, 1, {{0, 3, {0.5f}}, {2, 7, {0.25f, 1.0f, 0.125f}}}},
+            RecordedStrokes{{{.tick = 80,
+                              .object = 2,
+                              .point = {0.1, -0.2, 0.3},
+                              .normal = {0.0, 1.0, 0.0},
+                              .radius = 0.07,
+                              .change = -1e-6,
+                              .most = 4096}}}};
 }
 
 /// Bytes of one change of limits and their count.

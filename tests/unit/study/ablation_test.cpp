@@ -49,6 +49,8 @@ TEST(Ablations, RefuseWhatIsNoSetting) {
 TEST(Ablations, OnAMaterialWithEverythingAreWhole) {
     const BenchScene scene = torusWithAllEffects(2000);
     for (const Ablation& ablation : ablations()) {
+        if (ablation.name == "program")
+            continue; // the torus has none
         std::vector<std::string> notes;
         const std::vector<PlannedConfiguration> configurations = planAblation(ablation, *scene.haptic, notes);
         EXPECT_GE(configurations.size(), 2u) << ablation.name;
@@ -62,6 +64,21 @@ TEST(Ablations, OnAMaterialWithEverythingAreWhole) {
                              inEffect(configurations[k].settings, *scene.haptic))
                     << ablation.name << ": " << configurations[i].name << " and " << configurations[k].name;
     }
+}
+
+TEST(Ablations, OfAProgramAreWhereItsSlopeComesFrom) {
+    const BenchScene scene = torusScene(2000);
+    const std::shared_ptr<HapticScene> programmed = copyOf(*scene.haptic);
+    const auto found = std::ranges::find(ablations(), std::string_view("program"), &Ablation::name);
+    ASSERT_NE(found, ablations().end());
+    std::vector<std::string> notes;
+    EXPECT_TRUE(planAblation(*found, *programmed, notes).empty());
+    EXPECT_FALSE(notes.empty());
+    programmed->plan.programs = true;
+    const std::vector<PlannedConfiguration> configurations = planAblation(*found, *programmed, notes);
+    ASSERT_EQ(configurations.size(), 4u);
+    for (const PlannedConfiguration& configuration : configurations)
+        EXPECT_EQ(configuration.isDefault, configuration.name == "dual numbers") << configuration.name;
 }
 
 TEST(Ablations, OfferAtLeastThirtyCombinationsOnTheTorus) {

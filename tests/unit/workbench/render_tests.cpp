@@ -170,6 +170,28 @@ TEST_F(Render, WritesThePictureInTheSizeAskedFor) {
     EXPECT_NE(readFile(shaded), readFile(height));
 }
 
+/// What touch wears off is seen.
+TEST_F(Render, ShowsTheModelAfterAStroke) {
+    const std::string tooth = TOUCHSTONE_ASSETS "/plaque.glb";
+    const auto drawn = [&](const std::string& name, std::vector<std::string> more) {
+        more.insert(more.begin(),
+                    {kProgram, "render", tooth, "--size", "240x180", "--out", (scratch_ / name).string()});
+        const ProgramResult result = runProgram(more, kValidated);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.out;
+    };
+    EXPECT_EQ(drawn("covered.png", {}).find("texture"), std::string::npos);
+    const std::string brushed = drawn("brushed.png", {"--stroke", "tour", "--seconds", "3"});
+    EXPECT_NE(brushed.find("tooth: 9"), std::string::npos) << brushed;
+    EXPECT_NE(brushed.find("% of the texture is left"), std::string::npos) << brushed;
+    EXPECT_NE(readFile(scratch_ / "covered.png"), readFile(scratch_ / "brushed.png"));
+    EXPECT_EQ(
+        runProgram({kProgram, "render", tooth, "--seconds", "3", "--out", (scratch_ / "x.png").string()})
+            .status,
+        2)
+        << "of a stroke alone";
+}
+
 TEST_F(Render, WritesJpegToo) {
     ASSERT_EQ(render({}, "picture.jpg").status, 0);
     EXPECT_EQ(readFile(scratch_ / "picture.jpg").substr(0, 3), "\xff\xd8\xff");
