@@ -97,7 +97,7 @@ std::vector<EyeResult> EyePoints::run(std::span<const uint32_t> program,
         const std::byte* const from = out.mapped + i * kOutputs * kVector;
         std::memcpy(results[i].out.data(), from, 5 * kVector);
         float done = 0.0f;
-        std::memcpy(&done, from + 5 * kVector, 4);
+        std::memcpy(&done, from + (kOutputs - 1) * kVector, 4);
         results[i].done = done == 1.0f;
     }
     return results;
