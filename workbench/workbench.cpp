@@ -104,6 +104,8 @@ void WorkbenchWindow::frame() {
     takeFile(start);
     leave();
     touch_.update(start);
+    if (touch_.feelsWhole())
+        materials_.programs().feltAt(materials_.touched(), secondsNow());
     // While a recording is open the force is off: then the key only switches it off for afterwards.
     state_.settings.forceEnabled =
         forceKey_.settle(state_.settings.forceEnabled, !ImGui::GetIO().WantTextInput && !timeline_.looking(),

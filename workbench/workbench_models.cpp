@@ -94,12 +94,11 @@ void WorkbenchWindow::takeMaterials() {
         touch_.saved(materials_.path(), *saved, textOf(materials_.edits().patches()));
         nameAfter(materials_.path());
     }
-    const std::optional<MadeMaterials> made = materials_.update(touch_.whole());
-    if (!made)
-        return;
-    if (made->read)
-        drawn_.renew(); // it has other images
-    touch_.change(*made);
+    if (const std::optional<MadeMaterials> made = materials_.update(touch_.whole())) {
+        if (made->read)
+            drawn_.renew(); // it has other images
+        touch_.change(*made);
+    }
 }
 
 void WorkbenchWindow::leaveFor(const std::filesystem::path& path) {
@@ -197,6 +196,7 @@ void WorkbenchWindow::showMaterials() {
     try {
         const Model& model = touch_.shown().model;
         drawn_.update(screen_.renderer(), model.scene, showsHaptics(state_.view.mode, model.part));
+        drawn_.showPrograms(screen_.renderer(), materials_.materials(), materials_.touched());
     } catch (const DeviceLost&) {
         throw;
     } catch (const std::exception& error) {

@@ -8,6 +8,7 @@ namespace touchstone {
 
 void WorkbenchWindow::draw() {
     gallery_.update(state_.gallery, samples_, memory_.recent, screen_.target());
+    materials_.programs().seenAt(drawn_.programs(), secondsNow()); // of the last frame
     const PixelRect area = pictureArea();
     const PanelInput input = panelInput(picture_.drawn().size);
     auto widgets = drawPanels(input, state_);
@@ -66,7 +67,8 @@ void WorkbenchWindow::draw() {
     status_.update(secondsNow(), input, state_, widgets,
                    {.drawn = picture_.drawn(),
                     .validationMessages = screen_.validationMessages(),
-                    .otherMaterials = drawn_.redraws()});
+                    .otherMaterials = drawn_.redraws(),
+                    .programs = materials_.programs()});
 }
 
 void WorkbenchWindow::showPart(const PixelRect& area, double points,
@@ -150,8 +152,8 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.sampleNotes = sampleNotes_;
     input.materialNotice = materials_.notice();
     input.canSaveMaterials = materials_.canSaveInPlace();
-    input.materialsEdited = materials_.edits().edited();
-    input.materialsWorking = materials_.working();
+    input.materialsEdited = materials_.edited();
+    input.materialsWorking = materials_.working() || materials_.programs().pending();
     input.loading = loading();
     input.longestFrame = longestFrame_;
     const bool recording = timeline_.opening();

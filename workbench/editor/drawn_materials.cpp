@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <utility>
+#include <vector>
 
 namespace touchstone {
 
@@ -35,6 +36,18 @@ void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool
         drawn_ = scene; // not again until the next change
         throw;
     }
+}
+
+void DrawnMaterials::showPrograms(SceneRenderer& renderer, std::span<const Material> materials,
+                                  uint64_t revision) {
+    const std::pair now(renderer.sceneNumber(), revision);
+    if (drawn_ == nullptr || programs_ == now || drawn_->materials.size() != materials.size())
+        return;
+    std::vector<MaterialProgram> programs;
+    for (const Material& material : materials)
+        programs.push_back(material.haptic.program);
+    renderer.setPrograms(programs);
+    programs_ = now;
 }
 
 } // namespace touchstone

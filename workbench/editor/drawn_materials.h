@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <optional>
+#include <span>
+#include <utility>
 
 namespace touchstone {
 
@@ -26,17 +29,24 @@ class DrawnMaterials {
     void takeDevice() {
         drawn_.reset();
         redrawn_.reset();
+        programs_.reset();
     }
     /// Another model is being uploaded.
     void interrupt() { redrawn_.reset(); }
     /// Every frame in which no other model is uploaded. `needed`: showsHaptics. Throws a failure once per
     /// change.
     void update(SceneRenderer& renderer, const ScenePtr& scene, bool needed);
+    /// Every frame after `update`: the programs of these materials, of one revision of the edits, come into
+    /// the picture without another scene.
+    void showPrograms(SceneRenderer& renderer, std::span<const Material> materials, uint64_t revision);
+    /// The revision whose programs the renderer shows.
+    [[nodiscard]] uint64_t programs() const { return programs_ ? programs_->second : 0; }
     /// How often a scene of other materials has come into the picture.
     [[nodiscard]] uint64_t redraws() const { return redraws_; }
 
   private:
     uint64_t redraws_ = 0;
+    std::optional<std::pair<uint64_t, uint64_t>> programs_;       // number of the renderer's scene, revision
     ScenePtr drawn_;                                              // the scene in the renderer
     std::future<std::shared_ptr<const PreparedScene>> preparing_; // of the edited materials
     ScenePtr redrawn_;                                            // being uploaded for them

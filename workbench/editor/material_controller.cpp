@@ -1,5 +1,7 @@
 #include "workbench/editor/material_controller.h"
 
+#include "engine/save/replace_file.h"
+
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -13,6 +15,7 @@ void MaterialController::open(const Model& model, bool replaceable) {
         finishSaving(); // keeps the notice of a failure
     wanted_.clear();
     edits_ = MaterialEdits(*model.scene);
+    programs_.open(*model.scene);
     materials_ = model.scene->materials;
     touched_ = seen_ = edits_.revision();
     path_ = model.scene->path;
@@ -31,7 +34,7 @@ void MaterialController::startWork(const Model& model) {
     job.model = model;
     job.compiledFrom = materials_;
     job.statements = edits_.all();
-    job.edits = textOf(edits_.patches());
+    job.edits = textOf(programs_.withSources(edits_.patches(), edits_));
     job.path = path_;
     job.stamp = stamp_;
     job.revision = edits_.revision();
@@ -42,6 +45,7 @@ void MaterialController::startWork(const Model& model) {
 std::optional<MadeMaterials> MaterialController::update(const Model& model) {
     if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         finishSaving();
+    programs_.update(edits_);
     std::optional<MadeMaterials> made;
     try {
         made = live_.take();
@@ -62,7 +66,7 @@ std::optional<MadeMaterials> MaterialController::update(const Model& model) {
         return std::nullopt;
     if (behind)
         startWork(model);
-    else if (!wanted_.empty())
+    else if (!wanted_.empty() && !programs_.pending())
         startSaving(std::exchange(wanted_, {}));
     return std::nullopt;
 }
@@ -75,13 +79,19 @@ void MaterialController::saveAs(const std::filesystem::path& target) {
 /// Only once the last change is in effect: the worker may be reading the file, and a recording is informed
 /// that the file holds what is touched.
 void MaterialController::startSaving(const std::filesystem::path& target) {
+    if (std::string problem = programs_.saveProblem(); !problem.empty())
+        return tell(std::move(problem), true);
     savingStatements_ = edits_.all();
+    savingTexts_ = programs_.texts();
     target_ = target;
     tell("", false);
-    saving_ =
-        std::async(std::launch::async, [source = path_, stamp = stamp_, patches = edits_.patches(), target] {
-            return saveMaterials(source, stamp, patches, target);
-        });
+    saving_ = std::async(std::launch::async, [source = path_, stamp = stamp_, patches = edits_.patches(),
+                                              target, programs = programs_.unsavedFiles()] {
+        for (const ProgramEditor::Text& program : programs)
+            replaceFile(program.file,
+                        {reinterpret_cast<const uint8_t*>(program.text.data()), program.text.size()});
+        return saveMaterials(source, stamp, patches, target);
+    });
 }
 
 void MaterialController::finishSaving() {
@@ -90,6 +100,7 @@ void MaterialController::finishSaving() {
         path_ = target_;
         replaceable_ = true;
         edits_.saved(std::move(savingStatements_));
+        programs_.saved(savingTexts_);
         saved_ = stamp_;
         tell("saved to " + path_.string(), false);
     } catch (const std::exception& error) {

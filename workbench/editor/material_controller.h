@@ -3,6 +3,7 @@
 
 #include "workbench/editor/live_materials.h"
 #include "workbench/editor/material_edits.h"
+#include "workbench/editor/program_editor.h"
 
 #include <filesystem>
 #include <future>
@@ -23,6 +24,15 @@ class MaterialController {
 
     [[nodiscard]] MaterialEdits& edits() { return edits_; }
     [[nodiscard]] const MaterialEdits& edits() const { return edits_; }
+    /// The haptic programs of the file; their edits are saved with those of the materials.
+    [[nodiscard]] ProgramEditor& programs() { return programs_; }
+    [[nodiscard]] const ProgramEditor& programs() const { return programs_; }
+    /// There are unsaved edits, of materials or programs.
+    [[nodiscard]] bool edited() const { return edits_.edited() || programs_.edited(); }
+    /// Increases with every change of either.
+    [[nodiscard]] uint64_t revision() const { return edits_.revision() + programs_.revision(); }
+    /// The revision of `edits` that `materials` has.
+    [[nodiscard]] uint64_t touched() const { return touched_; }
     /// The materials of the current or next scene; for displaying effective values.
     [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
     [[nodiscard]] bool working() const { return live_.busy(); }
@@ -49,6 +59,7 @@ class MaterialController {
     void startWork(const Model& model);
 
     MaterialEdits edits_;
+    ProgramEditor programs_;
     LiveMaterials live_;
     std::vector<Material> materials_;
     uint64_t touched_ = 0, seen_ = 0; // revisions of the haptic and of the rendered scene
@@ -59,6 +70,7 @@ class MaterialController {
     bool replaceable_ = true;
     std::future<FileStamp> saving_;
     std::vector<HapticStatement> savingStatements_;
+    std::vector<std::string> savingTexts_; ///< of the programs
     std::optional<FileStamp> saved_;
     std::string notice_;
     bool failed_ = false;

@@ -127,6 +127,26 @@ void MaterialEdits::change(size_t material, HapticStatement next, std::string wh
     now_[material] = std::move(next);
 }
 
+void MaterialEdits::replace(size_t material, const std::function<HapticStatement(HapticStatement)>& with) {
+    ++revision_;
+    open_ = false;
+    now_[material] = with(std::move(now_[material]));
+    for (Step& step : steps_)
+        if (step.material == material) {
+            step.before = with(std::move(step.before));
+            step.after = with(std::move(step.after));
+        }
+}
+
+void MaterialEdits::replaceNow(size_t material, HapticStatement statement) {
+    ++revision_;
+    now_[material] = std::move(statement);
+}
+
+void MaterialEdits::replaceInFile(size_t material, std::shared_ptr<const SurfaceProgram> program) {
+    file_[material].program = std::move(program);
+}
+
 void MaterialEdits::undo() {
     open_ = false;
     if (at_ == 0)
@@ -148,8 +168,8 @@ void MaterialEdits::redo() {
 MaterialPatches MaterialEdits::patches() const {
     MaterialPatches patches;
     for (size_t m = 0; m < now_.size(); ++m)
-        if (edited(m))
-            patches[m] = patchBetween(file_[m], now_[m]);
+        if (Json patch = edited(m) ? patchBetween(file_[m], now_[m]) : Json(); !patch.empty())
+            patches[m] = std::move(patch); // a program in a file of its own leaves none
     return patches;
 }
 

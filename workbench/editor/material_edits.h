@@ -5,6 +5,7 @@
 #include "engine/scene/scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,13 @@ class MaterialEdits {
     /// The step to undo or redo; empty: none.
     [[nodiscard]] std::string undoName() const { return at_ > 0 ? steps_[at_ - 1].what : ""; }
     [[nodiscard]] std::string redoName() const { return at_ < steps_.size() ? steps_[at_].what : ""; }
+
+    /// Another program of a material, which is no step: `with` is applied to its statement now, and to those
+    /// that undo and redo bring back.
+    void replace(size_t material, const std::function<HapticStatement(HapticStatement)>& with);
+    void replaceNow(size_t material, HapticStatement statement);
+    /// The file's statement has this program now.
+    void replaceInFile(size_t material, std::shared_ptr<const SurfaceProgram> program);
 
     /// The file contains them now.
     void saved(std::vector<HapticStatement> statements) { file_ = std::move(statements); }

@@ -5,6 +5,8 @@
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
 #include "workbench/figures/quantity.h"
+#include "workbench/panels/colors.h"
+#include "workbench/panels/field_row.h"
 #include "workbench/panels/notes.h"
 
 #include <imgui.h>
@@ -20,9 +22,6 @@
 namespace touchstone {
 
 namespace {
-
-constexpr ImU32 kEdited = IM_COL32(240, 180, 60, 255), kStated = IM_COL32(215, 220, 226, 255),
-                kUnset = IM_COL32(120, 126, 133, 255);
 
 /// The origin of a value that the extension does not state.
 const char* originOf(HapticSource source) {
@@ -72,6 +71,8 @@ class MaterialPanel {
 
   private:
     void fields() {
+        if (!now_.shader.is_null())
+            drawProgram(m_, controller_, state_.program, widgets_);
         for (const NumberField& field : numberFields())
             if (field.name.find('.') == std::string_view::npos && field.name != "voxelSize")
                 number(field);
@@ -82,7 +83,6 @@ class MaterialPanel {
         if (now_.implicit.value_or(false) || now_.voxelSize)
             number(*std::find_if(numberFields().begin(), numberFields().end(),
                                  [](const NumberField& field) { return field.name == "voxelSize"; }));
-        shader();
     }
 
     /// The first material of the scene that is the file's material `index`.
@@ -145,35 +145,18 @@ class MaterialPanel {
         ImGui::Spacing();
     }
 
-    /// The name of a field in the colour of its state.
     void label(std::string_view text, bool stated, bool edited, std::string_view meaning) {
-        ImGui::AlignTextToFramePadding();
-        ImGui::PushStyleColor(ImGuiCol_Text, edited ? kEdited : stated ? kStated : kUnset);
-        ImGui::TextUnformatted(text.data(), text.data() + text.size());
-        ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered())
-            showNote(std::string(meaning) + (edited   ? "\nedited, not in the file yet"
-                                             : stated ? "\nas the file states"
-                                                      : "\nthe file states nothing"));
-        ImGui::SameLine(widgets_.units(112.0f));
-        ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x - Widgets::buttonWidth("x") -
-                             widgets_.units(4.0f)); // of the button that resets it
+        beginField(widgets_, text, {.stated = stated, .edited = edited}, meaning);
     }
 
-    /// Button that removes a field from the extension; at the end of its row, where the field is stated.
+    /// Ends the row; its button takes the field out of the extension.
     void reset(std::string_view name, bool stated) {
-        ImGui::PopItemWidth();
-        if (!stated)
+        if (!endField(widgets_, name, stated))
             return;
-        ImGui::SameLine(0.0f, widgets_.units(4.0f));
-        const std::string id(name);
-        if (ImGui::SmallButton(("x##" + id).c_str())) {
-            HapticStatement next = now_;
-            resetHapticField(next, name);
-            change(std::move(next), "reset " + id);
-            edits_.endGesture();
-        }
-        widgets_.mark(("reset." + id).c_str());
+        HapticStatement next = now_;
+        resetHapticField(next, name);
+        change(std::move(next), "reset " + std::string(name));
+        edits_.endGesture();
     }
 
     void number(const NumberField& field) {
@@ -267,19 +250,6 @@ class MaterialPanel {
         reset(field.name, stated.has_value());
     }
 
-    /// Reserved: displayed and removable.
-    void shader() {
-        if (now_.shader.is_null())
-            return;
-        label("shader", true, now_.shader != was_.shader,
-              now_.program != nullptr ? "haptic program" : "has a flaw: the surface is plain");
-        ImGui::TextUnformatted(
-            (now_.program != nullptr ? now_.program->source.name : now_.shader.value("source", ""))
-                .substr(0, 40)
-                .c_str());
-        reset("shader", true);
-    }
-
     bool button(const char* text, const char* name, bool enabled, const std::string& hint) {
         if (!enabled)
             ImGui::BeginDisabled();
@@ -302,28 +272,29 @@ class MaterialPanel {
         if (button("Redo", "redo", !edits_.redoName().empty(), noteWith("redo", edits_.redoName())))
             edits_.redo();
         ImGui::SameLine();
-        if (button("As in the file", "resetMaterial", edits_.edited(m_), "")) {
-            change(was_, "as in the file");
+        const EditedProgram* const program = controller_.programs().of(m_);
+        const bool typed = program != nullptr && program->edited();
+        if (button("As in the file", "resetMaterial", edits_.edited(m_) || typed, "")) {
+            change(controller_.programs().reverted(m_, edits_), "as in the file");
             edits_.endGesture();
         }
     }
 
     void saving() {
         const bool inPlace = controller_.canSaveInPlace();
-        if (button("Save", "save", edits_.edited() && !controller_.saving() && inPlace,
+        if (button("Save", "save", controller_.edited() && !controller_.saving() && inPlace,
                    inPlace ? noteWith("save", controller_.path().string())
                            : controller_.path().string() + " cannot be replaced: save to a new file"))
             controller_.save();
         ImGui::SameLine();
         if (button("Save as...", "saveAs", !controller_.saving(), ""))
             state_.saveAsPressed = true;
-        if (edits_.edited()) {
+        if (controller_.edited()) {
             ImGui::SameLine();
             ImGui::TextDisabled("not saved");
         }
         if (!controller_.notice().empty()) {
-            widgets_.wrapped(controller_.notice(), controller_.failed() ? IM_COL32(242, 128, 107, 255)
-                                                                        : IM_COL32(153, 204, 166, 255));
+            widgets_.wrapped(controller_.notice(), controller_.failed() ? kFailure : kSuccess);
         }
     }
 

@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 #include "workbench/editor/material_controller.h"
+#include "workbench/panels/program_panel.h"
 #include "workbench/panels/widgets.h"
 
 namespace touchstone {
@@ -19,12 +20,13 @@ struct MaterialPanelState {
     size_t material = 0;        ///< of the file
     bool followProbe = true;    ///< show the touched material
     bool saveAsPressed = false; ///< ask for a file; cleared by the code that does
-    float footer = 0.0f;        ///< window coordinates, height of the last frame's buttons
+    ProgramPanelState program;
+    float footer = 0.0f; ///< window coordinates, height of the last frame's buttons
 };
 
 /// Draws the editor into the current ImGui window and applies edits to the controller. Widget names:
 /// "edit.material", "edit.preset", "edit.FIELD", "reset.FIELD", "undo", "redo", "resetMaterial", "save",
-/// "saveAs". Main thread, within an ImGui frame.
+/// "saveAs", and those of drawProgram. Main thread, within an ImGui frame.
 void drawMaterialPanel(const MaterialPanelInput& input, MaterialController& controller,
                        MaterialPanelState& state, Widgets& widgets);
 

@@ -1,5 +1,6 @@
 #include "workbench/panels/material_window.h"
 
+#include "workbench/panels/program_window.h"
 #include "workbench/screen/keys.h"
 
 #include <imgui.h>
@@ -20,7 +21,7 @@ void materialKeys(MaterialController& controller, MaterialPanelState& state, boo
     }
     if (undoes && ctrlPressed(keyOf('y'), true))
         controller.edits().redo();
-    if (ctrlPressed(keyOf('s')) && controller.edits().edited()) {
+    if (ctrlPressed(keyOf('s')) && controller.edited()) {
         if (controller.canSaveInPlace())
             controller.save();
         else
@@ -34,6 +35,7 @@ void drawMaterialWindow(const MaterialPanelInput& input, const WidgetRect& pictu
                         MaterialController& controller, MaterialPanelState& state, Widgets& widgets,
                         bool undoes) {
     materialKeys(controller, state, undoes);
+    drawProgramWindow(picture, controller.programs(), state.program, widgets);
     if (!open)
         return;
     constexpr float kWidth = 320.0f, kHeight = 610.0f, kWindowMargin = 8.0f; // units

@@ -204,6 +204,10 @@ constexpr std::array kNotes{
     Note{"edit.material", "The material that is edited"},
     Note{"edit.preset", "Numbers of a known material to begin with"},
     Note{"followProbe", "Edit the material that is touched"},
+    Note{"program.edit", "The program's source; what compiles is felt and seen at once"},
+    Note{"program.text",
+         "GLSL (docs/programs.md); compiled when nothing has been typed for a fifth of a second"},
+    Note{"program.revert", "Back to the source that the file has"},
     Note{"reset.", "Back to what holds when the file states nothing"},
     Note{"undo", "Take the last change back (Ctrl+Z)"},
     Note{"redo", "Make it again (Ctrl+Shift+Z)"},
@@ -258,7 +262,7 @@ std::string noteOf(std::string_view name) {
 }
 
 bool isArea(std::string_view name) {
-    constexpr std::array kAreas{"picture", "charts", "timeline", "near", "recordingNews"};
+    constexpr std::array kAreas{"picture", "charts", "timeline", "near", "recordingNews", "program.text"};
     return std::ranges::find(kAreas, name) != kAreas.end();
 }
 

@@ -93,6 +93,14 @@ std::string brokenLines(std::string_view text, float width) {
     return lines;
 }
 
+std::string shortened(std::string_view text, float width) {
+    if (widthOf(text) <= width)
+        return std::string(text);
+    constexpr std::string_view kMore = "…";
+    return std::string(text.substr(0, fitting(text, std::max(0.0f, width - widthOf(kMore))))) +
+           std::string(kMore);
+}
+
 void showNote(std::string_view text) {
     if (text.empty())
         return;
@@ -202,7 +210,7 @@ bool Widgets::lampButton(const char* name, const char* label, bool on, unsigned 
 }
 
 bool Widgets::slider(const char* name, const char* label, float& value, const SliderRange& range,
-                     const std::string& shown) {
+                     const std::string& shown, std::string_view note) {
     ImGui::PushID(name);
     const ImGuiStyle& style = ImGui::GetStyle();
     const ImVec2 low = ImGui::GetCursorScreenPos(),
@@ -241,7 +249,7 @@ bool Widgets::slider(const char* name, const char* label, float& value, const Sl
             draw.AddText(ImVec2(low.x + style.FramePadding.x, y), text, label);
         draw.AddText(ImVec2(number, y), text, shown.c_str());
     }
-    mark(name);
+    mark(name, note);
     ImGui::PopID();
     return changed;
 }

@@ -68,7 +68,7 @@ class Widgets {
     /// nothing lies over the number. As wide as the next item; Ctrl + click types a value. Marks `name`. True
     /// where the value changed.
     bool slider(const char* name, const char* label, float& value, const SliderRange& range,
-                const std::string& shown);
+                const std::string& shown, std::string_view note = {});
 
   private:
     void hover(const char* name, const std::string& note);
@@ -81,6 +81,9 @@ class Widgets {
 /// `text` with line breaks so that no line is wider than `width` window coordinates in the current font.
 /// Lines break at spaces; a longer word (a path) breaks anywhere.
 [[nodiscard]] std::string brokenLines(std::string_view text, float width);
+
+/// `text`, or as much of its beginning as fits with an ellipsis into `width` window coordinates.
+[[nodiscard]] std::string shortened(std::string_view text, float width);
 
 /// Tooltip of wrapped text over the last widget. Nothing for an empty text.
 void showNote(std::string_view text);

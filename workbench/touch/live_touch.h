@@ -46,6 +46,8 @@ class LiveTouch {
     void show(LoadedModel loaded, bool generated);
     /// Continues with other materials of the same model; contact is kept where possible.
     void change(const MadeMaterials& made);
+    /// The servo touches the materials of the last `change`.
+    [[nodiscard]] bool feelsWhole() const { return felt_ == whole_.haptic && session_.touching(); }
     /// The open model with all its parts, for what changes it; `shown` has the part that is seen and felt.
     [[nodiscard]] const Model& whole() const { return whole_; }
     /// Every frame: the part of the model that is to be seen and felt. It is compiled on a worker, and comes

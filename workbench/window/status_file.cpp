@@ -54,6 +54,26 @@ nlohmann::ordered_json galleryJson(const PanelInput& input, const PanelState& st
     return {{"open", state.gallery}, {"at", state.galleryAt}, {"entries", std::move(entries)}};
 }
 
+nlohmann::ordered_json programsJson(const ProgramEditor& programs) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const EditedProgram& each : programs.sources())
+        all.push_back({{"name", each.name},
+                       {"file", each.file.string()},
+                       {"compiles", each.program != nullptr},
+                       {"edited", each.edited()},
+                       {"overtaken", each.overtaken},
+                       {"compiling", each.compiling},
+                       {"problem", each.problem},
+                       {"line", each.line},
+                       {"instructions", each.cost.instructions},
+                       {"ns_per_tick", each.cost.ns},
+                       {"ns_with_gradients", each.cost.nsWithGradients},
+                       {"loads", each.loads},
+                       {"felt_after_s", each.felt},
+                       {"seen_after_s", each.seen}});
+    return all;
+}
+
 /// `recent`: number of the last ticks of which the largest magnitudes are told, SI units.
 nlohmann::ordered_json chartsJson(const PanelInput& input, const PanelState& state, size_t recent) {
     nlohmann::ordered_json shown = nlohmann::ordered_json::array(), peaks = nlohmann::ordered_json::object();
@@ -108,6 +128,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
          {{"edited", input.materialsEdited},
           {"working", input.materialsWorking},
           {"notice", input.materialNotice}}},
+        {"programs", programsJson(screen.programs)},
         {"hand", state.simulatedHand ? "simulated" : "mouse"},
         {"workspace",
          {{"wanted_zoom", state.workspace.zoom},

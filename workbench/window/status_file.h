@@ -1,5 +1,6 @@
 #pragma once
 
+#include "workbench/editor/program_editor.h"
 #include "workbench/panels/panel_state.h"
 #include "workbench/screen/model_picture.h"
 
@@ -17,6 +18,7 @@ class StatusFile {
         ModelPicture::Drawn drawn;
         size_t validationMessages = 0;
         uint64_t otherMaterials = 0; ///< DrawnMaterials::redraws
+        const ProgramEditor& programs;
     };
     /// At most twice a second; does nothing without a target. `now`: s. `widgets` in window coordinates.
     void update(double now, const PanelInput& input, const PanelState& state,

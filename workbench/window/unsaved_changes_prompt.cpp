@@ -6,7 +6,7 @@ namespace touchstone {
 
 bool UnsavedChangesPrompt::mayLeave(const Target& target, const MaterialController& materials,
                                     PanelState& state) {
-    if (!materials.edits().edited() || discarded_ == materials.edits().revision())
+    if (!materials.edited() || discarded_ == materials.revision())
         return true;
     if (!state.leaving)
         state.gallery = state.help = false; // nothing covers the prompt
@@ -27,7 +27,7 @@ UnsavedChangesPrompt::update(MaterialController& materials, PanelState& state, s
     if (answer == Stay)
         return answered(false);
     if (answer == Discard) {
-        discarded_ = materials.edits().revision();
+        discarded_ = materials.revision();
         return answered(true);
     }
     if (answer == Save) {
@@ -41,7 +41,7 @@ UnsavedChangesPrompt::update(MaterialController& materials, PanelState& state, s
         return answered(false);
     }
     saves_ = false;
-    return materials.edits().edited() ? std::nullopt : std::optional(answered(true));
+    return materials.edited() ? std::nullopt : std::optional(answered(true));
 }
 
 } // namespace touchstone

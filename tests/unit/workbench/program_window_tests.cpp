@@ -1,0 +1,186 @@
+// Haptic programs in the real window: their files are saved by another program, their text is typed, their
+// parameters are dragged; all is felt and seen while touch goes on.
+
+#include "tests/support/gltf_maker.h"
+#include "tests/unit/workbench/window_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace touchstone::test {
+namespace {
+
+class ProgramWindow : public WindowTest {
+  protected:
+    /// `share`: of the stiffness.
+    static std::string source(const std::string& colour, const std::string& share) {
+        return "parameter float share = 1; // 0.1..1 : of the stiffness\n"
+               "void touch(const in Touch before, inout Surface after) {\n"
+               "    after.colour = " +
+               colour + ";\n    after.stiffness *= share * " + share + ";\n}\n";
+    }
+    void openSquare(const Json& shader) {
+        GltfMaker maker = GltfMaker::square();
+        maker.json["extensionsUsed"] = {"TOUCHSTONE_materials_haptic"};
+        Json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
+                         {"doubleSided", true}};
+        material["extensions"]["TOUCHSTONE_materials_haptic"] = {{"stiffness", 600.0}, {"shader", shader}};
+        maker.json["materials"] = {material};
+        maker.primitive()["material"] = 0;
+        const std::vector<uint8_t> bytes = maker.glb();
+        std::ofstream(model_, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        open(model_.string(), {"--hand", "simulated"});
+        until("the hand to touch", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
+    }
+    static const Json& programOf(const Json& s) { return s["programs"].at(0); }
+    Json untilProgram(const std::string& what, const std::function<bool(const Json&)>& holds) {
+        return until(what, [&](const Json& s) { return holds(programOf(s)); });
+    }
+    Json untilFeltAndSeen(int loads) {
+        return untilProgram("the program to be felt and seen", [&](const Json& p) {
+            return p["loads"] >= loads && p["felt_after_s"] >= 0.0 && p["seen_after_s"] >= 0.0 &&
+                   !p["compiling"];
+        });
+    }
+    /// The mean force of a whole stroke to and fro, N.
+    double force() {
+        double sum = 0.0;
+        constexpr int kReadings = 4;
+        for (int i = 0; i < kReadings; ++i)
+            sum += later()["recent"]["mean_force_n"].get<double>();
+        return sum / kReadings;
+    }
+    /// 0, 1, 2: of red, green and blue what most of the picture is; -1: neither.
+    int colour() {
+        const ScreenPicture screen = display_.screen();
+        const Json rect = status()["widgets"].at("picture");
+        std::array<int, 3> count{};
+        int all = 0;
+        for (double y = 0.05; y < 1.0; y += 0.02)
+            for (double x = 0.05; x < 1.0; x += 0.02, ++all) {
+                const auto at = inPicture(x, y);
+                const auto& p = screen.at(at.x, at.y);
+                for (size_t i = 0; i < 3; ++i)
+                    if (p[i] > 60 && p[i] > 2 * p[(i + 1) % 3] && p[i] > 2 * p[(i + 2) % 3])
+                        ++count[i];
+            }
+        const auto most = std::ranges::max_element(count);
+        return *most > all / 20 ? static_cast<int>(most - count.begin()) : -1;
+    }
+    void untilColour(int wanted) {
+        for (int i = 0; i < 100 && colour() != wanted; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        EXPECT_EQ(colour(), wanted);
+    }
+    /// At the end of the text, in place of its last `gone` characters.
+    void typeAtTheEnd(int gone, const std::string& text) {
+        display_.key("ctrl+End");
+        for (int i = 0; i < gone; ++i)
+            display_.key("BackSpace");
+        display_.xdotool({"type", "--delay", "40", text});
+    }
+
+    std::filesystem::path model_ = scratch_ / "square.glb", file_ = scratch_ / "p.glsl";
+};
+
+TEST_F(ProgramWindow, AFileThatIsSavedIsFeltAndSeenWhileTouchGoesOn) {
+    writeTextFile(file_, source("vec3(0.8, 0.0, 0.0)", "1.0"));
+    openSquare({{"source", "p.glsl"}});
+    untilColour(0);
+    const double before = force();
+    EXPECT_GT(before, 0.05);
+    writeTextFile(file_, source("vec3(0.0, 0.8, 0.0)", "0.4"));
+    const Json taken = untilFeltAndSeen(1);
+    std::printf("saved to felt %.3f s, to seen %.3f s (both on this machine, beside whatever else it does)\n",
+                programOf(taken)["felt_after_s"].get<double>(),
+                programOf(taken)["seen_after_s"].get<double>());
+    untilColour(1);
+    const double softer = force();
+    EXPECT_NEAR(softer / before, 0.4, 0.08);
+    EXPECT_FALSE(taken["materials"]["edited"].get<bool>()) << "it is no edit of the model";
+
+    writeTextFile(file_,
+                  "parameter float share = 1; // 0.1..1\n\nvoid touch(const in Touch before, inout Surface "
+                  "after) {\n    after.colour = colour;\n}\n");
+    const Json broken =
+        untilProgram("the problem", [](const Json& p) { return !p["problem"].get<std::string>().empty(); });
+    EXPECT_EQ(programOf(broken)["line"], 4) << programOf(broken).dump();
+    EXPECT_EQ(programOf(broken)["loads"], 1);
+    EXPECT_NEAR(force() / softer, 1.0, 0.1) << "what was felt is felt";
+    untilColour(1);
+
+    for (int i = 0; i < 5; ++i) {
+        writeTextFile(file_, source(i % 2 == 0 ? "vec3(0.0, 0.0, 0.8)" : "vec3(0.8, 0.0, 0.0)", "0.4"));
+        const Json next = untilFeltAndSeen(2 + i);
+        std::printf("saved to felt %.3f s, to seen %.3f s\n", programOf(next)["felt_after_s"].get<double>(),
+                    programOf(next)["seen_after_s"].get<double>());
+        EXPECT_EQ(programOf(next)["problem"], "");
+    }
+    untilColour(2);
+    expectCleanEnd();
+}
+
+TEST_F(ProgramWindow, TextIsTypedParametersAreDraggedAndBothAreKeptOnSave) {
+    const std::string first = source("vec3(0.8, 0.0, 0.0)", "1.0");
+    openSquare({{"source", "data:text/plain;base64," + base64({first.begin(), first.end()})},
+                {"name", "mine.glsl"}});
+    const double before = force();
+    display_.key("e");
+    until("the editor", [](const Json& s) { return s["widgets"].contains("program.edit"); });
+    const Json measured = untilProgram("its cost", [](const Json& p) { return p["instructions"] > 0; });
+    EXPECT_GT(programOf(measured)["ns_per_tick"], 0.0);
+    slide("edit.shader.share", 0.05);
+    until("an edit", [](const Json& s) { return s["materials"]["edited"].get<bool>(); });
+    const double softer = force();
+    EXPECT_LT(softer, 0.5 * before) << "the slider is felt";
+
+    display_.click(middleOf("program.edit"));
+    until("the text", [](const Json& s) { return s["widgets"].contains("program.text"); });
+    later();
+    display_.click(middleOf("program.text"));
+    later();
+    const std::string more = "after.colour = vec3(0.0, 0.0, 0.8); }";
+    typeAtTheEnd(2, more); // of "}\n"
+    const std::string text = first.substr(0, first.size() - 2) + more;
+    const Json typed = untilFeltAndSeen(1);
+    std::printf("last key to felt %.3f s, to seen %.3f s\n", programOf(typed)["felt_after_s"].get<double>(),
+                programOf(typed)["seen_after_s"].get<double>());
+    EXPECT_EQ(typed["settings"]["forceEnabled"], "on") << "Space was for the text";
+    untilColour(2);
+    EXPECT_NEAR(force() / softer, 1.0, 0.15) << "the dragged value holds for the new text";
+
+    // Broken: nothing changes, and Save says where.
+    typeAtTheEnd(1, "nonsense; }");
+    const Json broken =
+        untilProgram("the problem", [](const Json& p) { return !p["problem"].get<std::string>().empty(); });
+    EXPECT_EQ(programOf(broken)["line"], 5) << programOf(broken).dump();
+    until("the problem at its line", [](const Json& s) { return s["widgets"].contains("program.problem"); });
+    display_.key("ctrl+s");
+    const Json refused = until("to be told", [](const Json& s) { return s["materials"]["notice"] != ""; });
+    EXPECT_NE(refused["materials"]["notice"].get<std::string>().find("line 5"), std::string::npos);
+    untilColour(2);
+    typeAtTheEnd(11, "}");
+    untilProgram("it to be right again",
+                 [](const Json& p) { return p["problem"] == "" && !p["compiling"].get<bool>(); });
+    display_.key("ctrl+s");
+    until("it to be saved",
+          [&](const Json& s) { return s["materials"]["notice"] == "saved to " + model_.string(); });
+    const ProgramResult saved = runProgram({TOUCHSTONE_BINARY, "inspect", model_.string()});
+    EXPECT_EQ(saved.status, 0) << saved.err;
+    EXPECT_NE(saved.out.find("mine.glsl"), std::string::npos) << saved.out;
+    EXPECT_EQ(saved.out.find("plain"), std::string::npos) << saved.out;
+    expectCleanEnd();
+    const std::string bytes = readFile(model_);
+    EXPECT_NE(bytes.find(base64({text.begin(), text.end()})), std::string::npos)
+        << "the text is in the model";
+    EXPECT_NE(bytes.find("\"share\":"), std::string::npos) << "and the value";
+}
+
+} // namespace
+} // namespace touchstone::test

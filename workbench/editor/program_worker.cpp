@@ -1,0 +1,218 @@
+#include "workbench/editor/program_worker.h"
+
+#include "engine/core/error.h"
+#include "engine/time/seconds_now.h"
+#include "haptics/program/load_program.h"
+#include "workbench/figures/program_figures.h"
+
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <string_view>
+
+namespace touchstone {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLookEvery{50};
+
+/// The number of "line 12"; 0: none.
+unsigned lineOf(std::string_view place) {
+    constexpr std::string_view kLine = "line ";
+    unsigned line = 0;
+    if (place.starts_with(kLine))
+        std::from_chars(place.data() + kLine.size(), place.data() + place.size(), line);
+    return line;
+}
+
+/// Up to one byte more than a program may have; nullopt where it cannot be read, as while it is replaced.
+std::optional<std::string> textIn(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(kMaxProgramBytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!stream.is_open() || stream.bad())
+        return std::nullopt;
+    text.resize(static_cast<size_t>(stream.gcount()));
+    return text;
+}
+
+/// s since a file was written, at most 10: its clock may be another machine's.
+double ageOf(std::filesystem::file_time_type written) {
+    const std::chrono::duration<double> age = std::filesystem::file_time_type::clock::now() - written;
+    return age.count() >= 0.0 && age.count() < 10.0 ? age.count() : 0.0;
+}
+
+ProgramCost costOf(const SurfaceProgram& program) {
+    program::RegisterProgram felt = program::translated(program.source, program.spirv);
+    program::setParameters(felt, program.source.parameters);
+    const nlohmann::ordered_json figures = programFigures(felt);
+    return {felt.instructions.size(), figures["ns_per_tick"].get<double>(),
+            figures["ns_with_gradients"].get<double>()};
+}
+
+} // namespace
+
+ProgramWorker::~ProgramWorker() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_all();
+    if (thread_.joinable())
+        thread_.join();
+}
+
+void ProgramWorker::begin(std::vector<Source> sources) {
+    const std::lock_guard lock(mutex_);
+    ++generation_;
+    wanted_.clear();
+    unmeasured_.clear();
+    finished_.clear();
+    sources_.clear();
+    for (Source& source : sources)
+        sources_.emplace_back().Source::operator=(std::move(source));
+    if (!sources_.empty() && !thread_.joinable())
+        thread_ = std::thread([this] { run(); });
+}
+
+void ProgramWorker::compile(size_t source, std::string text, double changed) {
+    {
+        const std::lock_guard lock(mutex_);
+        ++sources_[source].version;
+        wanted_[source] = {std::move(text), changed};
+    }
+    wake_.notify_all();
+}
+
+void ProgramWorker::forget(size_t source) {
+    const std::lock_guard lock(mutex_);
+    ++sources_[source].version;
+    wanted_.erase(source);
+}
+
+void ProgramWorker::measure(size_t source, std::shared_ptr<const SurfaceProgram> program) {
+    {
+        const std::lock_guard lock(mutex_);
+        unmeasured_[source] = std::move(program);
+    }
+    wake_.notify_all();
+}
+
+std::vector<ProgramReport> ProgramWorker::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(finished_, {});
+}
+
+void ProgramWorker::run() {
+    while (!stop_) {
+        std::optional<Job> job = next();
+        if (!job)
+            job = changedFile();
+        if (job && job->report.program == nullptr)
+            compileNow(*std::move(job));
+        else if (job)
+            finish(*std::move(job));
+    }
+}
+
+/// Texts first: they are waited for, costs are not.
+std::optional<ProgramWorker::Job> ProgramWorker::next() {
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, kLookEvery, [this] { return stop_ || !wanted_.empty() || !unmeasured_.empty(); });
+    Job job{.generation = generation_};
+    if (stop_ || (wanted_.empty() && unmeasured_.empty()))
+        return std::nullopt;
+    if (wanted_.empty()) {
+        job.report.source = unmeasured_.begin()->first;
+        job.report.program = std::move(unmeasured_.begin()->second);
+        job.report.text = job.report.program->text;
+        unmeasured_.erase(unmeasured_.begin());
+        return job;
+    }
+    const auto& [source, wanted] = *wanted_.begin();
+    job.report = {.source = source, .text = wanted.text, .changed = wanted.changed};
+    job.name = sources_[source].name;
+    job.file = sources_[source].file;
+    job.version = sources_[source].version;
+    wanted_.erase(wanted_.begin());
+    return job;
+}
+
+std::optional<ProgramWorker::Job> ProgramWorker::changedFile() {
+    std::vector<Known> sources;
+    uint64_t generation = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        sources = sources_;
+        generation = generation_;
+    }
+    for (size_t s = 0; s < sources.size() && !stop_; ++s) {
+        Known& watched = sources[s];
+        if (watched.file.empty())
+            continue;
+        std::error_code problem, other;
+        const std::pair now(std::filesystem::last_write_time(watched.file, problem),
+                            std::filesystem::file_size(watched.file, other));
+        if (problem || other || now == watched.seen)
+            continue;
+        std::optional<std::string> text = textIn(watched.file);
+        if (!text)
+            continue;
+        const bool changed = *text != watched.text;
+        {
+            const std::lock_guard lock(mutex_);
+            if (generation != generation_)
+                return std::nullopt;
+            sources_[s].seen = now;
+            sources_[s].text = *text;
+        }
+        if (changed)
+            return Job{.report = {.source = s,
+                                  .text = *std::move(text),
+                                  .fromFile = true,
+                                  .changed = secondsNow() - ageOf(now.first)},
+                       .name = watched.name,
+                       .file = watched.file,
+                       .generation = generation};
+    }
+    return std::nullopt;
+}
+
+bool ProgramWorker::superseded(const Job& job) {
+    const std::lock_guard lock(mutex_);
+    return stop_ || generation_ != job.generation ||
+           (!job.report.fromFile && sources_[job.report.source].version != job.version);
+}
+
+void ProgramWorker::compileNow(Job job) {
+    ProgramReport& report = job.report;
+    try {
+        auto compiled =
+            compileSurfaceProgram(job.name, report.text, job.file, [&] { return superseded(job); });
+        (void)program::translated(compiled->source, compiled->spirv); // the hand must be able to run it, too
+        report.program = std::move(compiled);
+    } catch (const Cancelled&) {
+        return;
+    } catch (const Error& error) {
+        report.line = lineOf(error.place());
+        report.problem = error.problem() + (error.remedy().empty() ? "" : "; " + error.remedy());
+    } catch (const std::exception& error) {
+        report.problem = error.what();
+    }
+    const std::lock_guard lock(mutex_);
+    if (generation_ == job.generation)
+        finished_.push_back(std::move(report));
+}
+
+void ProgramWorker::finish(Job job) {
+    try {
+        job.report.cost = costOf(*job.report.program);
+    } catch (const std::exception&) { // the hand cannot run it: its surface is plain
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    if (generation_ == job.generation)
+        finished_.push_back(std::move(job.report));
+}
+
+} // namespace touchstone
