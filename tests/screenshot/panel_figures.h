@@ -2,6 +2,7 @@
 // What the panels show in tests: figures that stand still.
 
 #include "devices/mouse/mouse_device.h"
+#include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"
 #include "workbench/dialog/file_dialog.h"
 #include "workbench/editor/material_controller.h"
@@ -78,19 +79,29 @@ class PanelFigures {
         input_.tick = &timeline_.tick();
     }
 
+    /// The list of recordings is read: one of a person and one that a fault left.
+    void listRecordings() {
+        writeItems(recordings_ / "20261125-043020.tsrec", recordedTouches());
+        writeTextFile(recordings_ / "2026-11-23_06.14.18_fault.tsrec", "this is no recording");
+        while (timeline_.list().recordings().size() < 2)
+            timeline_.update({.now = now_ += 3.0, .live = &forces_, .listed = true});
+    }
+
     Model model_;
     MaterialController controller_;
     ServoView servo_;
     ForceHistory forces_{10000};
     MouseDevice hand_;
     PlaybackDevice again_{hand_};
-    TimelineController timeline_{again_, {}};
+    ScratchFolder recordings_; ///< listed
+    TimelineController timeline_{again_, {recordings_.path()}};
     FileDialog dialog_;
     PanelInput input_;
     PanelState state_;
     std::map<std::string, WidgetRect> rects_;
 
   private:
+    double now_ = 0.0; ///< s
     /// A touch that comes and goes, for the charts.
     void touchForTenSeconds() {
         TickRecord tick;

@@ -53,6 +53,7 @@ class PanelLayout : public ::testing::Test, protected PanelFigures {
         material_.probed = 0;
         lookAt(scratch_ / "recording.tsrec");
         timeline_.leave();
+        listRecordings();
         input_.tick = &servo_.last;
     }
     void TearDown() override { end(); }
@@ -99,6 +100,13 @@ class PanelLayout : public ::testing::Test, protected PanelFigures {
         ImGui::GetIO().MousePos = ImVec2(-1e6f, -1e6f);
     }
 
+    /// The editor is open on a material with a haptic program.
+    void showProgram() {
+        state_.editMaterials = true;
+        material_.scene = program_.scene.get();
+        controller_.open(program_, false);
+    }
+
     /// Calls `check` with the name of each state, after it has come to rest.
     void inEveryState(const Size& size, const std::function<void(const std::string&)>& check);
 
@@ -109,6 +117,7 @@ class PanelLayout : public ::testing::Test, protected PanelFigures {
     std::vector<GalleryEntry> entries_;
     MaterialPanelInput material_;
     MaterialPanelState materialState_;
+    Model program_ = loadModel(TOUCHSTONE_ASSETS "/wood.glb", Fit::Workspace);
 };
 
 constexpr Size kSizes[]{{640, 400, 1.0f},  {900, 600, 1.0f},   {1280, 800, 1.0f},
@@ -198,7 +207,28 @@ void PanelLayout::inEveryState(const Size& size, const std::function<void(const 
             state_.folds.right = true;
         },
         [&] { click("stroke"); });
+    in("the editor of a program", [&] { showProgram(); });
+    in("the editor of a program and its text", [&] {
+        state_.editMaterials = true;
+        materialState_.program.open = true;
+    });
+    in("the editor of a program and its wrong text", [&] {
+        state_.editMaterials = true;
+        controller_.programs().type(
+            0, "void touch(const in Touch before, inout Surface after) {\n    after.force = "
+               "vec3(an_input_that_nobody_has_declared_anywhere);\n}\n");
+        while (controller_.programs().pending())
+            (void)controller_.update(program_);
+    });
+    materialState_ = {};
+    material_.scene = model_.scene.get();
+    controller_.open(model_, false);
     in("the panels worked by keys", [&] { state_.walking = true; });
+    in("the list of recordings", [&] { state_.timeline.shown = true; });
+    in("a recording is to be deleted", [&] {
+        state_.timeline.shown = true;
+        state_.timeline.deleting = timeline_.list().recordings().front().file;
+    });
     in("a recording", [&] {
         lookAt(scratch_ / "recording.tsrec");
         state_.folds.left = state_.folds.right = true;
@@ -231,7 +261,7 @@ TEST_F(PanelLayout, NoTextIsCutCoveredOrTooSmallInAnyStateAtAnySize) {
                 ADD_FAILURE() << size.width << 'x' << size.height << " at scale " << size.scale << ", "
                               << state << ": " << complaint;
         });
-    EXPECT_EQ(states, 132);
+    EXPECT_EQ(states, 162);
 }
 
 /// Containers of others, and what floats over them.

@@ -61,6 +61,11 @@ std::string utf8(unsigned code) {
     return ImTextCharToUtf8(text, code);
 }
 
+/// A text of any width that is typed, and scrolls.
+bool isTypedText(std::string_view window) {
+    return window.find("/##program_") != std::string_view::npos;
+}
+
 class Audit {
   public:
     explicit Audit(float smallest) : smallest_(smallest) {}
@@ -83,6 +88,8 @@ class Audit {
     /// A quad of four corners in the order that ImGui's texts have, with a texture that varies both ways.
     void list(const ImDrawList& list) {
         owner_ = list._OwnerName != nullptr ? list._OwnerName : "background";
+        if (isTypedText(owner_))
+            return;
         const ImGuiWindow* const window = ImGui::FindWindowByName(owner_.c_str());
         scrolls_ = window != nullptr && window->ScrollMax.y > 0.0f;
         runs_.clear();
@@ -146,6 +153,8 @@ class Audit {
 
     /// Widgets without text, too.
     void content(const ImGuiWindow& window) {
+        if (isTypedText(window.Name))
+            return;
         const ImRect inner = window.InnerRect;
         const float right = window.DC.CursorStartPos.x + window.Scroll.x + window.ContentSize.x,
                     below = window.DC.CursorStartPos.y + window.Scroll.y + window.ContentSize.y;

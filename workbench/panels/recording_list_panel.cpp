@@ -42,15 +42,10 @@ void act(TimelinePanelState& state, const std::string& done, const std::function
     }
 }
 
-/// A cell with what does not fit as its tooltip.
-void cell(const std::string& text, ImU32 color) {
+/// A cell in as many lines as the text needs.
+void cell(const std::string& text, ImU32 color, const Widgets& widgets) {
     ImGui::TableNextColumn();
-    const float room = ImGui::GetContentRegionAvail().x;
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-    if (ImGui::CalcTextSize(text.c_str()).x > room && ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", text.c_str());
+    widgets.wrapped(text, color);
 }
 
 /// The name while it is typed: Enter renames, Escape or a click elsewhere leaves it.
@@ -131,18 +126,23 @@ void row(const RecordingFacts& facts, bool narrow, TimelineController& controlle
         nameField(facts, controller, state, widgets);
     } else {
         const bool open = controller.looking() && controller.timeline().file() == facts.file;
-        if (ImGui::Selectable(facts.file.stem().c_str(), open))
+        const std::string lines = brokenLines(facts.file.stem().string(), ImGui::GetContentRegionAvail().x);
+        // No higher than its row.
+        const ImGuiStyle& style = ImGui::GetStyle();
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, 2.0f * style.CellPadding.y});
+        if (ImGui::Selectable((lines + "###open").c_str(), open))
             state.open = facts.file;
+        ImGui::PopStyleVar();
         widgets.mark(("recording:" + name).c_str(), facts.file.string());
     }
     if (narrow) {
         factsBelow(facts, remarkColor, widgets);
     } else {
         const bool opens = facts.problem.empty();
-        cell(facts.date, grey);
-        cell(opens ? lengthText(facts) : "", text);
-        cell(opens ? modelOf(facts) : "", text);
-        cell(remarkOf(facts), remarkColor);
+        cell(facts.date, grey, widgets);
+        cell(opens ? lengthText(facts) : "", text, widgets);
+        cell(opens ? modelOf(facts) : "", text, widgets);
+        cell(remarkOf(facts), remarkColor, widgets);
     }
     ImGui::TableNextColumn();
     rowButtons(facts, name, controller, state, widgets);

@@ -151,12 +151,17 @@ TEST_F(ProgramWindow, TextIsTypedParametersAreDraggedAndBothAreKeptOnSave) {
     const Json typed = untilFeltAndSeen(1);
     std::printf("last key to felt %.3f s, to seen %.3f s\n", programOf(typed)["felt_after_s"].get<double>(),
                 programOf(typed)["seen_after_s"].get<double>());
-    EXPECT_EQ(typed["settings"]["forceEnabled"], "on") << "Space was for the text";
-    untilColour(2);
+    // Space takes the force away wherever it is typed; it is given back by a click.
+    until("no force", [](const Json& s) { return s["settings"]["forceEnabled"] == "off"; });
+    later();
+    display_.click(middleOf("forceEnabled"));
+    until("the force", [](const Json& s) { return s["settings"]["forceEnabled"] == "on"; });
+    display_.click(middleOf("program.text"));
+    later();
     EXPECT_NEAR(force() / softer, 1.0, 0.15) << "the dragged value holds for the new text";
 
     // Broken: nothing changes, and Save says where.
-    typeAtTheEnd(1, "nonsense; }");
+    typeAtTheEnd(1, "nonsense;}");
     const Json broken =
         untilProgram("the problem", [](const Json& p) { return !p["problem"].get<std::string>().empty(); });
     EXPECT_EQ(programOf(broken)["line"], 5) << programOf(broken).dump();
@@ -164,8 +169,7 @@ TEST_F(ProgramWindow, TextIsTypedParametersAreDraggedAndBothAreKeptOnSave) {
     display_.key("ctrl+s");
     const Json refused = until("to be told", [](const Json& s) { return s["materials"]["notice"] != ""; });
     EXPECT_NE(refused["materials"]["notice"].get<std::string>().find("line 5"), std::string::npos);
-    untilColour(2);
-    typeAtTheEnd(11, "}");
+    typeAtTheEnd(10, "}");
     untilProgram("it to be right again",
                  [](const Json& p) { return p["problem"] == "" && !p["compiling"].get<bool>(); });
     display_.key("ctrl+s");
