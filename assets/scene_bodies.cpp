@@ -1,4 +1,5 @@
 #include "assets/glb_writer.h"
+#include "assets/picture.h"
 #include "assets/scenes.h"
 
 #include <array>
@@ -33,6 +34,24 @@ class BodyScene {
                                   {{"baseColorFactor", {color[0], color[1], color[2], 1.0}},
                                    {"metallicFactor", metal},
                                    {"roughnessFactor", roughness}}}});
+    }
+    /// Grooves across u, 0.3 mm deep, and friction.
+    int grooved(const char* name, std::array<double, 3> color) {
+        const int height = glb_.addTexture(
+            "grooves",
+            png(heightMap([](double u, double) { return 0.5 + 0.5 * std::sin(8.0 * std::numbers::pi * u); },
+                          128)));
+        return glb_.addMaterial(
+            {{"name", name},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", {color[0], color[1], color[2], 1.0}},
+               {"metallicFactor", 0.0},
+               {"roughnessFactor", 0.5}}},
+             {"extensions",
+              {{"TOUCHSTONE_materials_haptic",
+                {{"staticFriction", 0.5},
+                 {"dynamicFriction", 0.4},
+                 {"heightTexture", {{"index", height}, {"scale", 0.0003}, {"midLevel", 0.5}}}}}}}});
     }
     int surface(double friction, double restitution = 0.0) {
         materials_.push_back(
@@ -236,14 +255,21 @@ SceneFile seesaw() {
     return scene.finish();
 }
 
-/// [000 Fig. 11]: what is pressed, thrown, pushed and turned.
+/// [000 Fig. 11]: what is pressed, thrown, pushed and turned, and sets what the sample behind it feels like.
 SceneFile panel() {
-    BodyScene scene("panel", "a button, a switch, a slider and a knob");
+    BodyScene scene("panel",
+                    "button: friction; switch: texture; slider: stiffness; knob: texture's strength");
     (void)scene.surface(0.4);
     const int grey = scene.paint("panel", {0.55, 0.57, 0.60});
     const int base =
         scene.node("panel", scene.mesh("panel", box({0.15, 0.01, 0.08}), grey), {0.0, -0.02, 0.0});
     constexpr double kTop = 0.005; // of the panel, in its frame
+    scene.node("stand", scene.mesh("stand", box({0.15, 0.012, 0.03}), grey), {0.0, -0.0195, -0.056});
+    Shape grooves = plane(0.15, 0.03);
+    for (glm::vec2& uv : grooves.uv) // a wave is 3.75 mm long
+        uv *= glm::vec2(10.0f, 2.0f);
+    scene.node("sample", scene.mesh("sample", grooves, scene.grooved("sample", {0.62, 0.55, 0.42})),
+               {0.0, -0.0134, -0.056});
     const auto part = [&](const char* name, const Shape& shape, std::array<double, 3> color, glm::dvec3 at,
                           double mass, Json joint, const std::vector<double>& rotation = {}) {
         const int body = scene.node(name, scene.mesh(name, shape, scene.paint(name, color, 0.4)),
@@ -265,22 +291,34 @@ SceneFile panel() {
                                      {"positionTarget", 0.002},
                                      {"stiffness", 200.0},
                                      {"damping", 1.0}}});
+    button =
+        ours(std::move(button), {{"setting", "friction"}, {"values", {"zilles", "off"}}, {"press", true}});
     part("button", prism(32, 0.011, 0.008, true), {0.75, 0.20, 0.16}, {-0.053, kTop + 0.005, 0.0}, 0.01,
          button);
     // A switch: it rests at either end.
     part("switch", box({0.008, 0.02, 0.014}), {0.15, 0.15, 0.17}, {-0.018, kTop + 0.009, 0.0}, 0.01,
-         ours(scene.freeAxis(5, -0.4, 0.4),
-              {{"detents", {-0.35, 0.35}}, {"detentForce", 0.012}, {"friction", 0.0005}}));
+         ours(scene.freeAxis(5, -0.4, 0.4), {{"detents", {-0.35, 0.35}},
+                                             {"detentForce", 0.012},
+                                             {"friction", 0.0005},
+                                             {"setting", "texture"},
+                                             {"values", {"law", "off"}}}));
     // A slider: 24 mm of way, held by friction.
     part("slider", box({0.010, 0.014, 0.008}), {0.90, 0.75, 0.25}, {0.014, kTop + 0.008, 0.0}, 0.01,
-         ours(scene.freeAxis(2, -0.024, 0.024), {{"friction", 0.25}}));
-    // A knob: twelve detents a turn.
-    Json detents = Json::array();
-    for (int i = -60; i <= 60; ++i)
+         ours(scene.freeAxis(2, -0.024, 0.024),
+              {{"friction", 0.25}, {"setting", "stiffness"}, {"from", 1500.0}, {"to", 200.0}}));
+    // A knob: a detent every 30 degrees, from 0 to 1 in tenths.
+    Json detents = Json::array(), strengths = Json::array();
+    for (int i = -5; i <= 5; ++i) {
         detents.push_back(i * std::numbers::pi / 6.0);
+        strengths.push_back(std::to_string(5 - i) == "10" ? "1" : "0." + std::to_string(5 - i));
+    }
     part("knob", prism(12, 0.014, 0.014, false), {0.20, 0.35, 0.60}, {0.052, kTop + 0.008, 0.0}, 0.03,
-         ours(scene.freeAxis(4, 0.0, 0.0),
-              {{"detents", detents}, {"detentForce", 0.01}, {"friction", 0.001}}));
+         ours(scene.freeAxis(4, -5.2 * std::numbers::pi / 6.0, 5.2 * std::numbers::pi / 6.0),
+              {{"detents", detents},
+               {"detentForce", 0.01},
+               {"friction", 0.001},
+               {"setting", "textureStrength"},
+               {"values", strengths}}));
     return scene.finish();
 }
 

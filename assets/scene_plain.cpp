@@ -100,6 +100,7 @@ std::vector<SceneFile> allScenes() {
     scenes.push_back(effects());
     scenes.push_back(moving());
     scenes.push_back(breathing());
+    scenes.push_back(jellyDoughnut());
     scenes.push_back(virtualBump());
     scenes.push_back(fieldTorus());
     scenes.push_back(materials());

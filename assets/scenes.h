@@ -30,6 +30,9 @@ struct SceneFile {
 /// twists the stalk.
 [[nodiscard]] SceneFile breathing();
 
+/// The doughnut of 64,800 triangles, which gives way under the hand (docs/deforming.md, Local deformation).
+[[nodiscard]] SceneFile jellyDoughnut();
+
 /// Spheres, lines and points before a plate: all supported appearances.
 [[nodiscard]] SceneFile materials();
 

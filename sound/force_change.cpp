@@ -43,7 +43,12 @@ ForceRates ForceChange::add(const SoundTick& tick) noexcept {
     const glm::dvec3 pressing = meanForce_ / (glm::length(meanForce_) + kFaint);
     const glm::dvec3 across = meanVelocity_ - glm::dot(meanVelocity_, pressing) * pressing;
     const glm::dvec3 dragging = across / (glm::length(across) + kSlow);
-    return {static_cast<float>(glm::dot(rate, pressing)), static_cast<float>(glm::dot(rate, dragging))};
+    // Bodies that meet exert their impulse within the tick. It has no direction of the hand's: it is
+    // pressing.
+    const double met = meeting_;
+    meeting_ = std::max(tick.impact - kResting, 0.0) / tick.dt;
+    return {static_cast<float>(glm::dot(rate, pressing) + (meeting_ - met) / tick.dt),
+            static_cast<float>(glm::dot(rate, dragging))};
 }
 
 } // namespace touchstone

@@ -25,6 +25,8 @@ class ForceChange {
     static constexpr double kSlow = 0.005;
     /// N: a mean force not well above it has no direction.
     static constexpr double kFaint = 1e-4;
+    /// N s: a weaker impact is what bodies that rest do to each other from tick to tick.
+    static constexpr double kResting = 2e-4;
 
     [[nodiscard]] ForceRates add(const SoundTick& tick) noexcept;
     /// Discards the history.
@@ -37,6 +39,7 @@ class ForceChange {
     glm::dvec3 position_{0.0}, meanForce_{0.0}, meanVelocity_{0.0};
     glm::dvec3 band_{0.0}, low_{0.0}; // of the high-pass
     glm::dvec3 quick_{0.0};           // force above kLowest, of the previous tick
+    double meeting_ = 0.0;            // N, of bodies in the previous tick
     double filterDt_ = 0.0, filterGain_ = 0.0, meanShare_ = 0.0;
 };
 

@@ -10,6 +10,7 @@ struct SoundTick {
     double dt = 1e-3;         ///< s since the previous tick
     glm::dvec3 position{0.0}; ///< m, of the hand, workspace
     glm::dvec3 force{0.0};    ///< N, workspace: the commanded force, after safety
+    double impact = 0.0;      ///< N s, of bodies that met in the tick (docs/sound.md, Impacts)
     bool handKnown = true;    ///< false: `position` is invalid
 };
 

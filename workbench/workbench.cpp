@@ -106,6 +106,8 @@ void WorkbenchWindow::frame() {
     touch_.update(start);
     if (touch_.feelsWhole())
         materials_.programs().feltAt(materials_.touched(), secondsNow());
+    if (!timeline_.looking())
+        touch_.operate(state_.settings);
     // While a recording is open the force is off: then the key only switches it off for afterwards.
     state_.settings.forceEnabled =
         forceKey_.settle(state_.settings.forceEnabled, !ImGui::GetIO().WantTextInput && !timeline_.looking(),
@@ -236,8 +238,9 @@ int windowCommand(const WindowOptions& options) {
     if (!options.device.empty())
         requireDevice(options.device, "mouse, hand (the simulated one)");
     WorkbenchWindow workbench(options);
-    workbench.open(options.scene.empty() ? defaultScene() : options.scene,
-                   {.iso = options.iso, .volume = nullptr, .animation = options.animation});
+    workbench.open(
+        options.scene.empty() ? defaultScene() : options.scene,
+        {.iso = options.iso, .volume = nullptr, .animation = options.animation, .loose = options.loose});
     while (!workbench.closed())
         workbench.frame();
     return 0;

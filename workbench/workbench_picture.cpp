@@ -24,6 +24,7 @@ void WorkbenchWindow::draw() {
                   .looksBack = timeline_.looking(),
                   .covered = state_.gallery || state_.leaving.has_value() || dialog_.covers(),
                   .sculpts = state_.sculpt.on && touch_.sculpt().possible(),
+                  .grasps = state_.settings.grasp == GraspMode::Button,
                   .look = [this](const Ray& ray) { return touch_.look(ray, state_.settings); }},
                  state_.view);
     showPart(area, points, widgets);
@@ -205,6 +206,11 @@ void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& wi
         touch_.recording().toggle();
     if (touch_.hasBodies() && !timeline_.looking() && keyPressed(keyOf('r')))
         touch_.resetBodies();
+    if (touch_.hasBodies() && !timeline_.looking() && keyPressed(keyOf('j'))) {
+        const bool grasps = state_.settings.grasp == GraspMode::Off;
+        state_.settings.grasp = grasps ? GraspMode::Button : GraspMode::Off;
+        state_.view.freeHand = grasps; // a held body goes where the hand does
+    }
     if (std::exchange(state_.cancelPressed, false))
         opening_.cancel(screen_.renderer()), timeline_.cancelOpening();
     if (std::exchange(state_.dismissPressed, false))

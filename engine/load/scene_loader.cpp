@@ -13,6 +13,7 @@
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/import/volume_file/volume_import.h"
 #include "engine/import/volume_file/volume_scene.h"
+#include "engine/load/loose_bodies.h"
 #include "engine/save/material_patch.h"
 #include "engine/scene/haptic_layers.h"
 
@@ -81,11 +82,16 @@ ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
     bytes = asGltf(context, std::move(bytes));
     std::string edits = context.options().edits;
     std::optional<std::string> animation = takeAnimation(edits);
+    const bool loose = takeLoose(edits);
     if (context.options().animation)
         animation = context.options().animation;
     if (!edits.empty())
         bytes = withMaterials(bytes, patchesFrom(edits), context.file());
-    return importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp, animation);
+    const auto scene =
+        importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp, animation);
+    if (loose)
+        loosen(*scene);
+    return scene;
 }
 
 /// The surface becomes a mesh for the eye; the hand feels the volume.

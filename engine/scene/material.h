@@ -72,6 +72,9 @@ struct HapticMaterial {
     Field<float> dynamicFriction;        ///< 1
     Field<float> viscousFriction;        ///< N·s/m
     Field<float> normalTextureInfluence; ///< 0..1, felt fraction of the core normal map
+    /// LocalDeformation's numbers (engine/scene/local_deformation.h).
+    Field<float> deformationRadius, deformationStiffness, deformationLinear, deformationQuadratic,
+        relaxationTime;
     Field<HeightMap> height;
     Field<FactorMap> friction, stiffnessMap, dampingMap;
     ShadingChoice forceShading = ShadingChoice::Auto;
@@ -86,7 +89,8 @@ struct HapticMaterial {
 /// The statements of TOUCHSTONE_materials_haptic about a material, field by field; an empty one is left out.
 struct HapticStatement {
     std::optional<float> stiffness, damping, retardationTime, staticFriction, dynamicFriction,
-        viscousFriction, normalTextureInfluence;
+        viscousFriction, normalTextureInfluence, deformationRadius, deformationStiffness, deformationLinear,
+        deformationQuadratic, relaxationTime;
     std::optional<HeightMap> height;
     std::optional<FactorMap> friction, stiffnessMap, dampingMap;
     std::optional<ShadingChoice> forceShading;

@@ -37,6 +37,7 @@ struct Body {
     glm::dvec3 velocity{0.0}; ///< m/s
     glm::dvec3 spin{0.0};     ///< rad/s
     double gravityFactor = 1.0;
+    double drag = 0.0; ///< 1/s: what is left alone loses its velocity at this rate
 };
 
 enum class ColliderShape : uint8_t { Box, Sphere, Capsule, Cylinder, Hull, Mesh };
@@ -71,6 +72,16 @@ struct JointAxis {
     [[nodiscard]] bool limited() const { return min > -1e300 || max < 1e300; }
 };
 
+/// A setting of the session that the free axis of a joint sets while it is moved by hand.
+struct JointSetting {
+    std::string name; ///< as `--set` takes it; empty: none
+    /// One at each detent where there are as many, else the axis' range in equal parts. Empty: a number from
+    /// `from` at the lower limit to `to` at the upper one.
+    std::vector<std::string> values;
+    double from = 0.0, to = 0.0;
+    bool steps = false; ///< a button: each time that it is pressed goes to the next value
+};
+
 /// Holds the frame of one node to that of another: the pose of `connected` in the frame of `node`.
 struct Joint {
     std::string name;
@@ -84,6 +95,7 @@ struct Joint {
     double friction = 0.0;       ///< N or N m: Coulomb friction of the free axis
     std::vector<double> detents; ///< m or rad, ascending
     double detentForce = 0.0;    ///< N or N m: greatest force back into a detent
+    JointSetting setting;
 };
 
 struct Physics {
@@ -91,9 +103,10 @@ struct Physics {
     std::vector<Body> bodies; ///< at least one that is not kinematic
     std::vector<Collider> colliders;
     std::vector<Joint> joints;
+    bool loose = false; ///< the bodies are not only those of the file (engine/load/loose_bodies.h)
 };
 
 /// Bodies, colliders and joints that an import keeps.
-inline constexpr size_t kMaxBodies = 2048, kMaxColliders = 16384, kMaxJoints = 1024;
+inline constexpr size_t kMaxBodies = 2048, kMaxColliders = 16384, kMaxBodyJoints = 1024;
 
 } // namespace touchstone

@@ -37,6 +37,7 @@ struct BodyJoint {
     double pitch = 0.0; ///< m per turn; 0: no thread
     double friction = 0.0, detentForce = 0.0;
     std::vector<double> detents;
+    JointSetting setting;
     std::array<double, 8> impulse{};            ///< N s, of the last step: six axes, thread, friction
     std::array<double, 3> turns{}, lastAngle{}; ///< whole turns about each axis, since angles wrap; rad
 };

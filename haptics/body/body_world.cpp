@@ -123,6 +123,15 @@ void BodyWorld::sleep(int body) noexcept {
     settled_.push_back(body);
 }
 
+/// Where what pushes the body in this tick is summed.
+BodyWorld::Touch& BodyWorld::touchOf(int body) noexcept {
+    Touch& touch = touches_[static_cast<size_t>(body)];
+    if (!touch.listed)
+        touched_.push_back(body);
+    touch.listed = true;
+    return touch;
+}
+
 void BodyWorld::push(int object, const glm::dvec3& point, const glm::dvec3& force,
                      double stiffness) noexcept {
     const int body = bodyOfObject_[static_cast<size_t>(object)];
@@ -132,16 +141,23 @@ void BodyWorld::push(int object, const glm::dvec3& point, const glm::dvec3& forc
     if (masses_[b].inverse == 0.0)
         return;
     wake(body);
-    Touch& touch = touches_[b];
-    if (touch.force == glm::dvec3(0.0) && touch.stiffness == 0.0)
-        touched_.push_back(body);
+    Touch& touch = touchOf(body);
     touch.force += force;
     touch.torque += glm::cross(point - states_[b].pose.position, force);
     touch.point = point;
     touch.stiffness += stiffness;
 }
 
+void BodyWorld::turn(int object, const glm::dvec3& torque) noexcept {
+    const int body = bodyOf(object);
+    if (body < 0 || torque == glm::dvec3(0.0) || masses_[static_cast<size_t>(body)].inverse == 0.0)
+        return;
+    wake(body);
+    touchOf(body).torque += torque;
+}
+
 void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) noexcept {
+    met_ = 0.0;
     if (awake_.empty())
         return;
     const bool euler = integrator == BodyIntegrator::Explicit;
@@ -162,6 +178,11 @@ void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) 
         if (mass.inverse == 0.0)
             continue;
         state.velocity.y += fall * mass.gravityFactor;
+        if (mass.drag > 0.0) [[unlikely]] {
+            const double left = 1.0 / (1.0 + dt * mass.drag);
+            state.velocity *= left;
+            state.spin *= left;
+        }
     }
     for (const int body : touched_) {
         const auto b = static_cast<size_t>(body);
@@ -192,7 +213,8 @@ void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) 
     const SolverState s{states_, masses_, active_};
     solver_->applySprings(s, integrator, dt);
     solver_->solve(s, integrator, dt);
-    impact_ = std::max(impact_, solver_->impact());
+    met_ = solver_->impact();
+    impact_ = std::max(impact_, met_);
     for (const int body : awake_) {
         const auto b = static_cast<size_t>(body);
         BodyState& state = states_[b];

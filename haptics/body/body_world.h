@@ -59,6 +59,14 @@ class BodyWorld {
     /// Force (N) on an object at a point, both in the workspace. `stiffness`: N/m, of the touch that exerts
     /// it.
     void push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept;
+    /// Torque (N m, workspace) on the same object.
+    void turn(int object, const glm::dvec3& torque) noexcept;
+    /// The body of a haptic object; -1: none.
+    [[nodiscard]] int bodyOf(int object) const noexcept {
+        return object >= 0 && static_cast<size_t>(object) < bodyOfObject_.size()
+                   ? bodyOfObject_[static_cast<size_t>(object)]
+                   : -1;
+    }
     /// The state after `dt` s, under the forces since the last call.
     void integrate(BodyIntegrator integrator, double gravity, double dt) noexcept;
 
@@ -105,6 +113,8 @@ class BodyWorld {
     /// Everything that moves: kinetic, of gravity (0 at the workspace's origin) and of the joints' springs,
     /// J.
     [[nodiscard]] double energy(double gravity) const noexcept;
+    /// N s, the largest impulse of two bodies that met in the last `integrate`.
+    [[nodiscard]] double impact() const noexcept { return met_; }
     [[nodiscard]] const std::shared_ptr<BodyPublication>& publication() const noexcept {
         return publication_;
     }
@@ -118,8 +128,10 @@ class BodyWorld {
     friend class BodyBuilder;
     BodyWorld() = default;
     void finish();
+    struct Touch;
     void adopt(const FinderOutput& output) noexcept;
     void sleep(int body) noexcept;
+    [[nodiscard]] Touch& touchOf(int body) noexcept;
     [[nodiscard]] int islandOf(int body) noexcept;
     void writeBody(int body, std::span<ObjectMotion> motions, bool first) noexcept;
     void fillInput(FinderInput& input) const noexcept;
@@ -130,6 +142,7 @@ class BodyWorld {
         glm::dvec3 force{0.0}, torque{0.0}; ///< N, N m about the centre of mass
         glm::dvec3 point{0.0};              ///< workspace, of the last force
         double stiffness = 0.0;             ///< N/m, the sum
+        bool listed = false;                ///< in touched_
     };
 
     std::vector<std::string> names_;
@@ -170,7 +183,7 @@ class BodyWorld {
     uint32_t found_ = 0, repeat_ = 0;
     int unpublished_ = 3;
     bool stirs_ = false; ///< a body woke: it has no contacts yet
-    double impact_ = 0.0;
+    double impact_ = 0.0, met_ = 0.0;
 };
 
 } // namespace touchstone::body

@@ -3,6 +3,7 @@
 #include "engine/math/nearest_similarity.h"
 #include "engine/scene/animation.h"
 #include "haptics/body/body_world.h"
+#include "haptics/body/joint_settings.h"
 #include "haptics/body/mass_properties.h"
 
 #include <algorithm>
@@ -145,6 +146,7 @@ void BodyBuilder::readBody(size_t b) {
     BodyMass mass;
     BodyState state;
     mass.gravityFactor = stated.gravityFactor;
+    mass.drag = stated.drag;
     if (!(moments.volume > 0.0)) {
         if (!stated.kinematic && !(stated.mass && stated.inertia))
             warn("physics", "body '" + stated.name + "' has no volume: a ball of 1 cm stands for it");
@@ -274,6 +276,13 @@ std::vector<BodyJoint> BodyBuilder::joints() {
         joint.friction = stated.friction * unit;
         joint.detentForce = stated.detentForce * unit;
         joint.detents = stated.detents;
+        if (!stated.setting.name.empty()) {
+            const std::string problem = settingProblem(stated.setting);
+            if (problem.empty())
+                joint.setting = stated.setting;
+            else
+                warn("joint '" + stated.name + "'", "sets nothing: " + problem);
+        }
         if (joint.freeAxis < 3)
             for (double& place : joint.detents)
                 place *= length;

@@ -47,6 +47,7 @@ struct BodyMass {
     glm::dvec3 inertia{0.0};        ///< kg m^2, principal; 0 with inverseInertia 0: infinite
     glm::dvec3 inverseInertia{0.0}; ///< 1/(kg m^2)
     double gravityFactor = 1.0;
+    double drag = 0.0;   ///< 1/s
     double radius = 0.0; ///< m, of a ball about the centre of mass that holds the body
 };
 

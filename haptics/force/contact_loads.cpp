@@ -2,6 +2,7 @@
 
 #include "haptics/force/spring_damper.h"
 #include "haptics/shading/turned_normal.h"
+#include "haptics/surface/press_dents.h"
 #include "haptics/surface/program_surface.h"
 
 #include <algorithm>
@@ -37,10 +38,15 @@ glm::dvec3 materialForce(const ContactLoad& contact) {
 
 /// f_i.
 glm::dvec3 contactForce(const ContactLoad& contact) {
-    if (!contact.feel.programmed) [[likely]]
-        return materialForce(contact);
-    const double reach = reachOf(contact);
-    return withProgram(contact.feel, materialForce(contact), reach > 0.0 ? contact.feel.depth / reach : 1.0);
+    const SurfaceSample& feel = contact.feel;
+    glm::dvec3 force = materialForce(contact);
+    if (feel.programmed) [[unlikely]] {
+        const double reach = reachOf(contact);
+        force = withProgram(feel, force, reach > 0.0 ? feel.depth / reach : 1.0);
+    }
+    if (feel.dent > 0.0) [[unlikely]]
+        force += feel.stiffness * feel.depth * feel.dentSlope;
+    return force;
 }
 
 /// -c_i min(1, lambda_i / d_i) (v . n_i) n_i, without pulling.
@@ -65,7 +71,7 @@ bool alike(const ContactLoads& loads) {
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                const DeviceLimits& limits, int reference, const SolveResult& rest, const SubGoal& activeSet,
                bool twoPass, const glm::dvec3& offset, double workspacePerReference,
-               const glm::dvec3& velocity, double zoom, double dt, ProgramRun* programs,
+               const glm::dvec3& velocity, double zoom, double dt, ProgramRun* programs, DentPress* dents,
                ContactLoads& loads) noexcept {
     loads.count = activeSet.count;
     loads.offset = workspacePerReference * offset;
@@ -87,6 +93,11 @@ void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSett
             const double reach = reachOf(load);
             programs->part = reach > 0.0 ? load.feel.depth / reach : 1.0;
             runProgram(scene, motions, settings, limits, reference, contact, reach, *programs, load.feel);
+        }
+        if (dents != nullptr) [[unlikely]] {
+            const double whole = load.feel.depth;
+            pressDents(scene, motions, reference, contact, speed, *dents, load.feel);
+            load.depth *= whole > 0.0 ? load.feel.depth / whole : 1.0;
         }
         if (zoom > 1.0) {
             const double share = bearableShare(load.feel.stiffness, zoom, settings, limits);

@@ -13,6 +13,7 @@
 namespace touchstone {
 
 struct ProgramRun; // haptics/surface/program_surface.h
+struct DentPress;  // haptics/surface/press_dents.h
 
 /// One active plane's part in p - h = sum lambda_i n_i (p: proxy without friction, h: HIP). Reference frame,
 /// workspace m.
@@ -57,11 +58,12 @@ inline constexpr double kMaxLoad = 20.0;
 /// Reads the surface under every active plane of `hold`; with `twoPass` these are shadedPlanes. `offset`: p -
 /// h, reference object units. `velocity` of the HIP relative to the surface, m/s, reference object frame.
 /// `zoom` as in bearableShare, which limits each contact's stiffness separately: a stiffer plane that joins
-/// without load changes nothing. `programs`: null where no program runs.
+/// without load changes nothing. `programs`: null where no program runs; `dents`:
+/// where nothing gives way.
 void readLoads(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
                const DeviceLimits& limits, int reference, const SolveResult& rest, const SubGoal& activeSet,
                bool twoPass, const glm::dvec3& offset, double workspacePerReference,
-               const glm::dvec3& velocity, double zoom, double dt, ProgramRun* programs,
+               const glm::dvec3& velocity, double zoom, double dt, ProgramRun* programs, DentPress* dents,
                ContactLoads& loads) noexcept;
 
 /// F above, N, reference object frame.

@@ -15,11 +15,13 @@ glm::dvec3 springDamperForce(const SurfaceSample& feel, const glm::dvec3& fricti
     const glm::dvec3& n = feel.normal;
     const glm::dvec3& m = feel.textured;
     const double raised = feel.bump == 0.0 ? d : std::max(d + feel.bump, 0.0);
-    const glm::dvec3 elastic =
+    glm::dvec3 elastic =
         withProgram(feel,
                     feel.stiffness * (feel.hasHeight && d >= height ? (d - height) * n + height * m
                                                                     : feel.lengthening * raised * m),
                     1.0);
+    if (feel.dent > 0.0) [[unlikely]]
+        elastic += feel.stiffness * d * feel.dentSlope;
     const double into = glm::dot(velocity, n);
     const double wall = glm::dot(elastic, n);
     const double damping = std::max(-feel.damping * into, -std::max(wall, 0.0)); // a wall does not pull

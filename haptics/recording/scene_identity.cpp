@@ -81,6 +81,9 @@ void add(Hash64& hash, const HapticMaterialData& material) {
     hash.add(material.plain);
     if (material.program != nullptr)
         hash.add(material.program->identity);
+    if (const LocalDeformation& dent = material.deformation; dent.on())
+        for (const double number : {dent.radius, dent.stiffness, dent.linear, dent.quadratic, dent.time})
+            hash.add(number);
 }
 
 void add(Hash64& hash, const Animation& animation) {

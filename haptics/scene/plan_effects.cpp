@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -109,6 +110,16 @@ Verdict programVerdict(const Material& material, const HapticMaterialData& data)
     return {false, material.says.ours.shader.is_null() ? "none stated" : "the program has a flaw"};
 }
 
+Verdict deformationVerdict(const HapticMaterialData& data) {
+    const LocalDeformation& dent = data.deformation;
+    if (!dent.on())
+        return {false, "none stated"};
+    return {true,
+            "dents of " + number(1e3 * dent.radius) + " mm, " +
+                (std::isnan(dent.stiffness) ? "as stiff as the contact" : number(dent.stiffness) + " N/m") +
+                (dent.time > 0.0 ? ", " + number(dent.time) + " s" : "")};
+}
+
 } // namespace
 
 void MaterialUse::add(const HapticObject& object) {
@@ -166,6 +177,7 @@ void planMaterial(int index, const Material& material, const HapticMaterialData&
         code = data.program->memoryBytes() +
                (data.program->usesCoordinates ? std::exchange(coordinates[0], 0) : 0);
     add(Effect::Program, programVerdict(material, data), code);
+    add(Effect::LocalDeformation, deformationVerdict(data), 0);
 }
 
 const char* effectName(Effect effect) {
@@ -186,6 +198,8 @@ const char* effectName(Effect effect) {
         return "varying stiffness";
     case Effect::Program:
         return "haptic program";
+    case Effect::LocalDeformation:
+        return "local deformation";
     }
     return "";
 }
@@ -194,12 +208,12 @@ const char* effectName(Effect effect) {
 void settlePlan(HapticScene& scene) {
     EffectPlan& plan = scene.plan;
     plan.plainSample = true;
-    plan.dampingMap = plan.oneSided = plan.programs = false;
+    plan.dampingMap = plan.oneSided = plan.programs = plan.deformation = false;
     plan.anyShading = plan.twoPassShading = plan.oneFacetShading = false;
     for (HapticMaterialData& m : scene.materials)
         m.plain = m.normal.empty() && m.height.empty() && m.stiffnessMap.map.empty() &&
                   (m.dampingMap.map.empty() || !(m.damping > 0.0)) && !(m.staticFriction > 0.0) &&
-                  !(m.viscousFriction > 0.0) && m.program == nullptr;
+                  !(m.viscousFriction > 0.0) && m.program == nullptr && !m.deformation.on();
     for (const auto& object : scene.objects) {
         HapticMaterialData& m = scene.materials[static_cast<size_t>(object->material)];
         // Zero vertex damping overrides the material's damping.
@@ -209,6 +223,7 @@ void settlePlan(HapticScene& scene) {
         plan.dampingMap |= !m.dampingMap.map.empty();
         plan.oneSided |= object->oneSided;
         plan.programs |= m.program != nullptr;
+        plan.deformation |= m.deformation.on();
         const ShadingMode mode = m.shading;
         const bool shaded = object->anySmooth && mode != ShadingMode::Off;
         plan.anyShading |= shaded;
@@ -249,6 +264,9 @@ void takeOff(Effect effect, HapticMaterialData& material) {
     case Effect::Program:
         material.program = nullptr;
         return;
+    case Effect::LocalDeformation:
+        material.deformation = {};
+        return;
     }
 }
 
@@ -267,6 +285,7 @@ std::vector<float>* attributeOf(Effect effect, HapticObject& object) {
     case Effect::NormalMap:
     case Effect::ViscousFriction:
     case Effect::Program:
+    case Effect::LocalDeformation:
         break;
     }
     return nullptr;

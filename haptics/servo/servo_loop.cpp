@@ -276,6 +276,8 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
     for (DeviceState& device : touch.devices) {
         device.forgetTouch();
+        device.dents = {};
+        device.grasp = {};
         device.mustLeave = true;
         ForceLimiter::restartRamp(device.limiter);
     }
@@ -373,6 +375,7 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     if (touch.offer == nullptr) {
         std::ranges::fill(touch.outputs, HapticOutput{});
         std::ranges::fill(touch.traces, StageTrace{});
+        impact_.store(0.0, std::memory_order_relaxed);
     } else {
         const TickInput input{.tick = number,
                               .time = record.time,
@@ -394,6 +397,10 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
             sculpt(touch, input, world.poses());
         if (world.textures() != nullptr)
             world.textures()->publishStrokes(number);
+        if (world.bodies() != nullptr)
+            impact_.store(world.bodies()->impact(), std::memory_order_relaxed);
+        if (dented_ || touch.offer->scene->plan.deformation)
+            publishDents(touch);
     }
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         if (touch.offer != nullptr)
@@ -401,6 +408,17 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
         ports_[hand].apply(ports_[hand].context, touch.offer != nullptr ? touch.outputs[hand].command
                                                                         : touch.restCommand(hand, dt));
     }
+}
+
+/// Also when the scene has become another one, in which nothing gives way.
+void ServoLoop::publishDents(const Touch& touch) noexcept {
+    HandDents dents{};
+    dented_ = false;
+    for (size_t hand = 0; hand < touch.devices.size(); ++hand) {
+        dents[hand] = touch.devices[hand].dents;
+        dented_ = dented_ || dents[hand].any();
+    }
+    dents_.write(dents);
 }
 
 /// What the hands make with their tool, into the journal's ring.

@@ -170,6 +170,13 @@ class ServoLoop {
     [[nodiscard]] std::shared_ptr<PersistentTextures> texturesOf(uint32_t scene) const;
     /// Owner thread: where the bodies of the newest scene are; null: it has none.
     [[nodiscard]] const body::BodyPoses* bodyPoses();
+    /// Any thread: N s, BodyWorld::impact of the newest tick.
+    [[nodiscard]] const std::atomic<double>& impact() const { return impact_; }
+    /// Owner thread: the newest dents of each hand, for the eye.
+    [[nodiscard]] const HandDents& dents() {
+        dents_.update();
+        return dents_.value();
+    }
     [[nodiscard]] size_t hands() const { return ports_.size(); }
 
     struct Counters {
@@ -217,6 +224,7 @@ class ServoLoop {
     void takeCheckpoints(Touch& touch) noexcept;
     void sampleHands(Touch& touch, const TickRecord& record) noexcept;
     void tick(Touch& touch, uint64_t number, double dt) noexcept;
+    void publishDents(const Touch& touch) noexcept;
     void sculpt(Touch& touch, const TickInput& input, ObjectMotions poses) noexcept;
     void publish(Touch& touch) noexcept;
 
@@ -231,6 +239,9 @@ class ServoLoop {
     Handover<Offer> scene_, edited_;
     TripleBuffer<NumberedTool> tools_;
     RecordRing<SculptEntry> edits_{4096};
+    std::atomic<double> impact_{0.0};
+    TripleBuffer<HandDents> dents_; // written where the scene gives way
+    bool dented_ = false;           // the servo's: some were written
     std::atomic<uint32_t> offeredScenes_{0};
     // Owner thread:
     std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may still name

@@ -14,7 +14,8 @@ enum class Effect : uint8_t {
     ViscousFriction,
     Damping,
     VaryingStiffness, ///< by map or vertex
-    Program           ///< a haptic program
+    Program,          ///< a haptic program
+    LocalDeformation  ///< the surface gives way
 };
 
 /// The reason why an effect is on or off for one material, as `inspect` prints it.
@@ -35,6 +36,7 @@ struct EffectPlan {
     bool plainSample = false; ///< every touchable material is plain: the tick has no stages 5 and 6
     bool dampingMap = false;  ///< some touchable material has one; it also scales the session's damping
     bool programs = false;    ///< some touchable material has a haptic program
+    bool deformation = false; ///< some touchable material gives way
     bool oneSided = false;    ///< some touchable object is felt only from its front
     /// Some smooth surface has a material whose shading is not off; is two-pass by default; is projected or
     /// direction. With none of them the tick has no stage 4.

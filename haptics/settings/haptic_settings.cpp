@@ -19,7 +19,7 @@ constexpr std::string_view kContact[]{"sweep", "neighbourhood", "rays", "virtual
     kFilter[]{"nearest", "bilinear", "bicubic", "mip"}, kGradient[]{"central", "precomputed", "analytic"},
     kFriction[]{"off", "zilles", "ho", "elastoplastic", "velocityThreshold", "kim"},
     kPrograms[]{"off", "dual", "central", "noGradient"}, kPassivity[]{"off", "observe", "control"},
-    kIntegrator[]{"explicit", "semiImplicit", "implicit"};
+    kIntegrator[]{"explicit", "semiImplicit", "implicit"}, kGrasp[]{"off", "button", "touch"};
 
 constexpr double kDegree = 0.017453292519943295;
 
@@ -46,6 +46,8 @@ constexpr std::array kFields{
         "programs", kPrograms,
         "haptic programs, and where the gradient of a displacement comes from: dual numbers, "
         "central differences (six more runs), or nowhere; off: surfaces are plain"),
+    switchField<&S::deformation>("deformation",
+                                 "dents under the contact, where a material gives way; off: it is hard"),
     numberField<&S::proxyRadius>("proxyRadius", "m", 0.0, 0.05,
                                  "radius of the proxy sphere; 0 is the god-object"),
     numberField<&S::stiffness>("stiffness", "N/m", 0.0, 1e5,
@@ -91,6 +93,10 @@ constexpr std::array kFields{
         "motion of rigid bodies: explicit Euler, which gains energy; semi-implicit, which keeps it; "
         "implicit in springs and touch, which loses it"),
     numberField<&S::gravity>("gravity", "m/s^2", 0.0, 100.0, "pulls rigid bodies down; 0: none"),
+    wordField<&S::grasp>(
+        "grasp", kGrasp,
+        "the hand takes hold of the body that it touches: while the device's first button is "
+        "down, or as soon as it touches one"),
     numberField<&S::forceScale>("forceScale", "", 0.0, 1.0,
                                 "fraction of the contact's force that the device gets"),
     switchField<&S::forceEnabled>("forceEnabled", "off: contact goes on, the device gets no force"),

@@ -35,6 +35,9 @@ enum class FrictionMode : uint8_t { Off, Zilles, Ho, Elastoplastic, VelocityThre
 enum class ProgramMode : uint8_t { Off, Dual, Central, NoGradient };
 /// How the state of a body follows from forces (body/body_world.h). Explicit: [000]'s Euler step.
 enum class BodyIntegrator : uint8_t { Explicit, SemiImplicit, Implicit };
+/// A hand takes hold of the body that it touches (body/hold_body.h). Button: while its first button is down.
+/// Touch: for as long as the setting says so.
+enum class GraspMode : uint8_t { Off, Button, Touch };
 /// The response of safety to energy that the device gives the hand (safety/passivity.h).
 enum class PassivityMode : uint8_t { Off, Observe, Control };
 
@@ -47,6 +50,7 @@ struct HapticSettings {
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
     ProgramMode programs = ProgramMode::Dual;
+    bool deformation = true; ///< surfaces give way where their material says so (surface/dents.h)
     /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves. See feltRadius.
     double proxyRadius = 0.0;
     /// N/m; 0: the material's, else the device's recommendation.
@@ -80,6 +84,7 @@ struct HapticSettings {
     BodyIntegrator integrator = BodyIntegrator::SemiImplicit;
     /// m/s^2, downwards (-y of the workspace).
     double gravity = 9.81;
+    GraspMode grasp = GraspMode::Off;
     /// 0..1, the fraction of the contact's force that the safety stage passes on to the device.
     double forceScale = 1.0;
     /// false: the force-off key; contact continues, commands are zero.

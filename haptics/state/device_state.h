@@ -6,10 +6,13 @@
 #include "haptics/contact/candidates.h"
 #include "haptics/safety/force_limiter.h"
 #include "haptics/solve/solve_result.h"
+#include "haptics/state/dents.h"
+#include "haptics/state/grasp.h"
 #include "haptics/state/moving_obstacle.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,6 +27,9 @@ struct WatchState {
 
 /// Hands of one servo, at most.
 inline constexpr size_t kMaxHands = 4;
+
+/// What a servo publishes for the eye.
+using HandDents = std::array<Dents, kMaxHands>;
 
 enum class FrictionState : uint8_t { Free, Sticking, Sliding };
 
@@ -80,6 +86,11 @@ struct DeviceState {
 
     // Haptic programs
     ToolMotion tool;
+
+    // Local deformation: the dents that this hand makes. They outlive its touch.
+    Dents dents;
+
+    Grasp grasp;
 
     // Stage 8
     ForceLimiterState limiter;

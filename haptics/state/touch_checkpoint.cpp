@@ -60,11 +60,19 @@ void eachField(State& s, const Visit& visit) {
     visit(s.tool.acceleration);
     visit(s.tool.direction);
     visit(s.tool.time);
+    // Since local deformation and grasping.
+    visit(s.dents.object);
+    visit(s.dents.centre);
+    visit(s.dents.normal);
+    visit(s.dents.depth);
+    visit(s.grasp.object);
+    visit(s.grasp.place);
+    visit(s.grasp.rotation);
 }
 
-static_assert(memberCount<DeviceState>() == 27 && memberCount<ForceLimiterState>() == 9 &&
+static_assert(memberCount<DeviceState>() == 29 && memberCount<ForceLimiterState>() == 9 &&
                   memberCount<PassivityState>() == 6 && memberCount<WatchState>() == 2 &&
-                  memberCount<ToolMotion>() == 5,
+                  memberCount<ToolMotion>() == 5 && memberCount<Dents>() == 4 && memberCount<Grasp>() == 3,
               "a member was added: does it outlive the tick? Then eachField visits it");
 
 /// Only the fields that eachField visits; a copy of the whole DeviceState would be a megabyte.
@@ -87,9 +95,14 @@ struct CarriedFields {
     glm::dvec3 stictionPoint{0.0}, frictionless{0.0};
     ForceLimiterState limiter;
     ToolMotion tool;
+    Dents dents;
+    Grasp grasp;
 };
 
-/// Bytes of ToolMotion's fields, which come last.
+/// Bytes at the end that older versions do not write: without dents and grasp, and without ToolMotion, too.
+constexpr size_t kDentBytes = sizeof(Dents::object) + sizeof(Dents::centre) + sizeof(Dents::normal) +
+                              sizeof(Dents::depth) + sizeof(Grasp::object) + sizeof(Grasp::place) +
+                              sizeof(Grasp::rotation);
 constexpr size_t kToolBytes = sizeof(bool) + 3 * sizeof(glm::dvec3) + sizeof(double);
 
 /// Upper bound of every number that a touch produces, in any unit; Embree takes none above 1.8e18.
@@ -109,8 +122,13 @@ bool reasonable(const CarriedFields& fields) {
             look(field);
         else if constexpr (std::is_same_v<Field, glm::dvec3>)
             lookAt(field);
-        else if constexpr (std::is_same_v<Field, decltype(JammedObjects::places)>)
+        else if constexpr (std::is_same_v<Field, decltype(JammedObjects::places)> ||
+                           std::is_same_v<Field, decltype(Dents::centre)>)
             std::for_each(field.begin(), field.end(), lookAt);
+        else if constexpr (std::is_same_v<Field, decltype(Dents::depth)>)
+            std::for_each(field.begin(), field.end(), look);
+        else if constexpr (std::is_same_v<Field, glm::dquat>)
+            look(glm::length(field));
     });
     return all;
 }
@@ -125,6 +143,13 @@ bool possible(const CarriedFields& fields, const HapticScene* scene) {
     for (size_t i = 0; i < fields.jammed.count; ++i)
         if (fields.jammed.objects[i] < 0 || fields.jammed.objects[i] >= objects)
             return false;
+    for (size_t i = 0; i < Dents::kMax; ++i)
+        if (fields.dents.depth[i] < 0.0 ||
+            (fields.dents.depth[i] > 0.0 &&
+             (fields.dents.object[i] < 0 || fields.dents.object[i] >= objects)))
+            return false;
+    if (fields.grasp.object >= objects)
+        return false;
     const auto inObject = [&](int object, uint32_t triangle) {
         return object >= 0 && object < objects &&
                triangle < scene->objects[static_cast<size_t>(object)]->triangleCount();
@@ -145,10 +170,8 @@ template <class State>
 void readFields(std::span<const std::byte> bytes, State& state) {
     size_t at = 0;
     eachField(state, [&](auto& field) {
-        if (at == bytes.size()) {
-            field = {}; // of a version without it
+        if (at == bytes.size()) // of a version without it: as in a new state
             return;
-        }
         if constexpr (std::is_same_v<std::remove_reference_t<decltype(field)>, bool>)
             field = bytes[at] != std::byte{0};
         else
@@ -172,12 +195,16 @@ void takeCheckpoint(DeviceState& state, TouchCheckpoint& checkpoint) noexcept {
 
 bool restoreCheckpoint(std::span<const std::byte> bytes, const HapticScene* scene,
                        DeviceState& state) noexcept {
-    if (bytes.size() != checkpointSize() && bytes.size() != checkpointSize() - kToolBytes)
+    const size_t older = checkpointSize() - kDentBytes;
+    if (bytes.size() != checkpointSize() && bytes.size() != older && bytes.size() != older - kToolBytes)
         return false;
     CarriedFields fields;
     readFields(bytes, fields);
     if (!possible(fields, scene))
         return false;
+    state.tool = {};
+    state.dents = {};
+    state.grasp = {};
     readFields(bytes, state);
     state.candidates.invalidate();
     state.candidates.ignore(state.jammed.ignored());

@@ -15,9 +15,9 @@ namespace touchstone {
 
 /// The state of one device before a tick. A DeviceState holds a megabyte, nearly all of it triangles gathered
 /// near the proxy. They are not saved: at a checkpoint the servo drops them and the tick gathers again, which
-/// it must be able to do at any time; the rest is smaller than a kilobyte.
+/// it must be able to do at any time; the rest is little more than a kilobyte.
 struct TouchCheckpoint {
-    static constexpr size_t kCapacity = 1024;
+    static constexpr size_t kCapacity = 1536;
 
     uint64_t tick = 0;  ///< the next tick
     uint32_t hand = 0;  ///< TickRecord::hand

@@ -31,7 +31,10 @@ struct SurfaceSample {
     /// (surface/program_surface.h).
     bool programmed = false;
     glm::dvec3 programForce{0.0};
-    bool coulomb = false; ///< the coefficients are specified, though a map may make them zero here
+    /// Local deformation: `depth` is already less by it, workspace m; the dent's slope adds to the force.
+    double dent = 0.0;
+    glm::dvec3 dentSlope{0.0}; ///< gradient of the dent's depth along the surface, 1
+    bool coulomb = false;      ///< the coefficients are specified, though a map may make them zero here
 };
 
 /// Reads material, vertex attributes and maps at one contact. `normal` and `depth` are those felt there,

@@ -85,6 +85,16 @@ double dampingOf(const HapticMaterial& haptic, const std::string& place, std::ve
     return NAN;
 }
 
+LocalDeformation deformationOf(const HapticMaterial& haptic) {
+    LocalDeformation made;
+    made.radius = numberOr(haptic.deformationRadius, made.radius);
+    made.stiffness = numberOr(haptic.deformationStiffness, made.stiffness);
+    made.linear = numberOr(haptic.deformationLinear, made.linear);
+    made.quadratic = numberOr(haptic.deformationQuadratic, made.quadratic);
+    made.time = numberOr(haptic.relaxationTime, made.time);
+    return made;
+}
+
 } // namespace
 
 HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& material, size_t index,
@@ -133,6 +143,7 @@ HapticMaterialData buildHapticMaterial(const Scene& scene, const Material& mater
     for (size_t i = 1; i < maps.size(); ++i)
         for (size_t k = i; k-- > 0;)
             maps[i]->shareLayout(*maps[k]);
+    data.deformation = deformationOf(haptic);
     data.shading = shadingOf(haptic.forceShading);
     return data;
 }

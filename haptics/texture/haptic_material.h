@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/scene/local_deformation.h"
 #include "engine/scene/scene.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/texture/haptic_map.h"
@@ -34,10 +35,11 @@ struct HapticMaterialData {
     double heightMid = 0.5;                             ///< value of the height map that lies on the mesh
     HapticFactor friction, stiffnessMap, dampingMap;
     std::shared_ptr<const program::FeltProgram> program; ///< null: none
+    LocalDeformation deformation;
     /// The material's forceShading, resolved: auto is TwoPass, never Material.
     ShadingMode shading = ShadingMode::TwoPass;
-    /// Neither the material nor any of its objects has a map, a vertex attribute, friction or a viscous term:
-    /// stage 5 reads nothing. Resolved with the plan.
+    /// Neither the material nor any of its objects has a map, a vertex attribute, friction, a viscous term or
+    /// a dent: stage 5 reads nothing. Resolved with the plan.
     bool plain = false;
 
     [[nodiscard]] bool textured() const { return !normal.empty() || (!height.empty() && heightScale != 0.0); }

@@ -1,5 +1,6 @@
 #include "haptics/tick/felt_force.h"
 
+#include "haptics/surface/press_dents.h"
 #include "haptics/surface/program_surface.h"
 
 #include <algorithm>
@@ -56,6 +57,8 @@ void feelTexture(const HandTick& tick, DeviceState& state, const Contact& contac
                    programs, feel);
         flags |= failureOf(programs);
     }
+    if (tick.dents != nullptr)
+        pressDents(tick.scene, tick.motions, state.reference, contact, speed, *tick.dents, feel);
 }
 
 void feelSeveral(const HandTick& tick, DeviceState& state, const SubGoal& activeSet, const glm::dvec3& offset,
@@ -70,7 +73,7 @@ void feelSeveral(const HandTick& tick, DeviceState& state, const SubGoal& active
     }
     readLoads(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, state.rest, activeSet,
               state.shaded, offset, workspacePerReference, velocity, tick.zoom, tick.dt,
-              programs ? &*programs : nullptr, loads);
+              programs ? &*programs : nullptr, tick.dents, loads);
     if (programs)
         flags |= failureOf(*programs);
     const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(tick.zoom, 1.0);

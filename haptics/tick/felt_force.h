@@ -93,7 +93,7 @@ inline void publishContact(const Similarity& workspaceFromReference, const Solve
     output.object = feel.object;
     output.triangle = static_cast<int>(feel.triangle);
     output.normal = workspaceFromReference.direction(feel.textured);
-    output.height = feel.height;
+    output.height = feel.height - feel.dent;
     output.planeCount = static_cast<uint32_t>(rest.activeSet.count);
     for (size_t i = 0; i < output.planeCount; ++i)
         output.planes[i] = workspaceFromReference.direction(

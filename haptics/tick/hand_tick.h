@@ -9,6 +9,7 @@
 namespace touchstone {
 
 class PersistentTextures;
+struct DentPress; // haptics/surface/press_dents.h
 
 /// Everything outside of the hand that the stages of its tick read.
 struct HandTick {
@@ -23,6 +24,7 @@ struct HandTick {
     /// Filled where the world collects reactions; else null.
     ContactForces* parts = nullptr;
     PersistentTextures* textures = nullptr; ///< the world's; null: none
+    DentPress* dents = nullptr; ///< null where nothing gives way
 };
 
 } // namespace touchstone

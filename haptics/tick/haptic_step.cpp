@@ -1,5 +1,6 @@
 #include "haptics/tick/haptic_step.h"
 
+#include "haptics/body/hold_body.h"
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/force/tool_resistance.h"
 #include "haptics/proxy/place_proxy.h"
@@ -9,6 +10,7 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/shading/first_goal.h"
 #include "haptics/shading/force_shading.h"
+#include "haptics/surface/press_dents.h"
 #include "haptics/surface/program_surface.h"
 #include "haptics/tick/felt_force.h"
 
@@ -208,6 +210,67 @@ void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state,
         world.push(object, output.hip, -force, 0.0); // a damper
 }
 
+bool holdsOn(const HapticSettings& settings, const DeviceSample& sample) {
+    return settings.grasp == GraspMode::Touch ||
+           (settings.grasp == GraspMode::Button && (sample.buttons & kSculptButton) != 0);
+}
+
+/// Stages 2 to 7 of a hand that holds a body, and its release: then touch begins again where the hand is
+/// clear of the model. False where it holds none.
+[[gnu::noinline]] bool hold(const HandTick& tick, const DeviceSample& sample, bool sampled, WorldState& world,
+                            DeviceState& state, HapticOutput& output) {
+    if (state.grasp.object < 0)
+        return false;
+    const bool can = world.bodies() != nullptr && body::canHold(*world.bodies(), state.grasp.object);
+    if (!can || !holdsOn(tick.settings, sample)) {
+        state.grasp = {};
+        beginTouch(state, true);
+        return false;
+    }
+    if (!sampled)
+        return true;
+    const double stated = tick.settings.stiffness > 0.0
+                              ? tick.settings.stiffness
+                              : std::min(tick.limits.recommendedStiffness, tick.limits.maxStiffness);
+    const body::Hold held = body::holdBody(*world.bodies(), tick.motions, state.grasp, output.hip,
+                                           output.hipVelocity, stated, tick.limits, tick.dt);
+    output.proxy = held.place;
+    output.penetration = glm::length(held.place - output.hip);
+    output.force = held.force;
+    output.object = state.grasp.object;
+    output.contacts = 1;
+    const double size = glm::length(held.force);
+    output.normal = size > 0.0 ? held.force / size : glm::dvec3(0.0, 1.0, 0.0);
+    return true;
+}
+
+/// The end of stage 7: a hand that may take hold of what it has just touched.
+[[gnu::noinline]] void takeHold(const HandTick& tick, const DeviceSample& sample, const WorldState& world,
+                                DeviceState& state, const HapticOutput& output) {
+    if (state.grasp.object >= 0 || output.object < 0 || !holdsOn(tick.settings, sample) ||
+        world.bodies() == nullptr || !body::canHold(*world.bodies(), output.object))
+        return;
+    const Similarity& pose = tick.motions[static_cast<size_t>(output.object)].workspaceFromObject;
+    state.grasp = {output.object, pose.inversePoint(output.proxy), pose.rotation};
+}
+
+/// Stages 2 to 7 where a surface may give way.
+template <class Stopwatch>
+[[gnu::noinline]] void touchSoft(HandTick& tick, bool sampled, WorldState& world, DeviceState& state,
+                                 HapticOutput& output, Stopwatch& stopwatch) {
+    DentPress press{.dents = state.dents, .maxForce = tick.limits.maxForce, .dt = tick.dt};
+    tick.dents = tick.settings.deformation ? &press : nullptr;
+    if (sampled)
+        touchWithModel(tick, world, state, output, stopwatch);
+    else if (tick.moving)
+        followUnseen(tick, state, output.flags);
+    relaxDents(tick.scene, tick.dt, press.pressed, state.dents);
+    if (press.pressed != 0) {
+        output.proxy += press.shift;
+        output.penetration = glm::length(output.proxy - output.hip);
+    }
+}
+
 /// Stages 1 to 7 of one hand.
 template <class Stopwatch>
 void feelHand(const HapticScene& scene, const HapticSettings& settings, const TickInput& input,
@@ -232,20 +295,27 @@ void feelHand(const HapticScene& scene, const HapticSettings& settings, const Ti
     // 2. to 7.
     ContactForces parts;
     const ObjectMotions moved = world.poses();
-    const HandTick tick{.scene = scene,
-                        .settings = settings,
-                        .limits = sample.limits,
-                        .motions = moved.empty() ? ObjectMotions(scene.restMotions) : moved,
-                        .moving = !moved.empty(),
-                        .still = world.still(),
-                        .dt = input.dt,
-                        .zoom = output.zoom,
-                        .parts = world.collectsReactions() ? &parts : nullptr,
-                        .textures = world.textures().get()};
-    if (sampled && !scene.objects.empty())
+    HandTick tick{.scene = scene,
+                  .settings = settings,
+                  .limits = sample.limits,
+                  .motions = moved.empty() ? ObjectMotions(scene.restMotions) : moved,
+                  .moving = !moved.empty(),
+                  .still = world.still(),
+                  .dt = input.dt,
+                  .zoom = output.zoom,
+                  .parts = world.collectsReactions() ? &parts : nullptr,
+                  .textures = world.textures().get()};
+    const bool grasps = settings.grasp != GraspMode::Off || state.grasp.object >= 0;
+    if (grasps && hold(tick, sample, sampled, world, state, output)) [[unlikely]]
+        return;
+    if (scene.plan.deformation) [[unlikely]]
+        touchSoft(tick, sampled && !scene.objects.empty(), world, state, output, stopwatch);
+    else if (sampled && !scene.objects.empty())
         touchWithModel(tick, world, state, output, stopwatch);
     else if (tick.moving)
         followUnseen(tick, state, output.flags);
+    if (grasps) [[unlikely]]
+        takeHold(tick, sample, world, state, output);
     if (input.tool != nullptr && sampled && (input.tool->held || (sample.buttons & kSculptButton) != 0))
         [[unlikely]]
         resistTool(tick, *input.tool, state, world, output);

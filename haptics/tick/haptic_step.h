@@ -34,11 +34,12 @@ struct HapticOutput {
     double zoom = 1.0;           ///< workspace metres for one device metre
     glm::dvec3 hip{0.0};         ///< haptic interface point
     glm::dvec3 hipVelocity{0.0}; ///< m/s, filtered
-    glm::dvec3 proxy{0.0};       ///< centre of the proxy sphere (IHIP, god-object)
-    glm::dvec3 normal{0.0};      ///< unit normal of the felt surface (shaded, textured); zero without contact
-    glm::dvec3 force{0.0};       ///< N, stage 7, before safety
-    double borne = 1.0;    ///< in (0, 1], what `force` is of the surface's: less where the hand gives way
-    DeviceCommand command; ///< device frame, after safety
+    /// Centre of the proxy sphere (IHIP, god-object), in a dent as deep as the surface is.
+    glm::dvec3 proxy{0.0};
+    glm::dvec3 normal{0.0}; ///< unit normal of the felt surface (shaded, textured); zero without contact
+    glm::dvec3 force{0.0};  ///< N, stage 7, before safety
+    double borne = 1.0;     ///< in (0, 1], what `force` is of the surface's: less where the hand gives way
+    DeviceCommand command;  ///< device frame, after safety
     glm::dvec3 commandInWorkspace{0.0};
     double penetration = 0.0; ///< |proxy - HIP|, m
     uint32_t contacts = 0;    ///< touching features in the last solve
@@ -50,7 +51,7 @@ struct HapticOutput {
     std::array<glm::dvec3, 3> planes{}; ///< active constraint planes' normals, `planeCount` of them
     uint32_t planeCount = 0;
     glm::dvec3 stictionPoint{0.0}; ///< valid while friction is not Free
-    double height = 0.0;           ///< felt height H, m
+    double height = 0.0;           ///< felt height H, m, less the depth of a dent
     /// J, passivity observer: above zero the device gave the hand more energy than it took. Zero with
     /// passivity=off.
     double energyBalance = 0.0;

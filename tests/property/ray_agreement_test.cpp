@@ -50,6 +50,7 @@ RayFigures compare(const Scene& scene, Fit fit, Precision precision, double spee
     s.precision = precision;
     s.forceShading = ShadingMode::Off;
     s.friction = FrictionMode::Off;
+    s.deformation = false;
     s.texture = TextureMode::Off;
     TouchBench bench(scene, s, fit);
     const Soup soup(*bench.scene, 0);

@@ -20,6 +20,7 @@ HapticSettings bareSolve(double radius) {
     settings.proxyRadius = radius;
     settings.forceShading = ShadingMode::Off;
     settings.friction = FrictionMode::Off;
+    settings.deformation = false; // the proxy on the surface at rest
     return settings;
 }
 

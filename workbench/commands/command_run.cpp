@@ -3,7 +3,9 @@
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "engine/import/volume_file/volume_edits.h"
 #include "engine/time/seconds_now.h"
+#include "haptics/body/joint_settings.h"
 #include "haptics/comparison/comparison_solver.h"
 #include "renderer/draw_quality.h"
 #include "renderer/picture_file.h"
@@ -19,6 +21,7 @@
 #include "workbench/files/recording_controller.h"
 #include "workbench/guards/interrupt.h"
 #include "workbench/model/animate.h"
+#include "workbench/model/dented_meshes.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
 #include "workbench/model/shown_textures.h"
@@ -135,18 +138,27 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
     Overlay overlay;
     WorldState shown(model.scene, *model.haptic, WorldBodies::Shown);
     ShownTextures textures;
+    DentedMeshes dented;
+    HapticSettings settings = options.settings;
+    body::JointSettings controls;
+    if (shown.bodies() != nullptr)
+        controls = body::JointSettings(*shown.bodies());
     while (Clock::now() - start < length && !interrupted()) {
         const Clock::time_point begin = Clock::now();
         session.pump(secondsNow());
         const TickRecord& tick = session.tick();
         overlay.clear();
-        drawTick(tick, options.settings, lookOf(tick, options.settings, model), overlay);
-        view.probe = probeShadow(tick, options.settings);
-        if (const body::BodyPoses* poses = session.servo().bodyPoses())
+        drawTick(tick, settings, lookOf(tick, settings, model), overlay);
+        view.probe = probeShadow(tick, settings);
+        if (const body::BodyPoses* poses = session.servo().bodyPoses()) {
             poseBodies(*poses, tick.time, shown, renderer);
-        else
-            poseAt(animationTime(options.settings, tick.time), *model.scene, renderer);
+            if (controls.apply(poses->workspaceFromBody, settings))
+                session.set(settings);
+        } else {
+            poseAt(animationTime(settings, tick.time), *model.scene, renderer);
+        }
         textures.show(*model.haptic, recorder.textures(), renderer);
+        dented.show(session.servo().dents(), *model.scene, *model.haptic, renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);
         frames.smallest = glm::min(frames.smallest, size);
         renderer.render(view, overlay, size.x, size.y);
@@ -285,6 +297,8 @@ int runCommand(const RunOptions& options) {
     LoadOptions loading;
     loading.iso = options.iso;
     loading.animation = options.animation;
+    if (options.loose)
+        loading.edits = withLoose({});
     Model model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);

@@ -7,6 +7,7 @@
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
 #include "haptics/body/body_world.h"
+#include "haptics/body/joint_settings.h"
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/query/ray_floor.h"
@@ -58,9 +59,11 @@ struct OfflineTick {
     uint32_t poses = 0; // WorldState::poseHash
     uint32_t found = 0; // WorldState::foundContacts
     int64_t stepNs = 0;
-    Similarity touched; // workspaceFromObject of the touched object
-    double gap = 0.0;   // m, of the proxy; in contact, if a report was requested
-    uint32_t scene = 0; // its number in a recording
+    Similarity touched;  // workspaceFromObject of the touched object
+    double gap = 0.0;    // m, of the proxy; in contact, if a report was requested
+    uint32_t scene = 0;  // its number in a recording
+    double impact = 0.0; // N s, of bodies that met
+    HapticSettings settings;
     std::vector<BrushStroke> strokes;
 };
 
@@ -181,7 +184,7 @@ class OfflineRecorder {
     static constexpr uint32_t kScene = 1;
 
     OfflineRecorder(const TouchOptions& options, const Model& model)
-        : writer_(options.record, recordingOrigin("touch", options.rateHz)), settings_(options.settings),
+        : writer_(options.record, recordingOrigin("touch", options.rateHz)),
           identity_(identityOf(model, options.fit)), textures_(persistentTextures(*model.haptic)) {}
 
     void add(const OfflineTick& tick, const TouchCheckpoint& first, const std::vector<std::byte>& bodies) {
@@ -205,7 +208,7 @@ class OfflineRecorder {
         record.trace = tick.trace;
         record.output = tick.output;
         writer_.add({.tick = recordedTick(record),
-                     .settings = settings_,
+                     .settings = tick.settings,
                      .scene = &identity_,
                      .checkpoint = begins              ? &edit->second.state
                                    : record.checkpoint ? &first
@@ -238,7 +241,6 @@ class OfflineRecorder {
         size_t entries = 0; // of the journal
         TouchCheckpoint state;
     };
-    const HapticSettings& settings_;
     SceneIdentity identity_;
     std::shared_ptr<PersistentTextures> textures_; // before the next tick
     std::vector<SculptEntry> journal_;
@@ -251,7 +253,12 @@ class OfflineTouch {
     OfflineTouch(const Model& model, const TouchOptions& options)
         : model_(model), settings_(options.settings), touch_(*model.haptic, model.scene),
           yielding_(path_, options.plant),
-          hand_(options.closedLoop ? static_cast<Device&>(yielding_) : path_) {}
+          hand_(options.closedLoop ? static_cast<Device&>(yielding_) : path_) {
+        if (const auto& bodies = touch_.world.bodies()) {
+            controls_ = body::JointSettings(*bodies);
+            operate();
+        }
+    }
 
     void step(const PlannedTick& planned, OfflineTick& tick) {
         path_.next.position = planned.hip;
@@ -259,6 +266,7 @@ class OfflineTouch {
         touch_.advance(planned.time, settings_);
         tick.sample = sampleWithLimits(hand_, planned.time);
         tick.number = touch_.number;
+        tick.settings = settings_;
         tick.time = planned.time;
         tick.dt = planned.dt;
         tick.poses = touch_.world.poseHash();
@@ -269,6 +277,10 @@ class OfflineTouch {
         (void)touch_.step(settings_, tick.sample, planned.dt, tracer);
         tick.stepNs = monotonicNs() - begin;
         previousTime_ = planned.time;
+        if (const auto& bodies = touch_.world.bodies())
+            tick.impact = bodies->impact();
+        if (!controls_.empty())
+            operate();
         tick.output = touch_.output;
         hand_.apply(tick.output.command);
         if (tick.output.object >= 0)
@@ -308,9 +320,19 @@ class OfflineTouch {
     [[nodiscard]] const PersistentTextures* textures() const { return touch_.world.textures().get(); }
 
   private:
+    /// What the hand moves of the scene's controls sets the settings of the next tick.
+    void operate() {
+        poses_.clear();
+        for (const body::BodyState& state : touch_.world.bodies()->states())
+            poses_.push_back(state.pose);
+        (void)controls_.apply(poses_, settings_);
+    }
+
     const Model& model_;
-    const HapticSettings& settings_;
+    HapticSettings settings_;
     SteppedHand touch_;
+    body::JointSettings controls_;
+    std::vector<body::Pose> poses_;                                  // of `operate`
     double previousTime_ = std::numeric_limits<double>::quiet_NaN(); // s, of the last step
     PlannedHand path_;
     HandImpedance yielding_; // in the closed loop
@@ -365,7 +387,8 @@ int touchCommand(const TouchOptions& options) {
     if (path)
         warnOfSlowPath(*path, options);
     StageClock clock;
-    Model model = loadModelToTouch(options.scene, options.fit, &clock, options.iso, options.animation);
+    Model model =
+        loadModelToTouch(options.scene, options.fit, &clock, options.iso, options.animation, options.loose);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     const std::shared_ptr<const HapticScene> felt = model.haptic;
@@ -445,7 +468,7 @@ int touchCommand(const TouchOptions& options) {
             if (recorder)
                 recorder->add(tick, first, bodies);
             if (sound)
-                sound->add(soundTick(tick.dt, tick.sample, tick.output.command));
+                sound->add(soundTick(tick.dt, tick.sample, tick.output.command, tick.impact));
             if (report && tick.output.contacts > 0)
                 statistics.addProxyGap(changes ? tick.gap
                                                : proxyGap(*model.haptic, {}, tick.output, options.settings));

@@ -1,5 +1,7 @@
 #include "workbench/model/model.h"
 
+#include "engine/import/volume_file/volume_edits.h"
+#include "haptics/body/body_world.h"
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/scene/built_for.h"
 #include "haptics/scene/scene_parts.h"
@@ -24,8 +26,10 @@ Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& o
 }
 
 Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock,
-                       std::optional<double> iso, std::optional<std::string> animation) {
+                       std::optional<double> iso, std::optional<std::string> animation, bool loose) {
     LoadOptions options;
+    if (loose)
+        options.edits = withLoose({});
     options.iso = iso;
     options.animation = std::move(animation);
     if (clock != nullptr)
@@ -85,6 +89,11 @@ void printWarnings(const Model& model) {
         for (const Warning& warning : model.haptic->warnings)
             print(warning);
     for (const Warning& warning : animationWarnings(*model.scene))
+        print(warning);
+    std::vector<Warning> ofBodies;
+    if (model.haptic != nullptr && model.scene->physics != nullptr)
+        (void)body::BodyWorld::make(*model.scene, *model.haptic, &ofBodies);
+    for (const Warning& warning : ofBodies)
         print(warning);
 }
 

@@ -26,10 +26,10 @@ struct Model {
 /// Error, and Cancelled.
 [[nodiscard]] Model loadModel(const std::filesystem::path& path, Fit fit, const LoadOptions& options = {});
 /// For haptics only: does not decode what only rendering needs. `clock` may be null; `iso` and `animation`:
-/// those of LoadOptions.
+/// those of LoadOptions; `loose`: every object is a body (loosen).
 [[nodiscard]] Model loadModelToTouch(const std::filesystem::path& path, Fit fit, StageClock* clock = nullptr,
                                      std::optional<double> iso = {},
-                                     std::optional<std::string> animation = {});
+                                     std::optional<std::string> animation = {}, bool loose = false);
 /// For rendering only; `falseColor`: with the data for false colours.
 [[nodiscard]] Model loadModelToSee(const std::filesystem::path& path, Fit fit, bool falseColor,
                                    std::optional<double> iso = {}, std::optional<std::string> animation = {});

@@ -2,6 +2,7 @@
 
 #include "devices/stroke/stroke_library.h"
 #include "engine/core/error.h"
+#include "engine/import/volume_file/volume_edits.h"
 #include "renderer/scene_renderer.h"
 
 #include <sys/resource.h>
@@ -63,6 +64,8 @@ void ModelLoader::begin(const Request& request) {
             loading.iso = request.choice.iso;
             loading.volume = request.choice.volume;
             loading.animation = request.choice.animation;
+            if (request.choice.loose)
+                loading.edits = withLoose({});
             loading.progress = [&](double fraction, const char* what) {
                 whole.report(0.25 * fraction, what);
             };

@@ -31,6 +31,7 @@ struct SceneChoice {
     std::optional<double> iso{};
     std::shared_ptr<const Volume> volume{};
     std::optional<std::string> animation{};
+    bool loose = false; ///< every object is a body (loosen)
 };
 
 /// Loads models on a worker thread, one at a time: a new request cancels the current one and starts when that

@@ -84,6 +84,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
             "to open in a window; without it the board of effects");
     addIso(app, options.iso);
     addAnimation(app, options.animation);
+    addLoose(app, options.loose);
     addSettings(app, [&options](std::string_view name, std::string_view value) {
         HapticSettings tried; // tests validity; applied over the settings of the last run
         options.settings.emplace_back(name, value);
@@ -211,6 +212,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
     addScene(app, options.scene)->required();
     addIso(app, options.iso);
     addAnimation(app, options.animation);
+    addLoose(app, options.loose);
     app.add_flag_function(
         "--headless", [](int64_t) {}, "Accepted for older scripts: `run` never opens a window");
     app.add_option("--seconds", options.seconds, "How long [10]")
@@ -254,6 +256,7 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
     addScene(app, options.scene)->required();
     addIso(app, options.iso);
     addAnimation(app, options.animation);
+    addLoose(app, options.loose);
     CLI::Option* path =
         app.add_option("--path", options.path, "Path of the hand: CSV with columns t,x,y,z (s, m)")
             ->type_name("HIP.csv");

@@ -49,6 +49,7 @@ struct WindowOptions {
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
     PartNames part;                       ///< of the first model
+    bool loose = false;                   ///< every object is a body (loosen)
 };
 int windowCommand(const WindowOptions& options);
 
@@ -83,6 +84,7 @@ struct RunOptions {
     std::optional<double> iso;            ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation; ///< LoadOptions::animation
     PartNames part;                       ///< what is seen and felt
+    bool loose = false;                   ///< every object is a body (loosen)
     SculptOptions sculpt;
 };
 int runCommand(const RunOptions& options);
@@ -105,6 +107,7 @@ struct TouchOptions {
     std::optional<double> iso; ///< of a volume: the value at its surface; none: Volume::defaultIso
     std::optional<std::string> animation;        ///< LoadOptions::animation
     PartNames part;                              ///< what is felt
+    bool loose = false;                          ///< every object is a body (loosen)
     std::filesystem::path sculpt;                ///< a journal; empty: nothing is sculpted
     std::vector<std::filesystem::path> sculpted; ///< .glb and .vdb of the sculpted object, at the end
 };

@@ -324,6 +324,13 @@ void addAnimation(CLI::App& app, std::optional<std::string>& animation) {
         ->type_name("NAME");
 }
 
+void addLoose(CLI::App& app, bool& loose) {
+    app.add_flag(
+        "--loose", loose,
+        "Every object of the model is a body without weight, which a hand moves and may take hold of "
+        "(--set grasp=touch)");
+}
+
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
     return app
         .add_option(

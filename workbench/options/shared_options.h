@@ -47,6 +47,8 @@ void addRecording(CLI::App& app, RecordingOptions& options);
 void addIso(CLI::App& app, std::optional<double>& iso);
 /// --animation, of models that have some.
 void addAnimation(CLI::App& app, std::optional<std::string>& animation);
+/// --loose.
+void addLoose(CLI::App& app, bool& loose);
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene);
 /// --device; `builtIn`: names accepted besides devices.
 void addDevice(CLI::App& app, const std::string& builtIn,

@@ -61,6 +61,7 @@ constexpr Line kLook[]{
     {"V; with Shift", "the next view; the one before"},
     {"M and O", "magnifier; overlays"},
     {"R", "puts bodies that moved back"},
+    {"J; left button held", "grasps bodies; holds the one that is touched"},
     {"F12", "saves the picture"},
 };
 constexpr Line kWindow[]{

@@ -72,6 +72,9 @@ Ruling ruling(Effect effect, bool planned, const HapticSettings& settings) {
         return planned && settings.programs == ProgramMode::Off
                    ? Ruling{State::SwitchedOff, "programs=off in the session"}
                    : Ruling{};
+    case Effect::LocalDeformation:
+        return planned && !settings.deformation ? Ruling{State::SwitchedOff, "deformation=off in the session"}
+                                                : Ruling{};
     case Effect::VaryingStiffness:
         break; // a map scales the session's stiffness, too
     }

@@ -47,7 +47,7 @@ std::optional<CameraMove> keyMove(bool homeIsTaken, bool fIsTaken) {
 
 /// Those of the mouse's hand.
 uint32_t buttonsOf(const ViewControl::Situation& now, bool pressed) {
-    return now.sculpts && pressed ? kSculptButton : 0;
+    return (now.sculpts || now.grasps) && pressed ? kSculptButton : 0;
 }
 
 void optionKeys(ViewOptions& options) {

@@ -32,6 +32,7 @@ class ViewControl {
         bool looksBack = false;  ///< a recording is shown: left, right and Home move its cursor
         bool covered = false;    ///< by an item that has the keyboard
         bool sculpts = false;    ///< the left button is that of the tool, too, and F sizes it
+        bool grasps = false;     ///< the left button holds the body that is touched, too
         /// The first hit of a line of sight; null: no model.
         std::function<std::optional<PointedSurface>(const Ray&)> look;
     };

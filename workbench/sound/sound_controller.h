@@ -14,6 +14,8 @@ class SoundController {
 
     /// The device for the servo; the servo must end before this object.
     [[nodiscard]] Device& hand() { return hand_; }
+    /// SoundingHand::hear.
+    void hear(const std::atomic<double>& impact) { hand_.hear(impact); }
     /// Every frame.
     void update(const SoundChoice& choice) { card_.update(choice.on, choice.level()); }
     /// Another model is about to be touched.

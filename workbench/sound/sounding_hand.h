@@ -3,18 +3,20 @@
 #include "devices/device/device.h"
 #include "sound/live_sound.h"
 
+#include <atomic>
 #include <cmath>
 
 namespace touchstone {
 
 /// A tick as input of the sound. `dt`: s since the previous one.
-[[nodiscard]] inline SoundTick soundTick(double dt, const DeviceSample& sample,
-                                         const DeviceCommand& command) {
+[[nodiscard]] inline SoundTick soundTick(double dt, const DeviceSample& sample, const DeviceCommand& command,
+                                         double impact = 0.0) {
     const glm::dvec3 place = sample.inWorkspace();
     const bool finite = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
     return {.dt = dt,
             .position = place,
             .force = sample.mapping.workspaceFromDevice.direction(command.force()),
+            .impact = impact,
             .handKnown = sample.valid && finite}; // a non-finite position would contaminate all later output
 }
 
@@ -24,6 +26,8 @@ class SoundingHand final : public Device {
   public:
     /// Both outlive it.
     SoundingHand(Device& hand, SoundFeed& feed) : hand_(hand), feed_(feed) {}
+    /// Before the servo starts: that of the scene's bodies (ServoLoop::impact), which outlives it.
+    void hear(const std::atomic<double>& impact) noexcept { impact_ = &impact; }
 
     [[nodiscard]] std::string name() const override { return hand_.name(); }
     [[nodiscard]] DeviceLimits limits() const override { return hand_.limits(); }
@@ -39,7 +43,8 @@ class SoundingHand final : public Device {
         const double dt = sampled_ - applied_;
         applied_ = sampled_;
         if (dt > 0.0 && dt < kLongest) // otherwise the servo has restarted or ended
-            feed_.add(soundTick(dt, last_, command));
+            feed_.add(soundTick(dt, last_, command,
+                                impact_ != nullptr ? impact_->load(std::memory_order_relaxed) : 0.0));
     }
 
   private:
@@ -47,6 +52,7 @@ class SoundingHand final : public Device {
 
     Device& hand_;
     SoundFeed& feed_;
+    const std::atomic<double>* impact_ = nullptr;
     // Servo thread:
     DeviceSample last_;
     double sampled_ = 0.0, applied_ = 0.0; // s

@@ -232,6 +232,7 @@ void TimelineController::describe(const RecordedScene* scene, const Model* open)
         std::string materials = scene->identity.edits;
         const std::optional<double> iso = takeIso(materials);
         (void)takeAnimation(materials);
+        (void)takeLoose(materials);
         if (fit_ != ModelFit::Missing && !materials.empty())
             notes_.emplace_back("its materials had been edited and not saved");
         if (iso && modelIsOpen() && open != nullptr && open->scene != nullptr &&

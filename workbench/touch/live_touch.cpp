@@ -17,6 +17,7 @@ LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std:
     session_.subscribe(controller_);
     session_.subscribe(readings_);
     session_.subscribe(sculpt_);
+    sound_.hear(session_.servo().impact());
 }
 
 LiveTouch::~LiveTouch() {
@@ -105,12 +106,19 @@ void LiveTouch::update(double now) {
         picker_.showBodies(*poses);
 }
 
+void LiveTouch::operate(HapticSettings& settings) {
+    const body::BodyPoses* poses = controls_.empty() ? nullptr : session_.servo().bodyPoses();
+    if (poses != nullptr && session_.touching())
+        (void)controls_.apply(poses->workspaceFromBody, settings);
+}
+
 void LiveTouch::pose(double time, SceneRenderer& renderer) {
     if (const body::BodyPoses* poses = session_.servo().bodyPoses())
         poseBodies(*poses, time, picker_.world(), renderer);
     else
         poseAt(time, *shown_.model.scene, renderer);
     textures_.show(*shown_.model.haptic, controller_.recorder().textures(), renderer);
+    dented_.show(session_.servo().dents(), *shown_.model.scene, *shown_.model.haptic, renderer);
 }
 
 void LiveTouch::prepare(const HapticSettings& settings) {
@@ -147,6 +155,8 @@ int LiveTouch::nodeAt(const Ray& ray) {
 /// To the session, the pointer and the sound. `another`: model than before; else it stays as it was sculpted.
 void LiveTouch::offerScene(SceneSwap swap, bool another) {
     picker_.show(shown_.model.haptic, shown_.model.scene);
+    const auto& bodies = picker_.world().bodies();
+    controls_ = bodies != nullptr ? body::JointSettings(*bodies) : body::JointSettings();
     sculpt_.show(shown_.model, another);
     if (swap == SceneSwap::Anew) {
         sound_.interrupt();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "haptics/body/joint_settings.h"
 #include "renderer/scene_renderer.h"
 #include "session/padded_hand.h"
 #include "session/session.h"
@@ -11,6 +12,7 @@
 #include "workbench/hand/picker.h"
 #include "workbench/hand/stroke_controller.h"
 #include "workbench/model/background_build.h"
+#include "workbench/model/dented_meshes.h"
 #include "workbench/model/felt_part.h"
 #include "workbench/model/model_loader.h"
 #include "workbench/model/shown_textures.h"
@@ -63,6 +65,8 @@ class LiveTouch {
     void update(double now);
     /// Every frame: sends the settings for the next tick.
     void send(const HapticSettings& settings) { session_.set(settings); }
+    /// Every frame: what the hand moved of the scene's controls sets `settings` (TOUCHSTONE_joint).
+    void operate(HapticSettings& settings);
     /// Every frame: builds on a worker what the settings require. Throws an error of the worker once.
     void prepare(const HapticSettings& settings);
     /// Every frame: takes up the chosen device. `choice` becomes the actual choice: empty where it cannot be
@@ -125,6 +129,8 @@ class LiveTouch {
     BackgroundBuild build_;
     Picker picker_;
     ShownTextures textures_;
+    DentedMeshes dented_;
+    body::JointSettings controls_;
     SculptController sculpt_{session_, picker_};
     StrokeController strokes_;
 };

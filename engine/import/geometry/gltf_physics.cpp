@@ -35,6 +35,7 @@ class PhysicsReader {
     void readJoint(size_t n);
     void readLimit(const json& limit, const std::string& place, Joint& joint);
     void readDrive(const json& drive, const std::string& place, Joint& joint);
+    void readSetting(const json& ours, const std::string& place, JointSetting& setting);
     void readOurs(const json& described, const std::string& place, Joint& joint);
 
     [[nodiscard]] const json* statedAt(size_t n, const char* part, std::string& place) const;
@@ -405,6 +406,34 @@ void PhysicsReader::readDrive(const json& drive, const std::string& place, Joint
     to.damping = number(drive, "damping", place, 0.0, kAny, 0.0);
 }
 
+/// TOUCHSTONE_joint: the setting of the session that the joint is for. Whether there is one of this name is
+/// found where bodies are made.
+void PhysicsReader::readSetting(const json& ours, const std::string& place, JointSetting& setting) {
+    const auto name = ours.find("setting");
+    if (name == ours.end())
+        return;
+    if (!name->is_string() || name->get_ref<const std::string&>().empty())
+        context_.fail(place + ".setting", "should be the name of a setting");
+    setting.name = name->get<std::string>();
+    setting.steps = flag(ours, "press");
+    if (const auto values = ours.find("values"); values != ours.end()) {
+        if (!values->is_array() || values->size() < 2 || values->size() > 1024)
+            context_.fail(place + ".values", "should be an array of 2 to 1024 values");
+        for (const json& value : *values) {
+            if (!value.is_string() && !value.is_number())
+                context_.fail(place + ".values", "should hold words or numbers");
+            setting.values.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+        }
+        return;
+    }
+    if (setting.steps)
+        context_.fail(place + ".press", "needs 'values' to step through");
+    setting.from = number(ours, "from", place, -kAny, kAny, 0.0);
+    setting.to = number(ours, "to", place, -kAny, kAny, 0.0);
+    if (setting.from == setting.to)
+        context_.fail(place, "has a setting, but neither 'values' nor a range 'from' .. 'to'");
+}
+
 /// TOUCHSTONE_joint: a thread, friction and detents, which the standard cannot state.
 void PhysicsReader::readOurs(const json& described, const std::string& place, Joint& joint) {
     const json* ours = extensionOf(context_, described, "TOUCHSTONE_joint", place);
@@ -427,6 +456,7 @@ void PhysicsReader::readOurs(const json& described, const std::string& place, Jo
             context_.fail(at + ".detents", "should ascend");
         joint.detents = *detents;
     }
+    readSetting(*ours, at, joint.setting);
 }
 
 void PhysicsReader::readJoint(size_t n) {
@@ -434,8 +464,9 @@ void PhysicsReader::readJoint(size_t n) {
     const json* stated = statedAt(n, "joint", place);
     if (stated == nullptr)
         return;
-    if (physics_.joints.size() == kMaxJoints)
-        context_.fail(place, "is beyond the " + std::to_string(kMaxJoints) + " joints that a scene can have");
+    if (physics_.joints.size() == kMaxBodyJoints)
+        context_.fail(place,
+                      "is beyond the " + std::to_string(kMaxBodyJoints) + " joints that a scene can have");
     Joint joint;
     joint.name = scene_.nodes[n].name;
     joint.node = static_cast<int>(n);

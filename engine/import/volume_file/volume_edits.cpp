@@ -1,6 +1,7 @@
 #include "engine/import/volume_file/volume_edits.h"
 
 #include "engine/core/error.h"
+#include "engine/scene/physics.h"
 
 #include <nlohmann/json.hpp>
 
@@ -34,7 +35,8 @@ std::optional<double> taken(std::string& edits, const char* name) {
 } // namespace
 
 std::string withChoices(const std::string& edits, const Scene& scene) {
-    if (scene.volume == nullptr && scene.animation < 0)
+    const bool loose = scene.physics != nullptr && scene.physics->loose;
+    if (scene.volume == nullptr && scene.animation < 0 && !loose)
         return edits;
     Json object = parsed(edits);
     if (!object.is_object())
@@ -43,6 +45,8 @@ std::string withChoices(const std::string& edits, const Scene& scene) {
         object["iso"] = scene.iso;
     if (scene.animation >= 0)
         object["animation"] = scene.animation;
+    if (loose)
+        object["loose"] = 1;
     return object.dump();
 }
 
@@ -54,6 +58,16 @@ std::optional<std::string> takeAnimation(std::string& edits) {
     const std::optional<double> index = taken(edits, "animation");
     return index && *index >= 0.0 ? std::optional(std::to_string(static_cast<uint64_t>(*index)))
                                   : std::nullopt;
+}
+
+std::string withLoose(const std::string& edits) {
+    Json object = parsed(edits);
+    object["loose"] = 1;
+    return object.dump();
+}
+
+bool takeLoose(std::string& edits) {
+    return taken(edits, "loose").value_or(0.0) > 0.0;
 }
 
 } // namespace touchstone

@@ -118,7 +118,8 @@ TEST(MaterialSchema, HasEveryNumberOfTheTableWithItsRange) {
         ASSERT_TRUE(properties.contains(name)) << name;
         const json& rule = properties[name];
         EXPECT_EQ(rule["type"], "number") << name;
-        EXPECT_EQ(rule.contains("exclusiveMinimum") ? rule["exclusiveMinimum"] : rule["minimum"], 0.0)
+        EXPECT_EQ(rule.contains("exclusiveMinimum") ? rule["exclusiveMinimum"] : rule["minimum"],
+                  std::min(number.least, 0.0f))
             << name;
         EXPECT_EQ(rule.contains("exclusiveMinimum"), number.least > 0.0f) << name;
         EXPECT_EQ(rule.contains("maximum"), number.most < kLargestHapticNumber) << name;
@@ -138,12 +139,14 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 33)
-        << "ten swatches, three effects, three that breathe, a doughnut, a virtual bump, a "
+    EXPECT_EQ(materials, 35)
+        << "ten swatches, three effects, three that breathe, two doughnuts, a panel, a virtual bump, a "
            "field torus, and 14 with programs";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retardationTime": 0.001,
+    "deformationRadius": 0.01, "deformationStiffness": 300, "deformationLinear": -1, "deformationQuadratic": 0,
+    "relaxationTime": 0.1,
     "staticFriction": 0.5, "dynamicFriction": 0.4, "viscousFriction": 1, "normalTextureInfluence": 0.5,
     "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
     "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},

@@ -79,6 +79,30 @@ struct BodyMaker : GltfMaker {
     [[nodiscard]] ScenePtr scene() const { return loadSceneFromMemory(glb(), {}); }
 };
 
+/// A cube that is felt, and a body; one of mass 0 rests.
+inline size_t addCube(BodyMaker& maker, const std::string& name, const glm::dvec3& at, double side,
+                      double mass) {
+    std::vector<float> positions;
+    const auto half = static_cast<float>(0.5 * side);
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis)
+            positions.push_back((corner >> axis & 1) != 0 ? half : -half);
+    const size_t accessor = maker.addAccessor<float>(positions, "VEC3");
+    maker.json["accessors"][accessor]["min"] = {-half, -half, -half};
+    maker.json["accessors"][accessor]["max"] = {half, half, half};
+    const size_t indices = maker.addAccessor<uint16_t>({0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                                        2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5},
+                                                       "SCALAR");
+    const size_t mesh = maker.append(
+        "meshes", {{"primitives", {{{"attributes", {{"POSITION", accessor}}}, {"indices", indices}}}}});
+    const size_t node = maker.node(name, at);
+    maker.json["nodes"][node]["mesh"] = mesh;
+    maker.box(node, glm::dvec3(side), 0);
+    if (mass > 0.0)
+        maker.motion(node, {{"mass", mass}});
+    return node;
+}
+
 inline const char* nameOf(BodyIntegrator integrator) {
     return integrator == BodyIntegrator::Explicit       ? "explicit"
            : integrator == BodyIntegrator::SemiImplicit ? "semiImplicit"

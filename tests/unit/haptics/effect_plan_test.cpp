@@ -72,6 +72,7 @@ Scene richPlane() {
     haptic.dynamicFriction = stated(0.3);
     haptic.viscousFriction = stated(0.5);
     haptic.damping = stated(1.0);
+    haptic.deformationRadius = stated(0.01);
     Mesh& mesh = scene.meshes[0];
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
         const float x = mesh.positions[v].x;
@@ -86,7 +87,7 @@ Scene richPlane() {
 
 constexpr Effect kAll[] = {Effect::ForceShading,     Effect::NormalMap,       Effect::HeightMap,
                            Effect::Friction,         Effect::ViscousFriction, Effect::Damping,
-                           Effect::VaryingStiffness, Effect::Program};
+                           Effect::VaryingStiffness, Effect::Program,         Effect::LocalDeformation};
 
 TEST(EffectPlan, APlainSceneHasNoneAndHoldsNothing) {
     const auto scene = compiled(plainPlane());
@@ -134,7 +135,8 @@ TEST(EffectPlan, TellsAllThatIsHeldAndNothingTwice) {
         if (effect == Effect::Program) // ProgramEffect.* has it
             continue;
         EXPECT_TRUE(planned(*scene, effect).on) << effectName(effect);
-        EXPECT_EQ(planned(*scene, effect).memoryBytes > 0, effect != Effect::ViscousFriction);
+        EXPECT_EQ(planned(*scene, effect).memoryBytes > 0,
+                  effect != Effect::ViscousFriction && effect != Effect::LocalDeformation);
     }
     const size_t vertices = scene->objects[0]->normals.size();
     EXPECT_EQ(planned(*scene, Effect::ForceShading).memoryBytes,

@@ -193,8 +193,8 @@ TEST(TouchCheckpoint, KnowsTheStructuresAsTheyAre) {
     EXPECT_EQ(sizeof(JammedObjects), 232u);
     EXPECT_EQ(sizeof(WatchState), 8u);
     // What a tick writes before it reads, and what can be found again, may be of any size.
-    EXPECT_EQ(sizeof(DeviceState) - sizeof(SolveResult) - 2 * sizeof(CandidateCache), 840u);
-    EXPECT_EQ(checkpointSize(), 745u) << "what is carried belongs to the format";
+    EXPECT_EQ(sizeof(DeviceState) - sizeof(SolveResult) - 2 * sizeof(CandidateCache), 1152u);
+    EXPECT_EQ(checkpointSize(), 1045u) << "what is carried belongs to the format";
     EXPECT_LE(checkpointSize(), TouchCheckpoint::kCapacity);
 }
 
@@ -206,9 +206,17 @@ TEST(TouchCheckpoint, RefusesWhatIsNoStateOfTheScene) {
     ASSERT_TRUE(restoreCheckpoint(checkpoint.state(), scene.haptic.get(), state));
     ASSERT_TRUE(restoreCheckpoint(checkpoint.state(), nullptr, state));
     EXPECT_FALSE(restoreCheckpoint(checkpoint.state().first(checkpoint.size - 1), scene.haptic.get(), state));
-    // One of before programs ends 81 bytes earlier: what programs see of the hand begins at nothing.
+    // One of before programs ends 81 bytes earlier than one of before dents and grasping: what programs see
+    // of the hand begins at nothing.
     state.tool = {.known = true, .time = 3.0};
-    ASSERT_TRUE(restoreCheckpoint(checkpoint.state().first(checkpoint.size - 81), scene.haptic.get(), state));
+    state.dents.depth[1] = 0.001;
+    state.grasp.object = 0;
+    ASSERT_TRUE(
+        restoreCheckpoint(checkpoint.state().first(checkpoint.size - 300), scene.haptic.get(), state));
+    EXPECT_FALSE(state.dents.any());
+    EXPECT_EQ(state.grasp.object, -1);
+    ASSERT_TRUE(
+        restoreCheckpoint(checkpoint.state().first(checkpoint.size - 381), scene.haptic.get(), state));
     EXPECT_FALSE(state.tool.known);
     EXPECT_EQ(state.tool.time, 0.0);
     state.reference = 1; // there is one object

@@ -40,5 +40,39 @@ TEST(SoundingHand, APlaceThatIsNoneIsNotHeardForEver) {
     }
 }
 
+TEST(SoundingHand, HearsBodiesThatMeet) {
+    // 25 mN s within a tick of 1 ms: 25 N, whose rise and fall are heard; what rests is silent.
+    ForceChange change;
+    const auto press = [&](double impact) {
+        return static_cast<double>(change.add(soundTick(1e-3, DeviceSample{}, {}, impact)).press);
+    };
+    EXPECT_EQ(press(0.0), 0.0);
+    EXPECT_NEAR(press(0.025), (25.0 - 1e3 * ForceChange::kResting) * 1e3, 1.0);
+    EXPECT_NEAR(press(0.0), -(25.0 - 1e3 * ForceChange::kResting) * 1e3, 1.0);
+    EXPECT_EQ(press(0.9 * ForceChange::kResting), 0.0);
+}
+
+TEST(SoundingHand, PassesOnWhatTheServoSaysOfBodies) {
+    class Still final : public Device {
+      public:
+        [[nodiscard]] std::string name() const override { return "still"; }
+        [[nodiscard]] DeviceLimits limits() const override { return {}; }
+        [[nodiscard]] DeviceSample sample(double) noexcept override { return {}; }
+        void apply(const DeviceCommand&) noexcept override {}
+    } device;
+    SoundFeed feed;
+    SoundingHand hand(device, feed);
+    std::atomic<double> impact{0.01};
+    hand.hear(impact);
+    feed.listen(true);
+    for (const double time : {0.001, 0.002}) {
+        (void)hand.sample(time);
+        hand.apply({});
+    }
+    SoundTick tick;
+    ASSERT_TRUE(feed.pop(tick));
+    EXPECT_EQ(tick.impact, 0.01);
+}
+
 } // namespace
 } // namespace touchstone::test
