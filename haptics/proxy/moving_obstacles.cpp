@@ -24,29 +24,19 @@
 // the step's end, linearised where the copy would be had the triangle carried it along: on the side where it
 // was.
 
-#include "haptics/proxy/moving_obstacles.h"
+#include "haptics/proxy/obstacle_search.h"
 
-#include "haptics/contact/moving_triangle.h"
 #include "haptics/contact/near_contacts.h"
-#include "haptics/contact/sweep.h"
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/settings/tick_flags.h"
-#include "haptics/shape/mesh/triangle.h"
-#include "haptics/solve/sub_goal.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace touchstone {
 
 namespace {
 
-/// Distance beyond the radius at which the proxy ends a tick, object units: more than the rounding between
-/// frames, less than a thousandth of the smallest radius. A sweep ends at half of it.
-constexpr double kObstacleGap = 1e-10;
-/// A move shorter than this is rounding, object units.
-constexpr double kNoMove = 1e-12;
 /// The largest turn of a step, rad.
 constexpr double kLargestTurn = 0.125;
 /// The shortest step, in ticks: the resolution at which a jam is detected.
@@ -54,113 +44,18 @@ constexpr double kShortestStep = 1.0 / 4096.0;
 constexpr int kRounds = 24;
 /// Bound of a tick's work. A step without conflict takes one sweep per object.
 constexpr int kSweepBudget = 512;
-constexpr int kFollowRounds = 8;
-/// Once a jammed object has moved on by this distance (its longest side is 1), touch begins again.
-constexpr double kGivenUp = 0.5;
-/// Of the distance that the proxy keeps: what a moving triangle leaves it within a step. At the step's end it
-/// is the whole distance.
-constexpr double kLeftInStep = 0.5;
-
-class MovingObstacles {
-  public:
-    MovingObstacles(const HapticScene& scene, ObjectMotions motions, double radius, DeviceState& state,
-                    uint32_t& flags) noexcept
-        : scene_(scene), motions_(motions), state_(state), flags_(flags) {
-        const ObjectMotion& reference = motions_[index(state_.reference)];
-        const double skin = 0.5 * kWeldTolerance * scene_.objects[index(state_.reference)]->diagonal;
-        radius_ = std::max(radius, skin * reference.before.scale);
-        place_ = reference.before.point(state_.proxy);
-        start_ = place_;
-    }
-
-    void run() noexcept;
-
-  private:
-    /// What stopped a copy: a triangle, or a feature of a shape. Object frame.
-    struct Hit {
-        size_t copy = 0;
-        Triangle triangle;
-        const Shape* shape = nullptr;
-        FeatureId feature = 0;
-        bool moving = false; ///< the triangle, at the step's end, of an object that deforms
-        glm::dvec3 at{0.0};  ///< then: where it is linearised
-
-        [[nodiscard]] FeatureDistance from(const glm::dvec3& place) const noexcept {
-            if (moving) [[unlikely]]
-                return fromAside(place);
-            if (shape != nullptr)
-                return shape->distanceFrom(feature, place);
-            const TriangleDistance d = distanceTo(triangle, place);
-            return {.distance = d.distance, .gradient = d.gradient, .closest = d.closest};
-        }
-        /// As if measured at `place`: the plane is what counts.
-        [[gnu::noinline]] FeatureDistance fromAside(const glm::dvec3& place) const noexcept {
-            const TriangleDistance d = distanceTo(triangle, at);
-            return {.distance = d.distance + glm::dot(d.gradient, place - at),
-                    .gradient = d.gradient,
-                    .closest = d.closest};
-        }
-    };
-    static constexpr size_t kMaxHit = 32;
-
-    static size_t index(int object) { return static_cast<size_t>(object); }
-    const HapticObject& objectOf(const MovingObstacle& copy) const {
-        return *scene_.objects[index(copy.object)];
-    }
-    bool moves(size_t k) const;
-    [[nodiscard]] const MeshInstant* instantOf(const MovingObstacle& copy) const {
-        return objectOf(copy).instant;
-    }
-    [[nodiscard]] MovingTriangle movingTriangle(const MovingObstacle& copy, uint32_t index) const noexcept;
-    bool gatherMoving(const MovingObstacle& copy, const glm::dvec3& to) noexcept;
-    bool sweepMoving(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept;
-    void noteMoving(size_t copy, const MovingObstacle& object, uint32_t index, const MovingTriangle& triangle,
-                    const glm::dvec3& to) noexcept;
-    [[nodiscard]] glm::dvec3 carried(const MovingObstacle& copy) noexcept;
-    bool isNear(size_t k, double within) const;
-    bool settleJumps() noexcept;
-    bool blockedAt(size_t k, const glm::dvec3& place) noexcept;
-    bool listNear() noexcept;
-    void startStep(double from, double to) noexcept;
-    bool solve(const glm::dvec3& target) noexcept;
-    glm::dvec3 target(double step) noexcept;
-    void advance() noexcept;
-    void pinch(double from) noexcept;
-    bool advanceWith(size_t holder, bool commit) noexcept;
-    bool followJammed() noexcept;
-    bool follow(MovingObstacle& copy) noexcept;
-    bool sweep(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept;
-    void note(size_t copy, const MovingObstacle& object) noexcept;
-    bool nearestPlace(std::span<const MovingObstacle> copies, const glm::dvec3& target, double unit,
-                      glm::dvec3& place) noexcept;
-    void lose() noexcept;
-    void finish() noexcept;
-
-    const HapticScene& scene_;
-    ObjectMotions motions_;
-    DeviceState& state_;
-    uint32_t& flags_;
-    double radius_; // workspace
-    glm::dvec3 start_, place_;
-    double room_ = 0.0; // every object within this distance of start_ is known, workspace
-    double unit_ = 1.0; // workspace metres per unit of the solve
-    double largestAngle_ = 0.0;
-    size_t near_ = 0; // copies in use
-    int sweeps_ = 0;
-    std::array<Hit, kMaxHit> hit_;
-    std::array<ConstraintPlane, kMaxHit> planes_;
-    size_t struckCount_ = 0;
-    bool revised_ = false;                   // a moving triangle was linearised again in this round
-    bool deforming_ = false;                 // some object near does
-    double from_ = 0.0, to_ = 0.0;           // of the step, in ticks
-    glm::dvec3 drift_{0.0}, stepDrift_{0.0}; // of the reference object's deforming surface at the proxy
-    int pusher_ = -1;                        // object whose plane held the last place that was pushed
-    bool anchorPushes_ = false;
-};
 
 bool same(const Similarity& a, const Similarity& b) {
     return a.translation == b.translation && a.rotation == b.rotation && a.scale == b.scale;
 }
+
+/// The proxy's clearance shrinks with its object.
+void shrinkClearance(const ObjectMotion& reference, DeviceState& state) noexcept {
+    if (!reference.jumped && reference.workspaceFromObject.scale < reference.before.scale)
+        state.clearance *= reference.workspaceFromObject.scale / reference.before.scale;
+}
+
+} // namespace
 
 bool MovingObstacles::moves(size_t k) const {
     if (const MeshInstant* instant = scene_.objects[k]->instant; instant != nullptr && instant->travel > 0.0)
@@ -255,76 +150,6 @@ void MovingObstacles::startStep(double from, double to) noexcept {
     struckCount_ = 0;
 }
 
-/// Stores the feature that stopped the copy.
-void MovingObstacles::note(size_t copy, const MovingObstacle& object) noexcept {
-    CandidateCache& cache = state_.obstacleCandidates;
-    const double touching = object.reach - 0.4 * kObstacleGap;
-    cache.eachNear(object.place, touching, [&](size_t i) {
-        const double distance = distanceTo(cache.triangle(i), object.place).distance;
-        if (struckCount_ < kMaxHit && distance <= touching &&
-            !cache.passes(i, object.place, distance, object.reach))
-            hit_[struckCount_++] = {copy, cache.triangle(i), nullptr, 0};
-    });
-    const Shape* shape = scene_.objects[index(object.object)]->shape.get();
-    // Each feature of a shape once: it is linearised again in every round.
-    (void)cache.shapes().eachNear(object.place, touching, [&](int, const FeatureDistance& d) {
-        const auto known = std::span(hit_).first(struckCount_);
-        const bool noted = std::any_of(known.begin(), known.end(), [&](const Hit& s) {
-            return s.copy == copy && s.shape == shape && s.feature == d.feature;
-        });
-        if (struckCount_ < kMaxHit && !noted)
-            hit_[struckCount_++] = {copy, {}, shape, d.feature};
-    });
-}
-
-/// Moves a copy straight to `to` (object frame) or as far as its object allows; true when it arrives. A
-/// segment with too many triangles is halved; where one remains too dense, the sweep ends.
-bool MovingObstacles::sweep(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept {
-    constexpr int kPieces = 64;
-    const glm::dvec3 from = object.place, move = to - from;
-    const double length = glm::length(move);
-    if (instantOf(object) != nullptr)
-        return sweepMoving(copy, object, to);
-    if (length <= kNoMove)
-        return true;
-    const double nearest = std::clamp(-glm::dot(from, move) / (length * length), 0.0, 1.0);
-    if (glm::length(from + nearest * move) > object.bounding + object.reach) {
-        object.place = to;
-        return true;
-    }
-    ++sweeps_;
-    const size_t k = index(object.object);
-    CandidateCache& cache = state_.obstacleCandidates;
-    cache.standsClearBy(object.standing);
-    double done = 0.0, piece = 1.0;
-    for (int i = 0; i < kPieces; ++i) {
-        const glm::dvec3 start = from + done * move;
-        const double ball = 0.5 * piece * length + object.reach + kObstacleGap;
-        if (!cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
-                          std::span(scene_.boundingRadii).subspan(k, 1), 0, start + 0.5 * piece * move,
-                          ball)) {
-            piece *= 0.5;
-            continue;
-        }
-        cache.moved();
-        const double first = timeOfImpact(cache, start, move, object.reach - 0.5 * kObstacleGap, piece);
-        if (first < piece) {
-            object.place = start + first * move;
-            note(copy, object);
-            return false;
-        }
-        done += piece;
-        object.place = from + done * move;
-        if (done >= 1.0) {
-            object.place = to;
-            return true;
-        }
-        piece = std::min(2.0 * piece, 1.0 - done);
-    }
-    flags_ = flags_ | TickFlag::CandidatesFull;
-    return false;
-}
-
 /// The place nearest to `target` that satisfies all hit triangles; false where there is none.
 bool MovingObstacles::nearestPlace(std::span<const MovingObstacle> copies, const glm::dvec3& target,
                                    double unit, glm::dvec3& place) noexcept {
@@ -371,106 +196,6 @@ bool MovingObstacles::solve(const glm::dvec3& target) noexcept {
     return false;
 }
 
-/// A triangle's way through the step, object frame.
-MovingTriangle MovingObstacles::movingTriangle(const MovingObstacle& copy, uint32_t index) const noexcept {
-    const HapticObject& object = objectOf(copy);
-    const MeshInstant& instant = *object.instant;
-    const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
-    const auto at = [&](size_t k, double time) {
-        const glm::dvec3 now = instant.now.at(corner[k]);
-        if (time >= 1.0)
-            return now;
-        const glm::dvec3 before = instant.before.at(corner[k]);
-        return before + time * (now - before);
-    };
-    return {Triangle(at(0, from_), at(1, from_), at(2, from_)), Triangle(at(0, to_), at(1, to_), at(2, to_))};
-}
-
-/// Lists the triangles that may come near a copy on its way to `to`. From any time of the step to the tick's
-/// end, whose places the tree knows, no vertex moves farther than `travel`.
-bool MovingObstacles::gatherMoving(const MovingObstacle& copy, const glm::dvec3& to) noexcept {
-    const glm::dvec3 half = 0.5 * (to - copy.origin);
-    const double ball =
-        glm::length(half) + copy.reach + kObstacleGap + (1.0 - from_) * instantOf(copy)->travel;
-    CandidateCache& cache = state_.obstacleCandidates;
-    const auto k = index(copy.object);
-    cache.standsClearBy(INFINITY);
-    if (cache.gather({&scene_.objects[k], 1}, motions_.subspan(k, 1),
-                     std::span(scene_.boundingRadii).subspan(k, 1), 0, copy.origin + half, ball))
-        return true;
-    flags_ = flags_ | TickFlag::CandidatesFull;
-    return false;
-}
-
-/// Moves a copy straight from the step's start to `to` (object frame) while the triangles move; true when
-/// nothing is in the way and it ends as far away as it should.
-bool MovingObstacles::sweepMoving(size_t copy, MovingObstacle& object, const glm::dvec3& to) noexcept {
-    ++sweeps_;
-    object.place = object.origin;
-    if (!gatherMoving(object, to))
-        return false;
-    const CandidateCache& cache = state_.obstacleCandidates;
-    bool clear = true;
-    for (size_t i = 0; i < cache.count(); ++i) {
-        const uint32_t index = cache.item(i).index;
-        const MovingTriangle triangle = movingTriangle(object, index);
-        const double stands = distanceTo(triangle.start, object.origin).distance,
-                     ends = distanceTo(triangle.end, to).distance;
-        // A proxy that is nearer than its reach (its radius grew) may stay so near.
-        const double enough = std::min(object.reach - 0.5 * kObstacleGap, stands);
-        if (ends >= enough &&
-            staysClear(triangle, object.origin, to, kLeftInStep * std::min(object.reach, stands)))
-            continue;
-        clear = false;
-        noteMoving(copy, object, index, triangle, to);
-    }
-    if (clear)
-        object.place = to;
-    return clear;
-}
-
-/// Stores the triangle; one that is known is linearised again where its plane led to, if that is free.
-void MovingObstacles::noteMoving(size_t copy, const MovingObstacle& object, uint32_t index,
-                                 const MovingTriangle& triangle, const glm::dvec3& to) noexcept {
-    for (size_t i = 0; i < struckCount_; ++i) {
-        Hit& hit = hit_[i];
-        if (!hit.moving || hit.copy != copy || hit.feature != index)
-            continue;
-        const double keep =
-            kLeftInStep * std::min(object.reach, distanceTo(triangle.start, object.origin).distance);
-        if (hit.at != to && staysClear(triangle, object.origin, to, keep)) {
-            hit.at = to;
-            revised_ = true;
-        }
-        return;
-    }
-    if (struckCount_ < kMaxHit)
-        hit_[struckCount_++] = {.copy = copy,
-                                .triangle = triangle.end,
-                                .shape = nullptr,
-                                .feature = index,
-                                .moving = true,
-                                .at = carriedAlong(triangle, object.origin)};
-}
-
-/// Where the surface nearest to a copy takes it through the step, object frame.
-glm::dvec3 MovingObstacles::carried(const MovingObstacle& copy) noexcept {
-    if (!gatherMoving(copy, copy.origin))
-        return copy.origin;
-    const CandidateCache& cache = state_.obstacleCandidates;
-    double least = INFINITY;
-    glm::dvec3 to = copy.origin;
-    for (size_t i = 0; i < cache.count(); ++i) {
-        const MovingTriangle triangle = movingTriangle(copy, cache.item(i).index);
-        const double distance = distanceTo(triangle.start, copy.origin).distance;
-        if (distance < least) {
-            least = distance;
-            to = carriedAlong(triangle, copy.origin);
-        }
-    }
-    return to;
-}
-
 /// The proxy's place without obstacles: its present place, or the place to which a surface that it sticks to
 /// takes it; no farther than friction can hold it back.
 glm::dvec3 MovingObstacles::target(double step) noexcept {
@@ -485,61 +210,6 @@ glm::dvec3 MovingObstacles::target(double step) noexcept {
             return length > most ? place_ + most / length * drag : place_ + drag;
         }
     return place_;
-}
-
-/// Moves the proxy to where the holder takes it and sweeps every other copy there as far as its object
-/// allows. With `commit` the objects that block it are jammed; else false if there is one.
-bool MovingObstacles::advanceWith(size_t holder, bool commit) noexcept {
-    const std::span<MovingObstacle> copies = std::span(state_.carried).first(near_);
-    const glm::dvec3 target = copies[holder].pose.point(copies[holder].origin);
-    for (size_t i = 0; i < near_; ++i) {
-        MovingObstacle& copy = copies[i];
-        copy.place = copy.origin;
-        struckCount_ = 0;
-        if (i == holder || sweep(i, copy, copy.pose.inversePoint(target)))
-            continue;
-        if (!commit)
-            return false;
-        if (!state_.jammed.add(copy.object, copy.place)) {
-            lose();
-            return true;
-        }
-    }
-    place_ = target;
-    pusher_ = copies[holder].object;
-    anchorPushes_ = pusher_ == state_.reference;
-    return true;
-}
-
-/// No place was found. One of the objects that met may still take the proxy through the rest of the tick, as
-/// where a slide between many facets is too long for one tick; else the proxy stays with the one touched
-/// last.
-void MovingObstacles::pinch(double from) noexcept {
-    // No rigid frame to stay with: touch begins again where there is room.
-    if (deforming_) {
-        flags_ = flags_ | TickFlag::Jammed;
-        state_.mustLeave = true;
-        return lose();
-    }
-    std::array<int, 4> touched{-1, -1, -1, -1};
-    size_t count = 0, holder = near_;
-    for (size_t i = 0; i < near_; ++i)
-        if (state_.carried[i].object == state_.reference)
-            holder = i;
-    if (holder < near_)
-        touched[count++] = static_cast<int>(holder);
-    for (size_t i = 0; i < struckCount_ && count < touched.size(); ++i) {
-        const int copy = static_cast<int>(hit_[i].copy);
-        if (std::find(touched.begin(), touched.end(), copy) == touched.end())
-            touched[count++] = copy;
-    }
-    if (count == 0)
-        return lose();
-    startStep(from, 1.0);
-    for (size_t i = 0; i < count; ++i)
-        if (advanceWith(index(touched[i]), false))
-            return;
-    advanceWith(index(touched[0]), true);
 }
 
 void MovingObstacles::advance() noexcept {
@@ -561,50 +231,6 @@ void MovingObstacles::advance() noexcept {
         if (step < kShortestStep || sweeps_ >= kSweepBudget)
             return pinch(time);
     }
-}
-
-/// Slides the copy of a jammed object as near to the proxy as that object allows; true when it arrives.
-bool MovingObstacles::follow(MovingObstacle& copy) noexcept {
-    struckCount_ = 0;
-    const std::span<const MovingObstacle> only(&copy, 1);
-    for (int round = 0; round < kFollowRounds; ++round) {
-        glm::dvec3 place;
-        if (!nearestPlace(only, place_, copy.pose.scale, place))
-            return false;
-        if (sweep(0, copy, copy.pose.inversePoint(place)))
-            return glm::length(place - place_) <= 10.0 * kObstacleGap * copy.pose.scale;
-    }
-    return false;
-}
-
-/// Moves the copies of the jammed objects. False when one is so far away that touch must begin again.
-bool MovingObstacles::followJammed() noexcept {
-    for (size_t i = 0; i < state_.jammed.count; ++i) {
-        const size_t k = index(state_.jammed.objects[i]);
-        MovingObstacle copy;
-        copy.object = state_.jammed.objects[i];
-        copy.pose = motions_[k].workspaceFromObject;
-        copy.place = state_.jammed.places[i];
-        copy.reach = radius_ / copy.pose.scale + kObstacleGap;
-        copy.standing =
-            std::min(state_.clearance, radius_) / std::max(copy.pose.scale, motions_[k].before.scale);
-        copy.bounding = scene_.objects[k]->boundingRadius;
-        const bool together = follow(copy);
-        state_.jammed.places[i] = copy.place;
-        const double apart = glm::length(copy.pose.inversePoint(place_) - copy.place);
-        if (together)
-            state_.jammed.remove(i--);
-        else if (apart > kGivenUp)
-            return false;
-    }
-    if (state_.jammed.count > 0)
-        flags_ = flags_ | TickFlag::Jammed;
-    return true;
-}
-
-void MovingObstacles::lose() noexcept {
-    state_.placed = false;
-    state_.jammed.count = 0;
 }
 
 void MovingObstacles::finish() noexcept {
@@ -653,14 +279,6 @@ void MovingObstacles::run() noexcept {
     if (state_.placed)
         finish();
 }
-
-/// The proxy's clearance shrinks with its object.
-void shrinkClearance(const ObjectMotion& reference, DeviceState& state) noexcept {
-    if (!reference.jumped && reference.workspaceFromObject.scale < reference.before.scale)
-        state.clearance *= reference.workspaceFromObject.scale / reference.before.scale;
-}
-
-} // namespace
 
 void sweepMovingObstacles(const HapticScene& scene, ObjectMotions motions, double radius, DeviceState& state,
                           uint32_t& flags) noexcept {

@@ -11,7 +11,7 @@ namespace {
 /// Slots: the tick's, that of the tick before, and one to fill; with a publisher those ahead, 21 ms of them.
 constexpr size_t kSlots = 3, kSlotsAhead = 8;
 /// Object units: an animation that ends farther than this from where it begins jumps there.
-constexpr double kSame = 1e-3;
+constexpr double kClosed = 1e-3;
 constexpr auto kIdle = std::chrono::milliseconds(1);
 
 } // namespace
@@ -56,7 +56,7 @@ DeformingObjects::DeformingObjects(ScenePtr source, const Animation& animation, 
     for (size_t p = 0; p < deformed_.size(); ++p)
         for (size_t v = 0; v < last[p].size() && !deformed_[p].jumps; ++v)
             deformed_[p].jumps =
-                glm::distance(glm::dvec3(last[p][v]), glm::dvec3(first.parts[p].from[v])) > kSame;
+                glm::distance(glm::dvec3(last[p][v]), glm::dvec3(first.parts[p].from[v])) > kClosed;
     first.use.store(Use::Held, std::memory_order_relaxed);
     now_ = before_ = &first;
     moment_ = previous_ = {0, 0.0};
