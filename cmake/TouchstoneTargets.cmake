@@ -1,7 +1,9 @@
 # Flags that all of our own code shares, and the one way to add a library.
+# Contraction is off: where products and sums are fused depends on what is inlined, so that recordings would replay with the
+# build alone that made them, and a program's numbers would not be those of its SPIR-V.
 add_library(touchstone_flags INTERFACE)
 target_compile_options(touchstone_flags INTERFACE
-    -march=x86-64-v3 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    -march=x86-64-v3 -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     -Wnon-virtual-dtor -Werror -fno-math-errno)
 # g++ 12 sees overlaps in inlined std::string concatenation that are not there (GCC bug 105651).
 target_compile_options(touchstone_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
