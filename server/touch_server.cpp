@@ -390,10 +390,14 @@ void TouchServer::pump() {
     ts_state state = TS_STRUCT(ts_state);
     ts::check(ts_session_pump(session_.get(), &state));
     sendTicks();
+    const auto now = std::chrono::steady_clock::now();
+    for (Client& client : clients_)
+        client.sinceState += std::chrono::duration<double>(now - pumped_).count();
+    pumped_ = now;
     if (state.touching == 0 || (state.tick == lastTick_ && state.rendered == 0))
         return;
     lastTick_ = state.tick;
-    sendState(state, pumpPeriod());
+    sendState(state);
 }
 
 double TouchServer::pumpPeriod() const {
@@ -404,7 +408,7 @@ double TouchServer::pumpPeriod() const {
 }
 
 /// To each client as often as it has asked for.
-void TouchServer::sendState(const ts_state& state, double elapsed) {
+void TouchServer::sendState(const ts_state& state) {
     const Json event{{"event", "state"},
                      {"tick", state.tick},
                      {"time", state.time},
@@ -423,8 +427,7 @@ void TouchServer::sendState(const ts_state& state, double elapsed) {
                      {"force_on", forceOn_},
                      {"driver", driver_ != 0 ? Json(driver_) : Json()}};
     for (Client& client : clients_) {
-        constexpr double kSlack = 0.01; // of a period
-        client.sinceState += elapsed;
+        constexpr double kSlack = 0.1; // of a period: timers are late by some of one
         if (!client.known || client.sinceState * client.stateRate < 1.0 - kSlack)
             continue;
         client.sinceState = 0.0;

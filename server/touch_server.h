@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <future>
@@ -89,7 +90,7 @@ class TouchServer {
     void dismissDriver();
     void tell(const Json& event, uint64_t client = 0);
     void sendTicks();
-    void sendState(const ts_state& state, double elapsed);
+    void sendState(const ts_state& state);
 
     ServeOptions options_;
     std::string token_;
@@ -97,6 +98,7 @@ class TouchServer {
     std::vector<Client> clients_;
     uint64_t driver_ = 0;
     bool forceOn_ = true, touching_ = false, rendered_ = false;
+    std::chrono::steady_clock::time_point pumped_{};
     std::future<Loaded> loading_;
     std::unique_ptr<ts::Scene> scene_; ///< that is touched
     Json changedMaterials_;            ///< what clients have changed of it: {"0": {"stiffness": 900}}

@@ -25,6 +25,14 @@ ControlLoop::~ControlLoop() {
 void ControlLoop::start() {
     if (thread_.joinable())
         return;
+    // A stop sent zero: the force of before, its place and its goals are gone, and what comes fades in.
+    followed_ = follows();
+    spring_ =
+        ProxySpring({.power = followed_ == GoalSource::Servo ? config_.contactPower : config_.goalPower,
+                     .passivity = config_.passivity});
+    (void)fromServo_.update();
+    (void)fromCaller_.update();
+    late_ = false;
     stopping_.store(false, std::memory_order_relaxed);
     thread_ = std::thread([this] { run(); });
 }
@@ -81,11 +89,14 @@ void ControlLoop::tick(uint64_t number, double dt) noexcept {
         (void)fromCaller_.update(); // of before
     }
     TripleBuffer<ContactGoal>& goals = followed_ == GoalSource::Servo ? fromServo_ : fromCaller_;
-    if (goals.update())
-        (void)spring_.hear(goals.value());
+    if (goals.update()) {
+        ContactGoal goal = goals.value();
+        goal.stiffness = std::min(goal.stiffness, sample.limits.maxStiffness);
+        (void)spring_.hear(goal);
+    }
     if (followed_ == GoalSource::Servo)
         sample.mapping.coupling = 1.0; // the servo has weakened its force by it
-    const DeviceCommand command = spring_.step(sample, dt, forceOn_.load(std::memory_order_relaxed));
+    const DeviceCommand command = spring_.step(sample, dt, forceOn_.load(std::memory_order_relaxed), late_);
     device_.apply(command);
 
     const Similarity& map = sample.mapping.workspaceFromDevice;
@@ -114,7 +125,8 @@ void ControlLoop::run() noexcept {
         const realtime::TickScope scope;
         tick(number, static_cast<double>(elapsed) / config_.rateHz);
         const long long done = monotonicNs();
-        if (done > deadline + period)
+        late_ = done > deadline + period;
+        if (late_)
             missed_.fetch_add(1, std::memory_order_relaxed);
         number += 1 + static_cast<uint64_t>(std::max(0LL, (done - deadline) / period)); // no bursts
     }

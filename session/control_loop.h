@@ -96,6 +96,7 @@ class ControlLoop final : public Device {
     ProxySpring spring_;
     GoalSource followed_ = GoalSource::Servo;
     Taken now_;
+    bool late_ = false; // the last tick ended more than a period late
     std::thread thread_;
 };
 

@@ -38,9 +38,13 @@ class PaddedHand final : public Device {
         return sample;
     }
     void apply(const DeviceCommand& command) noexcept override {
-        if (const PadLimits limits = hand_.pad(); limits.reach > 0.0)
-            show(LocationLimiter::limit(FingerPad{}.locationOn(turn_, normal_), touching_ && known_, limits,
-                                        dt_, state_));
+        const PadLimits limits = hand_.pad();
+        // Also where there is no display: the next one begins in its middle, not where this one was.
+        const PadCommand place = LocationLimiter::limit(FingerPad{}.locationOn(turn_, normal_),
+                                                        touching_ && known_, limits, dt_, state_);
+        if (limits.reach > 0.0 || shows_)
+            show(place);
+        shows_ = limits.reach > 0.0;
         hand_.apply(command);
     }
 
@@ -61,7 +65,7 @@ class PaddedHand final : public Device {
     glm::dvec3 normal_{0.0, 1.0, 0.0}; // workspace, of the last contact
     glm::dquat turn_{1.0, 0.0, 0.0, 0.0};
     double time_ = 0.0, dt_ = 0.0; // s
-    bool touching_ = false, known_ = false;
+    bool touching_ = false, known_ = false, shows_ = false;
     std::atomic<double> along_{0.0}, across_{0.0};
 };
 

@@ -9,6 +9,8 @@ uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr sourc
     std::optional<uint32_t> root;
     if (sculpted && scene != nullptr)
         root = sculptor_.carryOver(scene, source, swap);
+    if (!root)
+        sculptor_.begin(0, nullptr, nullptr); // its worker reads what offerScene replaces
     const uint32_t number = root ? *root : servo_.offerScene(scene, source, swap);
     if (!root)
         sculptor_.begin(number, scene, source);

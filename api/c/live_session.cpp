@@ -140,6 +140,7 @@ void LiveSession::makeSession() {
     }
     if (controlled_) {
         control_ = std::make_unique<ControlLoop>(*device, *controlled_);
+        enableControl();
         device = control_.get();
     }
     session_ =
@@ -175,6 +176,13 @@ void LiveSession::set(std::string_view name, std::string_view value) {
         buildFor(*changed_->haptic(), settings_);
     if (session_ != nullptr)
         session_->set(settings_);
+    enableControl();
+}
+
+/// `force` and the setting forceEnabled hold for whoever renders.
+void LiveSession::enableControl() {
+    if (control_ != nullptr)
+        control_->enableForce(forceOn_ && settings_.forceEnabled);
 }
 
 void LiveSession::material(uint64_t material, std::string_view name, double value) {
@@ -195,8 +203,8 @@ void LiveSession::force(bool on) {
     requireOpen();
     if (session_ == nullptr)
         throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
-    if (control_ != nullptr)
-        control_->enableForce(on);
+    forceOn_ = on;
+    enableControl();
     ForceSwitch& force = session_->forceSwitch();
     if (on)
         (void)force.giveBack(force.state());

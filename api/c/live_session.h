@@ -65,6 +65,7 @@ class LiveSession final : public Object, private TickSubscriber {
 
     void requireOpen() const;
     void makeSession();
+    void enableControl();
     [[nodiscard]] ControlLoop& controlLoop();
     void stateFrom(const ControlLoop::State& control, ts_state& state) const;
     [[nodiscard]] Device& simulatedHand();
@@ -85,7 +86,7 @@ class LiveSession final : public Object, private TickSubscriber {
     std::shared_ptr<TouchedScene> scene_;
     std::optional<ChangedMaterials> changed_; // of scene_; none: as it says
     HapticSettings settings_;
-    bool running_ = false;
+    bool running_ = false, forceOn_ = true;
     std::atomic<bool> closed_{false};
     size_t keep_;
     std::deque<TickRow> kept_;

@@ -37,6 +37,12 @@ glm::dvec3 lastWithin(const glm::dvec3& from, const glm::dvec3& to, const glm::d
     return from + std::clamp(share, 0.0, 1.0) * way;
 }
 
+/// J that a spring gives back through a device that pulls no harder than maxForce: it took no more.
+double storedBy(double stiffness, double length, double maxForce) {
+    const double force = stiffness * length;
+    return force <= maxForce ? 0.5 * force * length : maxForce * (length - 0.5 * maxForce / stiffness);
+}
+
 } // namespace
 
 const char* problemOf(const ContactGoal& goal) noexcept {
@@ -102,7 +108,8 @@ double ProxySpring::left() const noexcept {
     return std::clamp(1.0 - (silent_ - settings_.silence) / kFadeTime, 0.0, 1.0);
 }
 
-void ProxySpring::moveEnd(const glm::dvec3& hand, const DeviceMapping& mapping, double dt) noexcept {
+void ProxySpring::moveEnd(const glm::dvec3& hand, const DeviceSample& sample, double dt) noexcept {
+    const DeviceMapping& mapping = sample.mapping;
     if (!holds()) {
         end_ = hand;
         planeCount_ = 0;
@@ -111,7 +118,7 @@ void ProxySpring::moveEnd(const glm::dvec3& hand, const DeviceMapping& mapping, 
         return;
     }
     slide(hand);
-    const double stored = 0.5 * stiffness_ * squared(end_ - hand);
+    const double stored = storedBy(stiffness_, glm::length(end_ - hand), sample.limits.maxForce);
     stiffness_ = left() * goal_.stiffness;
     const double half = 0.5 * stiffness_;
     takePlanes(mapping);
@@ -137,7 +144,8 @@ void ProxySpring::moveEnd(const glm::dvec3& hand, const DeviceMapping& mapping, 
     }
 }
 
-DeviceCommand ProxySpring::step(const DeviceSample& sample, double dt, bool forceEnabled) noexcept {
+DeviceCommand ProxySpring::step(const DeviceSample& sample, double dt, bool forceEnabled,
+                                bool late) noexcept {
     flags_ = 0;
     const bool known = sample.valid && finite(sample.position);
     silent_ += dt;
@@ -146,7 +154,7 @@ DeviceCommand ProxySpring::step(const DeviceSample& sample, double dt, bool forc
         if (!placed_ || sample.begins)
             end_ = sample.position;
         measure(sample.position, dt);
-        moveEnd(sample.position, sample.mapping, dt);
+        moveEnd(sample.position, sample, dt);
     } else {
         placed_ = false;
     }
@@ -159,12 +167,18 @@ DeviceCommand ProxySpring::step(const DeviceSample& sample, double dt, bool forc
                               .dt = dt,
                               .inputValid = known,
                               .sampleAge = sample.age,
+                              .late = late,
                               .forceEnabled = forceEnabled,
                               .passivity = settings_.passivity,
                               .position = sample.position,
                               .springLength = glm::length(end_ - sample.position),
                               .coupling = sample.mapping.coupling};
-    return ForceLimiter::limit(force_, glm::dvec3(0.0), inputs, {}, limiter_, flags_);
+    const DeviceCommand command =
+        ForceLimiter::limit(force_, glm::dvec3(0.0), inputs, {}, limiter_, flags_);
+    // The damper takes no more than what reaches the hand: only that is credit.
+    const double wanted = squared(force_);
+    damping_ *= wanted > 0.0 ? std::clamp(glm::dot(command.force(), force_) / wanted, 0.0, 1.0) : 0.0;
+    return command;
 }
 
 } // namespace touchstone

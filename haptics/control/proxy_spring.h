@@ -55,8 +55,10 @@ class ProxySpring {
     bool hear(const ContactGoal& goal) noexcept;
     /// No goal holds any more; those that come may add `power` W.
     void forget(double power) noexcept;
-    /// Control loop: the command of the tick, `dt` s after the last, from the safety stage.
-    [[nodiscard]] DeviceCommand step(const DeviceSample& sample, double dt, bool forceEnabled) noexcept;
+    /// Control loop: the command of the tick, `dt` s after the last, from the safety stage. `late`: the tick
+    /// before missed its deadline; kLateTicksToLatch of them in a row take the force away.
+    [[nodiscard]] DeviceCommand step(const DeviceSample& sample, double dt, bool forceEnabled,
+                                     bool late = false) noexcept;
 
     [[nodiscard]] const glm::dvec3& end() const { return end_; }     ///< of the spring, m, device frame
     [[nodiscard]] const glm::dvec3& force() const { return force_; } ///< N, device frame, before safety
@@ -70,7 +72,7 @@ class ProxySpring {
     void slide(const glm::dvec3& hand) noexcept;
     void takePlanes(const DeviceMapping& mapping) noexcept;
     [[nodiscard]] double left() const noexcept;
-    void moveEnd(const glm::dvec3& hand, const DeviceMapping& mapping, double dt) noexcept;
+    void moveEnd(const glm::dvec3& hand, const DeviceSample& sample, double dt) noexcept;
     void measure(const glm::dvec3& hand, double dt) noexcept;
 
     ProxySpringSettings settings_;

@@ -155,6 +155,37 @@ TEST(ContactRate, NoSequenceOfGoalsAddsEnergy) {
     }
 }
 
+// A hard spring that presses 1 mm against a weak device took 3 mJ, not the 5 J of K d^2 / 2: a soft one to a far place, heard
+// next, has no more to give. Measured by the commands, also beside a damper that the device cannot exert.
+TEST(ContactRate, WhatADeviceCannotPullIsNoEnergy) {
+    for (const double damping : {0.0, 1e4}) {
+        ProxySpring spring({.power = 0.0});
+        DeviceSample sample = at({0.0, 0.0, 0.0});
+        sample.limits.maxForce = 3.0;
+        sample.limits.maxForceRate = 1e6;
+        ContactGoal goal{.touching = true, .proxy = {0.0, 0.0, 0.0}, .stiffness = 1e7, .damping = damping};
+        double given = 0.0, taken = 0.0;
+        glm::dvec3 force(0.0);
+        const auto move = [&](double y, bool tell) {
+            given += force.y * (y - sample.position.y);
+            sample.position.y = y;
+            if (tell)
+                (void)spring.hear(goal);
+            force = spring.step(sample, 1.0 / kHz, true).force();
+        };
+        for (int tick = 0; tick < 4000; ++tick) // the force fades in
+            move(0.0, true);
+        for (int tick = 0; tick < 400; ++tick)
+            move(-0.001 * tick / 400.0, true);
+        taken = -given;
+        EXPECT_GT(taken, 1e-3);
+        goal = {.touching = true, .proxy = {0.0, 0.3, 0.0}, .stiffness = 100.0, .damping = damping};
+        for (int tick = 0; tick < 40'000; ++tick)
+            move(-0.001 + 0.3 * tick / 40'000.0, true);
+        EXPECT_LT(given, 1e-4) << "damping " << damping;
+    }
+}
+
 TEST(ContactRate, CommandsKeepTheLimitsOfTheDevice) {
     ProxySpring spring({.power = INFINITY});
     DeviceSample sample = sampleAt({0, -0.05, 0});
