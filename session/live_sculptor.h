@@ -49,9 +49,9 @@ struct SculptFigures {
 /// note: the servo's owner thread. The worker has no thread until the first tool is active.
 class LiveSculptor {
   public:
-    static constexpr double kPublish = 0.008; ///< s of dabs in one publication, and one dab more
+    static constexpr double kPublish = 0.004; ///< s of dabs in one publication, and one dab more
     /// Dabs that wait: more are thinned out, to a longer distance along the way.
-    static constexpr size_t kMostWaiting = 12;
+    static constexpr size_t kMostWaiting = 2;
 
     explicit LiveSculptor(ServoLoop& servo) : servo_(servo) {}
     ~LiveSculptor();

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -273,6 +274,53 @@ TEST(Sculptor, UndoOf200StrokesRestoresTheBytesAndRedoRepeatsThem) {
     sculptor.beginStroke();
     sculptor.apply({.centre = glm::dvec3(0.0), .radius = 0.2});
     EXPECT_EQ(sculptor.redoSteps(), 0u);
+}
+
+/// A place that is handed on without being on the surface makes distances too short, and the next dab hands
+/// on shorter ones: over a stroke nodes far from the tool would come to lie voxels too near.
+TEST(Sculptor, AStrokeLeavesDistancesToOtherPlacesAlone) {
+    const auto base = gridOf(ball, 96);
+    const double voxel = base->layout().voxel, radius = 4.5 * voxel;
+    for (const SculptTool tool : {SculptTool::Add, SculptTool::Smooth, SculptTool::Drag, SculptTool::Carve}) {
+        Sculptor sculptor(base);
+        std::vector<glm::dvec3> centres;
+        for (int i = 0; i < 40; ++i) {
+            const double u = 0.25 * radius * i / 0.4, v = 0.3 * std::sin(10.0 * u);
+            const double out = tool == SculptTool::Add ? 0.4 - radius + 0.75 * voxel : 0.4;
+            centres.push_back(out * glm::normalize(glm::dvec3(std::sin(u), v, std::cos(u))));
+            sculptor.apply({.tool = tool,
+                            .centre = centres.back(),
+                            .motion = i > 0 ? centres[centres.size() - 1] - centres[centres.size() - 2]
+                                            : glm::dvec3(0.0),
+                            .radius = radius});
+        }
+        const FieldGrid& grid = *sculptor.grid();
+        double worst = 0.0;
+        int count = 0;
+        for (int z = 0; z <= 96; ++z)
+            for (int y = 0; y <= 96; ++y)
+                for (int x = 0; x <= 96; ++x) {
+                    const glm::dvec3 p = base->layout().origin + voxel * glm::dvec3(x, y, z);
+                    const double before = base->node({x, y, z});
+                    const auto near = [&](const glm::dvec3& centre) {
+                        // Its foot, or a surface that came to be nearer than that.
+                        return glm::distance(0.4 / glm::length(p) * p, centre) < radius + 5.0 * voxel ||
+                               glm::distance(p, centre) - radius < -before + voxel;
+                    };
+                    if (before > 0.0 || before < -0.9 * base->inside() || std::ranges::any_of(centres, near))
+                        continue;
+                    worst = std::max(worst, std::abs(grid.node({x, y, z}) - before) / voxel);
+                    ++count;
+                }
+        EXPECT_GT(count, 1000);
+        EXPECT_LT(worst, 0.01) << infoOf(tool).name;
+        std::printf(
+            "%s: %d nodes whose nearest place was not reached, %.4f voxels off, Lipschitz bound %.3f\n",
+            infoOf(tool).name, count, worst, grid.lipschitz());
+        if (tool == SculptTool::Smooth || tool == SculptTool::Drag) {
+            EXPECT_LT(grid.lipschitz(), 1.15); // along a ball they change next to nothing
+        }
+    }
 }
 
 /// Every cell of every grid that a random journal makes is finite, bounded, inside of its border, and its

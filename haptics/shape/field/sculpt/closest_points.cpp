@@ -35,10 +35,13 @@ glm::dvec3 ClosestPoints::gradientBefore(const glm::ivec3& node) const {
 }
 
 FieldCell ClosestPoints::cellAt(const glm::ivec3& cell, bool& crossed) const {
+    const bool isActive = window_.cellIsActive(cell);
     std::array<double, 8> node{};
     int negative = 0;
     for (int k = 0; k < 8; ++k) {
-        const float value = window_.value[window_.index(cell + glm::ivec3(k & 1, k >> 1 & 1, k >> 2))];
+        const glm::ivec3 at = cell + glm::ivec3(k & 1, k >> 1 & 1, k >> 2);
+        const float value = isActive ? window_.value[window_.index(at)]
+                                     : static_cast<float>(window_.grid->node(window_.first + at));
         negative += value < 0.0f ? 1 : 0;
         node[static_cast<size_t>(k)] = static_cast<double>(value) / window_.voxel;
     }
@@ -101,6 +104,27 @@ glm::dvec3 ClosestPoints::fromNear(const glm::ivec3& node) const {
             point = glm::dvec3(node) + distance * direction;
     }
     return slid(glm::dvec3(node), slid(glm::dvec3(node), point));
+}
+
+std::optional<glm::dvec3> ClosestPoints::onSurface(const glm::dvec3& point) const {
+    constexpr double kOff = 0.01, kFar = 1.0; // voxels
+    constexpr int kSteps = 4;
+    glm::dvec3 place = point;
+    for (int i = 0; i < kSteps; ++i) {
+        const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), window_.size - 2);
+        bool crossed = false;
+        const FieldCell values = cellAt(cell, crossed);
+        const glm::dvec3 u = place - glm::dvec3(cell), slope = values.gradient(u);
+        const double value = values.value(u), squared = glm::dot(slope, slope);
+        if (std::abs(value) <= kOff)
+            return place;
+        if (!(squared > 0.01))
+            break;
+        place -= value * slope / squared;
+        if (!(glm::distance(place, point) <= kFar))
+            break;
+    }
+    return std::nullopt;
 }
 
 glm::dvec3 ClosestPoints::slid(const glm::dvec3& from, const glm::dvec3& point) const {

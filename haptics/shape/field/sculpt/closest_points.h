@@ -6,6 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
+
 namespace touchstone {
 
 /// Reads FieldWindow::value. Places and distances in voxels.
@@ -22,11 +24,15 @@ class ClosestPoints {
     /// A place of the surface that is nearer to `from` than `point`, which is one: along the tangent plane
     /// to the foot of `from`, and back by Newton's method. `point` where none is found.
     [[nodiscard]] glm::dvec3 slid(const glm::dvec3& from, const glm::dvec3& point) const;
+    /// The nearest place that Newton's method finds from one that is nearly on the surface; none where it
+    /// does not converge, or goes farther than a voxel.
+    [[nodiscard]] std::optional<glm::dvec3> onSurface(const glm::dvec3& point) const;
     /// Central differences of the values before the dab; zero at the window's border.
     [[nodiscard]] glm::dvec3 gradientBefore(const glm::ivec3& node) const;
 
   private:
     [[nodiscard]] bool border(const glm::ivec3& node) const;
+    /// Of the grid where the window holds no values.
     [[nodiscard]] FieldCell cellAt(const glm::ivec3& cell, bool& crossed) const;
     [[nodiscard]] double valueAt(const glm::dvec3& place) const;
     [[nodiscard]] double along(const glm::ivec3& node, const glm::dvec3& direction, double most) const;

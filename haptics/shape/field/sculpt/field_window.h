@@ -6,16 +6,22 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace touchstone {
 
-/// A box of nodes. Places in it are counted in voxels from its first node.
+/// A box of whole bricks of a grid, of which those that a dab may change are active. Only nodes of active
+/// bricks, and two around, have values. Places in it are counted in voxels from its first node.
 struct FieldWindow {
-    glm::ivec3 first{0}; ///< node of the grid
+    const FieldGrid* grid = nullptr; ///< as it was before the dab
+    glm::ivec3 first{0};             ///< node of the grid, the first one of a brick
     glm::ivec3 size{0};
-    double voxel = 0.0;        ///< object units
-    std::vector<float> before; ///< as in the grid; the first axis fastest
+    glm::ivec3 bricks{0};           ///< on each axis
+    std::vector<uint8_t> isActive;  ///< of each brick, the first axis fastest
+    std::vector<glm::ivec3> active; ///< in the same order
+    double voxel = 0.0;             ///< object units
+    std::vector<float> before;      ///< as in the grid; the first axis fastest
     std::vector<float> value;
 
     [[nodiscard]] uint64_t nodes() const noexcept {
@@ -36,6 +42,32 @@ struct FieldWindow {
     }
     [[nodiscard]] ptrdiff_t step(int axis) const noexcept {
         return axis == 0 ? 1 : axis == 1 ? size.x : static_cast<ptrdiff_t>(size.x) * size.y;
+    }
+    [[nodiscard]] size_t brickIndex(const glm::ivec3& brick) const noexcept {
+        return static_cast<size_t>(brick.x + bricks.x * (brick.y + bricks.y * brick.z));
+    }
+    /// The brick of a cell. Each node belongs to the cell that begins at it, the last one on an axis to the
+    /// cell before.
+    [[nodiscard]] bool cellIsActive(const glm::ivec3& cell) const noexcept {
+        return isActive[brickIndex(glm::min(cell / kBrickCells, bricks - 1))] != 0;
+    }
+    /// Inclusive.
+    [[nodiscard]] glm::ivec3 lastNode(const glm::ivec3& brick) const noexcept {
+        const glm::ivec3 end = kBrickCells * (brick + 1);
+        return {brick.x + 1 == bricks.x ? size.x - 1 : end.x - 1,
+                brick.y + 1 == bricks.y ? size.y - 1 : end.y - 1,
+                brick.z + 1 == bricks.z ? size.z - 1 : end.z - 1};
+    }
+    /// Calls visit(first node, index, count) for each row of nodes along the first axis in active bricks,
+    /// each node once.
+    template <class Visit>
+    void eachActiveRow(const Visit& visit) const {
+        for (const glm::ivec3& brick : active) {
+            const glm::ivec3 low = kBrickCells * brick, high = lastNode(brick);
+            for (int z = low.z; z <= high.z; ++z)
+                for (int y = low.y; y <= high.y; ++y)
+                    visit(glm::ivec3(low.x, y, z), index({low.x, y, z}), high.x - low.x + 1);
+        }
     }
 };
 
@@ -60,8 +92,11 @@ struct SculptZone {
 void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
                  double margin);
 
-/// Fills a window with the grid's nodes within `margin` voxels of a ball (object frame); keeps its memory.
-/// Returns the ball in it. Throws Error where there would be more than kMostWindowNodes.
+/// Makes a window of the grid's nodes within `margin` voxels of a ball (object frame); keeps its memory.
+/// Active are the bricks around the ball, and those with a node that may have its nearest place on the
+/// surface in the ball, now or after the dab: one that is not farther from the ball than from the surface.
+/// Under a flat face these are the bricks in a paraboloid, not in a cube. Returns the ball in the window.
+/// Throws Error where there would be more than kMostWindowNodes.
 SculptZone fillWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
                       double margin);
 
@@ -76,5 +111,8 @@ struct NodeBox {
         high = glm::max(high, node);
     }
 };
+
+/// Boxes, none of which reaches into two bricks, that hold all nodes whose value is not that of before.
+[[nodiscard]] std::vector<NodeBox> changedNodes(const FieldWindow& window);
 
 } // namespace touchstone

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace touchstone {
 
 namespace {
 
 constexpr double kSteep = 0.1; // from 1: the gradient of a distance, away from its kinks
+constexpr double kRoom = 1.5;  // voxels: a nearest place is known to a voxel
 
 /// The same order within the window and at its border.
 template <class Visit>
@@ -34,16 +36,20 @@ void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visi
 
 } // namespace
 
-NodeBox DistanceRestorer::run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach,
-                              ExactSide exact) {
+std::vector<NodeBox> DistanceRestorer::run(FieldWindow& window, const SculptZone& zone,
+                                           const DistanceReach& reach, ExactSide exact) {
     exact_ = exact;
     window_ = &window;
     zone_ = zone;
     reach_ = reach;
     const size_t count = window.value.size();
-    state_.assign(count, Node::Kept);
-    pointOf_.assign(count, kNone);
+    state_.assign(count, Node::None);
+    pointOf_.resize(count);
     distance_.resize(count);
+    window.eachActiveRow([&](const glm::ivec3&, size_t index, int nodes) {
+        std::fill_n(&state_[index], nodes, Node::Kept);
+        std::fill_n(&pointOf_[index], nodes, kNone);
+    });
     points_.clear();
     touched_.clear();
     queue_ = {};
@@ -110,56 +116,81 @@ bool DistanceRestorer::findNear() {
 void DistanceRestorer::open() {
     FieldWindow& window = *window_;
     const ClosestPoints surface(window);
-    constexpr double kRoom = 1.5; // voxels: the place is known to a voxel
-    size_t index = 0;
-    for (int z = 0; z < window.size.z; ++z)
-        for (int y = 0; y < window.size.y; ++y)
-            for (int x = 0; x < window.size.x; ++x, ++index) {
-                const glm::ivec3 node(x, y, z);
-                if (state_[index] == Node::Near || isExact(index))
-                    continue;
-                const bool inside = negative(index);
-                const double f = static_cast<double>(window.before[index]) / window.voxel, own = std::abs(f);
-                const glm::dvec3 way = glm::dvec3(node) - zone_.centre;
-                const double reach = zone_.radius + kRoom, squared = glm::dot(way, way);
-                if (squared > reach * reach) {
-                    // Most nodes of a deep field end here: no root.
-                    if (own >= limit(inside) * (1.0 - 1e-6) || squared > (own + reach) * (own + reach))
-                        continue;
-                    const glm::dvec3 slope = surface.gradientBefore(node);
-                    const double steep = glm::length(slope);
-                    if (std::abs(steep - 1.0) <= kSteep &&
-                        glm::distance(glm::dvec3(node) - f * slope / steep, zone_.centre) > reach)
-                        continue;
-                }
-                state_[index] = Node::Open;
-                distance_[index] = static_cast<float>(limit(inside));
-                touched_.push_back(static_cast<uint32_t>(index));
-            }
+    const double reach = zone_.radius + kRoom;
+    const auto mayChange = [&](const glm::ivec3& node, size_t index) {
+        const double f = static_cast<double>(window.before[index]) / window.voxel, own = std::abs(f);
+        const glm::dvec3 way = glm::dvec3(node) - zone_.centre;
+        const double squared = glm::dot(way, way);
+        if (squared <= reach * reach)
+            return true;
+        // Most nodes end here: no root.
+        if (own >= limit(negative(index)) * (1.0 - 1e-6) || squared > (own + reach) * (own + reach))
+            return false;
+        const glm::dvec3 slope = surface.gradientBefore(node);
+        const double steep = glm::length(slope);
+        return std::abs(steep - 1.0) > kSteep ||
+               glm::distance(glm::dvec3(node) - f * slope / steep, zone_.centre) <= reach;
+    };
+    window.eachActiveRow([&](const glm::ivec3& first, size_t begin, int count) {
+        for (int i = 0; i < count; ++i) {
+            const size_t index = begin + static_cast<size_t>(i);
+            if (state_[index] == Node::Near || isExact(index) ||
+                !mayChange(first + glm::ivec3(i, 0, 0), index))
+                continue;
+            state_[index] = Node::Open;
+            distance_[index] = static_cast<float>(limit(negative(index)));
+            touched_.push_back(static_cast<uint32_t>(index));
+        }
+    });
 }
 
-/// Kept nodes beside open ones hand on where their own nearest places are.
+/// Kept nodes beside open ones hand on where their own nearest places are; so do those beyond the active
+/// bricks, which take nothing themselves.
 void DistanceRestorer::seedKept() {
     FieldWindow& window = *window_;
     const ClosestPoints surface(window);
     for (size_t i = 0, count = touched_.size(); i < count; ++i) {
-        if (state_[touched_[i]] != Node::Open)
+        const uint32_t node = touched_[i];
+        if (state_[node] != Node::Open && state_[node] != Node::Reached)
             continue;
-        eachNeighbour(window, window.nodeAt(touched_[i]), [&](const glm::ivec3& at, size_t other) {
-            if (state_[other] != Node::Kept || pointOf_[other] != kNone)
+        const glm::ivec3 place = window.nodeAt(node);
+        eachNeighbour(window, place, [&](const glm::ivec3& at, size_t other) {
+            const bool beyond = state_[other] == Node::None;
+            if (!beyond && (state_[other] != Node::Kept || pointOf_[other] != kNone))
                 return;
             const bool inside = negative(other);
             const double f = static_cast<double>(window.value[other]) / window.voxel;
             const glm::dvec3 slope = surface.gradientBefore(at);
             const double steep = glm::length(slope);
-            if (std::abs(f) < limit(inside) * (1.0 - 1e-6) && std::abs(steep - 1.0) <= kSteep)
-                give(other, glm::dvec3(at) - f * slope / steep);
+            if (std::abs(f) >= limit(inside) * (1.0 - 1e-6) || std::abs(steep - 1.0) > kSteep)
+                return;
+            // A place that is not on the surface would be handed on, and is nearer than any that is.
+            const std::optional<glm::dvec3> point = surface.onSurface(glm::dvec3(at) - f * slope / steep);
+            if (!point) {
+                // A bound, by the triangle inequality.
+                if (negative(node) == inside)
+                    distance_[node] = std::min(
+                        distance_[node],
+                        static_cast<float>(std::abs(f) + glm::distance(glm::dvec3(at), glm::dvec3(place))));
+                return;
+            }
+            if (!beyond)
+                give(other, *point);
+            else if (negative(node) == inside)
+                offer(node, place, *point);
         });
     }
 }
 
+bool DistanceRestorer::inReach(const glm::dvec3& point) const {
+    const glm::dvec3 way = point - zone_.centre;
+    return glm::dot(way, way) <= (zone_.radius + kRoom) * (zone_.radius + kRoom);
+}
+
 void DistanceRestorer::offer(size_t to, const glm::ivec3& at, const glm::dvec3& point) {
     const bool isKept = state_[to] == Node::Kept;
+    if (isKept && !inReach(point))
+        return; // the surface has not changed there
     const float most = isKept ? keptDistance(to) - kNearer : distance_[to];
     const glm::dvec3 way = glm::dvec3(at) - point;
     // Most neighbours have a nearer place already: no root, with room for its rounding.
@@ -197,13 +228,14 @@ void DistanceRestorer::march() {
         const bool inside = negative(entry.node);
         const glm::dvec3 point = settled(entry.node);
         eachNeighbour(*window_, window_->nodeAt(entry.node), [&](const glm::ivec3& at, size_t other) {
-            if (state_[other] != Node::Near && negative(other) == inside && !isExact(other))
+            if (state_[other] != Node::Near && state_[other] != Node::None && negative(other) == inside &&
+                !isExact(other))
                 offer(other, at, point);
         });
     }
 }
 
-NodeBox DistanceRestorer::finish() {
+std::vector<NodeBox> DistanceRestorer::finish() {
     FieldWindow& window = *window_;
     for (const uint32_t node : touched_) {
         const bool inside = negative(node);
@@ -212,18 +244,7 @@ NodeBox DistanceRestorer::finish() {
             voxels < limit(inside) * (1.0 - 1e-6) ? voxels * window.voxel : reachOf(inside);
         window.value[node] = static_cast<float>(inside ? -distance : distance);
     }
-    NodeBox changed;
-    size_t row = 0;
-    const auto nx = static_cast<size_t>(window.size.x);
-    for (int z = 0; z < window.size.z; ++z)
-        for (int y = 0; y < window.size.y; ++y, row += nx) {
-            if (std::equal(&window.value[row], &window.value[row] + nx, &window.before[row]))
-                continue;
-            for (int x = 0; x < window.size.x; ++x)
-                if (window.value[row + static_cast<size_t>(x)] != window.before[row + static_cast<size_t>(x)])
-                    changed.include({x, y, z});
-        }
-    return changed;
+    return changedNodes(window);
 }
 
 } // namespace touchstone

@@ -25,14 +25,14 @@ enum class ExactSide : uint8_t { None, Inside, Outside };
 /// distances is that of the nodes.
 class DistanceRestorer {
   public:
-    /// The window holds all nodes within the reach of the zone. `exact`: the side of the surface where the
-    /// values are distances already. Returns the nodes that differ from before.
-    NodeBox run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach,
-                ExactSide exact = ExactSide::None);
+    /// The window's active bricks hold all nodes that may have their nearest place in the zone. `exact`: the
+    /// side of the surface where the values are distances already. Returns changedNodes.
+    std::vector<NodeBox> run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach,
+                             ExactSide exact = ExactSide::None);
 
   private:
-    static constexpr float kNearer = 0.02f; // voxels
-    enum class Node : uint8_t { Kept, Near, Open, Reached };
+    static constexpr float kNearer = 0.02f;                        // voxels
+    enum class Node : uint8_t { None, Kept, Near, Open, Reached }; ///< None: of no active brick
     struct Entry {
         float distance;
         uint32_t node;
@@ -45,6 +45,7 @@ class DistanceRestorer {
     void seedKept();
     void march();
     void offer(size_t to, const glm::ivec3& at, const glm::dvec3& point);
+    [[nodiscard]] bool inReach(const glm::dvec3& point) const; ///< of the zone
     void give(size_t node, const glm::dvec3& point);
     [[nodiscard]] glm::dvec3 settled(size_t node);
     [[nodiscard]] bool isExact(size_t node) const {
@@ -58,7 +59,7 @@ class DistanceRestorer {
     [[nodiscard]] double reachOf(bool inside) const { return inside ? reach_.inside : reach_.outside; }
     /// Voxels.
     [[nodiscard]] double limit(bool inside) const { return reachOf(inside) / window_->voxel; }
-    [[nodiscard]] NodeBox finish();
+    [[nodiscard]] std::vector<NodeBox> finish();
 
     FieldWindow* window_ = nullptr;
     SculptZone zone_;
@@ -68,7 +69,7 @@ class DistanceRestorer {
     std::vector<float> distance_;    ///< voxels, not negative
     std::vector<uint32_t> pointOf_;  ///< index in points_; kNone
     std::vector<glm::dvec3> points_; ///< on the surface
-    std::vector<uint32_t> touched_;  ///< nodes that are not Kept
+    std::vector<uint32_t> touched_;  ///< nodes with a new distance
     std::priority_queue<Entry> queue_;
     static constexpr uint32_t kNone = 0xffffffffu;
 };

@@ -112,7 +112,8 @@ DabReport Sculptor::applyOnce(const Dab& dab) {
         return {};
     const SculptZone zone = fillWindow(window_, *grid(), dab.centre, radius, margin());
     const ExactSide exact = applyTool(window_, *base_, dab, zone);
-    const NodeBox changed = restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact);
+    const std::vector<NodeBox> changed =
+        restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact);
     DabReport report;
     if (changed.empty())
         return report;
@@ -121,8 +122,10 @@ DabReport Sculptor::applyOnce(const Dab& dab) {
     const auto place = [&](const glm::ivec3& node) {
         return base_->layout().origin + voxel * glm::dvec3(window_.first + node);
     };
-    report.changed.include(place(changed.low));
-    report.changed.include(place(changed.high));
+    for (const NodeBox& box : changed) {
+        report.changed.include(place(box.low));
+        report.changed.include(place(box.high));
+    }
     return report;
 }
 
@@ -145,14 +148,19 @@ void Sculptor::replace(uint32_t number, const BrickPtr& brick) {
 }
 
 /// All bricks that have changed nodes: those at the faces of a brick belong to its neighbours, too.
-size_t Sculptor::commit(const NodeBox& changed) {
-    const glm::ivec3 low = glm::max(window_.first + changed.low - 1, glm::ivec3(0)) / kBrickCells;
-    const glm::ivec3 high = glm::min((window_.first + changed.high) / kBrickCells, base_->bricks() - 1);
+size_t Sculptor::commit(const std::vector<NodeBox>& changed) {
+    std::set<std::array<int, 3>> bricks;
+    for (const NodeBox& box : changed) {
+        const glm::ivec3 low = glm::max(window_.first + box.low - 1, glm::ivec3(0)) / kBrickCells;
+        const glm::ivec3 high = glm::min((window_.first + box.high) / kBrickCells, base_->bricks() - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y)
+                for (int x = low.x; x <= high.x; ++x)
+                    bricks.insert({z, y, x});
+    }
     size_t count = 0;
-    for (int z = low.z; z <= high.z; ++z)
-        for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x)
-                count += commitBrick({x, y, z}) ? 1 : 0;
+    for (const auto& [z, y, x] : bricks)
+        count += commitBrick({x, y, z}) ? 1 : 0;
     if (count > 0)
         grid_ = nullptr;
     return count;
@@ -160,24 +168,22 @@ size_t Sculptor::commit(const NodeBox& changed) {
 
 bool Sculptor::commitBrick(const glm::ivec3& brick) {
     std::array<float, kNodesInBrick> before, after, base;
-    const glm::ivec3 first = kBrickCells * brick, size = window_.size;
-    const glm::ivec3 low = glm::max(window_.first - first, glm::ivec3(0));
-    const glm::ivec3 high = glm::min(window_.first + size - 1 - first, glm::ivec3(kBrickCells));
-    const auto width = static_cast<size_t>(std::max(0, high.x - low.x + 1));
-    bool differs = false;
-    for (int z = low.z; z <= high.z && !differs; ++z)
-        for (int y = low.y; y <= high.y && !differs; ++y) {
-            const size_t row = window_.index(first + glm::ivec3(low.x, y, z) - window_.first);
-            differs = std::memcmp(&window_.value[row], &window_.before[row], width * sizeof(float)) != 0;
-        }
-    if (!differs)
-        return false;
     grid_->copyBrick(brick, before);
     after = before;
+    const glm::ivec3 first = kBrickCells * brick;
+    const glm::ivec3 low = glm::max(window_.first - first, glm::ivec3(0));
+    const glm::ivec3 high = glm::min(window_.first + window_.size - 1 - first, glm::ivec3(kBrickCells));
+    // The last node of a row belongs to the next brick, unless the window ends there.
+    const auto copy = [&](const glm::ivec3& from, int end) {
+        const glm::ivec3 node = first + from - window_.first;
+        if (from.x <= end && window_.cellIsActive(node))
+            std::copy_n(&window_.value[window_.index(node)], end - from.x + 1, &after[brickNode(from)]);
+    };
     for (int z = low.z; z <= high.z; ++z)
-        for (int y = low.y; y <= high.y; ++y)
-            std::copy_n(window_.value.data() + window_.index(first + glm::ivec3(low.x, y, z) - window_.first),
-                        width, after.data() + brickNode({low.x, y, z}));
+        for (int y = low.y; y <= high.y; ++y) {
+            copy({low.x, y, z}, std::min(high.x, kBrickCells - 1));
+            copy({kBrickCells, y, z}, high.x);
+        }
     if (sameBytes(before, after))
         return false;
     const uint32_t number = base_->brickNumber(brick);

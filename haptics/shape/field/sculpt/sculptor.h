@@ -63,7 +63,7 @@ class Sculptor {
     DabReport applyOnce(const Dab& dab);
     [[nodiscard]] BrickPtr current(uint32_t number) const;
     void replace(uint32_t number, const BrickPtr& brick);
-    size_t commit(const NodeBox& changed);
+    size_t commit(const std::vector<NodeBox>& changed);
     bool commitBrick(const glm::ivec3& brick);
 
     std::shared_ptr<const FieldGrid> base_, grid_; ///< grid_ is null where it is to be made

@@ -105,16 +105,16 @@ ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone)
         return ExactSide::None;
     const auto voxel = static_cast<float>(window.voxel), radius = static_cast<float>(dab.radius);
     const glm::vec3 centre(zone.centre);
-    size_t index = 0;
-    for (int z = 0; z < window.size.z; ++z)
-        for (int y = 0; y < window.size.y; ++y)
-            for (int x = 0; x < window.size.x; ++x, ++index) {
-                float& value = window.value[index];
-                if ((value < 0.0f) != carves || zone.contains({x, y, z}))
-                    continue;
-                const float ball = voxel * glm::distance(glm::vec3(x, y, z), centre) - radius;
-                value = carves ? std::max(value, -ball) : std::min(value, ball);
-            }
+    window.eachActiveRow([&](const glm::ivec3& first, size_t index, int count) {
+        for (int i = 0; i < count; ++i) {
+            const glm::ivec3 node = first + glm::ivec3(i, 0, 0);
+            float& value = window.value[index + static_cast<size_t>(i)];
+            if ((value < 0.0f) != carves || zone.contains(node))
+                continue;
+            const float ball = voxel * glm::distance(glm::vec3(node), centre) - radius;
+            value = carves ? std::max(value, -ball) : std::min(value, ball);
+        }
+    });
     return carves ? ExactSide::Inside : ExactSide::Outside;
 }
 
