@@ -27,9 +27,8 @@ void ControlLoop::start() {
         return;
     // A stop sent zero: the force of before, its place and its goals are gone, and what comes fades in.
     followed_ = follows();
-    spring_ =
-        ProxySpring({.power = followed_ == GoalSource::Servo ? config_.contactPower : config_.goalPower,
-                     .passivity = config_.passivity});
+    spring_ = ProxySpring({.power = followed_ == GoalSource::Servo ? config_.contactPower : config_.goalPower,
+                           .passivity = config_.passivity});
     (void)fromServo_.update();
     (void)fromCaller_.update();
     late_ = false;

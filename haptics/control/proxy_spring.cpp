@@ -173,8 +173,7 @@ DeviceCommand ProxySpring::step(const DeviceSample& sample, double dt, bool forc
                               .position = sample.position,
                               .springLength = glm::length(end_ - sample.position),
                               .coupling = sample.mapping.coupling};
-    const DeviceCommand command =
-        ForceLimiter::limit(force_, glm::dvec3(0.0), inputs, {}, limiter_, flags_);
+    const DeviceCommand command = ForceLimiter::limit(force_, glm::dvec3(0.0), inputs, {}, limiter_, flags_);
     // The damper takes no more than what reaches the hand: only that is credit.
     const double wanted = squared(force_);
     damping_ *= wanted > 0.0 ? std::clamp(glm::dot(command.force(), force_) / wanted, 0.0, 1.0) : 0.0;

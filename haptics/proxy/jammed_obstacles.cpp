@@ -1,7 +1,6 @@
 // Objects that leave the proxy no place.
 
 #include "haptics/proxy/obstacle_search.h"
-
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>

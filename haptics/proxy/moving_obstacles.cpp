@@ -24,9 +24,8 @@
 // the step's end, linearised where the copy would be had the triangle carried it along: on the side where it
 // was.
 
-#include "haptics/proxy/obstacle_search.h"
-
 #include "haptics/contact/near_contacts.h"
+#include "haptics/proxy/obstacle_search.h"
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/settings/tick_flags.h"
 

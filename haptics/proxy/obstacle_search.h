@@ -1,5 +1,6 @@
 #pragma once
-// The search for a place of the proxy among objects that move: moving_obstacles.cpp tells how. One tick, one hand.
+// The search for a place of the proxy among objects that move: moving_obstacles.cpp tells how. One tick, one
+// hand.
 
 #include "haptics/contact/moving_triangle.h"
 #include "haptics/proxy/moving_obstacles.h"

@@ -1,9 +1,8 @@
 // How a copy of the proxy moves in the frame of its object, and what stops it there.
 
-#include "haptics/proxy/obstacle_search.h"
-
 #include "haptics/contact/near_contacts.h"
 #include "haptics/contact/sweep.h"
+#include "haptics/proxy/obstacle_search.h"
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>

@@ -24,7 +24,7 @@ struct HandTick {
     /// Filled where the world collects reactions; else null.
     ContactForces* parts = nullptr;
     PersistentTextures* textures = nullptr; ///< the world's; null: none
-    DentPress* dents = nullptr; ///< null where nothing gives way
+    DentPress* dents = nullptr;             ///< null where nothing gives way
 };
 
 } // namespace touchstone

@@ -1,5 +1,5 @@
-// Random messages of `touchstone serve`'s protocol from clients that come, drive and vanish: right ones, right
-// ones with wrong members, and damaged texts. None may crash or pass a limit, and each is answered.
+// Random messages of `touchstone serve`'s protocol from clients that come, drive and vanish: right ones,
+// right ones with wrong members, and damaged texts. None may crash or pass a limit, and each is answered.
 // server_fuzz [SECONDS [SEED]]; CTest runs ten seconds, the long form is an hour (3600).
 
 #include "server/touch_server.h"
@@ -69,7 +69,8 @@ class Fuzz {
     void join() {
         clients_.push_back(++numbers_);
         server_.join(numbers_, below(2) == 0);
-        (void)server_.receive(numbers_, Json{{"do", "authenticate"}, {"token", below(8) == 0 ? "" : kToken}}.dump());
+        (void)server_.receive(numbers_,
+                              Json{{"do", "authenticate"}, {"token", below(8) == 0 ? "" : kToken}}.dump());
     }
     void leave(size_t i) {
         server_.leave(clients_[i]);
@@ -105,7 +106,8 @@ class Fuzz {
     }
 
     double anyNumber() {
-        static constexpr double kSpecial[]{0.0, -0.0, 1.0, -1.0, 0.05, 1e-300, 1e300, 1e9, -1e9, 1000.0, 60.0};
+        static constexpr double kSpecial[]{0.0,   -0.0, 1.0,  -1.0,   0.05, 1e-300,
+                                           1e300, 1e9,  -1e9, 1000.0, 60.0};
         return below(3) == 0 ? oneOf(kSpecial) : std::uniform_real_distribution<double>(-0.2, 0.2)(random_);
     }
     Json anyVector() {
@@ -146,14 +148,17 @@ class Fuzz {
 
     /// A message as a client would send it.
     Json plausible() {
-        static const char* const kSettings[]{"stiffness", "damping", "staticFriction", "friction", "contact",
-                                             "texture", "proxyRadius", "passivity", "none such", ""};
-        static const char* const kValues[]{"0", "1", "900", "-1", "1e999", "nan", "off", "zilles", "sweep", "rays",
-                                           "control", "observe", "0.001", ""};
-        static const char* const kNumbers[]{"stiffness", "damping", "staticFriction", "dynamicFriction",
-                                            "viscousFriction", "voxelSize", "x"};
-        static const char* const kScenes[]{"box.glb", "plane.glb", "../box.glb", "/etc/passwd", "", ".", "none.glb"};
-        static const char* const kPlain[]{"ping", "settings", "materials", "drive", "release", "authenticate"};
+        static const char* const kSettings[]{"stiffness", "damping", "staticFriction", "friction",
+                                             "contact",   "texture", "proxyRadius",    "passivity",
+                                             "none such", ""};
+        static const char* const kValues[]{"0",      "1",     "900",  "-1",      "1e999",   "nan",   "off",
+                                           "zilles", "sweep", "rays", "control", "observe", "0.001", ""};
+        static const char* const kNumbers[]{
+            "stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction", "voxelSize", "x"};
+        static const char* const kScenes[]{"box.glb", "plane.glb", "../box.glb", "/etc/passwd",
+                                           "",        ".",         "none.glb"};
+        static const char* const kPlain[]{"ping",  "settings", "materials",
+                                          "drive", "release",  "authenticate"};
         switch (below(below(50) == 0 ? 12 : 10)) {
         case 0:
             return {{"do", oneOf(kPlain)}, {"token", kToken}};
@@ -185,7 +190,8 @@ class Fuzz {
             return below(4) == 0 ? Json{{"do", "load"}, {"bytes", std::string(below(60), 'A')}}
                                  : Json{{"do", "load"}, {"scene", oneOf(kScenes)}};
         default:
-            return {{"do", "record"}, {"file", below(2) == 0 ? "" : "r" + std::to_string(below(1000)) + ".tsrec"}};
+            return {{"do", "record"},
+                    {"file", below(2) == 0 ? "" : "r" + std::to_string(below(1000)) + ".tsrec"}};
         }
     }
 
@@ -257,12 +263,14 @@ int main(int count, char** arguments) {
             if (early == 0 && Clock::now() > begin + (end - begin) / 2)
                 early = residentPages();
         }
-        std::printf("%llu messages, %llu answers, %llu of them refusals, %llu states, %llu rendered by a client; "
-                    "memory %+ld MB in the second half\n",
-                    static_cast<unsigned long long>(fuzz.sent), static_cast<unsigned long long>(fuzz.answered),
-                    static_cast<unsigned long long>(fuzz.refused), static_cast<unsigned long long>(fuzz.states),
-                    static_cast<unsigned long long>(fuzz.rendered), (residentPages() - early) * 4096 / 1'000'000);
-        const bool lively = fuzz.answered > 0 && fuzz.refused > 0 && fuzz.refused < fuzz.answered && fuzz.states > 0;
+        std::printf(
+            "%llu messages, %llu answers, %llu of them refusals, %llu states, %llu rendered by a client; "
+            "memory %+ld MB in the second half\n",
+            static_cast<unsigned long long>(fuzz.sent), static_cast<unsigned long long>(fuzz.answered),
+            static_cast<unsigned long long>(fuzz.refused), static_cast<unsigned long long>(fuzz.states),
+            static_cast<unsigned long long>(fuzz.rendered), (residentPages() - early) * 4096 / 1'000'000);
+        const bool lively =
+            fuzz.answered > 0 && fuzz.refused > 0 && fuzz.refused < fuzz.answered && fuzz.states > 0;
         status = lively ? 0 : 1;
     }
     std::filesystem::remove_all(root);

@@ -155,8 +155,9 @@ TEST(ContactRate, NoSequenceOfGoalsAddsEnergy) {
     }
 }
 
-// A hard spring that presses 1 mm against a weak device took 3 mJ, not the 5 J of K d^2 / 2: a soft one to a far place, heard
-// next, has no more to give. Measured by the commands, also beside a damper that the device cannot exert.
+// A hard spring that presses 1 mm against a weak device took 3 mJ, not the 5 J of K d^2 / 2: a soft one to a
+// far place, heard next, has no more to give. Measured by the commands, also beside a damper that the device
+// cannot exert.
 TEST(ContactRate, WhatADeviceCannotPullIsNoEnergy) {
     for (const double damping : {0.0, 1e4}) {
         ProxySpring spring({.power = 0.0});
