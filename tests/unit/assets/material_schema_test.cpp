@@ -28,6 +28,8 @@ json schema() {
 bool hasType(const json& value, const std::string& type) {
     if (type == "object")
         return value.is_object();
+    if (type == "array")
+        return value.is_array();
     if (type == "string")
         return value.is_string();
     if (type == "integer")
@@ -60,6 +62,15 @@ std::string complaint(const json& root, const json& rule, const json& value, con
             met += complaint(root, choice, value, place).empty() ? 1 : 0;
         if (met != 1)
             return place + " meets " + std::to_string(met) + " of " + rule["oneOf"].dump();
+    }
+    if (value.is_array()) {
+        if (value.size() < rule.value("minItems", size_t{0}) ||
+            value.size() > rule.value("maxItems", value.size()))
+            return place + " has " + std::to_string(value.size()) + " items";
+        for (size_t i = 0; rule.contains("items") && i < value.size(); ++i)
+            if (std::string found = complaint(root, rule["items"], value[i], place + std::to_string(i));
+                !found.empty())
+                return found;
     }
     if (!value.is_object())
         return {};
@@ -95,7 +106,8 @@ TEST(MaterialSchema, SaysNothingThatTheTestsDoNotCheckAndLeavesNoObjectOpen) {
     const std::set<std::string> checked{"type",    "enum",     "minimum",     "maximum",
                                         "$ref",    "required", "properties",  "exclusiveMinimum",
                                         "$schema", "$id",      "title",       "additionalProperties",
-                                        "$defs",   "default",  "description", "oneOf"};
+                                        "$defs",   "default",  "description", "oneOf",
+                                        "items",   "minItems", "maxItems"};
     int rules = 0;
     eachRule(schema(), "", [&](const json& rule, const std::string& place) {
         ++rules;
@@ -139,9 +151,9 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 35)
+    EXPECT_EQ(materials, 40)
         << "ten swatches, three effects, three that breathe, two doughnuts, a panel, a virtual bump, a "
-           "field torus, and 14 with programs";
+           "field torus, 15 with programs, and four whose images are mapped";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retardationTime": 0.001,
@@ -154,6 +166,7 @@ constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retarda
     "representation": "implicit", "voxelSize": 0.001, "shader": {"source":
     "data:text/plain,parameter%20float%20a%20%3D%201%3B%20//%200..2%0Avoid%20touch(const%20in%20Touch%20before%2C%20inout%20Surface%20after)%20%7B%20after.damping%20%3D%20a%3B%20%7D%0A",
     "parameters": {"a": 1}, "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5}},
+    "textureMapping": {"surface": "cylinder", "by": "normal", "repeat": [2, 0.5], "rotation": [0, 0, 0, 1]},
     "sides": "front", "extras": 3})";
 constexpr const char* kWrong[] = {
     R"({"stiffness": 0})",
@@ -184,6 +197,9 @@ constexpr const char* kWrong[] = {
     R"({"representation": "voxels"})",
     R"({"representation": "implicit", "voxelSize": 0})",
     R"({"sides": "back"})",
+    R"({"textureMapping": {"surface": "cone"}})",
+    R"({"textureMapping": {"repeat": [1]}})",
+    R"({"textureMapping": {"rotation": [0, 0, 0, "1"]}})",
     R"({"shader": {}})",
     R"({"shader": "wood.glsl"})",
     R"({"shader": {"source": 1}})",

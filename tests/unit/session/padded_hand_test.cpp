@@ -47,10 +47,19 @@ TEST(PaddedHand, ShowsWhereThePadTouches) {
     tick(hand, 0.04, false, {1.0, 0.0, 0.0});
     EXPECT_NEAR(glm::length(inner.shown), 0.0, 1e-12) << "stays in the air";
     EXPECT_EQ(inner.forces, inner.shows);
+    const PadLimits limits = inner.limitsOfPad;
     inner.limitsOfPad = {};
     const int shows = inner.shows;
     tick(hand, 0.041, true, tilted);
-    EXPECT_EQ(inner.shows, shows) << "no display, no command";
+    EXPECT_EQ(inner.shows, shows + 1) << "what comes next begins in its middle";
+    EXPECT_EQ(inner.shown, glm::dvec2(0.0));
+    tick(hand, 0.042, true, tilted);
+    EXPECT_EQ(inner.shows, shows + 1) << "no display, no command";
+    // The next display goes there at its own rate, wherever this one was.
+    inner.limitsOfPad = limits;
+    tick(hand, 0.043, true, {1.0, 0.0, 0.0});
+    EXPECT_GT(glm::length(inner.shown), 0.0);
+    EXPECT_LE(glm::length(inner.shown), limits.rate * 1e-3);
 }
 
 } // namespace
