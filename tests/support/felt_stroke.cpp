@@ -14,6 +14,7 @@ FeltStroke feel(const HapticScene& scene, const StrokePath& path, ScenePtr sourc
     settings.texture = TextureMode::Off;
     settings.friction = FrictionMode::Off;
     settings.forceShading = ShadingMode::Off;
+    settings.deformation = false;
     SteppedHand hand(scene, source);
     const HapticOutput& output = hand.output;
     FeltStroke felt;
