@@ -45,7 +45,7 @@ TEST(GltfHaptics, EveryNumberOfTheTableIsReadSettledAndBounded) {
             EXPECT_EQ((material.haptic.*number.settled).value, 0.5f) << name;
             EXPECT_EQ((material.haptic.*number.settled).source, HapticSource::Touchstone) << name;
         }
-        EXPECT_REFUSED(withOurs({{name, -1.0}}),
+        EXPECT_REFUSED(withOurs({{name, number.least - 1.0}}),
                        "materials[0].extensions.TOUCHSTONE_materials_haptic." + name, "out of range");
         EXPECT_REFUSED(withOurs({{name, "much"}}),
                        "materials[0].extensions.TOUCHSTONE_materials_haptic." + name, "should be a number");

@@ -163,6 +163,7 @@ TEST(TextureMapping, ABoxShowsTheImageUprightOnEachFace) {
 
 GltfMaker withMapping(const json& mapping) {
     GltfMaker maker = GltfMaker::square();
+    maker.json["extensionsUsed"] = {"TOUCHSTONE_materials_haptic"};
     json material = json::object();
     material["extensions"]["TOUCHSTONE_materials_haptic"]["textureMapping"] = mapping;
     maker.json["materials"] = {material};
