@@ -3,6 +3,7 @@
 // and planes of a contact that comes more rarely, late, or not at all.
 
 #include "devices/plant/hand_impedance.h"
+#include "devices/simulated/told_hand.h"
 #include "haptics/control/proxy_spring.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/tick/stepped_hand.h"
@@ -44,19 +45,6 @@ class ApartLoop {
     [[nodiscard]] const HapticOutput& contact() const { return contact_.output; } ///< its last tick
 
   private:
-    class Target final : public Device {
-      public:
-        explicit Target(ApartLoop& loop) : loop_(loop) {}
-        [[nodiscard]] std::string name() const override { return "intention"; }
-        [[nodiscard]] DeviceLimits limits() const override { return {}; }
-        [[nodiscard]] DeviceSample sample(double time) noexcept override {
-            return {.position = loop_.intention(time), .valid = true};
-        }
-        void apply(const DeviceCommand&) noexcept override {}
-
-      private:
-        ApartLoop& loop_;
-    };
     glm::dvec3 step(const glm::dvec3& position);
 
     SteppedHand contact_;
@@ -64,7 +52,7 @@ class ApartLoop {
     ApartOptions options_;
     DeviceLimits limits_;
     ProxySpring spring_;
-    Target target_{*this};
+    IntendedHand target_{intention};
     HandImpedance hand_;
     std::mt19937 random_{1};
     std::optional<ContactGoal> underWay_;

@@ -2,6 +2,7 @@
 // A simulated device in a hand with the whole haptic step: position to force to motion, offline.
 
 #include "devices/plant/hand_impedance.h"
+#include "devices/simulated/told_hand.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/tick/stepped_hand.h"
 
@@ -36,26 +37,13 @@ class ClosedLoop {
     [[nodiscard]] const Plant& plant() const { return hand_.plant(); }
 
   private:
-    class Target final : public Device {
-      public:
-        explicit Target(ClosedLoop& loop) : loop_(loop) {}
-        [[nodiscard]] std::string name() const override { return "intention"; }
-        [[nodiscard]] DeviceLimits limits() const override { return {}; }
-        [[nodiscard]] DeviceSample sample(double time) noexcept override {
-            return {.position = loop_.intention(time), .valid = true};
-        }
-        void apply(const DeviceCommand&) noexcept override {}
-
-      private:
-        ClosedLoop& loop_;
-    };
     const HapticOutput& step(const glm::dvec3& position);
 
     SteppedHand touch_;
     HapticSettings settings_;
     DeviceLimits limits_;
     double rate_;
-    Target target_{*this};
+    IntendedHand target_{intention};
     HandImpedance hand_;
     uint64_t ticks_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include "devices/plant/hand_impedance.h"
 #include "devices/simulated/replay_device.h"
+#include "devices/simulated/told_hand.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "engine/core/output_file.h"
@@ -167,17 +168,6 @@ void requireSound(const std::filesystem::path& file, const std::vector<PlannedTi
                         "resample the path: --rate 1000");
 }
 
-/// Its position is the path's in the next tick.
-class PlannedHand final : public Device {
-  public:
-    [[nodiscard]] std::string name() const override { return "path"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
-    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
-    void apply(const DeviceCommand&) noexcept override {}
-
-    DeviceSample next;
-};
-
 /// `--record`: the state before the first tick, then every tick.
 class OfflineRecorder {
   public:
@@ -334,8 +324,8 @@ class OfflineTouch {
     body::JointSettings controls_;
     std::vector<body::Pose> poses_;                                  // of `operate`
     double previousTime_ = std::numeric_limits<double>::quiet_NaN(); // s, of the last step
-    PlannedHand path_;
-    HandImpedance yielding_; // in the closed loop
+    ToldHand path_;                                                  // the path's place in the next tick
+    HandImpedance yielding_;                                         // in the closed loop
     Device& hand_;
 };
 

@@ -27,7 +27,7 @@ HapticSettings plainWall(double stiffness, double damping) {
 
 LoopBench::LoopBench(const Scene& scene, const HapticSettings& settings, const PlantParameters& plant,
                      double rateHz, const DeviceLimits& limits, Fit fit)
-    : bench(scene, settings, fit), rate_(rateHz), target_(*this), hand_(target_, plant) {
+    : bench(scene, settings, fit), rate_(rateHz), target_(intention), hand_(target_, plant) {
     bench.limits = limits;
     bench.dt = 1.0 / rateHz;
 }

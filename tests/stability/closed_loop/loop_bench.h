@@ -2,6 +2,7 @@
 // A device in a hand against the whole haptic step, offline.
 
 #include "devices/plant/hand_impedance.h"
+#include "devices/simulated/told_hand.h"
 #include "study/rate/closed_loop.h"
 #include "study/rate/rate_ablation.h"
 #include "tests/support/touch_bench.h"
@@ -39,22 +40,8 @@ class LoopBench {
     TouchBench bench;
 
   private:
-    class Target final : public Device {
-      public:
-        explicit Target(LoopBench& bench) : bench_(bench) {}
-        [[nodiscard]] std::string name() const override { return "wish"; }
-        [[nodiscard]] DeviceLimits limits() const override { return {}; }
-        [[nodiscard]] DeviceSample sample(double time) noexcept override {
-            return {.position = bench_.intention(time), .valid = true};
-        }
-        void apply(const DeviceCommand&) noexcept override {}
-
-      private:
-        LoopBench& bench_;
-    };
-
     double rate_;
-    Target target_;
+    IntendedHand target_;
     HandImpedance hand_;
     uint64_t ticks_ = 0;
 };

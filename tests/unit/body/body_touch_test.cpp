@@ -1,6 +1,7 @@
 // Hands and bodies: pushed, carried, recorded.
 
 #include "devices/plant/hand_impedance.h"
+#include "devices/simulated/told_hand.h"
 #include "engine/core/float_mode.h"
 #include "haptics/tick/stepped_hand.h"
 #include "tests/support/allocation_counter.h"
@@ -61,17 +62,6 @@ TEST(BodyTouch, AFreeBodyTakesTheHandsMomentum) {
             }
 }
 
-/// What a hand intends.
-class Intention final : public Device {
-  public:
-    [[nodiscard]] std::string name() const override { return "path"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
-    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
-    void apply(const DeviceCommand&) noexcept override {}
-
-    DeviceSample next;
-};
-
 /// A simulated device in a simulated hand (closed loop) that pushes a cube against a wall and lets it go, for
 /// a minute. A sampled spring gives a fast hand energy by itself, at any wall that rests: so much is granted.
 TEST(BodyTouch, ABodyPushedAgainstAWallGivesNoMoreEnergyThanAWall) {
@@ -89,7 +79,7 @@ TEST(BodyTouch, ABodyPushedAgainstAWallGivesNoMoreEnergyThanAWall) {
                 (void)addCube(maker, "cube", {0.0, 0.0, 0.0}, 0.04, mass);
                 Bodies bodies(maker);
                 SteppedHand touch(*bodies.haptic, bodies.scene);
-                Intention path;
+                ToldHand path;
                 HandImpedance hand(path);
                 HapticSettings settings;
                 settings.integrator = integrator;

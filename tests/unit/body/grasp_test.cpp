@@ -1,6 +1,7 @@
 // A hand that holds a body and moves it into others.
 
 #include "devices/plant/hand_impedance.h"
+#include "devices/simulated/told_hand.h"
 #include "engine/core/float_mode.h"
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/scene/physics.h"
@@ -184,16 +185,6 @@ TEST(Grasp, AnyObjectOfALooseModelIsMovedIntoOthers) {
     EXPECT_NEAR(x("other"), there, 0.005) << "what was pushed comes to rest";
 }
 
-class Path final : public Device {
-  public:
-    [[nodiscard]] std::string name() const override { return "path"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
-    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
-    void apply(const DeviceCommand&) noexcept override {}
-
-    DeviceSample next;
-};
-
 /// In the closed loop of device and hand, for a minute: carried and pressed against the floor. Without
 /// gravity: the observer counts what a weight gives back on its way down as given.
 TEST(Grasp, GivesTheHandNoEnergy) {
@@ -205,7 +196,7 @@ TEST(Grasp, GivesTheHandNoEnergy) {
         (void)addCube(maker, "cube", {0.0, 0.0, 0.0}, kSide, mass);
         Bodies bodies(maker);
         SteppedHand touch(*bodies.haptic, bodies.scene);
-        Path path;
+        ToldHand path;
         HandImpedance hand(path);
         HapticSettings settings = grasping();
         settings.gravity = 0.0;

@@ -1,4 +1,5 @@
 #include "devices/plant/hand_impedance.h"
+#include "devices/simulated/told_hand.h"
 #include "engine/core/error.h"
 #include "tests/support/allocation_counter.h"
 
@@ -22,16 +23,6 @@ PlantParameters bare(double mass, double viscous = 0.0, double coulomb = 0.0) {
     p.handMass = p.handDamping = p.handStiffness = 0.0;
     return p;
 }
-
-/// Intends to be where it is told; stays for ever.
-class Intention final : public Device {
-  public:
-    [[nodiscard]] std::string name() const override { return "intention"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
-    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
-    void apply(const DeviceCommand&) noexcept override {}
-    DeviceSample next{.valid = true};
-};
 
 TEST(Plant, FallsFreelyUnderAHeldForce) {
     Plant plant(bare(0.1));
@@ -194,7 +185,8 @@ TEST(HandImpedance, HoldsAForceFromTickToTick) {
     for (const int delay : {0, 1}) {
         PlantParameters p = bare(0.1);
         p.delay = delay;
-        Intention still;
+        ToldHand still;
+        still.next.valid = true;
         HandImpedance hand(still, p);
         (void)hand.sample(0.0);
         hand.push({2.0, 0, 0});
@@ -210,7 +202,8 @@ TEST(HandImpedance, HoldsAForceFromTickToTick) {
 TEST(HandImpedance, IsSeenInTheStepsOfItsSensor) {
     PlantParameters p = bare(0.1);
     p.resolution = 3e-5;
-    Intention still;
+    ToldHand still;
+    still.next.valid = true;
     still.next.position = {1.04e-4, -1.04e-4, 1e-5};
     HandImpedance hand(still, p);
     const glm::dvec3 seen = hand.sample(0.0).position;
@@ -221,7 +214,8 @@ TEST(HandImpedance, IsSeenInTheStepsOfItsSensor) {
 }
 
 TEST(HandImpedance, StartsAtRestWhereItIntendsToBe) {
-    Intention still;
+    ToldHand still;
+    still.next.valid = true;
     still.next.position = {0.01, 0.02, 0.03};
     HandImpedance hand(still);
     EXPECT_LT(glm::distance(hand.sample(5.0).position, still.next.position), 2.7e-5);
@@ -236,7 +230,8 @@ TEST(HandImpedance, StartsAtRestWhereItIntendsToBe) {
 }
 
 TEST(HandImpedance, AllocatesNothing) {
-    Intention still;
+    ToldHand still;
+    still.next.valid = true;
     HandImpedance hand(still);
     const uint64_t before = test::allocationsOnThisThread();
     double moved = 0.0;

@@ -1,5 +1,6 @@
 #include "devices/device/mapped_device.h"
 #include "devices/device/workspace_map.h"
+#include "devices/simulated/told_hand.h"
 #include "tests/support/allocation_counter.h"
 
 #include <gtest/gtest.h>
@@ -173,18 +174,9 @@ TEST(WorkspaceMap, BearsAnything) {
               1e-15);
 }
 
-/// Where a test says, with the buttons that it says.
-class Told final : public Device {
-  public:
-    [[nodiscard]] std::string name() const override { return "told"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
-    [[nodiscard]] DeviceSample sample(double) noexcept override { return next; }
-    void apply(const DeviceCommand&) noexcept override {}
-    DeviceSample next = at(glm::dvec3(0.0));
-};
-
 TEST(MappedDevice, ItsSecondButtonIsTheClutch) {
-    Told told;
+    ToldHand told;
+    told.next = at(glm::dvec3(0.0));
     MappedDevice device(told, 2.0, glm::dvec3(0.01));
     EXPECT_LT(glm::distance(device.sample(0.0).inWorkspace(), glm::dvec3(-0.01)), 1e-15);
     const uint64_t before = test::allocationsOnThisThread();
