@@ -1,0 +1,183 @@
+#include "haptics/recording/recorded_world.h"
+
+#include "engine/core/error.h"
+
+#include <cmath>
+
+namespace touchstone {
+
+namespace {
+
+template <class Enumeration>
+void getEnumeration(ByteReader& bytes, Enumeration& value, Enumeration last, const char* what) {
+    uint8_t number = 0;
+    bytes.get(number);
+    if (number > static_cast<uint8_t>(last))
+        throw Error("", what, "is none that this version has", "");
+    value = static_cast<Enumeration>(number);
+}
+
+} // namespace
+
+void put(ByteWriter& bytes, const RecordedTool& recorded) {
+    const LiveTool& tool = recorded.tool;
+    bytes.put(static_cast<uint8_t>(tool.active));
+    bytes.put(static_cast<uint8_t>(tool.held));
+    bytes.put(static_cast<uint8_t>(tool.tool));
+    bytes.put(tool.object);
+    bytes.put(tool.stamp);
+    for (const double number : {tool.radius, tool.strength, tool.falloff, tool.resistance})
+        bytes.put(number);
+}
+void get(ByteReader& bytes, RecordedTool& recorded) {
+    LiveTool& tool = recorded.tool;
+    uint8_t active = 0, held = 0;
+    bytes.get(active);
+    bytes.get(held);
+    getEnumeration(bytes, tool.tool, SculptTool::Drag, "tool");
+    bytes.get(tool.object);
+    bytes.get(tool.stamp);
+    for (double* const number : {&tool.radius, &tool.strength, &tool.falloff, &tool.resistance})
+        bytes.get(*number);
+    tool.active = active != 0;
+    tool.held = held != 0;
+    if (!(tool.radius > 0.0 && std::isfinite(tool.radius + tool.resistance) && tool.strength > 0.0 &&
+          tool.strength <= 1.0 && tool.falloff >= 0.0 && tool.falloff <= 1.0))
+        throw Error("", "tool", "has a size or strength that cannot be", "");
+}
+
+void put(ByteWriter& bytes, const RecordedSculpt& sculpt) {
+    bytes.put(sculpt.scene);
+    bytes.put(sculpt.root);
+    bytes.put(sculpt.hash);
+    bytes.put(sculpt.first);
+    bytes.put(static_cast<uint32_t>(sculpt.entries.size()));
+    for (const SculptEntry& entry : sculpt.entries) {
+        bytes.put(static_cast<uint8_t>(entry.kind));
+        bytes.put(static_cast<uint8_t>(entry.tool));
+        bytes.put(entry.object);
+        bytes.put(entry.stamp);
+        bytes.put(entry.tick);
+        bytes.put(entry.centre);
+        bytes.put(entry.motion);
+        for (const double number : {entry.radius, entry.strength, entry.falloff})
+            bytes.put(number);
+    }
+}
+/// What an entry's numbers do is checked where it is applied.
+void get(ByteReader& bytes, RecordedSculpt& sculpt) {
+    uint32_t count = 0;
+    bytes.get(sculpt.scene);
+    bytes.get(sculpt.root);
+    bytes.get(sculpt.hash);
+    bytes.get(sculpt.first);
+    bytes.get(count);
+    if (bytes.left() != size_t{count} * kSculptEntrySize)
+        throw Error("", "", "holds another number of edits than it says", "");
+    sculpt.entries.resize(count);
+    for (SculptEntry& entry : sculpt.entries) {
+        getEnumeration(bytes, entry.kind, SculptEntryKind::Redo, "edit");
+        getEnumeration(bytes, entry.tool, SculptTool::Drag, "tool");
+        bytes.get(entry.object);
+        bytes.get(entry.stamp);
+        bytes.get(entry.tick);
+        bytes.get(entry.centre);
+        bytes.get(entry.motion);
+        for (double* const number : {&entry.radius, &entry.strength, &entry.falloff})
+            bytes.get(*number);
+    }
+}
+
+void put(ByteWriter& bytes, const RecordedContacts& contacts) {
+    bytes.put(static_cast<uint32_t>(contacts.found.size()));
+    for (const RecordedContacts::Found& found : contacts.found) {
+        bytes.put(found.tick);
+        bytes.put(found.found);
+    }
+}
+void get(ByteReader& bytes, RecordedContacts& contacts) {
+    uint32_t count = 0;
+    bytes.get(count);
+    for (uint32_t i = 0; i < count; ++i) { // the reader throws at the end of the chunk
+        RecordedContacts::Found& found = contacts.found.emplace_back();
+        bytes.get(found.tick);
+        bytes.get(found.found);
+    }
+}
+void put(ByteWriter& bytes, const RecordedBodies& bodies) {
+    bytes.put(bodies.tick);
+    bytes.put(static_cast<uint32_t>(bodies.bytes.size()));
+    for (const std::byte byte : bodies.bytes)
+        bytes.put(static_cast<uint8_t>(byte));
+}
+void get(ByteReader& bytes, RecordedBodies& bodies) {
+    bytes.get(bodies.tick);
+    uint32_t count = 0;
+    bytes.get(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        uint8_t byte = 0;
+        bytes.get(byte);
+        bodies.bytes.push_back(static_cast<std::byte>(byte));
+    }
+}
+
+void put(ByteWriter& bytes, const RecordedTextures& textures) {
+    bytes.put(textures.tick);
+    bytes.put(textures.part);
+    bytes.put(static_cast<uint32_t>(textures.tiles.size()));
+    for (const RecordedTextures::Tile& tile : textures.tiles) {
+        bytes.put(tile.object);
+        bytes.put(tile.tile);
+        bytes.put(static_cast<uint32_t>(tile.values.size()));
+        bytes.put(std::as_bytes(std::span(tile.values)));
+    }
+}
+void get(ByteReader& bytes, RecordedTextures& textures) {
+    uint32_t count = 0;
+    bytes.get(textures.tick);
+    bytes.get(textures.part);
+    bytes.get(count);
+    for (uint32_t i = 0; i < count; ++i) { // the reader throws at the end of the chunk
+        RecordedTextures::Tile& tile = textures.tiles.emplace_back();
+        uint32_t values = 0;
+        bytes.get(tile.object);
+        bytes.get(tile.tile);
+        bytes.get(values);
+        if (values == 0 || values > PersistentTexture::kTile * PersistentTexture::kTile)
+            throw Error("", "", "has a tile of another size than it can have", "");
+        tile.values.resize(values);
+        for (float& value : tile.values)
+            bytes.get(value);
+    }
+}
+
+void put(ByteWriter& bytes, const RecordedStrokes& strokes) {
+    bytes.put(static_cast<uint32_t>(strokes.strokes.size()));
+    for (const BrushStroke& stroke : strokes.strokes) {
+        bytes.put(stroke.tick);
+        bytes.put(stroke.object);
+        bytes.put(stroke.most);
+        bytes.put(stroke.point);
+        bytes.put(stroke.normal);
+        bytes.put(stroke.radius);
+        bytes.put(stroke.change);
+    }
+}
+void get(ByteReader& bytes, RecordedStrokes& strokes) {
+    uint32_t count = 0;
+    bytes.get(count);
+    if (bytes.left() != size_t{count} * kBrushStrokeSize)
+        throw Error("", "", "holds another number of strokes than it says", "");
+    strokes.strokes.resize(count);
+    for (BrushStroke& stroke : strokes.strokes) {
+        bytes.get(stroke.tick);
+        bytes.get(stroke.object);
+        bytes.get(stroke.most);
+        bytes.get(stroke.point);
+        bytes.get(stroke.normal);
+        bytes.get(stroke.radius);
+        bytes.get(stroke.change);
+    }
+}
+
+} // namespace touchstone
