@@ -50,7 +50,7 @@ struct HapticSettings {
     TextureMode texture = TextureMode::Law;
     FrictionMode friction = FrictionMode::Zilles;
     ProgramMode programs = ProgramMode::Dual;
-    bool deformation = true; ///< surfaces give way where their material says so (surface/dents.h)
+    bool deformation = true; ///< surfaces give way where their material says so (state/dents.h)
     /// m; 0 is Zilles' god-object. Larger closes wider cracks and rounds grooves. See feltRadius.
     double proxyRadius = 0.0;
     /// N/m; 0: the material's, else the device's recommendation.
