@@ -123,9 +123,6 @@ void ExperimentWindow::moveMouse() {
     const bool inside = place.x >= 0.0 && place.y >= 0.0 && place.x <= 1.0 && place.y <= 1.0;
     const bool pressed = glfwGetMouseButton(window_.handle(), GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
     playing_->player->moveMouse(inside ? std::optional(place) : std::nullopt, pressed);
-    // The pointer would show where the hand is held up.
-    const bool hidden = flow_.shown().has_value();
-    glfwSetInputMode(window_.handle(), GLFW_CURSOR, hidden ? GLFW_CURSOR_HIDDEN : GLFW_CURSOR_NORMAL);
 }
 
 std::vector<std::string> ExperimentWindow::warnings() const {
@@ -159,6 +156,10 @@ void ExperimentWindow::draw() {
     if (flow_.page() == SessionFlow::Page::Training)
         input.finger = reading_.finger;
     drawPage(input);
+    // The pointer would show where the hand is held up. ImGui's backend sets the cursor in every frame, so it
+    // must hear of it.
+    if (playing_ && flow_.shown())
+        ImGui::SetMouseCursor(ImGuiMouseCursor_None);
 }
 
 void ExperimentWindow::writeStatus(double now) {
