@@ -25,6 +25,8 @@ if(TOUCHSTONE_SANITIZE)
     target_compile_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE} -fno-omit-frame-pointer
                            -Wno-maybe-uninitialized)
     target_link_options(touchstone_flags INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
+    # The sanitizers' own data lies in their shared libraries, and libtouchstone holds the static libraries (api/CMakeLists.txt).
+    target_compile_options(touchstone_flags INTERFACE -fPIC)
     # Undefined behaviour ends the program as an address error does, or a test that meets it would pass. The library's
     # assertions see an index past a vector's size but inside its capacity, which the address sanitizer cannot.
     target_compile_options(touchstone_flags INTERFACE -fno-sanitize-recover=undefined,float-cast-overflow)

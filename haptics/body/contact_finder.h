@@ -4,6 +4,7 @@
 #include "engine/scene/physics.h"
 #include "haptics/body/rigid_body.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
