@@ -1,12 +1,11 @@
 #pragma once
 
 #include "devices/device/device.h"
-#include "haptics/servo/planar_servo.h"
 #include "haptics/servo/servo_loop.h"
 
 namespace touchstone {
 
-/// Connects a device to the servo; the device outlives the loop.
+/// Connects a device and its contact location display to the servo; the device outlives the loop.
 [[nodiscard]] inline DevicePort portOf(Device& device) {
     return {
         .context = &device,
@@ -15,17 +14,12 @@ namespace touchstone {
         .apply = [](void* context,
                     const DeviceCommand& command) noexcept { static_cast<Device*>(context)->apply(command); },
         .feel = [](void* context,
-                   const TouchFeedback& felt) noexcept { static_cast<Device*>(context)->feel(felt); }};
-}
-
-/// Its contact location display, likewise.
-[[nodiscard]] inline PadPort padPortOf(Device& device) {
-    return {.context = &device,
-            .limits = [](void* context) noexcept { return static_cast<Device*>(context)->pad(); },
-            .apply =
-                [](void* context, const PadCommand& command) noexcept {
-                    static_cast<Device*>(context)->applyPad(command);
-                }};
+                   const TouchFeedback& felt) noexcept { static_cast<Device*>(context)->feel(felt); },
+        .pad = [](void* context) noexcept { return static_cast<Device*>(context)->pad(); },
+        .applyPad =
+            [](void* context, const PadCommand& command) noexcept {
+                static_cast<Device*>(context)->applyPad(command);
+            }};
 }
 
 } // namespace touchstone

@@ -14,9 +14,23 @@ uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr sourc
     const uint32_t number = root ? *root : servo_.offerScene(scene, source, swap);
     if (!root)
         sculptor_.begin(number, scene, source);
-    scene_ = {number, std::move(scene), std::move(source), {}};
-    identify(std::move(identity));
+    begin({number, std::move(scene), std::move(source), std::move(identity)});
     return number;
+}
+
+uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
+                        const HapticSettings& settings) {
+    sculptor_.begin(0, nullptr, nullptr);
+    const uint32_t number = servo_.offerScene(scene, source, SceneSwap::Anew, &*(settings_ = settings));
+    sculptor_.begin(number, scene, source);
+    begin({number, std::move(scene), std::move(source), std::move(identity)});
+    return number;
+}
+
+/// It is the newest one from now on, and the subscribers know it.
+void Session::begin(OfferedScene scene) {
+    scene_ = std::move(scene);
+    identify(scene_.identity);
 }
 
 void Session::identify(SceneIdentity identity) {

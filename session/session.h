@@ -29,6 +29,9 @@ class Session {
     /// fields over.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
                    SceneSwap swap = SceneSwap::Anew, bool sculpted = false);
+    /// Touches a scene with settings of its own: no tick has the one without the other.
+    uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
+                   const HapticSettings& settings);
     /// The scene's file is another one now, or has been saved.
     void identify(SceneIdentity identity);
     /// The newest scene; its number is 0 before the first.
@@ -56,6 +59,7 @@ class Session {
 
   private:
     void tellSculpted();
+    void begin(OfferedScene scene);
 
     ServoLoop servo_;
     LiveSculptor sculptor_{servo_};

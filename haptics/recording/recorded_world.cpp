@@ -1,6 +1,7 @@
 #include "haptics/recording/recorded_world.h"
 
 #include "engine/core/error.h"
+#include "engine/core/member_count.h"
 
 #include <cmath>
 
@@ -177,6 +178,50 @@ void get(ByteReader& bytes, RecordedStrokes& strokes) {
         bytes.get(stroke.normal);
         bytes.get(stroke.radius);
         bytes.get(stroke.change);
+    }
+}
+
+static_assert(memberCount<PadTick>() == 3 && memberCount<PadLimits>() == 2 &&
+                  memberCount<LocationLimiterState>() == 1,
+              "a member was added: does it change a location, or outlive the tick? Then it is recorded");
+
+void put(ByteWriter& bytes, const RecordedLocations& locations) {
+    const auto putPlace = [&](const glm::dvec2& place) {
+        bytes.put(place.x);
+        bytes.put(place.y);
+    };
+    bytes.put(locations.hand);
+    putPlace(locations.before);
+    bytes.put(static_cast<uint32_t>(locations.shown.size()));
+    for (const RecordedLocations::Shown& shown : locations.shown) {
+        bytes.put(shown.tick);
+        bytes.put(shown.limits.reach);
+        bytes.put(shown.limits.rate);
+        putPlace(shown.location);
+    }
+}
+void get(ByteReader& bytes, RecordedLocations& locations) {
+    const auto getPlace = [&](glm::dvec2& place) {
+        bytes.get(place.x);
+        bytes.get(place.y);
+        if (!std::isfinite(place.x) || !std::isfinite(place.y))
+            throw Error("", "contact location", "is not finite", "");
+    };
+    uint32_t count = 0;
+    bytes.get(locations.hand);
+    if (locations.hand >= kMaxHands)
+        throw Error("", "", "is of a hand that cannot be", "");
+    getPlace(locations.before);
+    bytes.get(count);
+    constexpr size_t kShownSize = sizeof(uint64_t) + 4 * sizeof(double);
+    if (bytes.left() != count * kShownSize)
+        throw Error("", "", "holds another number of contact locations than it says", "");
+    locations.shown.resize(count);
+    for (RecordedLocations::Shown& shown : locations.shown) {
+        bytes.get(shown.tick);
+        bytes.get(shown.limits.reach);
+        bytes.get(shown.limits.rate);
+        getPlace(shown.location);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "haptics/shape/field/sculpt/live_tool.h"
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/texture/persistent_texture.h"
+#include "haptics/tick/pad_step.h"
 
 #include <array>
 #include <cstdint>
@@ -65,6 +66,7 @@ struct RecordedTick {
     glm::dvec3 proxy{0.0}, force{0.0}; ///< m, N, stages 6 and 7, workspace
     glm::dvec3 command{0.0};           ///< N, device frame
     uint32_t contacts = 0, flags = 0;
+    PadTick pad; ///< RecordedLocations
 };
 /// Of hand 0, with the mapping, the limits and the poses of each.
 struct RecordedTicks {
@@ -119,6 +121,17 @@ struct RecordedTextures {
 struct RecordedStrokes {
     std::vector<BrushStroke> strokes;
 };
+/// What a hand's contact location display showed in the ticks that follow; only of hands with one.
+struct RecordedLocations {
+    struct Shown {
+        uint64_t tick = 0;
+        PadLimits limits;
+        glm::dvec2 location{0.0}; ///< m, after safety
+    };
+    uint32_t hand = 0;
+    glm::dvec2 before{0.0}; ///< m, before the first of them
+    std::vector<Shown> shown;
+};
 /// Ticks that were made but not recorded.
 struct RecordedLoss {
     uint64_t ticks = 0;
@@ -131,15 +144,15 @@ struct RecordedNote {
 struct RecordedEnd {
     uint64_t ticks = 0;
 };
-using RecordedItem =
-    std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
-                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState, RecordedTool,
-                 RecordedSculpt, RecordedContacts, RecordedBodies, RecordedTextures, RecordedStrokes>;
+using RecordedItem = std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint,
+                                  RecordedTicks, RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks,
+                                  RecordedHandState, RecordedTool, RecordedSculpt, RecordedContacts,
+                                  RecordedBodies, RecordedTextures, RecordedStrokes, RecordedLocations>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 16> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
+inline constexpr std::array<std::string_view, 17> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
                                                               "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP",
-                                                              "BCON", "BSTA", "PTEX", "PSTR"};
+                                                              "BCON", "BSTA", "PTEX", "PSTR", "LOCA"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);

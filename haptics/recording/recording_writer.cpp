@@ -1,11 +1,33 @@
 #include "haptics/recording/recording_writer.h"
 
+#include "engine/core/member_count.h"
 #include "haptics/texture/persistent_textures.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace touchstone {
+
+namespace {
+
+static_assert(memberCount<DeviceSample>() == 9 && memberCount<TickRecord>() == 22 &&
+                  memberCount<HapticOutput>() == 21,
+              "a member was added: a replay needs it, compares it (stage_hashes.cpp), or is it for people?");
+
+/// Of the ticks with a display; none: there are none.
+RecordedLocations locationsOf(uint32_t hand, const std::vector<RecordedTick>& ticks) {
+    RecordedLocations locations{.hand = hand, .before = {}, .shown = {}};
+    for (const RecordedTick& tick : ticks) {
+        if (!(tick.pad.limits.reach > 0.0))
+            continue;
+        if (locations.shown.empty())
+            locations.before = tick.pad.before;
+        locations.shown.push_back({tick.tick, tick.pad.limits, tick.pad.location});
+    }
+    return locations;
+}
+
+} // namespace
 
 RecordedTick recordedTick(const TickRecord& record) {
     const HapticOutput& output = record.output;
@@ -27,7 +49,8 @@ RecordedTick recordedTick(const TickRecord& record) {
             .force = output.force,
             .command = output.command.force(),
             .contacts = output.contacts,
-            .flags = output.flags};
+            .flags = output.flags,
+            .pad = record.pad};
 }
 
 RecordingWriter::RecordingWriter(std::filesystem::path path, RecordingOrigin origin, uint32_t sequence)
@@ -125,6 +148,11 @@ void RecordingWriter::addTextures(const TickToRecord& tick, uint32_t root) {
     file_.append(state);
 }
 
+void RecordingWriter::addLocations(uint32_t hand, const RecordedTicks& block) {
+    if (const RecordedLocations locations = locationsOf(hand, block.ticks); !locations.shown.empty())
+        file_.append(locations);
+}
+
 void RecordingWriter::note(uint64_t tick, std::string text) {
     flush();
     file_.append(RecordedNote{tick, std::move(text)});
@@ -142,7 +170,9 @@ void RecordingWriter::flush() {
     if (!strokes_.strokes.empty())
         file_.append(strokes_);
     strokes_.strokes.clear();
+    addLocations(0, block_);
     for (auto& [hand, block] : otherBlocks_) {
+        addLocations(hand, block);
         file_.append(RecordedHandTicks{hand, block});
         block.ticks.clear();
     }

@@ -67,6 +67,7 @@ class RecordingWriter {
     /// Checkpoints from one whole state of the textures to the next.
     static constexpr uint32_t kTexturesEvery = 32;
     void addSculpt(uint32_t scene, const SculptToRecord& sculpt);
+    void addLocations(uint32_t hand, const RecordedTicks& block);
     void addTextures(const TickToRecord& tick, uint32_t root);
 
     RecordingFile file_;

@@ -91,6 +91,14 @@ void Replayer::take(const RecordedStrokes& strokes) {
     strokes_.insert(strokes_.end(), strokes.strokes.begin(), strokes.strokes.end());
 }
 
+void Replayer::take(const RecordedLocations& locations) {
+    glm::dvec2 before = locations.before;
+    for (const RecordedLocations::Shown& shown : locations.shown) {
+        shown_[locations.hand][shown.tick] = {shown.limits, before, shown.location};
+        before = shown.location;
+    }
+}
+
 void Replayer::take(const RecordedHandTicks& ticks) {
     std::deque<RecordedTick>& waiting = others_[ticks.hand];
     waiting.insert(waiting.end(), ticks.ticks.ticks.begin(), ticks.ticks.ticks.end());
@@ -135,10 +143,12 @@ void Replayer::take(const RecordedTicks& ticks) {
         if (known_)
             step(tick);
         found_.erase(found_.begin(), found_.upper_bound(tick.tick));
+        for (auto& shown : shown_)
+            shown.erase(shown.begin(), shown.upper_bound(tick.tick));
     }
 }
 
-/// The rows of all hands at this tick. False where one is missing.
+/// The rows of all hands at this tick, with what their displays showed. False where one is missing.
 bool Replayer::gather(const RecordedTick& tick) {
     ticks_.resize(1);
     ticks_[0] = tick;
@@ -153,6 +163,9 @@ bool Replayer::gather(const RecordedTick& tick) {
         ticks_.push_back(waiting.front());
         waiting.pop_front();
     }
+    for (size_t hand = 0; hand < ticks_.size(); ++hand)
+        if (const auto shown = shown_[hand].find(tick.tick); shown != shown_[hand].end())
+            ticks_[hand].pad = shown->second;
     return known_ ? ticks_.size() == devices_.size() : ticks_.size() == 1 + otherStates_.size();
 }
 
@@ -164,6 +177,8 @@ void Replayer::lose() {
     others_.clear();
     bodies_.reset();
     found_.clear();
+    for (auto& shown : shown_)
+        shown.clear();
 }
 
 /// The scene with this number, loaded on first use; null for none.
@@ -246,6 +261,7 @@ void Replayer::resume(const RecordedTick& tick) {
     // Without a gap before it, it must equal the state after the preceding ticks.
     const bool goesOn = known_ && scene_ == tick.scene && came == previousTime_;
     devices_.resize(ticks_.size());
+    pads_.resize(ticks_.size());
     samples_.resize(ticks_.size());
     outputs_.resize(ticks_.size());
     traces_.resize(ticks_.size());
@@ -259,9 +275,12 @@ void Replayer::resume(const RecordedTick& tick) {
         if (goesOn && !change_) {
             TouchCheckpoint own;
             takeCheckpoint(devices_[hand], own);
-            if (!std::ranges::equal(own.state(), state->second.state()))
+            const bool displays = ticks_[hand].pad.limits.reach > 0.0;
+            if (!std::ranges::equal(own.state(), state->second.state()) ||
+                (displays && pads_[hand].last != ticks_[hand].pad.before))
                 differs({.tick = tick.tick, .time = tick.time, .hand = hand, .stage = "state"});
         }
+        pads_[hand].last = ticks_[hand].pad.before;
         known_ &= restoreCheckpoint(state->second.state(), scene, devices_[hand]);
     }
     scene_ = tick.scene;
@@ -379,6 +398,9 @@ void Replayer::step(const RecordedTick& tick) {
         stepNs = monotonicNs() - begin;
         report_.seconds += report_.replayed > 0 ? tick.dt : 0.0;
     }
+    bool locationsEqual = true;
+    for (uint32_t hand = 0; hand < ticks_.size(); ++hand)
+        locationsEqual &= sameLocation(hand, ticks_[hand], settings->second);
     previousTime_ = animated;
     ++report_.replayed;
     if (change_) {
@@ -390,7 +412,7 @@ void Replayer::step(const RecordedTick& tick) {
     if (!posesEqual)
         differs({.tick = tick.tick, .time = tick.time, .stage = "poses"});
     const bool equal = compare(0, tick);
-    bool allEqual = equal && posesEqual && texturesEqual;
+    bool allEqual = equal && posesEqual && texturesEqual && locationsEqual;
     for (uint32_t hand = 1; hand < ticks_.size(); ++hand)
         allEqual &= compare(hand, ticks_[hand]);
     if (!texturesEqual)
@@ -403,6 +425,16 @@ void Replayer::step(const RecordedTick& tick) {
 void Replayer::differs(const Difference& difference) {
     if (!report_.first)
         report_.first = difference;
+}
+
+/// Makes the tick's contact location; true where it has the recorded bits, or is none to compare.
+bool Replayer::sameLocation(uint32_t hand, const RecordedTick& tick, const HapticSettings& settings) {
+    const PadCommand made =
+        padStep(samples_[hand], outputs_[hand], settings.forceEnabled, tick.dt, tick.pad.limits, pads_[hand]);
+    if (change_ || made.location() == tick.pad.location)
+        return true;
+    differs({.tick = tick.tick, .time = tick.time, .hand = hand, .stage = "contact location"});
+    return false;
 }
 
 /// True where every stage of the hand has the recorded bits.

@@ -30,8 +30,9 @@ struct Difference {
     uint64_t tick = 0;
     double time = 0.0;
     uint32_t hand = 0; ///< TickRecord::hand; 0 with "poses"
-    /// One of kStageNames; "state" where a checkpoint differs from the state after the preceding ticks;
-    /// "poses" where the objects are elsewhere; "field" where a sculpted scene has other fields.
+    /// One of kStageNames; "contact location" where a display shows another place; "state" where a checkpoint
+    /// differs from the state after the preceding ticks; "poses" where the objects are elsewhere; "field"
+    /// where a sculpted scene has other fields.
     std::string stage;
     glm::dvec3 recordedProxy{0.0}, replayedProxy{0.0}; ///< m, workspace
     glm::dvec3 recordedForce{0.0}, replayedForce{0.0}; ///< N, stage 7
@@ -106,11 +107,13 @@ class Replayer {
     void take(const RecordedBodies& bodies);
     void take(const RecordedTextures& textures);
     void take(const RecordedStrokes& strokes);
+    void take(const RecordedLocations& locations);
 
     void lose();
     void resume(const RecordedTick& tick);
     [[nodiscard]] bool gather(const RecordedTick& tick);
     void step(const RecordedTick& tick);
+    [[nodiscard]] bool sameLocation(uint32_t hand, const RecordedTick& tick, const HapticSettings& settings);
     [[nodiscard]] bool compare(uint32_t hand, const RecordedTick& tick);
     void differs(const Difference& difference);
     [[nodiscard]] Touched* touched(uint32_t number);
@@ -137,21 +140,23 @@ class Replayer {
         uint32_t number = 0;
         Touched touched;
     };
-    std::map<uint32_t, std::unique_ptr<Edited>> edited_;  // by root
-    std::optional<TouchCheckpoint> checkpoint_;           // of the next tick and hand 0
-    std::map<uint32_t, TouchCheckpoint> otherStates_;     // of the same tick, by hand
-    std::map<uint32_t, std::deque<RecordedTick>> others_; // of the next ticks, by hand
-    std::map<uint64_t, uint32_t> found_;                  // RecordedTick::found of the next ticks
-    std::optional<RecordedBodies> bodies_;                // of the next tick
-    std::vector<RecordedTextures> textures_;              // the last whole state, in its parts
-    std::vector<BrushStroke> strokes_;                    // since
-    size_t nextStroke_ = 0;                               // in `strokes_`: of the next tick
+    std::map<uint32_t, std::unique_ptr<Edited>> edited_;       // by root
+    std::optional<TouchCheckpoint> checkpoint_;                // of the next tick and hand 0
+    std::map<uint32_t, TouchCheckpoint> otherStates_;          // of the same tick, by hand
+    std::map<uint32_t, std::deque<RecordedTick>> others_;      // of the next ticks, by hand
+    std::array<std::map<uint64_t, PadTick>, kMaxHands> shown_; // of the next ticks, by hand and tick
+    std::map<uint64_t, uint32_t> found_;                       // RecordedTick::found of the next ticks
+    std::optional<RecordedBodies> bodies_;                     // of the next tick
+    std::vector<RecordedTextures> textures_;                   // the last whole state, in its parts
+    std::vector<BrushStroke> strokes_;                         // since
+    size_t nextStroke_ = 0;                                    // in `strokes_`: of the next tick
     // Present state of the replay.
     bool known_ = false; // the state is that of the recording's last tick
     uint32_t scene_ = 0;
     double previousTime_ = 0.0;
     // One per hand, of this tick:
     std::vector<DeviceState> devices_{1};
+    std::vector<LocationLimiterState> pads_{1};
     std::vector<RecordedTick> ticks_{1};
     std::vector<DeviceSample> samples_{1};
     std::vector<HapticOutput> outputs_{1};

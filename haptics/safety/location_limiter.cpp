@@ -22,13 +22,13 @@ bool usable(double value) {
 
 } // namespace
 
-PadCommand LocationLimiter::limit(const glm::dvec2& wanted, bool touching, const PadLimits& limits, double dt,
-                                  LocationLimiterState& state) noexcept {
+PadCommand LocationLimiter::limit(const LocationInput& input, LocationLimiterState& state) noexcept {
+    const auto& [wanted, touching, forceFelt, limits, dt] = input;
     if (!usable(limits.reach)) {
         state.last = glm::dvec2(0.0);
         return PadCommand{};
     }
-    const bool known = touching && std::isfinite(wanted.x) && std::isfinite(wanted.y) &&
+    const bool known = touching && forceFelt && std::isfinite(wanted.x) && std::isfinite(wanted.y) &&
                        std::abs(wanted.x) < 1e6 && std::abs(wanted.y) < 1e6;
     const glm::dvec2 target = cutTo(known ? wanted : state.last, limits.reach);
     const double most = usable(limits.rate) && usable(dt) ? limits.rate * std::min(dt, kServoSilence) : 0.0;

@@ -10,19 +10,28 @@ struct LocationLimiterState {
     glm::dvec2 last{0.0}; ///< m, the last command
 };
 
+struct LocationInput {
+    glm::dvec2 wanted{0.0}; ///< m along and across
+    bool touching = false;
+    /// The force is on and has not failed, and the hand's position is known.
+    bool forceFelt = false;
+    PadLimits limits;
+    double dt = 0.0; ///< s since the last command
+};
+
 /// Makes every PadCommand. Invariants, for any input:
 /// - the command is finite and |location| <= limits.reach; a device without a display gets the middle;
 /// - |location - previous location| <= limits.rate dt, except where the reach has become smaller, and dt
 /// counts for at
 ///   most kServoSilence;
 /// - without contact, and where `wanted` is not finite, the location stays where it is: the display does not
-/// tell a
-///   finger in the air where a surface would be.
+///   tell a finger in the air where a surface would be;
+/// - so it does without force, from that tick on: nothing moves on the skin that nobody commanded. With the
+///   force it goes on from there at the display's rate.
 class LocationLimiter {
   public:
-    /// Servo thread. `dt`: s since the last command.
-    [[nodiscard]] static PadCommand limit(const glm::dvec2& wanted, bool touching, const PadLimits& limits,
-                                          double dt, LocationLimiterState& state) noexcept;
+    /// Servo thread.
+    [[nodiscard]] static PadCommand limit(const LocationInput& input, LocationLimiterState& state) noexcept;
 };
 
 } // namespace touchstone

@@ -25,8 +25,7 @@ double pitchOf(const glm::dquat& orientation) {
 
 } // namespace
 
-PlanarServo::PlanarServo(DevicePort port, const ServoConfig& config, PadPort pad)
-    : port_(port), pad_(pad), config_(config) {
+PlanarServo::PlanarServo(DevicePort port, const ServoConfig& config) : port_(port), config_(config) {
     if (port.sample == nullptr || port.apply == nullptr)
         throw Error("servo", "", "the device port is incomplete", "");
     if (!(config.rateHz >= kMinServoRate && config.rateHz <= kMaxServoRate))
@@ -127,13 +126,19 @@ void PlanarServo::makeTick(double dt, bool late) noexcept {
                                         .springLength = now_.felt.touching ? now_.felt.depth : 0.0,
                                         .coupling = sample.mapping.coupling},
                                        sample.mapping.workspaceFromDevice, limiter_, now_.flags);
-    if (pad_.limits != nullptr) {
-        const PadLimits limits = pad_.limits(pad_.context);
+    if (port_.pad != nullptr) {
+        const PadLimits limits = port_.pad(port_.context);
         // The pitch alone moves it along; across, the plane has nothing.
-        now_.location =
-            LocationLimiter::limit({now_.felt.location, 0.0}, now_.felt.touching, limits, dt, location_);
-        if (limits.reach > 0.0)
-            pad_.apply(pad_.context, now_.location);
+        now_.location = LocationLimiter::limit({.wanted = {now_.felt.location, 0.0},
+                                                .touching = now_.felt.touching,
+                                                .forceFelt = !forceSwitch_.off() && sample.valid &&
+                                                             !has(now_.flags, TickFlag::ForceFault) &&
+                                                             !has(now_.flags, TickFlag::SafetyLatched),
+                                                .limits = limits,
+                                                .dt = dt},
+                                               location_);
+        if (limits.reach > 0.0 && port_.applyPad != nullptr)
+            port_.applyPad(port_.context, now_.location);
     }
     port_.apply(port_.context, now_.command);
 }

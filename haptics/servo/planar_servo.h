@@ -15,14 +15,6 @@
 
 namespace touchstone {
 
-/// The display of a device's contact location, where it may have one. Servo thread; must not block, allocate
-/// or throw.
-struct PadPort {
-    void* context = nullptr;
-    PadLimits (*limits)(void* context) noexcept = nullptr;
-    void (*apply)(void* context, const PadCommand& command) noexcept = nullptr;
-};
-
 /// What the finger touches: a curve and how it is rendered. The plane is z = 0 of the workspace.
 struct PlanarScene {
     PlanarSurface surface;
@@ -53,7 +45,7 @@ class PlanarServo {
     static constexpr double kPlaneStiffness = 300.0, kPlaneForce = 1.5;
 
     /// Throws Error where the rate or the port is none of ServoLoop's.
-    explicit PlanarServo(DevicePort port, const ServoConfig& config = {}, PadPort pad = {});
+    explicit PlanarServo(DevicePort port, const ServoConfig& config = {});
     ~PlanarServo();
     PlanarServo(const PlanarServo&) = delete;
     PlanarServo& operator=(const PlanarServo&) = delete;
@@ -95,7 +87,6 @@ class PlanarServo {
     void feel(const Offer& offer, const DeviceSample& sample) noexcept;
 
     DevicePort port_;
-    PadPort pad_;
     ServoConfig config_;
     ForceSwitch forceSwitch_;
     Handover<Held> scene_;

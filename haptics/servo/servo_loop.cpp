@@ -35,7 +35,7 @@ void refuseStale(DeviceSample& sample) noexcept {
 struct ServoLoop::Touch {
     explicit Touch(size_t hands)
         : devices(hands), samples(hands), outputs(hands), traces(hands), felt(hands), records(hands),
-          paths(hands), checkpoints(hands) {}
+          paths(hands), pads(hands), shown(hands), checkpoints(hands) {}
 
     const Offer* offer = nullptr;
     uint32_t geometry = 0;                    // of the offer; 0: none
@@ -54,7 +54,9 @@ struct ServoLoop::Touch {
     std::vector<Felt> felt;
     std::vector<TickRecord> records; // of this tick, hand 0 the last
     std::vector<ToolPath> paths;
-    bool late = false; // the previous tick ended after its next deadline
+    std::vector<LocationLimiterState> pads;
+    std::vector<PadTick> shown; // in this tick
+    bool late = false;          // the previous tick ended after its next deadline
     uint64_t nextCheckpoint = 0;
     double previousTime = std::numeric_limits<double>::quiet_NaN(); // of the preceding tick in this scene
     std::vector<TouchCheckpoint> checkpoints;                       // of this tick, that of hand 0 the last
@@ -123,7 +125,9 @@ void ServoLoop::stop() {
     thread_.join();
 }
 
-uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneSwap swap) {
+uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneSwap swap,
+                               const HapticSettings* settings) {
+    const NumberedSettings with = settings != nullptr ? number(*settings) : NumberedSettings{};
     if (swap == SceneSwap::Anew)
         ++offeredGeometry_;
     if (scene == nullptr) {
@@ -140,8 +144,8 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     bodies_ = world.bodies();
     const uint32_t number = nextSceneNumber();
     holdTextures(number, world);
-    auto offer =
-        std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_, number);
+    auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_,
+                                               number, std::vector<int>(), uint64_t{0}, with);
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
         offer->world.publishAhead(animationTime(
@@ -204,10 +208,14 @@ const LiveTool& ServoLoop::toolOf(uint32_t number) const {
 }
 
 void ServoLoop::setSettings(const HapticSettings& settings) {
+    settings_.write(number(settings));
+}
+
+/// The next number, and what a record of it stands for.
+const ServoLoop::NumberedSettings& ServoLoop::number(const HapticSettings& settings) {
     HapticSettings withoutForce = settings;
     withoutForce.forceEnabled = false;
-    offeredSettings_.push_back({offeredSettings_.back().number + 1, settings, withoutForce});
-    settings_.write(offeredSettings_.back());
+    return offeredSettings_.emplace_back(offeredSettings_.back().number + 1, settings, withoutForce);
 }
 
 const HapticSettings& ServoLoop::settingsOf(uint32_t number) const {
@@ -291,17 +299,21 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
 /// Start of a tick: the newest scene and settings, and checkpoints where they are due.
 void ServoLoop::prepare(Touch& touch) noexcept {
     TickRecord& record = touch.record();
+    // The scene first: settings that were sent before it was offered are there.
+    const Offer* const root = scene_.adopt();
     settings_.update();
-    touch.settings = &settings_.value().settings;
-    record.settings = settings_.value().number;
+    const NumberedSettings& settings = root != nullptr && root->settings.number > settings_.value().number
+                                           ? root->settings
+                                           : settings_.value();
+    touch.settings = &settings.settings;
+    record.settings = settings.number;
     if (forceSwitch_.off()) {
-        touch.settings = &settings_.value().withoutForce;
+        touch.settings = &settings.withoutForce;
         record.settings |= kWithoutForce;
     }
     tools_.update();
     record.tool = tools_.value().number;
     touch.tool = tools_.value().tool.active ? &tools_.value().tool : nullptr;
-    const Offer* const root = scene_.adopt();
     const Offer* offer = root;
     record.root = root != nullptr ? root->root : 0;
     if (const Offer* const edited = edited_.adopt();
@@ -405,9 +417,26 @@ void ServoLoop::tick(Touch& touch, uint64_t number, double dt) noexcept {
     for (size_t hand = 0; hand < ports_.size(); ++hand) {
         if (touch.offer != nullptr)
             touch.feelFrom(hand);
+        showLocation(touch, hand, dt);
         ports_[hand].apply(ports_[hand].context, touch.offer != nullptr ? touch.outputs[hand].command
                                                                         : touch.restCommand(hand, dt));
     }
+}
+
+/// A hand without a display pays a call.
+void ServoLoop::showLocation(Touch& touch, size_t hand, double dt) noexcept {
+    const DevicePort& port = ports_[hand];
+    if (port.pad == nullptr)
+        return;
+    PadTick& shown = touch.shown[hand];
+    LocationLimiterState& state = touch.pads[hand];
+    shown = {.limits = port.pad(port.context), .before = state.last};
+    // Also where there is no display: the next one begins in its middle, not where this one was.
+    const PadCommand command = padStep(touch.samples[hand], touch.outputs[hand], touch.settings->forceEnabled,
+                                       dt, shown.limits, state);
+    shown.location = command.location();
+    if (shown.limits.reach > 0.0 && port.applyPad != nullptr)
+        port.applyPad(port.context, command);
 }
 
 /// Also when the scene has become another one, in which nothing gives way.
@@ -451,6 +480,7 @@ void ServoLoop::publish(Touch& touch) noexcept {
         own.sample = touch.samples[hand];
         own.trace = touch.traces[hand];
         own.output = touch.outputs[hand];
+        own.pad = touch.shown[hand];
     }
     records_.push(touch.records);
     snapshot_.write(record);

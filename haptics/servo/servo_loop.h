@@ -11,6 +11,7 @@
 #include "haptics/servo/tool_path.h"
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/tick/haptic_step.h"
+#include "haptics/tick/pad_step.h"
 #include "haptics/world/world_state.h"
 
 #include <array>
@@ -52,6 +53,7 @@ struct TickRecord {
     DeviceSample sample;    ///< as read; not valid where it is older than its limits allow
     StageTrace trace;
     HapticOutput output;
+    PadTick pad; ///< of its contact location display
 };
 
 struct ServoConfig {
@@ -74,6 +76,9 @@ struct DevicePort {
     void (*apply)(void* context, const DeviceCommand& command) noexcept = nullptr;
     /// Called before each sample; may be null.
     void (*feel)(void* context, const TouchFeedback& felt) noexcept = nullptr;
+    /// The contact location display that the device has now; both may be null. Called before `apply`.
+    PadLimits (*pad)(void* context) noexcept = nullptr;
+    void (*applyPad)(void* context, const PadCommand& command) noexcept = nullptr;
 };
 
 /// Effect of a new scene on the present touch.
@@ -118,9 +123,10 @@ class ServoLoop {
     /// TickRecord::scene names it. A null scene: nothing can be touched; the force of the previous scene goes
     /// to zero as fast as its device's limits allow, which the records do not contain. With SameGeometry the
     /// present touch continues: the force changes to that of the new materials, within the limits of force
-    /// and slew and without fading, as when a setting changes.
+    /// and slew and without fading, as when a setting changes. `settings`: as setSettings, but from the
+    /// scene's first tick on, so that no tick has the one without the other. Null: the present ones.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
-                        SceneSwap swap = SceneSwap::Anew);
+                        SceneSwap swap = SceneSwap::Anew, const HapticSettings* settings = nullptr);
     /// The same for a scene that was sculpted, such as one with other materials: `scene` has the numbers of
     /// an edited scene and of its root, both new.
     void offerSculpted(ReshapedScene scene, SceneSwap swap);
@@ -192,6 +198,10 @@ class ServoLoop {
     [[nodiscard]] double rateHz() const { return config_.rateHz; }
 
   private:
+    struct NumberedSettings {
+        uint32_t number = 0;
+        HapticSettings settings, withoutForce{.forceEnabled = false};
+    };
     /// A scene with the state that only the servo changes in it.
     struct Offer {
         std::shared_ptr<const HapticScene> scene;
@@ -203,14 +213,11 @@ class ServoLoop {
         uint32_t root = 0;
         std::vector<int> reshaped{};
         uint64_t oldestEdit = 0;
+        NumberedSettings settings{}; // that came with it, until newer ones come
     };
     struct NumberedTool {
         uint32_t number = 0;
         LiveTool tool;
-    };
-    struct NumberedSettings {
-        uint32_t number = 0;
-        HapticSettings settings, withoutForce{.forceEnabled = false};
     };
     /// Bit of a settings number: with the force off.
     static constexpr uint32_t kWithoutForce = 1u << 31;
@@ -222,6 +229,8 @@ class ServoLoop {
     [[nodiscard]] std::shared_ptr<PersistentTextures> newestTextures();
     void prepare(Touch& touch) noexcept;
     void takeCheckpoints(Touch& touch) noexcept;
+    const NumberedSettings& number(const HapticSettings& settings);
+    void showLocation(Touch& touch, size_t hand, double dt) noexcept;
     void sampleHands(Touch& touch, const TickRecord& record) noexcept;
     void tick(Touch& touch, uint64_t number, double dt) noexcept;
     void publishDents(const Touch& touch) noexcept;

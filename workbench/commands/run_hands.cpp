@@ -33,8 +33,7 @@ std::vector<DevicePort> RunHands::connect(const Model& model) {
             place = stroke->place();
         }
         hand.mapped = std::make_unique<MappedDevice>(*device, options_.zoom, place);
-        hand.padded = std::make_unique<PaddedHand>(*hand.mapped);
-        ports.push_back(portOf(*hand.padded));
+        ports.push_back(portOf(*hand.mapped));
     }
     return ports;
 }

@@ -6,7 +6,6 @@
 #include "devices/plant/hand_impedance.h"
 #include "devices/simulated/simulated_hand.h"
 #include "haptics/servo/servo_loop.h"
-#include "session/padded_hand.h"
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
 
@@ -45,7 +44,6 @@ class RunHands {
         std::unique_ptr<SimulatedHand> path;
         std::unique_ptr<HandImpedance> yielding;
         std::unique_ptr<MappedDevice> mapped;
-        std::unique_ptr<PaddedHand> padded;
         double wait = 0.0; // s
     };
 

@@ -6,7 +6,6 @@
 #include "haptics/query/surface_pick.h"
 #include "haptics/servo/planar_servo.h"
 #include "session/device_port.h"
-#include "session/padded_hand.h"
 #include "session/session.h"
 #include "workbench/model/model.h"
 
@@ -26,8 +25,7 @@ using experiment::StudyPlan;
 class PlanarPlayer final : public StimulusPlayer {
   public:
     PlanarPlayer(const StudyPlan& plan, ExperimentHand& hand, double rateHz)
-        : plan_(plan), hand_(hand),
-          servo_(portOf(hand.device()), {.rateHz = rateHz}, padPortOf(hand.device())) {
+        : plan_(plan), hand_(hand), servo_(portOf(hand.device()), {.rateHz = rateHz}) {
         servo_.start();
     }
 
@@ -71,7 +69,7 @@ class PlanarPlayer final : public StimulusPlayer {
 class ModelPlayer final : public StimulusPlayer {
   public:
     ModelPlayer(const StudyPlan& plan, size_t condition, ExperimentHand& hand, double rateHz)
-        : plan_(plan), hand_(hand), padded_(hand.device()), session_({portOf(padded_)}, {.rateHz = rateHz}) {
+        : plan_(plan), hand_(hand), session_({portOf(hand.device())}, {.rateHz = rateHz}) {
         for (const auto* choice :
              {&plan.conditions[condition].reference, &plan.conditions[condition].comparison})
             (void)modelOf(std::get<experiment::ModelStimulus>(*choice));
@@ -89,10 +87,9 @@ class ModelPlayer final : public StimulusPlayer {
         const Model& model = modelOf(stimulus);
         const HapticSettings settings = experiment::settingsOf(condition, shown.reference, shown.level);
         prepareFor(model, settings);
-        session_.set(settings);
         felt_ = model.haptic;
         bounds_ = workspaceBounds(model);
-        (void)session_.touch(model.haptic, model.scene, SceneIdentity{});
+        (void)session_.touch(model.haptic, model.scene, SceneIdentity{}, settings);
         if (MouseDevice* mouse = hand_.mouse())
             mouse->release();
     }
@@ -145,7 +142,6 @@ class ModelPlayer final : public StimulusPlayer {
 
     const StudyPlan& plan_;
     ExperimentHand& hand_;
-    PaddedHand padded_;
     Session session_;
     std::map<std::filesystem::path, Model> models_;
     std::shared_ptr<const HapticScene> felt_;

@@ -73,6 +73,7 @@ class TimelineMaker {
         line_.sculpts_.push_back(sculpt);
     }
     void take(const RecordedContacts&) {}
+    void take(const RecordedLocations&) {}
     void take(const RecordedBodies&) {}
     void take(const RecordedTextures& textures) { line_.textures_.push_back({offset_, textures.part == 0}); }
     void take(const RecordedStrokes&) { line_.textures_.push_back({offset_, false}); }

@@ -11,7 +11,7 @@
 namespace touchstone {
 
 LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell)
-    : session_({portOf(padded_)}, {.rateHz = options.rateHz, .stageTimes = true}),
+    : session_({portOf(sound_.hand())}, {.rateHz = options.rateHz, .stageTimes = true}),
       controller_(session_.servo(), options.recording, "window", std::move(tell)),
       readings_(session_.servo(), controller_.recorder()) {
     session_.subscribe(controller_);

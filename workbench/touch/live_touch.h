@@ -3,7 +3,6 @@
 #include "engine/scene/scene.h"
 #include "haptics/body/joint_settings.h"
 #include "renderer/scene_renderer.h"
-#include "session/padded_hand.h"
 #include "session/session.h"
 #include "workbench/editor/live_materials.h"
 #include "workbench/files/recording_controller.h"
@@ -99,7 +98,7 @@ class LiveTouch {
     [[nodiscard]] DeviceMultiplexer& hand() { return hand_; }
     /// What the contact location display of the device in use shows, m; none without one.
     [[nodiscard]] std::optional<glm::dvec2> padShown() const {
-        return hand_.heldPad().reach > 0.0 ? std::optional(padded_.shown()) : std::nullopt;
+        return tick().pad.limits.reach > 0.0 ? std::optional(tick().pad.location) : std::nullopt;
     }
     [[nodiscard]] DeviceMenu& devices() { return menu_; }
     [[nodiscard]] PlaybackDevice& again() { return again_; }
@@ -116,7 +115,6 @@ class LiveTouch {
     DeviceMenu menu_;
     PlaybackDevice again_{hand_};
     SoundController sound_{again_};
-    PaddedHand padded_{sound_.hand()};
     Session session_;
     RecordingController controller_;
     WindowReadings readings_;

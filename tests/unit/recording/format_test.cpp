@@ -162,7 +162,8 @@ std::vector<RecordedItem> oneOfEach() {
                               .normal = {0.0, 1.0, 0.0},
                               .radius = 0.07,
                               .change = -1e-6,
-                              .most = 4096}}}};
+                              .most = 4096}}},
+            RecordedLocations{2, {1e-3, -2e-3}, {{80, {0.008, 0.1}, {3e-3, 4e-3}}, {81, {0.008, 0.1}, {}}}}};
 }
 
 /// Bytes of one change of limits and their count.

@@ -13,6 +13,14 @@ namespace {
 
 constexpr PadLimits kPad{.reach = 0.008, .rate = 0.1};
 
+glm::dvec2 shown(const glm::dvec2& wanted, bool touching, const PadLimits& limits,
+                 LocationLimiterState& state) {
+    return LocationLimiter::limit(
+               {.wanted = wanted, .touching = touching, .forceFelt = true, .limits = limits, .dt = 1e-3},
+               state)
+        .location();
+}
+
 TEST(LocationLimiter, AMillionRandomTicksKeepRangeAndRate) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -40,7 +48,15 @@ TEST(LocationLimiter, AMillionRandomTicksKeepRangeAndRate) {
         }
         const uint64_t kind = random() % 200;
         const double dt = kind == 0 ? 10.0 : kind == 1 ? NAN : kind == 2 ? -1.0 : 1e-3 * (1.0 + unit(random));
-        const glm::dvec2 now = LocationLimiter::limit(wanted, random() % 10 != 0, kPad, dt, state).location();
+        const bool felt = random() % 20 != 0;
+        const glm::dvec2 now = LocationLimiter::limit({.wanted = wanted,
+                                                       .touching = random() % 10 != 0,
+                                                       .forceFelt = felt,
+                                                       .limits = kPad,
+                                                       .dt = dt},
+                                                      state)
+                                   .location();
+        ASSERT_TRUE(felt || now == before) << i << ": moved without force";
         ASSERT_TRUE(std::isfinite(now.x) && std::isfinite(now.y)) << i;
         const double most = dt > 0.0 ? kPad.rate * std::min(dt, kServoSilence) : 0.0;
         const double step = glm::length(now - before);
@@ -61,23 +77,40 @@ TEST(LocationLimiter, StaysInTheAirAndReachesAPlaceInContact) {
     LocationLimiterState state;
     const glm::dvec2 place(0.003, -0.002);
     for (int i = 0; i < 100; ++i)
-        (void)LocationLimiter::limit(place, true, kPad, 1e-3, state);
+        (void)shown(place, true, kPad, state);
     EXPECT_EQ(state.last, place) << "exactly, once it is within a step";
-    EXPECT_EQ(LocationLimiter::limit({0.0, 0.0}, false, kPad, 1e-3, state).location(), place);
+    EXPECT_EQ(shown({0.0, 0.0}, false, kPad, state), place);
+}
+
+TEST(LocationLimiter, HoldsWithoutForceAndGoesOnFromThereAtItsRate) {
+    LocationLimiterState state;
+    for (int i = 0; i < 10; ++i)
+        (void)shown({0.005, 0.0}, true, kPad, state);
+    const glm::dvec2 held = state.last;
+    ASSERT_GT(held.x, 0.0);
+    ASSERT_LT(held.x, 0.005) << "still on its way";
+    for (int i = 0; i < 1000; ++i)
+        ASSERT_EQ(LocationLimiter::limit({.wanted = {-0.005, 0.002},
+                                          .touching = true,
+                                          .forceFelt = false,
+                                          .limits = kPad,
+                                          .dt = 1e-3},
+                                         state)
+                      .location(),
+                  held)
+            << i;
+    const glm::dvec2 next = shown({-0.005, 0.002}, true, kPad, state);
+    EXPECT_NEAR(glm::length(next - held), kPad.rate * 1e-3, 1e-15);
 }
 
 TEST(LocationLimiter, ADeviceWithoutAPadGetsNone) {
     LocationLimiterState state;
     state.last = {0.005, 0.0};
-    EXPECT_EQ(LocationLimiter::limit({0.004, 0.0}, true, {}, 1e-3, state).location(), glm::dvec2(0.0));
-    EXPECT_EQ(LocationLimiter::limit({0.004, 0.0}, true, {.reach = NAN, .rate = 1.0}, 1e-3, state).location(),
-              glm::dvec2(0.0));
+    EXPECT_EQ(shown({0.004, 0.0}, true, {}, state), glm::dvec2(0.0));
+    EXPECT_EQ(shown({0.004, 0.0}, true, {.reach = NAN, .rate = 1.0}, state), glm::dvec2(0.0));
     // A smaller display takes over: the place is cut at once.
-    (void)LocationLimiter::limit({0.008, 0.0}, true, {.reach = 0.008, .rate = 100.0}, 1e-3, state);
-    EXPECT_LE(
-        glm::length(LocationLimiter::limit({0.008, 0.0}, true, {.reach = 0.002, .rate = 1e-6}, 1e-3, state)
-                        .location()),
-        0.002);
+    (void)shown({0.008, 0.0}, true, {.reach = 0.008, .rate = 100.0}, state);
+    EXPECT_LE(glm::length(shown({0.008, 0.0}, true, {.reach = 0.002, .rate = 1e-6}, state)), 0.002);
 }
 
 } // namespace

@@ -104,20 +104,20 @@ TEST(PlanarServo, ACurveAroundTheFingerIsNotFeltBeforeItHasLeft) {
 }
 
 TEST(PlanarServo, ADisplayGetsTheContactLocationWithinItsLimits) {
-    Hand hand;
-    struct Display {
+    struct Display : Hand {
         PadLimits limits{.reach = 0.008, .rate = 0.05};
         glm::dvec2 location{0.0};
         uint64_t commands = 0;
     } display;
-    const PadPort pad{.context = &display,
-                      .limits = [](void* self) noexcept { return static_cast<Display*>(self)->limits; },
-                      .apply =
-                          [](void* self, const PadCommand& command) noexcept {
-                              static_cast<Display*>(self)->location = command.location();
-                              ++static_cast<Display*>(self)->commands;
-                          }};
-    PlanarServo servo(hand.port(), {}, pad);
+    Hand& hand = display;
+    DevicePort port = hand.port();
+    port.pad = [](void* self) noexcept { return static_cast<Display*>(static_cast<Hand*>(self))->limits; };
+    port.applyPad = [](void* self, const PadCommand& command) noexcept {
+        auto& own = *static_cast<Display*>(static_cast<Hand*>(self));
+        own.location = command.location();
+        ++own.commands;
+    };
+    PlanarServo servo(port);
     servo.offer(std::make_shared<const PlanarScene>(PlanarSurface(SmoothArc{}),
                                                     PlanarRendering{.location = PlanarLocation::Facets}));
     hand.sample.position = at(-0.01);
@@ -137,6 +137,12 @@ TEST(PlanarServo, ADisplayGetsTheContactLocationWithinItsLimits) {
     }
     EXPECT_LE(worst, 0.05e-3 * (1.0 + 1e-12));
     EXPECT_GT(worst, 0.04e-3) << "faster than the display";
+    servo.forceSwitch().takeAway(true);
+    for (int i = 0; i < 100; ++i) {
+        hand.sample.position.x += 1e-4;
+        ASSERT_TRUE(servo.step().felt.touching);
+        ASSERT_EQ(display.location, before) << "nothing moves on the skin without force";
+    }
     display.limits = {};
     const uint64_t commands = display.commands;
     EXPECT_EQ(servo.step().location.location(), glm::dvec2(0.0));
