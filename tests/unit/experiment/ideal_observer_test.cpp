@@ -7,7 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <vector>
 
 namespace touchstone::experiment {
 namespace {
@@ -78,6 +82,106 @@ TEST(IdealObserver, OrdersTheConditionsOfThePaper) {
     }
     EXPECT_NEAR(thresholds[3], thresholds[1], 0.1 * thresholds[1])
         << "C4 = C2 where the direction is not used";
+}
+
+/// [004 Table 1]: C1 to C4, segments and half the interval.
+struct Measured {
+    double mean, half;
+    [[nodiscard]] bool holds(double segments) const { return std::abs(segments - mean) <= half; }
+};
+constexpr std::array<Measured, 4> kTable1{{{104.1, 35.32}, {16.3, 1.99}, {257.3, 63.20}, {15.6, 3.85}}};
+
+std::array<double, 4> thresholdsWith(std::vector<DifferenceTable>& tables, const ObserverNoise& noise,
+                                     const SimulatedPerson& person = {}) {
+    std::array<double, 4> thresholds{};
+    for (size_t at = 0; at < 4; ++at)
+        thresholds[at] = thresholdOf(tables[at], person, noise, Attention::TactileFirst);
+    return thresholds;
+}
+
+/// How far each of the observer's numbers moves the thresholds, over more than the range that its source
+/// gives, and that none of them explains [004]: C1 and C3 ask for less noise where C2 and C4 ask for more.
+TEST(IdealObserver, NoNumberOfItsOwnExplainsC1AndC3) {
+    std::vector<DifferenceTable> tables, slow, fast;
+    for (size_t at = 0; at < 4; ++at) {
+        tables.emplace_back(paper().conditions[at]);
+        slow.emplace_back(paper().conditions[at], Stroke{.speed = 0.043});
+        fast.emplace_back(paper().conditions[at], Stroke{.speed = 0.172});
+    }
+    struct Row {
+        const char* what;
+        std::vector<DifferenceTable>* tables;
+        ObserverNoise noise;
+        SimulatedPerson person{};
+    };
+    const ObserverNoise usual;
+    const auto of = [&](double force, double location, double look, double exposure) {
+        return ObserverNoise{usual.force * force, usual.location * location, usual.look * look,
+                             usual.exposure * exposure};
+    };
+    const std::vector<Row> rows{{"as documented", &tables, usual},
+                                {"force JND 5 %", &tables, of(5.0 / 7.0, 1.0, 1.0, 1.0)},
+                                {"force JND 10 %", &tables, of(10.0 / 7.0, 1.0, 1.0, 1.0)},
+                                {"location noise halved", &tables, of(1.0, 0.5, 1.0, 1.0)},
+                                {"location noise doubled", &tables, of(1.0, 2.0, 1.0, 1.0)},
+                                {"look 0.031 s (5 mm at 160 mm/s)", &tables, of(1.0, 1.0, 0.031 / 0.19, 1.0)},
+                                {"look 1.2 s (30 mm at 25 mm/s)", &tables, of(1.0, 1.0, 1.2 / 0.19, 1.0)},
+                                {"exposure halved", &tables, of(1.0, 1.0, 1.0, 0.5)},
+                                {"exposure doubled", &tables, of(1.0, 1.0, 1.0, 2.0)},
+                                {"pressed half as hard", &tables, usual, {.force = 0.245}},
+                                {"pressed twice as hard", &tables, usual, {.force = 0.98}},
+                                {"speed 43 mm/s", &slow, usual},
+                                {"speed 172 mm/s", &fast, usual}};
+    for (const Row& row : rows) {
+        const std::array<double, 4> found = thresholdsWith(*row.tables, row.noise, row.person);
+        std::printf("%-32s C1 %5.1f  C2 %5.1f  C3 %5.1f  C4 %5.1f\n", row.what, found[0], found[1], found[2],
+                    found[3]);
+        size_t within = 0;
+        for (size_t at = 0; at < 4; ++at)
+            within += kTable1[at].holds(found[at]) ? 1 : 0;
+        EXPECT_LT(within, 4u) << row.what;
+    }
+    // Also both noises at once, from a tenth to ten times, in steps of 12 %.
+    size_t best = 0;
+    for (int i = -20; i <= 20; ++i)
+        for (int j = -20; j <= 20; ++j) {
+            const std::array<double, 4> found =
+                thresholdsWith(tables, of(std::pow(10.0, 0.05 * i), std::pow(10.0, 0.05 * j), 1.0, 1.0));
+            size_t within = 0;
+            for (size_t at = 0; at < 4; ++at)
+                within += kTable1[at].holds(found[at]) ? 1 : 0;
+            best = std::max(best, within);
+        }
+    std::printf("both noises from 0.1 to 10 times: at most %zu of 4 within the paper's intervals\n", best);
+    EXPECT_LT(best, 4u);
+}
+
+/// At the paper's own thresholds: how often a facet passes, how large the differences are, and the factor of
+/// the noise at which the observer would have that threshold.
+TEST(IdealObserver, NeedsLessNoiseTheFasterTheFacetsPass) {
+    std::array<double, 4> factor{}, rate{};
+    for (size_t at = 0; at < 4; ++at) {
+        const Condition& condition = paper().conditions[at];
+        DifferenceTable table(condition);
+        const StrokeDifference& difference = table.at(kTable1[at].mean);
+        // Equal shares: d' at the threshold over that with the documented noise.
+        double low = 0.0, high = 50.0;
+        while (high - low > 1e-9) {
+            const double middle = 0.5 * (low + high);
+            (shareRight(middle) < kStaircaseShare ? low : high) = middle;
+        }
+        factor[at] = sensitivity(condition, difference, 0.49, 1.0, {}, Attention::TactileFirst) / low;
+        rate[at] = Stroke{}.speed / (0.1 * 0.902 / kTable1[at].mean);
+        std::printf("%s: %5.1f facets/s; differences (rms) %.2f mN along, %.2f mN across, %.1f um; needs %.2f "
+                    "of the noise\n",
+                    condition.name.c_str(), rate[at], 1e3 * std::sqrt(difference.tangential),
+                    1e3 * std::sqrt(difference.normal), 1e6 * std::sqrt(difference.location), factor[at]);
+    }
+    for (const size_t quick : {0u, 2u})
+        for (const size_t slow : {1u, 3u}) {
+            EXPECT_GT(rate[quick], 5.0 * rate[slow]);
+            EXPECT_LT(factor[quick], 0.5 * factor[slow]);
+        }
 }
 
 /// The staircase of simulated people comes to the observer's own threshold.
