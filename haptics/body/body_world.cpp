@@ -31,6 +31,13 @@ struct JointMemory {
 static_assert(std::is_trivially_copyable_v<StirredBody> && std::is_trivially_copyable_v<BodyContact> &&
               std::is_trivially_copyable_v<JointMemory>);
 
+/// Of what was read from bytes: any value but 0 and 1 is no bool, and may not be looked at as one.
+bool isFlag(const bool& read) {
+    uint8_t byte = 0;
+    std::memcpy(&byte, &read, sizeof(byte));
+    return byte <= 1;
+}
+
 bool same(const Pose& a, const Pose& b) {
     return a.rotation == b.rotation && a.position == b.position;
 }
@@ -480,7 +487,8 @@ bool BodyWorld::restore(std::span<const std::byte> bytes) noexcept {
         get(stirred);
         const Pose& pose = stirred.state.pose;
         if (stirred.body >= states_.size() || !std::isfinite(glm::dot(pose.position, pose.position)) ||
-            !(std::abs(glm::length(pose.rotation) - 1.0) < 1e-6))
+            !(std::abs(glm::length(pose.rotation) - 1.0) < 1e-6) || !isFlag(stirred.state.awake) ||
+            !isFlag(stirred.state.stirred))
             return false;
     }
     const std::byte* const joints = from;
@@ -492,7 +500,8 @@ bool BodyWorld::restore(std::span<const std::byte> bytes) noexcept {
         const size_t forms = finder_->forms().size();
         if (contact.a < 0 || contact.a >= count || contact.b < -1 || contact.b >= count ||
             contact.frame < -1 || contact.frame >= count || contact.pair >> 16 >= forms ||
-            (contact.pair & 0xffff) >= forms)
+            (contact.pair & 0xffff) >= forms || !isFlag(contact.roundA) || !isFlag(contact.roundB) ||
+            !isFlag(contact.slides))
             return false;
     }
     states_ = initial_;

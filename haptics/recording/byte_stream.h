@@ -57,7 +57,12 @@ class ByteReader {
 
     template <class Number>
     requires std::is_arithmetic_v<Number>
-    void get(Number& number) { std::memcpy(&number, take(sizeof number).data(), sizeof number); }
+    void get(Number& number) {
+        if constexpr (std::is_same_v<Number, bool>) // any byte but 0 and 1 would be no bool
+            number = take(1)[0] != std::byte{0};
+        else
+            std::memcpy(&number, take(sizeof number).data(), sizeof number);
+    }
     void get(glm::dvec3& v) {
         get(v.x);
         get(v.y);

@@ -5,6 +5,7 @@
 #include "renderer/program/link_program.h"
 #include "tests/support/lavapipe.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -49,7 +50,7 @@ std::vector<EyeResult> EyePoints::run(std::span<const uint32_t> program,
     const GpuBuffer uniforms = createBuffer(gpu, parameters.size(), Usage::eUniformBuffer, MemoryUse::Upload);
     for (size_t i = 0; i < inputs.size(); ++i)
         std::memcpy(in.mapped + i * kInputs * kVector, inputs[i].data(), kInputs * kVector);
-    std::memcpy(uniforms.mapped, parameters.data(), parameters.size());
+    std::ranges::copy(parameters, uniforms.mapped); // a program may have none
 
     const vk::raii::DescriptorSetLayout points = layoutOf(gpu, vk::DescriptorType::eStorageBuffer, 2),
                                         block = layoutOf(gpu, vk::DescriptorType::eUniformBuffer, 1);
