@@ -41,6 +41,7 @@ void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     haptic.sides = ours.sides.value_or(SideChoice::Both);
     haptic.implicit = ours.implicit.value_or(false);
     haptic.voxelSize = ours.voxelSize.value_or(0.0f);
+    haptic.fieldError = ours.fieldError.value_or(0.0f);
     haptic.program = feltProgram(ours);
     if (!ours.shader.is_null() && !haptic.program)
         haptic.unavailable["shader"] = ours.shader;

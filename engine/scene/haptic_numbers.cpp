@@ -61,10 +61,18 @@ constexpr std::array kNumbers{
                   "in which a dent that nothing presses falls to 1/e"},
                  &HapticStatement::relaxationTime,
                  &HapticMaterial::relaxationTime},
-    HapticNumber{{"voxelSize", "voxel size", "m", kSmallest, kLargest, 0.0001f, 0.1f, true, "none",
-                  "of the distance field, model metres; none: a 128th of the object's longest side"},
-                 &HapticStatement::voxelSize,
-                 nullptr}};
+    HapticNumber{
+        {"voxelSize", "voxel size", "m", kSmallest, kLargest, 0.0001f, 0.1f, true, "none",
+         "of the distance field, model metres; none: as the field error asks, or a 128th of the object's "
+         "longest side"},
+        &HapticStatement::voxelSize,
+        nullptr},
+    HapticNumber{
+        {"fieldError", "field error", "m", kSmallest, kLargest, 0.00001f, 0.01f, true, "none",
+         "how far the distance field's surface may be from the triangles, model metres: the voxel is chosen "
+         "for it"},
+        &HapticStatement::fieldError,
+        nullptr}};
 
 } // namespace
 

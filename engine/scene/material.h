@@ -80,7 +80,8 @@ struct HapticMaterial {
     ShadingChoice forceShading = ShadingChoice::Auto;
     SideChoice sides = SideChoice::Both;
     bool implicit = false;   ///< representation: felt as a distance field
-    float voxelSize = 0.0f;  ///< of the field, model metres; 0: chosen from the object's size
+    float voxelSize = 0.0f;  ///< of the field, model metres; 0: chosen from fieldError or the object's size
+    float fieldError = 0.0f; ///< how far its surface may be from the triangles, model metres; 0: not stated
     MaterialProgram program; ///< what a touched place of it feels like; none: the fields above alone
     KeptFields unavailable;  ///< fields that are not felt, for `inspect`
     bool operator==(const HapticMaterial&) const = default;
@@ -95,9 +96,9 @@ struct HapticStatement {
     std::optional<FactorMap> friction, stiffnessMap, dampingMap;
     std::optional<ShadingChoice> forceShading;
     std::optional<SideChoice> sides;
-    std::optional<bool> implicit;   ///< representation: "implicit", else "mesh"
-    std::optional<float> voxelSize; ///< model metres
-    KeptJson shader;                ///< as in the file; null: none
+    std::optional<bool> implicit;               ///< representation: "implicit", else "mesh"
+    std::optional<float> voxelSize, fieldError; ///< model metres
+    KeptJson shader;                            ///< as in the file; null: none
     /// Compiled from shader's source; null without one, and where it could not be read or compiled.
     std::shared_ptr<const SurfaceProgram> program;
     bool operator==(const HapticStatement&) const = default;

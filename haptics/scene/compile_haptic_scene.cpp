@@ -20,6 +20,7 @@ ObjectUse objectUse(const Scene& scene, const Material& source, const HapticMate
         return meshUse(material, source.haptic.sides == SideChoice::Front);
     use.implicit = true;
     use.voxelSize = source.haptic.voxelSize;
+    use.fieldError = source.haptic.fieldError;
     return use;
 }
 

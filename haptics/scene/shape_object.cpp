@@ -2,8 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/device_io/device_io.h"
-#include "haptics/shape/field/field_shape.h"
-#include "haptics/shape/field/mesh_to_field.h"
+#include "haptics/shape/field/field_error.h"
 #include "haptics/shape/field/volume_to_field.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -70,31 +69,62 @@ int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> 
     return static_cast<int>(scene.objects.size()) - 1;
 }
 
-std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
-                                                const Similarity& workspaceFromScene, const ObjectUse& use,
-                                                const Progress& progress, std::vector<Warning>& warnings) {
-    constexpr double kDeepest = 1.0, kFarthest = 0.25, kCoarsest = 0.25; // object units
-    const double objectPerModel = workspaceFromScene.scale / mesh.workspaceFromObject.scale;
-    FieldRequest request;
-    if (use.voxelSize > 0.0f)
-        request.voxel = static_cast<double>(use.voxelSize) * objectPerModel;
-    const double scale = mesh.workspaceFromObject.scale;
-    request.inside = std::min(kDeepest, fieldDepths().inside / scale);
-    request.outside = std::clamp(fieldDepths().outside / scale, request.outside, kFarthest);
+namespace {
+
+using Grid = std::shared_ptr<const FieldGrid>;
+
+std::string placeOf(const HapticObject& mesh, const char* field) {
+    return "materials[" + std::to_string(mesh.material) + "]." + field;
+}
+
+/// With the voxel that the material asks for, or else the usual one. `objectPerModel`: lengths.
+Grid gridOfVoxel(const HapticObject& mesh, FieldRequest request, float voxelSize, double objectPerModel,
+                 const Progress& progress, std::vector<Warning>& warnings) {
+    constexpr double kCoarsest = 0.25; // object units
+    if (voxelSize > 0.0f)
+        request.voxel = static_cast<double>(voxelSize) * objectPerModel;
     const double finest = finestVoxel(mesh, request.outside);
     if (request.voxel < finest || request.voxel > kCoarsest) {
         const FieldRequest usual;
         const char* const why =
             request.voxel < finest ? "needs too many cells for " : "is larger than a quarter of ";
-        warnings.push_back({"materials[" + std::to_string(mesh.material) + "].voxelSize",
+        warnings.push_back({placeOf(mesh, "voxelSize"),
                             why + mesh.name + ": " + std::to_string(finest / objectPerModel) + " to " +
                                 std::to_string(kCoarsest / objectPerModel) + " m fit; felt with " +
                                 std::to_string(usual.voxel / objectPerModel) + " m"});
         request.voxel = usual.voxel;
     }
-    const auto object =
-        objectOf(mesh.name, std::make_shared<FieldShape>(fieldOfMesh(mesh, request, fieldCache(), progress)),
-                 mesh.material, mesh.workspaceFromObject);
+    return fieldOfMesh(mesh, request, fieldCache(), progress);
+}
+
+/// With the voxel that keeps its surface as near to the triangles as the material asks.
+Grid gridOfError(const HapticObject& mesh, const FieldRequest& request, float fieldError,
+                 double objectPerModel, const Progress& progress, std::vector<Warning>& warnings) {
+    const double error = static_cast<double>(fieldError) * objectPerModel;
+    const FittedField field = fieldWithin(mesh, request, error, fieldCache(), progress);
+    if (field.error > error)
+        warnings.push_back({placeOf(mesh, "fieldError"),
+                            "needs too many cells for " + mesh.name + ": felt with voxels of " +
+                                std::to_string(field.grid->layout().voxel / objectPerModel) +
+                                " m, off by up to " + std::to_string(field.error / objectPerModel) + " m"});
+    return field.grid;
+}
+
+} // namespace
+
+std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
+                                                const Similarity& workspaceFromScene, const ObjectUse& use,
+                                                const Progress& progress, std::vector<Warning>& warnings) {
+    constexpr double kDeepest = 1.0, kFarthest = 0.25; // object units
+    const double scale = mesh.workspaceFromObject.scale, objectPerModel = workspaceFromScene.scale / scale;
+    FieldRequest request;
+    request.inside = std::min(kDeepest, fieldDepths().inside / scale);
+    request.outside = std::clamp(fieldDepths().outside / scale, request.outside, kFarthest);
+    const bool byError = use.fieldError > 0.0f && !(use.voxelSize > 0.0f);
+    Grid grid = byError ? gridOfError(mesh, request, use.fieldError, objectPerModel, progress, warnings)
+                        : gridOfVoxel(mesh, request, use.voxelSize, objectPerModel, progress, warnings);
+    const auto object = objectOf(mesh.name, std::make_shared<FieldShape>(std::move(grid)), mesh.material,
+                                 mesh.workspaceFromObject);
     object->instance = mesh.instance;
     object->objectFromMesh = mesh.objectFromMesh;
     return object;

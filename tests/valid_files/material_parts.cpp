@@ -165,6 +165,8 @@ void addOurs(FileDraft& draft, json& material) {
         if (draw.chance(0.2)) {
             ours["representation"] = draw.pick(std::vector<std::string>{"mesh", "implicit"});
             ours["voxelSize"] = draw.real(0.02, 0.5);
+            if (draw.chance(0.3))
+                ours["fieldError"] = draw.real(0.001, 0.5);
         }
         if (draw.chance(0.1))
             ours["shader"] = {{"source", "bumps.glsl"}, {"parameters", {{"height", 1.0}}}};

@@ -98,10 +98,16 @@ void printInspection(const Json& json) {
         std::printf("  %td of %zu images decoded: those that the effects below read\n", decoded,
                     json["images"].size());
     for (const Json& object : json["objects"])
-        std::printf("  object '%s': %s triangles, %s, %s vertices welded, %s triangles dropped\n",
-                    text(object["name"]).c_str(), text(object["triangles"]).c_str(),
-                    object["closed"].get<bool>() ? "closed" : "open", text(object["welded_vertices"]).c_str(),
-                    text(object["dropped_triangles"]).c_str());
+        if (const auto field = object.find("field"); field != object.end())
+            std::printf("  object '%s': a distance field with voxels of %.3g mm, at most %.2g mm from its "
+                        "triangles, %s bytes\n",
+                        text(object["name"]).c_str(), 1e3 * (*field)["voxel_m"].get<double>(),
+                        1e3 * (*field)["error_m"].get<double>(), text((*field)["memory_bytes"]).c_str());
+        else
+            std::printf("  object '%s': %s triangles, %s, %s vertices welded, %s triangles dropped\n",
+                        text(object["name"]).c_str(), text(object["triangles"]).c_str(),
+                        object["closed"].get<bool>() ? "closed" : "open",
+                        text(object["welded_vertices"]).c_str(), text(object["dropped_triangles"]).c_str());
     print("%s", perceptionText(json["perception"]));
     for (const Json& material : json["materials"]) {
         print("  material %s '%s'\n", text(material["index"]), text(material["name"]));

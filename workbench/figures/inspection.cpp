@@ -10,7 +10,7 @@
 #include "engine/volume/volume.h"
 #include "haptics/program/felt_program.h"
 #include "haptics/servo/realtime_thread.h"
-#include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/field_error.h"
 #include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
 #include "workbench/figures/perception_figures.h"
@@ -165,9 +165,22 @@ Json imagesJson(const Scene& scene) {
     return images;
 }
 
+/// Of an object that is felt as the distance field of its mesh; empty for any other. Lengths in model metres.
+Json fieldJson(const Model& model, const HapticObject& object) {
+    const auto* field = dynamic_cast<const FieldShape*>(object.shape.get());
+    if (field == nullptr || model.scene->volume != nullptr)
+        return {};
+    const auto mesh =
+        buildHapticObject(*model.scene, object.instance, model.haptic->workspaceFromScene, ObjectUse{});
+    const double modelPerObject = object.workspaceFromObject.scale / model.haptic->workspaceFromScene.scale;
+    return {{"voxel_m", modelPerObject * field->voxel()},
+            {"error_m", modelPerObject * fieldErrorOf(*mesh, *field)},
+            {"memory_bytes", field->grid().memoryBytes()}};
+}
+
 Json objectsJson(const Model& model) {
     Json objects = Json::array();
-    for (const auto& object : model.haptic->objects)
+    for (const auto& object : model.haptic->objects) {
         objects.push_back({{"name", object->name},
                            {"triangles", object->triangleCount()},
                            {"representation", object->shape != nullptr ? "implicit" : "mesh"},
@@ -177,6 +190,9 @@ Json objectsJson(const Model& model) {
                            {"closed", object->closed},
                            {"material", object->material},
                            {"memory_bytes", object->memoryBytes()}});
+        if (Json field = fieldJson(model, *object); !field.is_null())
+            objects.back()["field"] = std::move(field);
+    }
     return objects;
 }
 

@@ -74,15 +74,21 @@ class MaterialPanel {
         if (!now_.shader.is_null())
             drawProgram(m_, controller_, state_.program, widgets_);
         for (const NumberField& field : numberFields())
-            if (field.name.find('.') == std::string_view::npos && field.name != "voxelSize")
+            if (field.name.find('.') == std::string_view::npos && !ofField(field))
                 number(field);
         for (const MapField& field : mapFields())
             map(field);
         for (const ChoiceField& field : choiceFields())
             choice(field);
-        if (now_.implicit.value_or(false) || now_.voxelSize)
-            number(*std::find_if(numberFields().begin(), numberFields().end(),
-                                 [](const NumberField& field) { return field.name == "voxelSize"; }));
+        if (now_.implicit.value_or(false) || now_.voxelSize || now_.fieldError)
+            for (const NumberField& field : numberFields())
+                if (ofField(field))
+                    number(field);
+    }
+
+    /// Of a distance field alone.
+    static bool ofField(const NumberField& field) {
+        return field.name == "voxelSize" || field.name == "fieldError";
     }
 
     /// The first material of the scene that is the file's material `index`.

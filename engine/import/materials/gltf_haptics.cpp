@@ -63,8 +63,13 @@ std::optional<FactorMap> factorField(ImportContext& context, const GltfDocument&
 }
 
 void tellMeaningless(ImportContext& context, const HapticStatement& ours, const std::string& place) {
-    if (ours.voxelSize && !ours.implicit.value_or(false))
-        context.warn(place + ".voxelSize", "has no meaning without representation \"implicit\"");
+    const bool implicit = ours.implicit.value_or(false);
+    for (const auto& [stated, name] :
+         {std::pair(ours.voxelSize, ".voxelSize"), {ours.fieldError, ".fieldError"}})
+        if (stated && !implicit)
+            context.warn(place + name, "has no meaning without representation \"implicit\"");
+    if (implicit && ours.voxelSize && ours.fieldError)
+        context.warn(place + ".fieldError", "has no meaning beside voxelSize");
 }
 
 void readChoices(ImportContext& context, const json& object, const std::string& place,

@@ -33,7 +33,8 @@ struct ObjectUse {
     bool normals = false;     ///< of force shading, where the surface is smooth
     bool oneSided = false;    ///< `sides` is front
     bool implicit = false;    ///< felt as a distance field: nothing of the above
-    float voxelSize = 0.0f;   ///< of the field, model metres; 0: chosen from the object's size
+    float voxelSize = 0.0f;   ///< of the field, model metres; 0: chosen from fieldError or the object's size
+    float fieldError = 0.0f;  ///< how far its surface may be from the triangles, model metres; 0: not stated
     bool operator==(const ObjectUse&) const = default;
 };
 

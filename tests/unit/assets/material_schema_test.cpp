@@ -163,7 +163,7 @@ constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retarda
     "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
     "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
     "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
-    "representation": "implicit", "voxelSize": 0.001, "shader": {"source":
+    "representation": "implicit", "voxelSize": 0.001, "fieldError": 0.0001, "shader": {"source":
     "data:text/plain,parameter%20float%20a%20%3D%201%3B%20//%200..2%0Avoid%20touch(const%20in%20Touch%20before%2C%20inout%20Surface%20after)%20%7B%20after.damping%20%3D%20a%3B%20%7D%0A",
     "parameters": {"a": 1}, "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5}},
     "textureMapping": {"surface": "cylinder", "by": "normal", "repeat": [2, 0.5], "rotation": [0, 0, 0, 1]},
@@ -196,6 +196,7 @@ constexpr const char* kWrong[] = {
     R"({"forceShading": 1})",
     R"({"representation": "voxels"})",
     R"({"representation": "implicit", "voxelSize": 0})",
+    R"({"representation": "implicit", "fieldError": 0})",
     R"({"sides": "back"})",
     R"({"textureMapping": {"surface": "cone"}})",
     R"({"textureMapping": {"repeat": [1]}})",

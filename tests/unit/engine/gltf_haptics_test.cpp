@@ -129,6 +129,7 @@ TEST(GltfHaptics, WrongTypesAndRangesNameTheField) {
     EXPECT_REFUSED(withOurs({{"representation", "implicit"}, {"voxelSize", 0}}), place + ".voxelSize",
                    "out of range");
     EXPECT_REFUSED(withOurs({{"voxelSize", -1}}), place + ".voxelSize", "out of range");
+    EXPECT_REFUSED(withOurs({{"fieldError", 0}}), place + ".fieldError", "out of range");
 }
 
 TEST(GltfHaptics, AFieldThatIsNotOursIsToldAndTheRestHolds) {
@@ -188,6 +189,7 @@ TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
     const GltfMaker maker = withOurs({{"shader", shader},
                                       {"representation", "implicit"},
                                       {"voxelSize", 0.001},
+                                      {"fieldError", 0.0001},
                                       {"forceShading", "bezier"}});
     const ScenePtr scene = load(maker);
     const HapticMaterial& haptic = scene->materials[0].haptic;
@@ -195,6 +197,9 @@ TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
     EXPECT_EQ(kept, shader);
     EXPECT_TRUE(haptic.implicit);
     EXPECT_EQ(haptic.voxelSize, 0.001f);
+    EXPECT_EQ(haptic.fieldError, 0.0001f);
+    EXPECT_TRUE(warns(*scene, ".fieldError", "beside voxelSize"));
+    EXPECT_TRUE(warns(*load(withOurs({{"fieldError", 0.001}})), ".fieldError", "without representation"));
     EXPECT_EQ(haptic.forceShading, ShadingChoice::Bezier);
     EXPECT_FALSE(warns(*scene, ".representation", ""));
     EXPECT_FALSE(warns(*scene, ".forceShading", ""));

@@ -1,7 +1,7 @@
 // Distance fields as shapes: against closed forms, against brute force on the same field, and at every speed.
 
 #include "engine/core/error.h"
-#include "haptics/shape/field/mesh_to_field.h"
+#include "haptics/shape/field/field_error.h"
 #include "tests/unit/haptics/field_bench.h"
 
 #include <gtest/gtest.h>
@@ -249,6 +249,69 @@ TEST(FieldOfMesh, AMaterialThatIsImplicitIsFeltAsAField) {
         ASSERT_EQ(usual.scene->warnings.size(), 1u) << size;
         EXPECT_EQ(usual.scene->warnings[0].place, "materials[0].voxelSize");
     }
+}
+
+/// The field of `mesh`'s one material, with `error` as fieldError.
+std::unique_ptr<TouchBench> withinError(const assets::Shape& mesh, float error) {
+    Scene scene = sceneOf(mesh);
+    scene.materials[0].haptic.implicit = true;
+    scene.materials[0].haptic.fieldError = error;
+    return std::make_unique<TouchBench>(scene, cornerSettings());
+}
+
+/// How far the touched surface is from where rays from afar meet the mesh, at most, workspace metres.
+double farthestOff(const HapticScene& field, const HapticScene& mesh) {
+    const HapticObject& object = *field.objects[0];
+    const auto& shape = dynamic_cast<const FieldShape&>(*object.shape);
+    double worst = 0.0;
+    for (size_t t = 0; t < mesh.objects[0]->triangleCount(); ++t)
+        for (const double u : {0.0, 0.2, 0.5})
+            for (const double v : {0.0, 0.3, 0.5}) {
+                const auto corner = [&](size_t k) {
+                    return glm::dvec3(mesh.objects[0]->vertices[mesh.objects[0]->indices[3 * t + k]]);
+                };
+                const glm::dvec3 place =
+                    corner(0) + u * (corner(1) - corner(0)) + v * (corner(2) - corner(0));
+                // Along the gradient to the surface, by bisection.
+                const glm::dvec3 along = glm::normalize(shape.gradient(place));
+                double low = -4.0 * shape.voxel(), high = 4.0 * shape.voxel();
+                for (int i = 0; i < 60; ++i)
+                    (shape.value(place + 0.5 * (low + high) * along) < 0.0 ? low : high) = 0.5 * (low + high);
+                worst = std::max(worst, std::abs(low));
+            }
+    return worst * object.workspaceFromObject.scale;
+}
+
+/// The voxel follows the error asked for: no finer than needed, and near enough where it is measured another
+/// way.
+TEST(FieldOfMesh, IsAsNearToTheTrianglesAsTheMaterialAsks) {
+    for (const bool edges : {false, true})
+        for (const float error : {1e-3f, edges ? 5e-4f : 3e-5f}) {
+            const auto mesh = edges ? assets::box({0.1, 0.1, 0.1}) : assets::sphere(0.075, 90, 90);
+            const auto field = withinError(mesh, error);
+            TouchBench triangles(sceneOf(mesh), cornerSettings());
+            EXPECT_TRUE(field->scene->warnings.empty());
+            EXPECT_LE(farthestOff(*field->scene, *triangles.scene), 1.02 * error) << edges << " " << error;
+            const auto& object = *field->scene->objects[0];
+            const double voxel = dynamic_cast<const FieldShape&>(*object.shape).voxel();
+            std::printf("%s, %g mm: voxel %.2f mm\n", edges ? "box" : "ball",
+                        1e3 * static_cast<double>(error), 1e3 * voxel * object.workspaceFromObject.scale);
+            if (!edges && voxel < 1.0 / 65.0) { // a coarser one is not near enough; at edges it depends on
+                                                // where the nodes lie
+                const auto coarser = fieldOfMesh(*triangles.scene->objects[0],
+                                                 {.voxel = voxel * std::sqrt(2.0), .inside = 0.2});
+                EXPECT_GT(fieldErrorOf(*triangles.scene->objects[0], FieldShape(coarser)) *
+                              object.workspaceFromObject.scale,
+                          static_cast<double>(error));
+            }
+        }
+}
+
+TEST(FieldOfMesh, AnErrorThatNoFieldReachesIsToldAndFeltWithTheUsualVoxel) {
+    const auto field = withinError(assets::box({0.1, 0.1, 0.1}), 1e-9f);
+    ASSERT_EQ(field->scene->warnings.size(), 1u);
+    EXPECT_EQ(field->scene->warnings[0].place, "materials[0].fieldError");
+    EXPECT_EQ(dynamic_cast<const FieldShape&>(*field->scene->objects[0]->shape).voxel(), 1.0 / 128.0);
 }
 
 TEST(FieldGrid, KeepsWhatItIsGivenAndRefusesWhatIsNone) {

@@ -101,10 +101,11 @@ void expectTheSameForAllChanges(const std::filesystem::path& path) {
                     const auto friction = next.friction, stiffness = next.stiffnessMap,
                                damping = next.dampingMap;
                     const auto implicit = next.implicit; // another representation is another geometry
-                    const auto voxelSize = next.voxelSize;
+                    const auto voxelSize = next.voxelSize, fieldError = next.fieldError;
                     next = HapticStatement{};
                     next.implicit = implicit;
                     next.voxelSize = voxelSize;
+                    next.fieldError = fieldError;
                     next.height = height;
                     next.friction = friction;
                     next.stiffnessMap = stiffness;
