@@ -166,7 +166,7 @@ void addOurs(FileDraft& draft, json& material) {
             ours["representation"] = draw.pick(std::vector<std::string>{"mesh", "implicit"});
             ours["voxelSize"] = draw.real(0.02, 0.5);
             if (draw.chance(0.3))
-                ours["fieldError"] = draw.real(0.001, 0.5);
+                ours["fieldError"] = draw.real(0.004, 0.5);
         }
         if (draw.chance(0.1))
             ours["shader"] = {{"source", "bumps.glsl"}, {"parameters", {{"height", 1.0}}}};
