@@ -212,7 +212,8 @@ struct TriangleTree::Flattener {
 void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                         std::span<const uint32_t> indices) noexcept {
     const bool moves = a.data() != b.data();
-    // Outwards by more than float rounding at magnitude one, in packing and in unpacking.
+    // Outwards by more than float rounding, in packing and in unpacking: of magnitude one, or of as far as a
+    // deformation takes the leaf.
     constexpr double kOutwards = 4e-7;
     std::array<std::array<double, kLeafSize>, 3> low, high;
     for (size_t i = 0; i < leaf.count; ++i) {
@@ -225,20 +226,25 @@ void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<cons
                 least = std::min(least, low2);
                 most = std::max(most, high2);
             }
-            low[axis][i] = static_cast<double>(least) - kOutwards;
-            high[axis][i] = static_cast<double>(most) + kOutwards;
+            low[axis][i] = static_cast<double>(least);
+            high[axis][i] = static_cast<double>(most);
         }
     }
+    // What is no number, where a deformation leaves the floats, becomes 0.
+    const auto byte = [](double value) {
+        return static_cast<uint8_t>(value > 0.0 ? std::min(value, 255.0) : 0.0);
+    };
     for (size_t axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<glm::length_t>(axis);
         const double least = *std::min_element(low[axis].begin(), low[axis].begin() + leaf.count);
         const double most = *std::max_element(high[axis].begin(), high[axis].begin() + leaf.count);
-        leaf.origin[k] = static_cast<float>(least - kOutwards);
-        leaf.step[k] = static_cast<float>((most - least + 3.0 * kOutwards) / 255.0 * (1.0 + 1e-6));
+        const double outwards = kOutwards * std::max({1.0, std::abs(least), std::abs(most)});
+        leaf.origin[k] = static_cast<float>(least - 2.0 * outwards);
+        leaf.step[k] = static_cast<float>((most - least + 5.0 * outwards) / 255.0 * (1.0 + 1e-6));
         const auto origin = static_cast<double>(leaf.origin[k]), step = static_cast<double>(leaf.step[k]);
         for (size_t i = 0; i < leaf.count; ++i) {
-            leaf.low[axis][i] = static_cast<uint8_t>(std::floor((low[axis][i] - origin) / step));
-            leaf.high[axis][i] = static_cast<uint8_t>(std::ceil((high[axis][i] - origin) / step));
+            leaf.low[axis][i] = byte(std::floor((low[axis][i] - outwards - origin) / step));
+            leaf.high[axis][i] = byte(std::ceil((high[axis][i] + outwards - origin) / step));
         }
     }
 }

@@ -172,10 +172,11 @@ TEST(IdealObserver, NeedsLessNoiseTheFasterTheFacetsPass) {
         }
         factor[at] = sensitivity(condition, difference, 0.49, 1.0, {}, Attention::TactileFirst) / low;
         rate[at] = Stroke{}.speed / (0.1 * 0.902 / kTable1[at].mean);
-        std::printf("%s: %5.1f facets/s; differences (rms) %.2f mN along, %.2f mN across, %.1f um; needs %.2f "
-                    "of the noise\n",
-                    condition.name.c_str(), rate[at], 1e3 * std::sqrt(difference.tangential),
-                    1e3 * std::sqrt(difference.normal), 1e6 * std::sqrt(difference.location), factor[at]);
+        std::printf(
+            "%s: %5.1f facets/s; differences (rms) %.2f mN along, %.2f mN across, %.1f um; needs %.2f "
+            "of the noise\n",
+            condition.name.c_str(), rate[at], 1e3 * std::sqrt(difference.tangential),
+            1e3 * std::sqrt(difference.normal), 1e6 * std::sqrt(difference.location), factor[at]);
     }
     for (const size_t quick : {0u, 2u})
         for (const size_t slow : {1u, 3u}) {

@@ -90,14 +90,12 @@ TEST(LocationLimiter, HoldsWithoutForceAndGoesOnFromThereAtItsRate) {
     ASSERT_GT(held.x, 0.0);
     ASSERT_LT(held.x, 0.005) << "still on its way";
     for (int i = 0; i < 1000; ++i)
-        ASSERT_EQ(LocationLimiter::limit({.wanted = {-0.005, 0.002},
-                                          .touching = true,
-                                          .forceFelt = false,
-                                          .limits = kPad,
-                                          .dt = 1e-3},
-                                         state)
-                      .location(),
-                  held)
+        ASSERT_EQ(
+            LocationLimiter::limit(
+                {.wanted = {-0.005, 0.002}, .touching = true, .forceFelt = false, .limits = kPad, .dt = 1e-3},
+                state)
+                .location(),
+            held)
             << i;
     const glm::dvec2 next = shown({-0.005, 0.002}, true, kPad, state);
     EXPECT_NEAR(glm::length(next - held), kPad.rate * 1e-3, 1e-15);
