@@ -11,9 +11,7 @@ namespace {
 constexpr double kFree = 1e300; // an impulse or a force without a limit
 /// m. A penetration that is left, so that bodies at rest keep their contacts.
 constexpr double kSlop = 1e-5;
-/// m/s. A contact that closes more slowly does not bounce.
-constexpr double kBounceSpeed = 0.01;
-constexpr int kIterations = 12, kPositionIterations = 4, kBounces = 16;
+constexpr int kIterations = 12, kPositionIterations = 4;
 /// Above this the product of a spring's rate and the step, squared, makes an explicit spring useless: it is
 /// solved implicitly, whatever the integrator.
 constexpr double kStiffest = 0.25;
@@ -288,29 +286,6 @@ void BodySolver::prepareContacts(const SolverState& s, double dt) noexcept {
         active.tangent[0] = row(tangent);
         active.tangent[1] = row(glm::cross(place.normal, tangent));
         ++activeCount_;
-    }
-}
-
-/// Newton's impacts one after the other, until nothing that bounces approaches: so the impulse goes through
-/// Newton's cradle ball by ball.
-void BodySolver::bounce(const SolverState& s, double dt) noexcept {
-    for (int round = 0; round < kBounces; ++round) {
-        bool any = false;
-        for (size_t i = 0; i < activeCount_; ++i) {
-            ActiveContact& active = active_[i];
-            BodyContact& contact = contacts_[active.index];
-            if (contact.restitution <= 0.0)
-                continue;
-            const double v = velocity(s, active.normal);
-            if (!(v < -kBounceSpeed) || active.gap > -v * dt)
-                continue;
-            const double impulse = -(1.0 + contact.restitution) * v / active.normal.response;
-            apply(s, active.normal, impulse);
-            impact_ = std::max(impact_, impulse);
-            any = true;
-        }
-        if (!any)
-            return;
     }
 }
 

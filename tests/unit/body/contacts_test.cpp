@@ -132,7 +132,7 @@ TEST(Contacts, TheImpulseGoesThroughNewtonsCradle) {
     }
     std::printf("cradle: the last ball rises %.3f mm of %.3f, the middle one %.4f\n", 1e3 * highest,
                 1e3 * begin, 1e3 * middle);
-    EXPECT_NEAR(highest, begin, 0.08 * begin); // a tick of 1 ms, impacts one after another
+    EXPECT_NEAR(highest, begin, 0.01 * begin);
     EXPECT_LT(middle, 0.02 * begin);
 }
 
