@@ -161,6 +161,8 @@ void GpuScene::reshape(int index, const ReshapedMesh& reshaped) {
     // What a false-colour view shows of the mesh's vertices is not known here: not stated, grey.
     const std::vector<float> scalars(reshaped.vertices.size(), -1.0f);
     fill(buffers.scalars, bytesOf(scalars), Usage::eVertexBuffer);
+    if (reshaped.hasColors)
+        drawn.features |= shared::kHasVertexColor;
     PreparedMesh& mesh = drawn.mesh;
     mesh.firstVertex = 0;
     mesh.centre = reshaped.centre;

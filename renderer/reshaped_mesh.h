@@ -17,6 +17,7 @@ struct ReshapedMesh {
     double meanEdge = 0.0; ///< of the triangles
     std::vector<SceneVertex> vertices;
     std::vector<uint32_t> indices; ///< 3 a triangle
+    bool hasColors = false;        ///< the vertices' colours say something
 };
 
 } // namespace touchstone

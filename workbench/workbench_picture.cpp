@@ -47,6 +47,7 @@ void WorkbenchWindow::draw() {
         .model = touch_.shown().model,
         .name = hasModel() ? materials_.path().stem().string() : "", // that of the file it was saved as
         .tick = shownTick(),
+        .felt = timeline_.looking() ? nullptr : touch_.sculpt().felt(),
         .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
         .settings = settings,
         .camera = view_.camera(),

@@ -13,6 +13,7 @@ namespace touchstone {
 /// Triangles of a surface, for the eye.
 struct SurfaceMesh {
     std::vector<glm::vec3> positions, normals; ///< m, scene frame; unit, outwards
+    std::vector<glm::vec4> colors;             ///< linear, 0..1; empty: white
     std::vector<uint32_t> corners;             ///< 3 a triangle, counter-clockwise from outside
     int stride = 1;                            ///< voxels from a sample to the next; less on thin axes
 };

@@ -18,6 +18,18 @@ void getEnumeration(ByteReader& bytes, Enumeration& value, Enumeration last, con
     value = static_cast<Enumeration>(number);
 }
 
+/// Files without a painting tool are those of before there was one.
+void putColor(ByteWriter& bytes, SculptTool tool, const glm::vec3& color) {
+    if (tool == SculptTool::Paint)
+        for (int k = 0; k < 3; ++k)
+            bytes.put(color[k]);
+}
+void getColor(ByteReader& bytes, SculptTool tool, glm::vec3& color) {
+    if (tool == SculptTool::Paint)
+        for (int k = 0; k < 3; ++k)
+            bytes.get(color[k]);
+}
+
 } // namespace
 
 void put(ByteWriter& bytes, const RecordedTool& recorded) {
@@ -29,17 +41,19 @@ void put(ByteWriter& bytes, const RecordedTool& recorded) {
     bytes.put(tool.stamp);
     for (const double number : {tool.radius, tool.strength, tool.falloff, tool.resistance})
         bytes.put(number);
+    putColor(bytes, tool.tool, tool.color);
 }
 void get(ByteReader& bytes, RecordedTool& recorded) {
     LiveTool& tool = recorded.tool;
     uint8_t active = 0, held = 0;
     bytes.get(active);
     bytes.get(held);
-    getEnumeration(bytes, tool.tool, SculptTool::Drag, "tool");
+    getEnumeration(bytes, tool.tool, kLastSculptTool, "tool");
     bytes.get(tool.object);
     bytes.get(tool.stamp);
     for (double* const number : {&tool.radius, &tool.strength, &tool.falloff, &tool.resistance})
         bytes.get(*number);
+    getColor(bytes, tool.tool, tool.color);
     tool.active = active != 0;
     tool.held = held != 0;
     if (!(tool.radius > 0.0 && std::isfinite(tool.radius + tool.resistance) && tool.strength > 0.0 &&
@@ -63,6 +77,7 @@ void put(ByteWriter& bytes, const RecordedSculpt& sculpt) {
         bytes.put(entry.motion);
         for (const double number : {entry.radius, entry.strength, entry.falloff})
             bytes.put(number);
+        putColor(bytes, entry.tool, entry.color);
     }
 }
 /// What an entry's numbers do is checked where it is applied.
@@ -73,12 +88,13 @@ void get(ByteReader& bytes, RecordedSculpt& sculpt) {
     bytes.get(sculpt.hash);
     bytes.get(sculpt.first);
     bytes.get(count);
-    if (bytes.left() != size_t{count} * kSculptEntrySize)
+    if (bytes.left() < size_t{count} * kSculptEntrySize ||
+        bytes.left() > size_t{count} * (kSculptEntrySize + kPaintSize))
         throw Error("", "", "holds another number of edits than it says", "");
     sculpt.entries.resize(count);
     for (SculptEntry& entry : sculpt.entries) {
         getEnumeration(bytes, entry.kind, SculptEntryKind::Redo, "edit");
-        getEnumeration(bytes, entry.tool, SculptTool::Drag, "tool");
+        getEnumeration(bytes, entry.tool, kLastSculptTool, "tool");
         bytes.get(entry.object);
         bytes.get(entry.stamp);
         bytes.get(entry.tick);
@@ -86,6 +102,7 @@ void get(ByteReader& bytes, RecordedSculpt& sculpt) {
         bytes.get(entry.motion);
         for (double* const number : {&entry.radius, &entry.strength, &entry.falloff})
             bytes.get(*number);
+        getColor(bytes, entry.tool, entry.color);
     }
 }
 

@@ -29,7 +29,8 @@ inline constexpr uint32_t kRecordingVersion = 3;
 /// changes.
 inline constexpr std::string_view kRecordingMagic{"\x89TSR\r\n\x1a\n", 8};
 inline constexpr size_t kFileHeaderSize = 24, kChunkHeaderSize = 20, kTickSize = 224, kSculptEntrySize = 90,
-                        kBrushStrokeSize = 80;
+                        kPaintSize = 12, ///< more, of an entry of Paint
+    kBrushStrokeSize = 80;
 inline constexpr uint32_t kChunkSync = 0x6b6e6843;  ///< "Chnk": where reading resumes after damage
 inline constexpr uint32_t kLargestChunk = 1u << 20; ///< bytes of payload: the reader's memory is bounded
 inline constexpr std::string_view kRecordingEnding = ".tsrec";

@@ -2,6 +2,7 @@
 
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
+#include "haptics/shape/field/field_colors.h"
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/shape/field/mesh_to_field.h"
 
@@ -22,6 +23,10 @@ const FieldShape* fieldOf(const HapticObject& object) {
 }
 
 } // namespace
+
+std::shared_ptr<const FieldColors> colorsOfObject(const HapticScene& scene, size_t object) {
+    return fieldOf(*scene.objects[object])->colors();
+}
 
 std::shared_ptr<const FieldGrid> fieldOfObject(const HapticScene& scene, size_t object) {
     return fieldOf(*scene.objects[object])->sharedGrid();
@@ -92,6 +97,7 @@ std::vector<Dab> SceneSculptor::dabsOf(const SculptStep& step, size_t object) {
     dab.radius = step.radius / scenePlace.scale;
     dab.strength = step.strength;
     dab.falloff = step.falloff;
+    dab.color = step.color;
     if (!step.stamp.empty())
         dab.stamp = stampOf(stampNamed(step.stamp));
     const double spacing = std::max(0.25 * dab.radius, 0.5 * voxel);
@@ -163,7 +169,8 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
             .motion = entry.motion,
             .radius = entry.radius,
             .strength = entry.strength,
-            .falloff = entry.falloff};
+            .falloff = entry.falloff,
+            .color = entry.color};
     if (entry.tool == SculptTool::Stamp || entry.tool == SculptTool::Imprint)
         dab.stamp = stampOf(checkedObject(entry.stamp));
     sculptor.check(dab);
@@ -244,6 +251,7 @@ SculptReport SceneSculptor::apply(const SculptStep& step) {
         entry.radius = dab.radius;
         entry.strength = dab.strength;
         entry.falloff = dab.falloff;
+        entry.color = dab.color;
         make();
     }
     report.dabs = dabs.size();
@@ -266,7 +274,9 @@ void SceneSculptor::renew(size_t object) {
     reshaped->closed = true;
     reshaped->anySmooth = old.anySmooth;
     reshaped->oneSided = old.oneSided;
-    reshaped->shape = std::make_shared<FieldShape>(sculptorOf(object).grid());
+    const auto shape = std::make_shared<FieldShape>(sculptorOf(object).grid());
+    shape->setColors(sculptorOf(object).colors());
+    reshaped->shape = shape;
     reshaped->boundingRadius = reshaped->shape->boundingRadius();
     reshaped->diagonal = 2.0 * reshaped->boundingRadius;
     scene->boundingRadii[object] = reshaped->boundingRadius;
@@ -278,8 +288,11 @@ void SceneSculptor::renew(size_t object) {
 uint64_t SceneSculptor::hash() const {
     Hash64 hash;
     for (const auto& object : scene_->objects)
-        if (const FieldShape* const shape = fieldOf(*object))
+        if (const FieldShape* const shape = fieldOf(*object)) {
             hash.add(shape->identity());
+            if (shape->colors() != nullptr)
+                hash.add(shape->colors()->hash());
+        }
     return hash.value();
 }
 

@@ -19,6 +19,8 @@ namespace touchstone {
 
 /// The field of an object that has one (HapticScene::objects), and its place in the scene's frame.
 [[nodiscard]] std::shared_ptr<const FieldGrid> fieldOfObject(const HapticScene& scene, size_t object);
+/// Null where it is not painted.
+[[nodiscard]] std::shared_ptr<const FieldColors> colorsOfObject(const HapticScene& scene, size_t object);
 [[nodiscard]] Similarity sceneFromObject(const HapticScene& scene, size_t object);
 
 struct SculptReport {
@@ -59,7 +61,7 @@ class SceneSculptor {
     /// the sculpted ones.
     void moveTo(std::shared_ptr<const HapticScene> scene);
 
-    /// Of the fields of all objects; the same journal gives the same value.
+    /// Of the fields and colours of all objects; the same journal gives the same value.
     [[nodiscard]] uint64_t hash() const;
 
     /// The object of a step's name: its index in HapticScene::objects. Throws Error.

@@ -17,7 +17,7 @@ const PotentialField* fieldOf(const HapticScene& scene, int object) noexcept {
 }
 
 bool needsContact(SculptTool tool) noexcept {
-    return tool == SculptTool::Add || tool == SculptTool::Smooth;
+    return tool == SculptTool::Add || tool == SculptTool::Smooth || tool == SculptTool::Paint;
 }
 
 bool isStamp(SculptTool tool) noexcept {
@@ -65,7 +65,8 @@ size_t ToolPath::advance(const LiveTool& tool, bool pressed, const HapticScene& 
                       .centre = centre,
                       .radius = radius,
                       .strength = tool.tool == SculptTool::Add ? 1.0 : tool.strength,
-                      .falloff = tool.falloff};
+                      .falloff = tool.falloff,
+                      .color = tool.color};
     size_t count = 0;
     rested_ += input.dt;
     const auto add = [&] {
@@ -91,7 +92,8 @@ size_t ToolPath::advance(const LiveTool& tool, bool pressed, const HapticScene& 
         entry.motion = way / parts;
         add();
     }
-    if (count == 0 && needsContact(tool.tool) && rested_ >= kRepeat)
+    const bool repeats = needsContact(tool.tool) && tool.tool != SculptTool::Paint;
+    if (count == 0 && repeats && rested_ >= kRepeat)
         add();
     return count;
 }

@@ -14,10 +14,10 @@ namespace touchstone {
 /// Lays the dabs of one hand along its way while the button is held: a quarter of the radius apart, at least
 /// half a voxel. Servo thread; no allocation.
 ///
-/// Carve and Drag work at the tip; Stamp and Imprint once, where they were pressed down. Add and Smooth need
-/// contact: they work at the proxy, and every kRepeat where the hand rests. The ball of Add stands out of the
-/// surface by three quarters of a voxel: the proxy that it covers is lifted by the next solve
-/// (takeUpReshaped), and from there the next ball grows.
+/// Carve and Drag work at the tip; Stamp and Imprint once, where they were pressed down. Add, Smooth
+/// and Paint need contact: they work at the proxy, Add and Smooth every kRepeat where the hand rests, too.
+/// The ball of Add stands out of the surface by three quarters of a voxel: the proxy that it covers is lifted
+/// by the next solve (takeUpReshaped), and from there the next ball grows.
 class ToolPath {
   public:
     static constexpr size_t kMost = 9;       ///< entries in a tick

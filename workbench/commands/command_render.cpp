@@ -13,6 +13,7 @@
 #include "workbench/options/commands.h"
 #include "workbench/options/gpu_options.h"
 #include "workbench/screen/effect_colors.h"
+#include "workbench/screen/field_slice.h"
 #include "workbench/screen/ground_grid.h"
 #include "workbench/screen/gui_pixels.h"
 #include "workbench/screen/overlays.h"
@@ -74,7 +75,7 @@ int renderCommand(const RenderOptions& options) {
     loading.iso = options.iso;
     loading.animation = options.animation;
     // The plan belongs to the haptic scene.
-    Model model = mode == ViewMode::Effects || options.touched
+    Model model = mode == ViewMode::Effects || options.touched || options.sliceAxis >= 0
                       ? loadModel(options.scene, Fit::Workspace, loading)
                       : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso,
                                        options.animation);
@@ -100,6 +101,20 @@ int renderCommand(const RenderOptions& options) {
     Overlay overlay;
     if (options.grid)
         grid.draw(model.workspaceFromScene, 1.0f, overlay);
+    std::string label;
+    if (options.grid)
+        label = grid.label();
+    if (options.sliceAxis >= 0) {
+        const FieldSlice slice{.axis = options.sliceAxis, .at = options.sliceAt};
+        const SliceFigures figures = drawFieldSlice(*model.haptic, slice, 1.0f, overlay);
+        if (figures.lines == 0)
+            throw Error(options.scene.string(), "", "has nothing in this slice that is felt as a field",
+                        "choose another --slice-at, or give a material the representation implicit "
+                        "(touchstone edit)");
+        label += (label.empty() ? "" : "; ") + figures.label(slice);
+        std::printf("%s: %zu pieces of isolines, %zu arrows\n", figures.label(slice).c_str(), figures.lines,
+                    figures.arrows);
+    }
     poseAt(options.time, *model.scene, renderer);
     if (options.touched) {
         const Touched touched(options, model);
@@ -115,11 +130,11 @@ int renderCommand(const RenderOptions& options) {
                             100.0 * texture["mean"].get<double>());
     }
     PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);
-    if (options.grid)
+    if (!label.empty())
         drawGui(picture, 1.0f, [&] {
             ImGui::GetBackgroundDrawList()->AddText(
                 ImVec2(12.0f, static_cast<float>(options.size.y) - 12.0f - ImGui::GetTextLineHeight()),
-                IM_COL32(235, 238, 242, 255), grid.label().c_str());
+                IM_COL32(235, 238, 242, 255), label.c_str());
         });
     writePicture(options.out, picture);
     std::printf("%d x %d pixels, written to %s\n", options.size.x, options.size.y, options.out.c_str());

@@ -17,7 +17,7 @@ size_t writeSculpted(const std::filesystem::path& file, const HapticScene& scene
         writeFile(file, vdbOfField(*field, place, name));
         return 0;
     }
-    const SurfaceMesh mesh = meshOfField(field, place);
+    const SurfaceMesh mesh = meshOfField(field, place, colorsOfObject(scene, object).get());
     if (mesh.corners.empty())
         throw Error(file.string(), "", "has no surface: everything was taken away", "undo a stroke");
     const std::vector<uint8_t> glb =

@@ -193,6 +193,19 @@ void addSculpt(CLI::App& app, SculptOptions& options) {
     app.add_option("--sculpt-stamp", options.stamp, "Object of the scene whose shape is stamped or imprinted")
         ->type_name("NAME")
         ->needs(sculpt);
+    app.add_option_function<std::string>(
+           "--sculpt-color",
+           [&options](const std::string& text) {
+               const std::optional<glm::dvec3> color = vectorOf(text);
+               if (!color || glm::any(glm::lessThan(*color, glm::dvec3(0.0))) ||
+                   glm::any(glm::greaterThan(*color, glm::dvec3(1.0))))
+                   throw CLI::ValidationError("--sculpt-color",
+                                              "'" + text + "' is no colour; write R,G,B, each 0 to 1");
+               options.tool.color = glm::vec3(*color);
+           },
+           "Of paint, linear, 0 to 1 each [0.8,0.05,0.03]")
+        ->type_name("R,G,B")
+        ->needs(sculpt);
     addSculpted(app, options.files)->needs(sculpt);
 }
 
@@ -380,6 +393,17 @@ void defineRender(CLI::App& app, RenderOptions& options) {
         ->check(CLI::IsMember(views));
     app.add_flag("--wireframe", options.wireframe, "Draw the edges of the triangles over the surface");
     app.add_flag("--grid", options.grid, "Draw a grid on the ground; its spacing stands in the picture");
+    CLI::Option* const slice =
+        app.add_option_function<std::string>(
+               "--slice", [&options](const std::string& axis) { options.sliceAxis = axis[0] - 'x'; },
+               "Draw what is felt as a field in a slice across this axis of the scene: isolines of the "
+               "distance and arrows along the gradient")
+            ->type_name("AXIS")
+            ->check(CLI::IsMember({"x", "y", "z"}));
+    app.add_option("--slice-at", options.sliceAt, "Its place, from one end of the field to the other [0.5]")
+        ->type_name("0..1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->needs(slice);
     CLI::Option* stroke =
         addStroke(app, options.stroke,
                   "Touch the model before, at 1000 Hz, by a stroke (listed at the end of touch "

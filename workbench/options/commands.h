@@ -161,6 +161,8 @@ struct RenderOptions {
     CameraOptions camera;
     PartNames part; ///< what is drawn
     bool wireframe = false, grid = false;
+    int sliceAxis = -1;   ///< 0, 1, 2: what is felt as a field, in a slice across it; -1: none
+    double sliceAt = 0.5; ///< FieldSlice::at
     bool touched = false; ///< by `stroke`, before the picture
     StrokeRequest stroke;
     double seconds = 0.0;              ///< 0: once round

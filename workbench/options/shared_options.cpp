@@ -49,20 +49,6 @@ std::optional<double> numberOf(std::string_view text) {
     return number;
 }
 
-/// "0.1,-2,3"
-std::optional<glm::dvec3> vectorOf(std::string_view text) {
-    glm::dvec3 vector(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        const size_t comma = text.find(',');
-        const std::optional<double> number = numberOf(text.substr(0, comma));
-        if (!number || (comma == std::string_view::npos) != (axis == 2))
-            return std::nullopt;
-        vector[axis] = *number;
-        text.remove_prefix(axis < 2 ? comma + 1 : 0);
-    }
-    return vector;
-}
-
 /// X,Y,Z
 CLI::Option* addVector(CLI::App& app, const std::string& option, std::optional<glm::dvec3>& vector,
                        const std::string& meaning) {
@@ -100,6 +86,19 @@ std::string fieldLines(std::span<const StructField<S>> fields) {
 }
 
 } // namespace
+
+std::optional<glm::dvec3> vectorOf(std::string_view text) {
+    glm::dvec3 vector(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const size_t comma = text.find(',');
+        const std::optional<double> number = numberOf(text.substr(0, comma));
+        if (!number || (comma == std::string_view::npos) != (axis == 2))
+            return std::nullopt;
+        vector[axis] = *number;
+        text.remove_prefix(axis < 2 ? comma + 1 : 0);
+    }
+    return vector;
+}
 
 std::string settingsHelp() {
     return "Settings for --set NAME=VALUE:\n" + fieldLines(settingFields());

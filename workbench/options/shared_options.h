@@ -5,12 +5,17 @@
 #include "workbench/options/commands.h"
 
 #include <CLI/CLI.hpp>
+#include <glm/glm.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace touchstone {
+
+/// "0.1,-2,3": three finite numbers; empty where the text is something else.
+[[nodiscard]] std::optional<glm::dvec3> vectorOf(std::string_view text);
 
 /// Help footers: all settings, parameters of the simulated device and hand, strokes, exit status.
 [[nodiscard]] std::string settingsHelp();

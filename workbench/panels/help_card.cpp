@@ -42,6 +42,7 @@ constexpr Line kEdit[]{
 };
 constexpr Line kSculpt[]{
     {"B", "sculpts what is felt as a field, or touches"},
+    {"I", "paints it, while it is sculpted"},
     {"Left button; D held", "the tool works; for a device"},
     {"Ctrl, Shift held", "the opposite tool; smooths"},
     {"F, Shift+F; pointer", "radius; strength"},
@@ -56,6 +57,7 @@ constexpr Line kLook[]{
     {". and T", "near the probe; turntable"},
     {"H; with Shift, Alt", "hides what is pointed at; all else; shows all"},
     {"Right click", "the menu of the object"},
+    {"X", "what is felt as a field, in a slice"},
     {"Alt + B", "clipping plane across the view"},
     {"5, Z, L", "orthographic, wireframe, grid"},
     {"V; with Shift", "the next view; the one before"},

@@ -3,6 +3,7 @@
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
 
+#include <glm/gtc/color_space.hpp>
 #include <imgui.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 /// The shelf: Stamp and Imprint are one button, as are the others with Ctrl.
 constexpr std::array kShelf{std::pair{SculptTool::Carve, "Carve"},     std::pair{SculptTool::Add, "Add"},
                             std::pair{SculptTool::Smooth, "Smooth"},   std::pair{SculptTool::Stamp, "Stamp"},
-                            std::pair{SculptTool::Imprint, "Imprint"}, std::pair{SculptTool::Drag, "Drag"}};
+                            std::pair{SculptTool::Imprint, "Imprint"}, std::pair{SculptTool::Drag, "Drag"},
+                            std::pair{SculptTool::Paint, "Paint"}};
 
 std::string percent(double value) {
     return figure(100.0 * value) + " %";
@@ -46,6 +48,16 @@ void stamps(const std::vector<std::string>& names, SculptChoice& choice, Widgets
     int chosen = found == names.end() ? 0 : static_cast<int>(found - names.begin());
     if (widgets.combo("sculpt:stamp", chosen, labels))
         choice.stamp = names[static_cast<size_t>(chosen)];
+}
+
+/// Shown as on the screen (sRGB), kept linear.
+void paintColor(SculptChoice& choice, Widgets& widgets) {
+    glm::vec3 shown = glm::convertLinearToSRGB(choice.color);
+    ImGui::PushItemWidth(-1.0f);
+    if (ImGui::ColorEdit3("##sculpt:color", &shown.x, ImGuiColorEditFlags_DisplayHex))
+        choice.color = glm::clamp(glm::convertSRGBToLinear(shown), 0.0f, 1.0f);
+    ImGui::PopItemWidth();
+    widgets.mark("sculpt:color");
 }
 
 void sliders(SculptChoice& choice, Widgets& widgets) {
@@ -98,6 +110,8 @@ void sculptKeys(SculptChoice& choice) {
     choice.smooths = reads && io.KeyShift && !ImGui::IsKeyDown(keyOf('f'));
     if (!reads)
         return;
+    if (keyPressed(keyOf('i')))
+        choice.tool = SculptTool::Paint;
     if (ctrlPressed(keyOf('z'), true))
         (io.KeyShift ? choice.redo : choice.undo) = true;
     if (ctrlPressed(keyOf('y'), true))
@@ -126,6 +140,8 @@ void drawSculpt(const PanelInput& input, PanelState& state, Widgets& widgets) {
     shelf(choice, widgets);
     if (const SculptTool tool = toolOf(choice); tool == SculptTool::Stamp || tool == SculptTool::Imprint)
         stamps(input.sculpt.stamps, choice, widgets);
+    else if (tool == SculptTool::Paint)
+        paintColor(choice, widgets);
     sliders(choice, widgets);
     history(input.sculpt, choice, widgets);
 }

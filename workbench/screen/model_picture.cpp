@@ -55,6 +55,7 @@ ModelPicture::Setup ModelPicture::setUp(const Frame& frame, double aspect, Scene
     drawTick(frame.tick, frame.settings, setup.look, overlay_);
     if (options.grid)
         GroundGrid(frame.model.scene->bounds).draw(frame.model.workspaceFromScene, 1.0f, overlay_);
+    slice_.draw(frame.felt != nullptr ? frame.felt : frame.model.haptic, options.slice, 1.0f, overlay_);
     if (setup.look.shown.shadow)
         setup.view.probe = probeShadow(frame.tick, frame.settings);
     colorMaterials(frame, renderer);
@@ -112,10 +113,12 @@ void ModelPicture::drawMain(const Frame& frame, const View& view, SceneRenderer&
 void ModelPicture::drawLabels(const Frame& frame, const glm::vec2& low, float scale,
                               const SceneRenderer& renderer) const {
     drawViewLegend(legendOf(frame, renderer), low, scale);
-    if (!frame.options.grid)
+    std::string label = slice_.label();
+    if (frame.options.grid)
+        label = GroundGrid(frame.model.scene->bounds).label() + (label.empty() ? "" : "; ") + label;
+    if (label.empty())
         return;
     constexpr float kBeside = 250.0f; // layout units: right of the legend
-    const std::string label = GroundGrid(frame.model.scene->bounds).label();
     const ImVec2 size = ImGui::CalcTextSize(label.c_str());
     const float pad = 5.0f * scale;
     const ImVec2 at(low.x + (frame.options.mode == ViewMode::Shaded ? 0.0f : kBeside * scale) + pad,

@@ -2,6 +2,7 @@
 
 #include "renderer/window_target.h"
 #include "workbench/model/model.h"
+#include "workbench/screen/field_slice.h"
 #include "workbench/screen/overlays.h"
 #include "workbench/screen/picture_controller.h"
 #include "workbench/screen/view_legend.h"
@@ -20,7 +21,8 @@ class ModelPicture {
         const Model& model; ///< its scene may be null
         std::string name;   ///< of a saved picture, without its ending
         const TickRecord& tick;
-        bool tickBelongs = true; ///< to the model; otherwise nothing of it is drawn
+        std::shared_ptr<const HapticScene> felt; ///< with the sculpted fields; null as the model's
+        bool tickBelongs = true;                 ///< to the model; otherwise nothing of it is drawn
         const HapticSettings& settings;
         const OrbitCamera& camera;
         ViewOptions& options;
@@ -81,6 +83,7 @@ class ModelPicture {
     Overlay overlay_;
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan gave the colours
     EffectColors colors_;
+    FieldSliceView slice_;
     int magnifierAge_ = 0; ///< frames since it was drawn
 };
 

@@ -64,6 +64,8 @@ void optionKeys(ViewOptions& options) {
         options.wireframe = !options.wireframe;
     if (keyPressed(keyOf('l')))
         options.grid = !options.grid;
+    if (keyPressed(keyOf('x'))) // none, across x, y, z
+        options.slice.axis = options.slice.axis < 2 ? options.slice.axis + 1 : -1;
     if (keyPressed({keyOf('5'), GLFW_KEY_KP_5}))
         options.orthographic = !options.orthographic;
     if (keyPressed(keyOf('m')))

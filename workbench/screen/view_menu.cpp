@@ -44,6 +44,23 @@ void pictureSizes(ViewOptions& options, const Mark& mark) {
     mark("pictureSize");
 }
 
+/// Where it is, and whether.
+void fieldSlice(FieldSlice& slice, const Mark& mark) {
+    constexpr std::array kLabels{"none", "across x", "across y", "across z"};
+    int chosen = slice.axis + 1;
+    ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
+    if (ImGui::Combo("Field slice (X)", &chosen, kLabels.data(), static_cast<int>(kLabels.size())))
+        slice.axis = chosen - 1;
+    mark("slice");
+    if (slice.axis < 0)
+        return;
+    auto at = static_cast<float>(slice.at);
+    ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
+    if (ImGui::SliderFloat("Place##slice", &at, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+        slice.at = static_cast<double>(at);
+    mark("slice:place");
+}
+
 } // namespace
 
 void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& mark) {
@@ -73,6 +90,7 @@ void drawViewMenu(ViewOptions& options, const std::function<void(const char*)>& 
         ImGui::Checkbox(toggles[i].label, &toggles[i].on);
         mark(toggles[i].name);
     }
+    fieldSlice(options.slice, mark);
     struct Move {
         const char *label, *name;
         CameraMove move;

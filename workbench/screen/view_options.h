@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/view.h"
+#include "workbench/screen/field_slice.h"
 
 #include <glm/glm.hpp>
 
@@ -28,6 +29,7 @@ struct ViewOptions {
     ScenePart part;                 ///< to be seen and felt
     bool wireframe = false;         ///< the triangles' edges over the surface
     bool grid = false;              ///< on the ground beneath the model
+    FieldSlice slice;               ///< of what is felt as a field
     bool axes = true;               ///< in the picture's corner, to look along
     bool orthographic = false;      ///< projection
     bool turntable = false;         ///< the camera orbits by itself

@@ -12,6 +12,7 @@ struct SculptChoice {
     SculptTool tool = SculptTool::Carve;
     double radius = 0.005;                ///< m, workspace
     double strength = 1.0, falloff = 0.0; ///< as those of LiveTool
+    glm::vec3 color = LiveTool{}.color;   ///< of Paint: linear RGB, 0..1
     std::string stamp;                    ///< an object of the scene; empty: the first
     // Of this frame:
     bool inverts = false, smooths = false;           ///< Ctrl and Shift
@@ -24,6 +25,11 @@ inline constexpr double kMinSculptRadius = 5e-4, kMaxSculptRadius = 0.05; // m
 /// The tool in effect: Shift smooths, Ctrl inverts.
 [[nodiscard]] inline SculptTool toolOf(const SculptChoice& choice) {
     return choice.smooths ? SculptTool::Smooth : choice.inverts ? infoOf(choice.tool).inverse : choice.tool;
+}
+
+/// The colour in effect: Ctrl takes colour off.
+[[nodiscard]] inline glm::vec3 paintOf(const SculptChoice& choice) {
+    return choice.inverts ? glm::vec3(1.0f) : choice.color;
 }
 
 } // namespace touchstone

@@ -71,6 +71,7 @@ void SculptController::update(SculptChoice& choice, bool live) {
         tool.radius = choice.radius;
         tool.strength = choice.strength;
         tool.falloff = choice.falloff;
+        tool.color = paintOf(choice);
         surface_.prepare(*felt_, object_, drawn_.get());
     }
     sculptor.setTool(tool);

@@ -39,6 +39,8 @@ class SculptController final : public TickSubscriber {
     /// Writes the field that was sculpted last, or the first one: .glb or .vdb.
     void saveAs(const std::filesystem::path& file);
     [[nodiscard]] SculptStatus status() const;
+    /// What is felt, with the sculpted fields; null without a model.
+    [[nodiscard]] const std::shared_ptr<const HapticScene>& felt() const { return felt_; }
     [[nodiscard]] bool possible() const { return object_ >= 0; }
 
   private:

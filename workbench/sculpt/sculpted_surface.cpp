@@ -4,6 +4,7 @@
 #include "haptics/shape/field/field_shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace touchstone {
@@ -42,6 +43,12 @@ std::shared_ptr<const ReshapedMesh> packed(const FieldBlocks& blocks, const glm:
             vertex.normal = glm::vec3(glm::normalize(normals * glm::dvec3(block.normals[i])));
             vertex.tangent = {1.0f, 0.0f, 0.0f, 1.0f};
             vertex.color = {65535, 65535, 65535, 65535};
+            if (!block.colors.empty()) {
+                mesh->hasColors = true;
+                for (int k = 0; k < 3; ++k)
+                    vertex.color[static_cast<size_t>(k)] = static_cast<uint16_t>(
+                        std::lround(65535.0f * std::clamp(block.colors[i][k], 0.0f, 1.0f)));
+            }
             mesh->vertices.push_back(vertex);
         }
         for (const uint32_t corner : block.corners)
@@ -92,6 +99,7 @@ void SculptedSurface::add(const HapticScene& scene, int object, const Scene* dra
         const std::scoped_lock lock(mutex_);
         Job& job = jobs_[drawn->instances[static_cast<size_t>(own.instance)].mesh];
         job.grid = shape->sharedGrid();
+        job.colors = shape->colors();
         job.bricks.insert(job.bricks.end(), bricks.begin(), bricks.end());
         job.meshFromObject = glm::inverse(own.objectFromMesh);
         job.shown = job.shown || shown;
@@ -117,7 +125,7 @@ void SculptedSurface::work() {
         jobs_.erase(first);
         lock.unlock();
         FieldBlocks& own = blocks[mesh];
-        (void)own.update(job.grid, job.bricks);
+        (void)own.update(job.grid, job.bricks, job.colors.get());
         const std::shared_ptr<const ReshapedMesh> made =
             job.shown ? packed(own, job.meshFromObject, job.grid->layout().voxel) : nullptr;
         lock.lock();

@@ -37,6 +37,7 @@ class SculptedSurface {
   private:
     struct Job {
         std::shared_ptr<const FieldGrid> grid;
+        std::shared_ptr<const FieldColors> colors;
         std::vector<uint32_t> bricks;
         glm::dmat4 meshFromObject{1.0};
         bool shown = false; ///< it was sculpted

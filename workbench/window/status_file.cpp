@@ -204,6 +204,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
                       : nlohmann::ordered_json()},
           {"wireframe", state.view.wireframe},
           {"grid", state.view.grid},
+          {"slice", {{"axis", state.view.slice.axis}, {"at", state.view.slice.at}}},
           {"orthographic", state.view.orthographic},
           {"turntable", state.view.turntable},
           {"magnifier", state.view.magnifier},

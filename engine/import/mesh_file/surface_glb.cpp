@@ -16,7 +16,7 @@ std::vector<uint8_t> glbOfSurface(const SurfaceMesh& surface, const std::string&
     mesh.counts.vertices = static_cast<uint32_t>(surface.positions.size());
     mesh.counts.triangles = static_cast<uint32_t>(surface.corners.size() / 3);
     arrays.resize(surface.positions.size() * 2 * sizeof(glm::vec3) +
-                  surface.corners.size() * sizeof(uint32_t));
+                  surface.colors.size() * sizeof(glm::vec4) + surface.corners.size() * sizeof(uint32_t));
     size_t at = 0;
     const auto put = [&](const auto& values) {
         const FlatRange range{at, values.size() * sizeof values[0]};
@@ -26,6 +26,8 @@ std::vector<uint8_t> glbOfSurface(const SurfaceMesh& surface, const std::string&
     };
     mesh.positions = put(surface.positions);
     mesh.normals = put(surface.normals);
+    if (!surface.colors.empty())
+        mesh.colors = put(surface.colors);
     mesh.corners = put(surface.corners);
     meshes.arrays = arrays;
     return glbOf(meshes, generator, shownAs);

@@ -5,8 +5,11 @@
 #include "haptics/shape/shape.h"
 
 #include <memory>
+#include <utility>
 
 namespace touchstone {
+
+class FieldColors; // haptics/shape/field/field_colors.h
 
 /// A ball of radius r touches where f at its centre is r: it rolls on the isosurface of that level, which is
 /// the surface's offset as far as f is a distance. Features are cells, numbered by the grid. Where several
@@ -22,6 +25,9 @@ class FieldShape final : public Shape, public PotentialField {
 
     [[nodiscard]] const FieldGrid& grid() const noexcept { return *grid_; }
     [[nodiscard]] const std::shared_ptr<const FieldGrid>& sharedGrid() const noexcept { return grid_; }
+    /// Of a painted surface, for the eye; null without. Touch does not read them.
+    [[nodiscard]] const std::shared_ptr<const FieldColors>& colors() const noexcept { return colors_; }
+    void setColors(std::shared_ptr<const FieldColors> colors) noexcept { colors_ = std::move(colors); }
     [[nodiscard]] double value(const glm::dvec3& point) const noexcept override;
     [[nodiscard]] glm::dvec3 gradient(const glm::dvec3& point) const noexcept override;
     [[nodiscard]] double lipschitz() const noexcept override { return grid_->lipschitz(); }
@@ -56,6 +62,7 @@ class FieldShape final : public Shape, public PotentialField {
                                      double from, double to) const noexcept;
 
     std::shared_ptr<const FieldGrid> grid_;
+    std::shared_ptr<const FieldColors> colors_;
     double boundingRadius_ = 0.0;
 };
 

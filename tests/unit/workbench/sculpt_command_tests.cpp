@@ -158,6 +158,47 @@ TEST_F(SculptCommand, ARecordingHoldsTheJournalAndReplaysToTheLastBit) {
     EXPECT_EQ(figures.at("replayed"), figures.at("ticks"));
 }
 
+/// Paint is seen, saved and replayed, and changes nothing that is felt.
+TEST_F(SculptCommand, PaintsTheSurfaceAndLeavesTouchAsItIs) {
+    journal("");
+    ASSERT_EQ(touch().status, 0);
+    const std::string plain = textOf(folder_ / "ticks.csv");
+    journal(
+        R"({"tool": "paint", "radius": 0.008, "color": [0.8, 0.1, 0], "points": [[0, 0.02, 0]]},)"
+        R"({"tool": "paint", "radius": 0.004, "color": [0, 0, 1], "points": [[0, 0.02, 0]], "time": 0.3},)"
+        R"({"tool": "undo", "time": 0.35}, {"tool": "redo", "time": 0.4})");
+    ASSERT_EQ(touch({"--sculpted", folder_ / "out.glb", "--record", folder_ / "r.tsrec"}).status, 0);
+    EXPECT_EQ(textOf(folder_ / "ticks.csv"), plain);
+    EXPECT_NE(textOf(folder_ / "out.glb").find("COLOR_0"), std::string::npos);
+    const ProgramResult replay =
+        runProgram({TOUCHSTONE_BINARY, "replay", folder_ / "r.tsrec", "--json", folder_ / "r.json"});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    EXPECT_EQ(nlohmann::json::parse(textOf(folder_ / "r.json")).at("equal"), true);
+    journal(R"({"tool": "paint", "radius": 0.008, "color": [0.8, 0.1, 3], "points": [[0, 0.02, 0]]})");
+    EXPECT_EQ(touch().status, 1);
+}
+
+TEST_F(SculptCommand, RenderDrawsTheFieldInASlice) {
+    const auto render = [&](const std::string& scene, std::vector<std::string> more) {
+        std::vector<std::string> arguments{TOUCHSTONE_BINARY, "render", scene,  "--out",
+                                           folder_ / "p.png", "--size", "64x64"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runProgram(arguments);
+    };
+    const std::string clay = folder_ / "clay.nrrd";
+    const ProgramResult plain = render(clay, {"--iso", "128"});
+    ASSERT_EQ(plain.status, 0) << plain.err;
+    const std::string without = textOf(folder_ / "p.png");
+    const ProgramResult sliced = render(clay, {"--iso", "128", "--slice", "x", "--slice-at", "0.4"});
+    ASSERT_EQ(sliced.status, 0) << sliced.err;
+    EXPECT_NE(sliced.out.find("field across x at"), std::string::npos) << sliced.out;
+    EXPECT_NE(textOf(folder_ / "p.png"), without);
+    EXPECT_EQ(render(TOUCHSTONE_ASSETS "/box.glb", {"--slice", "y"}).status, 1) << "a mesh has no field";
+    EXPECT_EQ(render(clay, {"--slice", "w"}).status, 2);
+    EXPECT_EQ(render(clay, {"--slice", "x", "--slice-at", "1.5"}).status, 2);
+    EXPECT_EQ(render(clay, {"--slice-at", "0.5"}).status, 2);
+}
+
 /// The simulated hand sculpts in real time: what is saved lacks what was removed, and its recording replays.
 TEST_F(SculptCommand, ARunSculptsWhatTheHandStrokes) {
     const ProgramResult run = runProgram({TOUCHSTONE_BINARY,

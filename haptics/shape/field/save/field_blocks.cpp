@@ -37,7 +37,8 @@ openvdb::FloatGrid::Ptr gridOfBlock(const FieldGrid& field, const glm::ivec3& fi
 }
 
 /// The faces of a block.
-FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const glm::ivec3& block) {
+FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const glm::ivec3& block,
+                           const FieldColors* colors) {
     constexpr int kBlock = FieldBlocks::kBlock;
     FieldBlocks::Block made;
     const openvdb::FloatGrid::Ptr nodes = gridOfBlock(*grid, kBlock * block, kBlock);
@@ -69,6 +70,8 @@ FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const g
             const glm::dvec3 place = layout.origin + layout.voxel * placeOf(corner);
             const glm::dvec3 normal = shape.shadingNormal(0, place);
             made.positions.emplace_back(place);
+            if (colors != nullptr)
+                made.colors.push_back(colors->at(place));
             made.normals.emplace_back(glm::dot(normal, normal) > 0.0 ? normal : glm::dvec3(0.0, 1.0, 0.0));
         }
         made.corners.push_back(number);
@@ -78,7 +81,8 @@ FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const g
 
 } // namespace
 
-size_t FieldBlocks::update(const std::shared_ptr<const FieldGrid>& grid, std::span<const uint32_t> changed) {
+size_t FieldBlocks::update(const std::shared_ptr<const FieldGrid>& grid, std::span<const uint32_t> changed,
+                           const FieldColors* colors) {
     constexpr int kBricks = kBlock / kBrickCells;
     count_ = (grid->bricks() + kBricks - 1) / kBricks;
     std::set<uint32_t> dirty;
@@ -107,7 +111,7 @@ size_t FieldBlocks::update(const std::shared_ptr<const FieldGrid>& grid, std::sp
     for (const uint32_t number : dirty) {
         const int n = static_cast<int>(number);
         blocks_.erase(number);
-        Block made = blockOf(grid, {n % count_.x, n / count_.x % count_.y, n / count_.x / count_.y});
+        Block made = blockOf(grid, {n % count_.x, n / count_.x % count_.y, n / count_.x / count_.y}, colors);
         if (!made.corners.empty())
             blocks_.emplace(number, std::move(made));
     }

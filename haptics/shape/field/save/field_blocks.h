@@ -1,7 +1,7 @@
 #pragma once
 // The surface of a field as it changes, block by block: for the eye. Not for the servo thread.
 
-#include "haptics/shape/field/field_grid.h"
+#include "haptics/shape/field/field_colors.h"
 
 #include <glm/glm.hpp>
 
@@ -22,10 +22,13 @@ class FieldBlocks {
 
     /// Meshes anew what differs: the blocks that hold one of the bricks (FieldGrid::brickNumber), all of them
     /// at the first call. Returns their number.
-    size_t update(const std::shared_ptr<const FieldGrid>& grid, std::span<const uint32_t> changed);
+    /// `colors`: of the surface; null where it is not painted.
+    size_t update(const std::shared_ptr<const FieldGrid>& grid, std::span<const uint32_t> changed,
+                  const FieldColors* colors = nullptr);
 
     struct Block {
         std::vector<glm::vec3> positions, normals; ///< object frame; unit, outwards
+        std::vector<glm::vec3> colors;             ///< linear; empty without paint
         std::vector<uint32_t> corners;             ///< 3 a triangle, counter-clockwise from outside
     };
     /// Of those with triangles.

@@ -54,7 +54,8 @@ openvdb::FloatGrid::Ptr gridOfField(const FieldGrid& field, double scale) {
 
 } // namespace
 
-SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Similarity& sceneFromObject) {
+SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Similarity& sceneFromObject,
+                        const FieldColors* colors) {
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     std::vector<openvdb::Vec4I> quads;
@@ -77,6 +78,8 @@ SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Sim
             layout.origin + layout.voxel * glm::dvec3(glm::vec3(point.x(), point.y(), point.z()));
         const glm::dvec3 normal = sceneFromObject.direction(shape.shadingNormal(0, place));
         mesh.positions.emplace_back(sceneFromObject.point(place));
+        if (colors != nullptr)
+            mesh.colors.emplace_back(colors->at(place), 1.0f);
         mesh.normals.emplace_back(glm::dot(normal, normal) > 0.0 ? normal : glm::dvec3(0.0, 1.0, 0.0));
     }
     mesh.corners = triangleCorners(quads, triangles);

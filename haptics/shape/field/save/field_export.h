@@ -3,7 +3,7 @@
 
 #include "engine/math/similarity.h"
 #include "engine/volume/volume_mesh.h"
-#include "haptics/shape/field/field_grid.h"
+#include "haptics/shape/field/field_colors.h"
 
 #include <memory>
 #include <string>
@@ -12,9 +12,9 @@ namespace touchstone {
 
 /// The surface of a field by OpenVDB's dual contouring (volumeToMesh), with normals along the field's
 /// interpolated gradient. Scene frame, m. No triangles where the field is nowhere negative. Throws Error
-/// where it would have more than kMostSurfaceFaces quadrilaterals.
+/// where it would have more than kMostSurfaceFaces quadrilaterals. `colors`: null where it is not painted.
 [[nodiscard]] SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& grid,
-                                      const Similarity& sceneFromObject);
+                                      const Similarity& sceneFromObject, const FieldColors* colors = nullptr);
 
 /// The bytes of a .vdb file with one float grid, a level set in metres whose transform places it in the
 /// scene: all distances that the field tells, inside and outside; nodes at its limits are inactive.

@@ -24,6 +24,7 @@ struct LiveTool {
     /// N for each m^3/s that the tool takes out of the solid: 2 N for a ball of 5 mm at 0.1 m/s, half in the
     /// solid.
     double resistance = 5e5;
+    glm::vec3 color{0.8f, 0.05f, 0.03f}; ///< of Paint, as that of a Dab
     bool operator==(const LiveTool&) const = default;
 };
 
@@ -39,6 +40,7 @@ struct SculptEntry {
         0; ///< on the servo's way alone: the scene (TickRecord::root) in which it was made; 0: any
     glm::dvec3 centre{0.0}, motion{0.0}; ///< of a Dab, with the rest: the object's frame and unit
     double radius = 0.0, strength = 1.0, falloff = 0.0;
+    glm::vec3 color{1.0f}; ///< of Paint
     bool operator==(const SculptEntry&) const = default;
 };
 

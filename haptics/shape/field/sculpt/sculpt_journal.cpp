@@ -38,7 +38,7 @@ class StepReader {
         const std::optional<SculptTool> named = sculptToolNamed(tool);
         if (!named)
             refuse("has no known tool: \"" + tool.substr(0, 40) + "\"", toolNames());
-        knowsOnly({"tool", "time", "radius", "strength", "falloff", "points", "object", "stamp"});
+        knowsOnly({"tool", "time", "radius", "strength", "falloff", "points", "object", "stamp", "color"});
         step.tool = *named;
         step.radius = number("radius", {}, 1e-12, 1e9);
         step.strength = number("strength", 1.0, 1e-6, 1.0);
@@ -49,6 +49,12 @@ class StepReader {
         if (stamps == step.stamp.empty())
             refuse(stamps ? "names no \"stamp\"" : "names a \"stamp\", which its tool does not use",
                    "stamp and imprint name an object of the scene");
+        const bool paints = step.tool == SculptTool::Paint;
+        if (paints != json_.contains("color"))
+            refuse(paints ? "has no \"color\"" : "has a \"color\", which its tool does not use",
+                   "paint has one: [red, green, blue], linear, 0 to 1");
+        if (paints)
+            step.color = color();
         readPoints(step.points);
         return step;
     }
@@ -88,6 +94,17 @@ class StepReader {
             refuse(std::string("its \"") + name + "\" is no number in the range",
                    "give " + std::to_string(low) + " to " + std::to_string(high));
         return value;
+    }
+    [[nodiscard]] glm::vec3 color() const {
+        const Json& three = json_.at("color");
+        glm::vec3 color(NAN);
+        for (size_t k = 0; three.is_array() && three.size() == 3 && k < 3; ++k)
+            if (three[k].is_number())
+                color[static_cast<glm::vec3::length_type>(k)] = three[k].get<float>();
+        for (int k = 0; k < 3; ++k)
+            if (!(color[k] >= 0.0f && color[k] <= 1.0f))
+                refuse("its \"color\" is not three numbers in 0..1", "give [red, green, blue], linear");
+        return color;
     }
     void readPoints(std::vector<glm::dvec3>& points) const {
         const auto found = json_.find("points");
@@ -161,6 +178,8 @@ std::string sculptJournalText(const std::vector<SculptStep>& steps) {
                 json["object"] = step.object;
             if (!step.stamp.empty())
                 json["stamp"] = step.stamp;
+            if (step.tool == SculptTool::Paint)
+                json["color"] = Json::array({step.color.x, step.color.y, step.color.z});
         }
         if (step.time)
             json["time"] = *step.time;

@@ -25,6 +25,7 @@ struct SculptStep {
     std::vector<glm::dvec3> points; ///< the tool's way: at least one
     std::string object;             ///< that is sculpted; empty: the first that is felt as a field
     std::string stamp;              ///< object of Stamp and Imprint
+    glm::vec3 color{1.0f};          ///< of Paint: linear RGB, 0..1
     std::optional<double> time;     ///< s: before the first tick at or after it; none: before touch begins
     bool operator==(const SculptStep&) const = default;
 };

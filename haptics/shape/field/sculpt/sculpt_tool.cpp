@@ -11,13 +11,14 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::array<SculptToolInfo, 6> kSculptTools{{
+constexpr std::array<SculptToolInfo, 7> kSculptTools{{
     {SculptTool::Carve, "carve", "takes the ball out of the solid", SculptTool::Add},
     {SculptTool::Add, "add", "joins the ball to the solid", SculptTool::Carve},
     {SculptTool::Smooth, "smooth", "evens out what is smaller than the ball", SculptTool::Smooth},
     {SculptTool::Stamp, "stamp", "joins the shape of an object to the solid", SculptTool::Imprint},
     {SculptTool::Imprint, "imprint", "takes the shape of an object out of the solid", SculptTool::Stamp},
     {SculptTool::Drag, "drag", "moves the solid along with the tool", SculptTool::Drag},
+    {SculptTool::Paint, "paint", "colours the surface within the ball", SculptTool::Paint},
 }};
 
 [[noreturn]] void refuseDab(const std::string& problem, const char* remedy) {
@@ -60,6 +61,9 @@ void checkDab(const FieldGrid& grid, const Dab& dab) {
         refuseDab("the strength is not above 0 and at most 1", "1 makes the whole change");
     if (!(dab.falloff >= 0.0 && dab.falloff <= 1.0))
         refuseDab("the falloff is not in 0..1", "0 has no soft rim, 1 is soft from the middle on");
+    for (int k = 0; k < 3; ++k)
+        if (!(dab.color[k] >= 0.0f && dab.color[k] <= 1.0f))
+            refuseDab("a colour is not three numbers in 0..1", "give linear red, green and blue");
     const bool stamps = dab.tool == SculptTool::Stamp || dab.tool == SculptTool::Imprint;
     if (stamps && (dab.stamp == nullptr || !(dab.stamp->low().x < dab.stamp->high().x)))
         refuseDab("the tool has no stamp", "name an object with triangles");

@@ -13,7 +13,8 @@
 
 namespace touchstone {
 
-enum class SculptTool : uint8_t { Carve, Add, Smooth, Stamp, Imprint, Drag };
+enum class SculptTool : uint8_t { Carve, Add, Smooth, Stamp, Imprint, Drag, Paint };
+inline constexpr SculptTool kLastSculptTool = SculptTool::Paint;
 
 struct SculptToolInfo {
     SculptTool tool;
@@ -38,6 +39,7 @@ struct Dab {
     /// always fall to zero at the radius.
     double falloff = 0.0;
     std::shared_ptr<const FieldGrid> stamp{}; ///< of Stamp and Imprint: centred on `centre`, not turned
+    glm::vec3 color{1.0f};                    ///< of Paint: FieldColors; white takes colour off
 };
 
 /// Throws Error: numbers that are not finite or out of range, a ball larger than the grid, no stamp.

@@ -81,6 +81,8 @@ double Sculptor::margin() const {
 
 void Sculptor::check(const Dab& dab) const {
     checkDab(*base_, dab);
+    if (dab.tool == SculptTool::Paint)
+        return; // it needs no window
     FieldWindow window;
     for (const Dab& part : partsOf(dab)) {
         const double radius = changedRadius(*base_, part);
@@ -93,6 +95,8 @@ DabReport Sculptor::apply(const Dab& dab) {
     check(dab);
     if (done_ == 0 || done_ < steps_.size())
         beginStroke();
+    if (dab.tool == SculptTool::Paint)
+        return paint(dab);
     DabReport all;
     for (const Dab& part : partsOf(dab)) {
         const DabReport one = applyOnce(part);
@@ -192,11 +196,20 @@ bool Sculptor::commitBrick(const glm::ivec3& brick) {
         sameBytes(after, base)
             ? nullptr
             : editedBrick(first, glm::min(glm::ivec3(kBrickCells), base_->layout().cells - first), after);
-    const auto [place, isNew] = steps_.back().try_emplace(number, Replaced{current(number), made});
+    const auto [place, isNew] = steps_.back().values.try_emplace(number, Replaced{current(number), made});
     if (!isNew)
         place->second.after = made;
     replace(number, made);
     return true;
+}
+
+void Sculptor::goBackOrOn(const Step& step, bool back) {
+    for (const auto& [number, replaced] : step.values)
+        replace(number, back ? replaced.before : replaced.after);
+    for (const auto& [number, recolored] : step.colors)
+        recolor(number, back ? recolored.before : recolored.after);
+    if (!step.values.empty())
+        grid_ = edits_.empty() ? base_ : nullptr;
 }
 
 bool Sculptor::undo() {
@@ -204,9 +217,7 @@ bool Sculptor::undo() {
         --done_;
     if (done_ == 0)
         return false;
-    for (const auto& [number, replaced] : steps_[--done_])
-        replace(number, replaced.before);
-    grid_ = edits_.empty() ? base_ : nullptr;
+    goBackOrOn(steps_[--done_], true);
     return true;
 }
 
@@ -215,9 +226,7 @@ bool Sculptor::redo() {
         ++done_;
     if (done_ == steps_.size())
         return false;
-    for (const auto& [number, replaced] : steps_[done_++])
-        replace(number, replaced.after);
-    grid_ = edits_.empty() ? base_ : nullptr;
+    goBackOrOn(steps_[done_++], false);
     return true;
 }
 
@@ -233,13 +242,20 @@ size_t Sculptor::redoSteps() const {
 
 uint64_t Sculptor::memoryBytes() const {
     std::set<const EditedBrick*> bricks;
-    for (const Step& step : steps_)
-        for (const auto& [number, replaced] : step) {
+    std::set<const ColorBrick*> colors;
+    for (const Step& step : steps_) {
+        for (const auto& [number, replaced] : step.values) {
             bricks.insert(replaced.before.get());
             bricks.insert(replaced.after.get());
         }
+        for (const auto& [number, recolored] : step.colors) {
+            colors.insert(recolored.before.get());
+            colors.insert(recolored.after.get());
+        }
+    }
     bricks.erase(nullptr);
-    return bricks.size() * sizeof(EditedBrick);
+    colors.erase(nullptr);
+    return bricks.size() * sizeof(EditedBrick) + colors.size() * sizeof(ColorBrick);
 }
 
 } // namespace touchstone

@@ -2,6 +2,7 @@
 // Edits of a distance field, with undo. One thread, not the servo's.
 
 #include "engine/math/similarity.h"
+#include "haptics/shape/field/field_colors.h"
 #include "haptics/shape/field/sculpt/field_window.h"
 #include "haptics/shape/field/sculpt/restore_distance.h"
 #include "haptics/shape/field/sculpt/sculpt_tool.h"
@@ -16,8 +17,8 @@ namespace touchstone {
 
 struct DabReport {
     double removed = 0.0; ///< object units cubed; negative where the solid grew
-    size_t bricks = 0;    ///< that were replaced
-    Bounds changed;       ///< of nodes that changed, object frame
+    size_t bricks = 0;    ///< that were replaced, also those of colours
+    Bounds changed;       ///< of nodes whose value changed, object frame
 };
 
 /// Applies dabs to a field and keeps every brick that they replace. Bricks are never written to: each grid
@@ -31,6 +32,8 @@ class Sculptor {
     [[nodiscard]] const std::shared_ptr<const FieldGrid>& base() const { return base_; }
     /// The field as it is now. A new one after each change.
     [[nodiscard]] std::shared_ptr<const FieldGrid> grid();
+    /// Null where nothing is painted.
+    [[nodiscard]] std::shared_ptr<const FieldColors> colors();
 
     /// The dabs from here to the next call are one step of `undo`. Forgets what was undone.
     void beginStroke();
@@ -46,7 +49,8 @@ class Sculptor {
     bool redo();
     [[nodiscard]] size_t undoSteps() const;
     [[nodiscard]] size_t redoSteps() const;
-    /// FieldGrid::brickNumber of the bricks that differ from those at the last call, in order.
+    /// FieldGrid::brickNumber of the bricks whose values or colours differ from those at the last call, in
+    /// order.
     [[nodiscard]] std::vector<uint32_t> takeChangedBricks();
     /// Of all bricks that the field and its history hold.
     [[nodiscard]] uint64_t memoryBytes() const;
@@ -56,11 +60,23 @@ class Sculptor {
     struct Replaced {
         BrickPtr before, after;
     };
-    using Step = std::map<uint32_t, Replaced>;
+    struct Recolored {
+        ColorBrickPtr before, after; ///< null: white
+    };
+    /// By FieldGrid::brickNumber and by FieldColors::brickNumber.
+    struct Step {
+        std::map<uint32_t, Replaced> values;
+        std::map<uint32_t, Recolored> colors;
+        [[nodiscard]] bool empty() const { return values.empty() && colors.empty(); }
+    };
 
     [[nodiscard]] std::vector<Dab> partsOf(const Dab& dab) const;
     [[nodiscard]] double margin() const; ///< voxels around what a dab changes by itself
     DabReport applyOnce(const Dab& dab);
+    DabReport paint(const Dab& dab);
+    bool paintBrick(const glm::ivec3& brick, const Dab& dab);
+    void recolor(uint32_t number, const ColorBrickPtr& brick);
+    void goBackOrOn(const Step& step, bool back);
     [[nodiscard]] BrickPtr current(uint32_t number) const;
     void replace(uint32_t number, const BrickPtr& brick);
     size_t commit(const std::vector<NodeBox>& changed);
@@ -68,6 +84,8 @@ class Sculptor {
 
     std::shared_ptr<const FieldGrid> base_, grid_; ///< grid_ is null where it is to be made
     std::map<uint32_t, BrickPtr> edits_;           ///< bricks that differ from the base's
+    std::map<uint32_t, ColorBrickPtr> painted_;    ///< those that are not white
+    std::shared_ptr<const FieldColors> colors_;    ///< null where they are to be made, or none is painted
     std::set<uint32_t> changed_;                   ///< since takeChangedBricks
     std::vector<Step> steps_;                      ///< strokes; the first `done_` are applied
     size_t done_ = 0;

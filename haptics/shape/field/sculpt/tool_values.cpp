@@ -147,6 +147,8 @@ ExactSide applyTool(FieldWindow& window, const FieldGrid& grid, const Dab& dab, 
             return f + share * (std::min(f, solid.distance(away)) - f);
         case SculptTool::Smooth:
             return f + share * (smoothed->at(node) - f);
+        case SculptTool::Paint: // values stay
+            return f;
         case SculptTool::Drag:
             break;
         }
