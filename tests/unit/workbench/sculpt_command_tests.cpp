@@ -74,8 +74,9 @@ TEST_F(SculptCommand, IsFeltAndSavedAndTheSameEveryTime) {
                                             folder_ / "out.vdb", "--json", folder_ / "f.json"});
         ASSERT_EQ(result.status, 0) << result.err;
         // The hand stays above the hole's ground, 12 mm above the middle.
-        for (const double contacts : readTable(folder_ / "ticks.csv")["contacts"])
-            EXPECT_EQ(contacts, 0.0);
+        const std::vector<double> contacts = readTable(folder_ / "ticks.csv")["contacts"];
+        EXPECT_GT(contacts.size(), 0u);
+        EXPECT_EQ(std::ranges::count(contacts, 0.0), static_cast<std::ptrdiff_t>(contacts.size()));
         if (run > 0) {
             EXPECT_EQ(result.out, out);
             EXPECT_EQ(textOf(folder_ / "out.glb"), glb);
