@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace touchstone {
 
@@ -67,6 +68,7 @@ HapticQuantity hapticQuantity(const Material& material, ViewMode mode) {
     case ViewMode::Uv:
     case ViewMode::Dihedral:
     case ViewMode::Effects:
+    case ViewMode::Perception:
         break;
     }
     return quantity;
@@ -114,6 +116,93 @@ std::vector<float> dihedralAngles(const Mesh& mesh) {
     return angles;
 }
 
+namespace {
+
+/// One side of an edge: its ends' places, lower first, and the triangle with the corner where it starts.
+struct EdgeSide {
+    uint32_t low = 0, high = 0;
+    uint32_t triangle = 0, corner = 0;
+};
+
+std::vector<EdgeSide> edgeSidesOf(const Mesh& mesh, const std::vector<uint32_t>& place) {
+    std::vector<EdgeSide> sides;
+    sides.reserve(mesh.indices.size());
+    for (uint32_t t = 0; 3 * t < mesh.indices.size(); ++t)
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t from = place[mesh.indices[3 * t + k]],
+                           to = place[mesh.indices[3 * t + (k + 1) % 3]];
+            if (from != to)
+                sides.push_back({std::min(from, to), std::max(from, to), t, k});
+        }
+    std::sort(sides.begin(), sides.end(), [](const EdgeSide& a, const EdgeSide& b) {
+        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+    });
+    return sides;
+}
+
+/// The vertex of a side at the place `end`.
+uint32_t vertexAt(const Mesh& mesh, const std::vector<uint32_t>& place, const EdgeSide& side, uint32_t end) {
+    const uint32_t from = mesh.indices[3 * side.triangle + side.corner],
+                   to = mesh.indices[3 * side.triangle + (side.corner + 1) % 3];
+    return place[from] == end ? from : to;
+}
+
+bool isCrease(const Mesh& mesh, const std::vector<uint32_t>& place, const EdgeSide& a, const EdgeSide& b) {
+    constexpr double kSameNormal = 0.9998476952; // cosine of 1 degree
+    if (mesh.normals.empty())
+        return false;
+    const auto differ = [&](uint32_t end) {
+        const uint32_t first = vertexAt(mesh, place, a, end), second = vertexAt(mesh, place, b, end);
+        return first != second &&
+               glm::dot(glm::dvec3(mesh.normals[first]), glm::dvec3(mesh.normals[second])) < kSameNormal;
+    };
+    return differ(a.low) || differ(a.high);
+}
+
+/// Degrees; negative where a facet has no direction.
+double angleBetween(const Mesh& mesh, uint32_t a, uint32_t b) {
+    const auto area = [&](uint32_t t) {
+        const glm::dvec3 p(mesh.positions[mesh.indices[3 * t]]), q(mesh.positions[mesh.indices[3 * t + 1]]),
+            r(mesh.positions[mesh.indices[3 * t + 2]]);
+        return glm::cross(q - p, r - p);
+    };
+    const glm::dvec3 first = area(a), second = area(b);
+    if (!(glm::dot(first, first) > 0.0 && glm::dot(second, second) > 0.0))
+        return -1.0;
+    return glm::degrees(std::atan2(glm::length(glm::cross(first, second)), glm::dot(first, second)));
+}
+
+} // namespace
+
+std::vector<float> feltSteps(const Mesh& mesh) {
+    std::vector<uint32_t> place(mesh.positions.size());
+    const size_t places =
+        mesh.positions.empty()
+            ? 0
+            : meshopt_generateVertexRemap(place.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
+                                          mesh.positions.size(), sizeof(glm::vec3));
+    std::vector<float> most(places, -1.0f);
+    const std::vector<EdgeSide> sides = edgeSidesOf(mesh, place);
+    for (size_t i = 0, end = 0; i < sides.size(); i = end) {
+        for (end = i + 1;
+             end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high; ++end)
+            continue;
+        if (end != i + 2 || isCrease(mesh, place, sides[i], sides[i + 1]))
+            continue;
+        const double angle = angleBetween(mesh, sides[i].triangle, sides[i + 1].triangle);
+        if (angle < 0.0)
+            continue;
+        const auto steps = static_cast<float>(
+            std::count_if(kFeltAngles.begin(), kFeltAngles.end(), [&](double felt) { return angle > felt; }));
+        most[sides[i].low] = std::max(most[sides[i].low], steps);
+        most[sides[i].high] = std::max(most[sides[i].high], steps);
+    }
+    std::vector<float> shown(mesh.positions.size());
+    for (size_t v = 0; v < shown.size(); ++v)
+        shown[v] = most[place[v]];
+    return shown;
+}
+
 FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
     FalseColorScale scale;
     switch (mode) {
@@ -131,6 +220,8 @@ FalseColorScale falseColorScale(const Scene& scene, ViewMode mode) {
         break;
     case ViewMode::Tilt:
         return {0.0, kMaxTilt, "°", true};
+    case ViewMode::Perception:
+        return {0.0, static_cast<double>(kFeltAngles.size()), "", true};
     case ViewMode::Dihedral: {
         float most = 0.0f;
         for (const Mesh& mesh : scene.meshes)

@@ -332,8 +332,10 @@ void GpuScene::uploadScalars(FalseColor& target) {
         if (mesh.indices.empty())
             continue; // lines and points: no haptics, not shown here
         const vk::DeviceSize place = static_cast<vk::DeviceSize>(meshes_[m].mesh.firstVertex) * sizeof(float);
-        if (target.mode == ViewMode::Dihedral) {
-            uploader_.buffer(target.scalars, place, bytesOf(dihedralAngles(mesh)));
+        if (target.mode == ViewMode::Dihedral || target.mode == ViewMode::Perception) {
+            uploader_.buffer(
+                target.scalars, place,
+                bytesOf(target.mode == ViewMode::Dihedral ? dihedralAngles(mesh) : feltSteps(mesh)));
             continue;
         }
         // A negative scalar is drawn grey: the quantity is not stated. So heights, which may be negative,

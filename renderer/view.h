@@ -20,7 +20,8 @@ namespace touchstone {
 
 /// Shaded is the visual appearance; the others are false-colour views of haptic quantities. Tilt: between the
 /// facet and the felt normal, with its maps. Dihedral: the largest angle between the facets at an edge of the
-/// vertex. Effects: SceneRenderer::setMaterialColors.
+/// vertex. Effects: SceneRenderer::setMaterialColors. Perception: how many angles of kFeltAngles
+/// (renderer/false_color.h) that angle exceeds at edges that are meant to be smooth.
 enum class ViewMode : uint8_t {
     Shaded,
     Height,
@@ -31,10 +32,12 @@ enum class ViewMode : uint8_t {
     Uv,
     Tilt,
     Dihedral,
-    Effects
+    Effects,
+    Perception
 };
-inline constexpr std::array<std::string_view, 10> kViewModeNames{
-    "shaded", "height", "friction", "stiffness", "damping", "normals", "uv", "tilt", "dihedral", "effects"};
+inline constexpr std::array<std::string_view, 11> kViewModeNames{
+    "shaded", "height", "friction", "stiffness", "damping",   "normals",
+    "uv",     "tilt",   "dihedral", "effects",   "perception"};
 [[nodiscard]] constexpr std::string_view viewModeName(ViewMode mode) {
     return kViewModeNames[static_cast<size_t>(mode)];
 }

@@ -35,6 +35,7 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     EditOptions edit;
     RenderOptions render;
     InspectOptions inspect;
+    SimplifyOptions simplify;
     BenchOptions bench;
     StudyCommandOptions study;
     StudyCompareOptions compare;
@@ -58,6 +59,9 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     CLI::App* inspectApp = app.add_subcommand(
         "inspect", "What a model or a haptic program (.glsl) is, what it would feel like, and its problems");
     defineInspect(*inspectApp, inspect);
+    CLI::App* simplifyApp = app.add_subcommand(
+        "simplify", "Fewer triangles, as far as people would not feel the facets, and the error of that");
+    defineSimplify(*simplifyApp, simplify);
     CLI::App* benchApp = app.add_subcommand("bench", "What a tick costs against Embree's floor");
     defineBench(*benchApp, bench);
     CLI::App* studyApp =
@@ -82,8 +86,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        for (CLI::App* command : {runApp, touchApp, replayApp, editApp, renderApp, inspectApp, benchApp,
-                                  compareApp, mergeApp, studyApp, devicesApp, experimentApp})
+        for (CLI::App* command : {runApp, touchApp, replayApp, editApp, renderApp, inspectApp, simplifyApp,
+                                  benchApp, compareApp, mergeApp, studyApp, devicesApp, experimentApp})
             if (command->parsed()) {
                 // A command without --set inherits the footer of the program.
                 command->footer(command == runApp || command == touchApp
@@ -115,6 +119,8 @@ std::optional<Command> parseCommandLine(int argc, char** argv, int& status) {
         return render;
     if (inspectApp->parsed())
         return inspect;
+    if (simplifyApp->parsed())
+        return simplify;
     if (benchApp->parsed())
         return bench;
     if (compareApp->parsed())

@@ -8,9 +8,10 @@
 
 namespace touchstone {
 
-using Command = std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, EditOptions,
-                             RenderOptions, InspectOptions, BenchOptions, StudyCommandOptions,
-                             StudyCompareOptions, StudyMergeOptions, DevicesOptions, ExperimentOptions>;
+using Command =
+    std::variant<WindowOptions, RunOptions, TouchOptions, ReplayOptions, EditOptions, RenderOptions,
+                 InspectOptions, SimplifyOptions, BenchOptions, StudyCommandOptions, StudyCompareOptions,
+                 StudyMergeOptions, DevicesOptions, ExperimentOptions>;
 
 /// Parses the command line. Nullopt when the program is done: help or version was printed (then `status` is
 /// 0), or the usage was wrong and reported on stderr (`status` is 2).

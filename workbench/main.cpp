@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
                        [](const EditOptions& options) { return editCommand(options); },
                        [](const RenderOptions& options) { return renderCommand(options); },
                        [](const InspectOptions& options) { return inspectCommand(options); },
+                       [](const SimplifyOptions& options) { return simplifyCommand(options); },
                        [](const BenchOptions& options) { return benchCommand(options); },
                        [](const StudyCommandOptions& options) { return studyCommand(options); },
                        [](const StudyCompareOptions& options) { return studyCompare(options); },

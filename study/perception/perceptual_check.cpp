@@ -201,7 +201,7 @@ std::span<const FacetLimit> facetLimits() {
     return kLimits;
 }
 
-PerceptualCheck checkPerception(const HapticScene& scene) {
+PerceptualCheck checkPerception(const HapticScene& scene, Search search) {
     PerceptualCheck check;
     std::vector<Reduced> meshes;
     std::vector<double> angles;
@@ -227,7 +227,8 @@ PerceptualCheck checkPerception(const HapticScene& scene) {
         }
         check.limits.push_back(row);
     }
-    if (anyWithin && check.triangles <= kMostToSimplify)
+    check.angles = std::move(angles);
+    if (search == Search::Enough && anyWithin && check.triangles <= kMostToSimplify)
         findEnough(meshes, check);
     return check;
 }

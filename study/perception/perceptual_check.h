@@ -5,6 +5,7 @@
 #include "haptics/scene/haptic_scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,15 +41,17 @@ struct PerceptualCheck {
     size_t creases = 0;     ///< of these, with other vertex normals on their two sides: meant to be edges
     bool anySmooth = false; ///< there are normals to shade with; else every edge is a facet's
     double median = 0.0, most90 = 0.0, most99 = 0.0,
-           largest = 0.0;      ///< degrees, of the edges that are no creases
-    glm::dvec3 largestAt{0.0}; ///< m, workspace: the middle of the edge with the largest angle
-    bool simplified = false;   ///< `enough` was looked for
+           largest = 0.0;       ///< degrees, of the edges that are no creases
+    glm::dvec3 largestAt{0.0};  ///< m, workspace: the middle of the edge with the largest angle
+    bool simplified = false;    ///< `enough` was looked for
+    std::vector<double> angles; ///< degrees, of the edges that are no creases, in no order
     std::vector<FacetCheck> limits;
 };
 
 /// Counts over all meshes of a scene; linear in its triangles. Objects without triangles have no edges.
 /// Meshes of more than kMostToSimplify triangles in all are counted alone.
 inline constexpr size_t kMostToSimplify = 1'500'000;
-[[nodiscard]] PerceptualCheck checkPerception(const HapticScene& scene);
+enum class Search : uint8_t { CountAlone, Enough };
+[[nodiscard]] PerceptualCheck checkPerception(const HapticScene& scene, Search search = Search::Enough);
 
 } // namespace touchstone::study

@@ -16,6 +16,7 @@ void defineReplay(CLI::App& app, ReplayOptions& options);
 void defineEdit(CLI::App& app, EditOptions& options);
 void defineRender(CLI::App& app, RenderOptions& options);
 void defineInspect(CLI::App& app, InspectOptions& options);
+void defineSimplify(CLI::App& app, SimplifyOptions& options);
 void defineBench(CLI::App& app, BenchOptions& options);
 void defineStudy(CLI::App& app, StudyCommandOptions& options);
 void defineCompare(CLI::App& app, StudyCompareOptions& options);

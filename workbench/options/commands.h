@@ -182,6 +182,15 @@ struct InspectOptions {
 };
 int inspectCommand(const InspectOptions& options);
 
+/// touchstone simplify SCENE
+struct SimplifyOptions {
+    std::filesystem::path scene;
+    double degrees = 0.0;      ///< between facets
+    std::filesystem::path out; ///< .glb; empty: told alone
+    std::optional<double> iso; ///< of a volume
+};
+int simplifyCommand(const SimplifyOptions& options);
+
 /// touchstone bench [fast|growth]
 struct BenchOptions {
     std::string what;           ///< empty: all of it

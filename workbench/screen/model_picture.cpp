@@ -2,6 +2,7 @@
 
 #include "engine/time/seconds_now.h"
 #include "workbench/screen/axis_gizmo.h"
+#include "workbench/screen/felt_edges.h"
 #include "workbench/screen/ground_grid.h"
 #include "workbench/screen/gui_pixels.h"
 #include "workbench/screen/magnifier.h"
@@ -132,11 +133,16 @@ void ModelPicture::drawLabels(const Frame& frame, const glm::vec2& low, float sc
 ViewLegend ModelPicture::legendOf(const Frame& frame, const SceneRenderer& renderer) const {
     return {.mode = frame.options.mode,
             .scale = renderer.falseColorScale(),
-            .kinds =
-                frame.options.mode == ViewMode::Effects ? colors_.kinds : std::vector<EffectColors::Kind>{}};
+            .kinds = frame.options.mode == ViewMode::Effects      ? colors_.kinds
+                     : frame.options.mode == ViewMode::Perception ? felt_
+                                                                  : std::vector<EffectColors::Kind>{}};
 }
 
 void ModelPicture::colorMaterials(const Frame& frame, SceneRenderer& renderer) {
+    if (frame.options.mode == ViewMode::Perception && counted_ != frame.model.haptic) {
+        counted_ = frame.model.haptic;
+        felt_ = feltColors(*counted_);
+    }
     if (frame.options.mode != ViewMode::Effects || colored_ == frame.model.haptic)
         return;
     colored_ = frame.model.haptic;

@@ -83,6 +83,8 @@ class ModelPicture {
     Overlay overlay_;
     std::shared_ptr<const HapticScene> colored_; ///< the scene whose plan gave the colours
     EffectColors colors_;
+    std::shared_ptr<const HapticScene> counted_; ///< the scene whose edges are in the legend
+    std::vector<EffectColors::Kind> felt_;
     FieldSliceView slice_;
     int magnifierAge_ = 0; ///< frames since it was drawn
 };

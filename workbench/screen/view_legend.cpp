@@ -70,7 +70,8 @@ const char* viewTitle(ViewMode mode) {
                                  "texture coordinates",
                                  "tilt of the felt normal against the facet",
                                  "largest angle between facets at a vertex",
-                                 "effects that the plan switches on"};
+                                 "effects that the plan switches on",
+                                 "edges that people may feel [004]"};
     static_assert(kTitles.size() == kViewModeNames.size());
     return kTitles[static_cast<size_t>(mode)];
 }

@@ -9,7 +9,7 @@ namespace touchstone {
 struct ViewLegend {
     ViewMode mode = ViewMode::Shaded;
     FalseColorScale scale;
-    std::vector<EffectColors::Kind> kinds; ///< of ViewMode::Effects
+    std::vector<EffectColors::Kind> kinds; ///< of ViewMode::Effects and Perception
 };
 
 /// "height", "friction coefficient": the quantity of a view.

@@ -16,7 +16,8 @@ void modeList(ViewOptions& options, const Mark& mark) {
                                  "friction map",         "stiffness map",
                                  "damping map",          "normals",
                                  "texture coordinates",  "tilt of the felt normal",
-                                 "angle between facets", "effects of the plan"};
+                                 "angle between facets", "effects of the plan",
+                                 "what people may feel"};
     static_assert(kLabels.size() == kViewModeNames.size());
     int mode = static_cast<int>(options.mode);
     ImGui::PushItemWidth(-1.0f);
