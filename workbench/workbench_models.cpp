@@ -90,6 +90,7 @@ void WorkbenchWindow::nameAfter(const std::filesystem::path& file) {
 void WorkbenchWindow::takeMaterials() {
     if (!hasModel())
         return;
+    materials_.watch(touch_.shown().model, touch_.recording().recorder().textures());
     if (const std::optional<FileStamp> saved = materials_.takeSaved()) {
         touch_.saved(materials_.path(), *saved, textOf(materials_.edits().patches()));
         nameAfter(materials_.path());

@@ -155,6 +155,9 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.materialNotice = materials_.notice();
     input.canSaveMaterials = materials_.canSaveInPlace();
     input.materialsEdited = materials_.edited();
+    input.texturesEdited = materials_.texturesEdited();
+    if (hasModel() && !timeline_.looking())
+        input.textures = touch_.recording().recorder().textures();
     input.materialsWorking = materials_.working() || materials_.programs().pending();
     input.loading = loading();
     input.longestFrame = longestFrame_;

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -79,6 +80,49 @@ void setEnd(ProcessAnswer& answer, int status) {
     answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
 }
 
+/// For the output of a child.
+struct OutputPipe {
+    FileDescriptor reading, writing;
+
+    bool open() {
+        int ends[2] = {-1, -1};
+        if (pipe2(ends, O_CLOEXEC) != 0)
+            return false;
+        reading = FileDescriptor(ends[0]);
+        writing = FileDescriptor(ends[1]);
+        fcntl(reading.get(), F_SETFL, O_NONBLOCK);
+        fcntl(reading.get(), F_SETPIPE_SZ, kBlock);
+        return true;
+    }
+};
+
+ProcessAnswer answerOf(Child& child, const FileDescriptor& reading, const ProcessLimits& limits,
+                       uint64_t maxOutput, const std::function<bool()>& stop) {
+    using enum ProcessAnswer::End;
+    ProcessAnswer answer;
+    std::vector<uint8_t> block(kBlock);
+    const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits.seconds);
+    for (bool open = true;;) {
+        const bool ended = child.wait(WNOHANG); // before the last reading: what it wrote is in the pipe
+        const Reading state = open ? readAll(reading.get(), maxOutput, block, answer.output) : Reading::Ended;
+        open = state == Reading::Waiting;
+        answer.end = state == Reading::TooLong                 ? TooLong
+                     : stop()                                  ? Stopped
+                     : std::chrono::steady_clock::now() >= due ? TooSlow
+                                                               : NotStarted;
+        if (answer.end != NotStarted && !ended)
+            return answer; // and kills it
+        if (ended)
+            break;
+        pollfd ready{.fd = open ? reading.get() : -1, .events = POLLIN, .revents = 0};
+        poll(&ready, 1, kInterval);
+    }
+    if (answer.end == TooLong)
+        return answer;
+    setEnd(answer, child.status());
+    return answer;
+}
+
 } // namespace
 
 FileDescriptor::~FileDescriptor() {
@@ -120,42 +164,52 @@ FileDescriptor memoryFile(std::span<const uint8_t> bytes) {
 ProcessAnswer askProcess(const std::string& program, const std::vector<std::string>& arguments,
                          const ProcessLimits& limits, const FileDescriptor& input, uint64_t maxOutput,
                          const std::function<bool()>& stop) {
-    using enum ProcessAnswer::End;
-    ProcessAnswer answer;
-    int ends[2] = {-1, -1};
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return answer;
-    const FileDescriptor reading(ends[0]);
-    FileDescriptor writing(ends[1]);
-    fcntl(reading.get(), F_SETFL, O_NONBLOCK);
-    fcntl(reading.get(), F_SETPIPE_SZ, kBlock);
-    std::vector<uint8_t> block(kBlock);
+    OutputPipe pipe;
+    if (!pipe.open())
+        return {};
     const pid_t pid =
-        startLimited(program, arguments, limits, {.input = input.get(), .output = writing.get()});
+        startLimited(program, arguments, limits, {.input = input.get(), .output = pipe.writing.get()});
     if (pid < 0)
-        return answer;
+        return {};
     Child child(pid);
-    writing.close(); // so that the pipe ends with the child
-    const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits.seconds);
-    for (bool open = true;;) {
-        const bool ended = child.wait(WNOHANG); // before the last reading: what it wrote is in the pipe
-        const Reading state = open ? readAll(reading.get(), maxOutput, block, answer.output) : Reading::Ended;
-        open = state == Reading::Waiting;
-        answer.end = state == Reading::TooLong                 ? TooLong
-                     : stop()                                  ? Stopped
-                     : std::chrono::steady_clock::now() >= due ? TooSlow
-                                                               : NotStarted;
-        if (answer.end != NotStarted && !ended)
-            return answer; // and kills it
-        if (ended)
-            break;
-        pollfd ready{.fd = open ? reading.get() : -1, .events = POLLIN, .revents = 0};
-        poll(&ready, 1, kInterval);
+    pipe.writing.close(); // so that the pipe ends with the child
+    return answerOf(child, pipe.reading, limits, maxOutput, stop);
+}
+
+WaitingProcess::WaitingProcess(const std::string& program, const std::vector<std::string>& arguments,
+                               const ProcessLimits& limits)
+    : limits_(limits) {
+    OutputPipe pipe;
+    int ends[2] = {-1, -1};
+    // A socket: writing to a process that has ended is an error and no signal.
+    if (!pipe.open() || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        return;
+    input_ = FileDescriptor(ends[0]);
+    const FileDescriptor theirs(ends[1]);
+    pid_ = startLimited(program, arguments, limits, {.input = theirs.get(), .output = pipe.writing.get()});
+    output_ = std::move(pipe.reading);
+}
+
+WaitingProcess::~WaitingProcess() {
+    if (pid_ >= 0)
+        const Child killed(pid_);
+}
+
+ProcessAnswer WaitingProcess::ask(std::span<const uint8_t> input, uint64_t maxOutput,
+                                  const std::function<bool()>& stop) {
+    if (pid_ < 0)
+        return {};
+    Child child(std::exchange(pid_, -1));
+    while (!input.empty()) {
+        const ssize_t sent = send(input_.get(), input.data(), input.size(), MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            break; // it has ended; how, stands in the answer
+        input = input.subspan(static_cast<size_t>(sent));
     }
-    if (answer.end == TooLong)
-        return answer;
-    setEnd(answer, child.status());
-    return answer;
+    input_.close();
+    return answerOf(child, output_, limits_, maxOutput, stop);
 }
 
 ProcessAnswer askProcessInto(const FileDescriptor& output, const std::string& program,

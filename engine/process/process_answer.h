@@ -3,6 +3,8 @@
 
 #include "engine/process/limited_process.h"
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -50,6 +52,26 @@ struct ProcessAnswer {
 [[nodiscard]] ProcessAnswer askProcess(const std::string& program, const std::vector<std::string>& arguments,
                                        const ProcessLimits& limits, const FileDescriptor& input,
                                        uint64_t maxOutput, const std::function<bool()>& stop);
+
+/// A program that has been started and waits for its input. One thread, with which it ends; killed at the end
+/// of its life. limits.seconds count from `ask`.
+class WaitingProcess {
+  public:
+    WaitingProcess(const std::string& program, const std::vector<std::string>& arguments,
+                   const ProcessLimits& limits);
+    ~WaitingProcess();
+    WaitingProcess(const WaitingProcess&) = delete;
+    WaitingProcess& operator=(const WaitingProcess&) = delete;
+
+    /// Writes `input` to its standard input, ends that, and returns the output, as askProcess does. Once.
+    [[nodiscard]] ProcessAnswer ask(std::span<const uint8_t> input, uint64_t maxOutput,
+                                    const std::function<bool()>& stop);
+
+  private:
+    FileDescriptor input_, output_;
+    pid_t pid_ = -1; ///< -1: there is no process
+    ProcessLimits limits_;
+};
 
 /// The same for a program that writes to the file `output` instead, whose size limits.fileSize bounds; the
 /// answer has no bytes.

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace touchstone {
 
@@ -113,6 +114,31 @@ ProgramCompiler installedProgramCompiler() {
     return compiler;
 }
 
+namespace {
+thread_local WaitingCompiler* waitingCompiler = nullptr;
+}
+
+WaitingCompiler::WaitingCompiler(ProgramCompiler compiler) : compiler_(std::move(compiler)) {
+    waitingCompiler = this;
+}
+
+WaitingCompiler::~WaitingCompiler() {
+    waitingCompiler = nullptr;
+}
+
+void WaitingCompiler::start() {
+    if (process_ == nullptr)
+        process_ = std::make_unique<WaitingProcess>(
+            compiler_.program.string(),
+            std::vector<std::string>{compiler_.program.filename().string(), "--wait"}, compiler_.limits);
+}
+
+std::unique_ptr<WaitingProcess> WaitingCompiler::take(const ProgramCompiler& compiler) {
+    if (waitingCompiler == nullptr || waitingCompiler->compiler_.program != compiler.program)
+        return nullptr;
+    return std::move(waitingCompiler->process_);
+}
+
 std::string placeInSource(const ProgramSource& source, const std::string& file, uint32_t line) {
     if (file == kParameters && line >= 2 && line - 2 < source.parameters.size())
         line = source.parameters[line - 2].line;
@@ -128,9 +154,11 @@ std::vector<uint32_t> compileProgram(const ProgramSource& source, const ProgramC
         bytes.insert(bytes.end(), text.begin(), text.end());
         bytes.push_back(0);
     }
-    const FileDescriptor input = memoryFile(bytes);
-    const ProcessAnswer answer = askProcess(compiler.program.string(), {compiler.program.filename().string()},
-                                            compiler.limits, input, kMaxSpirvBytes, stop);
+    const std::unique_ptr<WaitingProcess> waiting = WaitingCompiler::take(compiler);
+    const ProcessAnswer answer =
+        waiting != nullptr ? waiting->ask(bytes, kMaxSpirvBytes, stop)
+                           : askProcess(compiler.program.string(), {compiler.program.filename().string()},
+                                        compiler.limits, memoryFile(bytes), kMaxSpirvBytes, stop);
     if (answer.end != ProcessAnswer::End::Exited || answer.status != 0)
         failOf(source, answer, compiler);
     std::vector<uint32_t> words(answer.output.size() / 4);

@@ -1,12 +1,13 @@
 #pragma once
 // GLSL to SPIR-V, by a process of its own.
 
-#include "engine/process/limited_process.h"
+#include "engine/process/process_answer.h"
 #include "engine/program/program_source.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,26 @@ struct ProgramCompiler {
 
 /// touchstone_program_compiler beside the running program: at most 5 s of a processor, 1 GiB, and no file.
 [[nodiscard]] ProgramCompiler installedProgramCompiler();
+
+/// A compiler that has started before there is anything to compile: nine tenths of its time go by with what
+/// is the same for each program. Made and destroyed on one thread, whose compileProgram then uses it; one at
+/// a time.
+class WaitingCompiler {
+  public:
+    explicit WaitingCompiler(ProgramCompiler compiler);
+    ~WaitingCompiler();
+    WaitingCompiler(const WaitingCompiler&) = delete;
+    WaitingCompiler& operator=(const WaitingCompiler&) = delete;
+
+    /// Starts one where none waits.
+    void start();
+    /// The one that waits; null: none, or another program is asked for.
+    [[nodiscard]] static std::unique_ptr<WaitingProcess> take(const ProgramCompiler& compiler);
+
+  private:
+    ProgramCompiler compiler_;
+    std::unique_ptr<WaitingProcess> process_;
+};
 
 /// SPIR-V with one function, whose uniform block has the source's parameters. Throws Error with the line and
 /// a remedy, also where the compiler crashes on the source; Cancelled. `stop` is asked every 20 ms. Any

@@ -177,6 +177,64 @@ GltfFile takenApart(std::span<const uint8_t> bytes, const std::string& shownAs) 
     return takeGltfApart(context, {bytes.begin(), bytes.end()}, {});
 }
 
+std::filesystem::path folderOf(const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored).parent_path();
+}
+
+/// The programs beside a model that some material names.
+std::vector<std::string> programUris(const nlohmann::json& root) {
+    std::vector<std::string> uris;
+    const nlohmann::json none = nlohmann::json::array();
+    const auto materials = root.find("materials");
+    for (const nlohmann::json& material : materials != root.end() ? *materials : none) {
+        if (!material.is_object())
+            continue;
+        const nlohmann::json::json_pointer at("/extensions/" + std::string(kOurs) + "/shader/source");
+        if (!material.contains(at) || !material[at].is_string())
+            continue;
+        const auto& uri = material[at].get_ref<const std::string&>();
+        if (!isDataUri(uri) && std::ranges::find(uris, uri) == uris.end())
+            uris.push_back(uri);
+    }
+    return uris;
+}
+
+/// Programs beside `source`, for a target in another folder: the files to write there. One that cannot be
+/// read is left out: the model says so whenever it is opened.
+std::vector<ProgramFile> programsFor(ImportContext& context, const nlohmann::json& root,
+                                     const std::filesystem::path& source, const std::filesystem::path& target,
+                                     std::span<const ProgramFile> edited) {
+    std::vector<ProgramFile> files;
+    const std::filesystem::path from = source.parent_path(), to = target.parent_path();
+    if (inOneFolder(source, target))
+        return files;
+    for (const std::string& uri : programUris(root)) {
+        ProgramFile file;
+        try {
+            const std::filesystem::path own = resolveUri(context, "shader.source", from, uri);
+            file.file = resolveUri(context, "shader.source", to, uri);
+            const auto typed = std::ranges::find(edited, own, &ProgramFile::file);
+            const auto text = [&](const std::filesystem::path& path) {
+                const std::vector<uint8_t> bytes = readWholeFile(path, path.string());
+                return std::string(bytes.begin(), bytes.end());
+            };
+            file.text = typed != edited.end() ? typed->text : text(own);
+            std::error_code none;
+            if (std::filesystem::exists(file.file, none) && text(file.file) == file.text)
+                continue;
+        } catch (const Error&) {
+            continue;
+        }
+        std::error_code none;
+        if (std::filesystem::exists(file.file, none))
+            throw Error(file.file.string(), "", "is another program than the model's; nothing was written",
+                        "move it away, or save the model into another folder");
+        files.push_back(std::move(file));
+    }
+    return files;
+}
+
 void checkTarget(const GltfFile& file, const std::filesystem::path& source,
                  const std::filesystem::path& target) {
     namespace fs = std::filesystem;
@@ -187,9 +245,7 @@ void checkTarget(const GltfFile& file, const std::filesystem::path& source,
     if (ending != right && !(ending == ".vrm" && file.isGlb))
         throw Error(target.string(), "", "would be a " + std::string(right) + " of another name",
                     "end the name in " + std::string(right) + (file.isGlb ? "" : ", as what was opened is"));
-    std::error_code ignored;
-    const fs::path from = fs::weakly_canonical(fs::absolute(source), ignored).parent_path();
-    const fs::path to = fs::weakly_canonical(fs::absolute(target), ignored).parent_path();
+    const fs::path from = folderOf(source), to = folderOf(target);
     if (const std::string uri = externalUri(file.json); from != to && !uri.empty())
         throw Error(target.string(), "",
                     "would not find \"" + uri.substr(0, 200) + "\" and what else it needs",
@@ -197,6 +253,10 @@ void checkTarget(const GltfFile& file, const std::filesystem::path& source,
 }
 
 } // namespace
+
+bool inOneFolder(const std::filesystem::path& a, const std::filesystem::path& b) {
+    return folderOf(a) == folderOf(b);
+}
 
 std::string textOf(const MaterialPatches& patches) {
     Json json = Json::object();
@@ -238,7 +298,8 @@ std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes, const Materia
 }
 
 FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
-                        const MaterialPatches& patches, const std::filesystem::path& target) {
+                        const MaterialPatches& patches, const std::filesystem::path& target,
+                        std::span<const ProgramFile> programs) {
     const std::string shownAs = source.string();
     if (volumeFormatNamed(source))
         throw Error(shownAs, "", "a volume has no place for what is felt; nothing was written",
@@ -260,6 +321,11 @@ FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& lo
     const GltfFile file = takenApart(bytes, shownAs);
     checkTarget(file, source, target);
     const std::vector<uint8_t> result = withMaterials(bytes, patches, shownAs);
+    for (const ProgramFile& program : programsFor(context, file.json, source, target, programs)) {
+        std::filesystem::create_directories(program.file.parent_path());
+        replaceFile(program.file,
+                    {reinterpret_cast<const uint8_t*>(program.text.data()), program.text.size()});
+    }
     replaceFile(target, result);
     return stampOf(result);
 }

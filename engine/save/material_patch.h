@@ -31,12 +31,23 @@ using MaterialPatches = std::map<size_t, nlohmann::ordered_json>;
 [[nodiscard]] std::vector<uint8_t> withMaterials(std::span<const uint8_t> bytes,
                                                  const MaterialPatches& patches, const std::string& shownAs);
 
+/// The text of a program that is a file beside the model.
+struct ProgramFile {
+    std::filesystem::path file;
+    std::string text;
+};
+
+[[nodiscard]] bool inOneFolder(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Writes `source` with the patches to `target` (which may be the same file), as a whole or not at all. An
 /// OBJ, STL or PLY is written as a new GLB. Throws Error where the source no longer has the bytes `loaded`,
 /// so that no other program's changes are overwritten; where the target would be of another kind (.glb,
-/// .gltf); and where the source refers to files beside it and the target is in another folder. Returns the
-/// target's new stamp.
+/// .gltf); and where the source refers to buffers or images beside it and the target is in another folder.
+/// Programs beside it (docs/programs.md) come along into that folder, with the text of `programs` where they
+/// are among these; another text that has such a name there is not replaced: Error. Returns the target's new
+/// stamp.
 [[nodiscard]] FileStamp saveMaterials(const std::filesystem::path& source, const FileStamp& loaded,
-                                      const MaterialPatches& patches, const std::filesystem::path& target);
+                                      const MaterialPatches& patches, const std::filesystem::path& target,
+                                      std::span<const ProgramFile> programs = {});
 
 } // namespace touchstone

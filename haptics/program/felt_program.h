@@ -4,11 +4,23 @@
 #include "engine/program/surface_program.h"
 #include "haptics/program/register_program.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace touchstone::program {
+
+/// Persistent textures that the model's file has values of.
+struct StartTextures {
+    nlohmann::json stated; ///< as in the file
+    PersistentTextureSize size;
+    /// By instance of the scene (Scene::instances).
+    std::map<int, std::shared_ptr<const std::vector<float>>> values;
+};
 
 /// Immutable.
 struct FeltProgram {
@@ -18,7 +30,8 @@ struct FeltProgram {
     bool displaces = true;
     bool usesCoordinates = false;  ///< it reads uv, tangent or binormal, or has a persistent texture
     PersistentTextureSize texture; ///< of the material; 0 texels where the program does not name it
-    uint64_t identity = 0;         ///< hash of its SPIR-V and its values
+    std::shared_ptr<const StartTextures> start; ///< null: every texture begins even
+    uint64_t identity = 0;                      ///< hash of its SPIR-V and its values
     /// Translated from it; null in programs that no material brought.
     std::shared_ptr<const SurfaceProgram> compiled;
 

@@ -80,6 +80,8 @@ void RecordingWriter::add(const TickToRecord& tick) {
         file_.append(RecordedTool{tick.tool});
     if (newSettings)
         file_.append(RecordedSettings{tick.tick.settings, tick.settings});
+    if (tick.textures == nullptr)
+        texturesAge_ = kTexturesEvery; // where strokes were lost they are written whole as soon as there are
     if (tick.checkpoint != nullptr) {
         file_.append(*tick.checkpoint);
         for (const HandToRecord& other : tick.others)

@@ -107,7 +107,7 @@ compileHapticScene(const Scene& scene, const Similarity& workspaceFromScene, con
             at.placed ? buildHapticMaterial(scene, scene.materials[m], m, at.sets, haptic->warnings)
                       : HapticMaterialData{});
         if (at.placed)
-            addProgram(scene.materials[m], m, nullptr, *haptic);
+            addProgram(scene, scene.materials[m], m, nullptr, *haptic);
     }
     const uint64_t triangles = scene.triangleCount();
     uint64_t done = 0;
@@ -154,7 +154,7 @@ std::shared_ptr<HapticScene> withMaterials(const HapticScene& compiled, const Sc
             continue;
         haptic->materials[m] = buildHapticMaterial(scene, after[m], m, at.sets, haptic->warnings,
                                                    {&before[m], &compiled.materials[m]});
-        addProgram(after[m], m, compiled.materials[m].program.get(), *haptic);
+        addProgram(scene, after[m], m, compiled.materials[m].program.get(), *haptic);
     }
     bool sameMeshes = true;
     for (size_t k = 0; k < haptic->objects.size(); ++k) {

@@ -1,6 +1,7 @@
 #include "haptics/scene/scene_programs.h"
 
 #include "engine/core/error.h"
+#include "engine/import/materials/texture_values.h"
 #include "engine/scene/program_frame.h"
 
 #include <algorithm>
@@ -11,18 +12,58 @@
 
 namespace touchstone {
 
-void addProgram(const Material& material, size_t index, const program::FeltProgram* before,
-                HapticScene& haptic) {
+namespace {
+
+/// What the file has of the textures of `felt`; null: nothing. Throws Error where that is damaged.
+std::shared_ptr<const program::StartTextures> startTextures(const Scene& source, const Material& material,
+                                                            const std::string& place,
+                                                            const program::FeltProgram& felt,
+                                                            const program::FeltProgram* before) {
+    const nlohmann::json& shader = material.says.ours.shader;
+    const auto declared = shader.is_object() ? shader.find("persistentTexture") : shader.end();
+    if (felt.texture.width == 0 || declared == shader.end() || !declared->is_object() ||
+        !declared->contains("values"))
+        return nullptr;
+    const nlohmann::json& stated = (*declared)["values"];
+    if (before != nullptr && before->start != nullptr && before->start->size == felt.texture &&
+        before->start->stated == stated)
+        return before->start;
+    auto start = std::make_shared<program::StartTextures>();
+    start->stated = stated;
+    start->size = felt.texture;
+    const LoadOptions options;
+    const ImportContext context(source.path, options);
+    for (TextureValues& object :
+         readTextureValues(context, stated, felt.texture, place + ".persistentTexture.values")) {
+        int surface = 0;
+        for (size_t i = 0; i < source.instances.size(); ++i)
+            if (source.instances[i].node == object.node && surface++ == object.surface)
+                start->values[static_cast<int>(i)] =
+                    std::make_shared<const std::vector<float>>(std::move(object.values));
+    }
+    return start;
+}
+
+} // namespace
+
+void addProgram(const Scene& source, const Material& material, size_t index,
+                const program::FeltProgram* before, HapticScene& haptic) {
     const MaterialProgram& stated = material.haptic.program;
     if (!stated)
         return;
+    const std::string place = "materials[" + std::to_string(index) + "].shader";
     try {
-        haptic.materials[index].program =
-            std::make_shared<const program::FeltProgram>(program::feltProgram(stated, before));
+        program::FeltProgram felt = program::feltProgram(stated, before);
+        try {
+            felt.start = startTextures(source, material, place, felt, before);
+        } catch (const Error& error) {
+            haptic.warnings.push_back(
+                {error.place(), error.problem() + "; " + error.remedy() + "; the texture begins even"});
+        }
+        haptic.materials[index].program = std::make_shared<const program::FeltProgram>(std::move(felt));
     } catch (const Error& error) {
-        haptic.warnings.push_back({"materials[" + std::to_string(index) + "].shader",
-                                   error.file() + ": " + error.place() + ": " + error.problem() + "; " +
-                                       error.remedy() + "; the surface is plain"});
+        haptic.warnings.push_back({place, error.file() + ": " + error.place() + ": " + error.problem() +
+                                              "; " + error.remedy() + "; the surface is plain"});
     }
 }
 
@@ -51,6 +92,14 @@ namespace {
 PersistentTextureSize textureOf(const HapticScene& haptic, const HapticObject& object) {
     const HapticMaterialData& material = haptic.materials[static_cast<size_t>(object.material)];
     return material.program != nullptr ? material.program->texture : PersistentTextureSize{};
+}
+
+std::shared_ptr<const std::vector<float>> startOf(const HapticScene& haptic, const HapticObject& object) {
+    const auto& start = haptic.materials[static_cast<size_t>(object.material)].program->start;
+    if (start == nullptr)
+        return nullptr;
+    const auto found = start->values.find(object.instance);
+    return found != start->values.end() ? found->second : nullptr;
 }
 
 /// A part of a scene has the warnings of the whole.
@@ -103,8 +152,8 @@ std::shared_ptr<PersistentTextures> persistentTextures(const HapticScene& haptic
     std::vector<std::unique_ptr<PersistentTexture>> textures(haptic.texels.size());
     for (size_t k = 0; k < textures.size(); ++k)
         if (haptic.texels[k] != nullptr)
-            textures[k] =
-                std::make_unique<PersistentTexture>(haptic.texels[k], textureOf(haptic, *haptic.objects[k]));
+            textures[k] = std::make_unique<PersistentTexture>(
+                haptic.texels[k], textureOf(haptic, *haptic.objects[k]), startOf(haptic, *haptic.objects[k]));
     return std::make_shared<PersistentTextures>(std::move(textures));
 }
 

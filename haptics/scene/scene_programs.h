@@ -12,9 +12,10 @@
 namespace touchstone {
 
 /// Gives material `index` of `haptic` the program of `material`, with a warning where the executor does not
-/// accept it. `before`: that of the material before an edit; may be null. Not for the servo.
-void addProgram(const Material& material, size_t index, const program::FeltProgram* before,
-                HapticScene& haptic);
+/// accept it, or what the file has of its persistent textures is damaged. `source`: of the instances.
+/// `before`: that of the material before an edit; may be null. Not for the servo.
+void addProgram(const Scene& source, const Material& material, size_t index,
+                const program::FeltProgram* before, HapticScene& haptic);
 
 /// Fills HapticScene::programFromObject where some material has a program. `source`: what it was compiled
 /// from.

@@ -6,10 +6,16 @@
 
 namespace touchstone {
 
-PersistentTexture::PersistentTexture(std::shared_ptr<const TexelMap> map, const PersistentTextureSize& size)
-    : map_(std::move(map)), size_(size), values_(size_t{size.width} * size.height, size.initial),
+PersistentTexture::PersistentTexture(std::shared_ptr<const TexelMap> map, const PersistentTextureSize& size,
+                                     std::shared_ptr<const std::vector<float>> start)
+    : map_(std::move(map)), size_(size), start_(std::move(start)),
+      values_(start_ != nullptr ? *start_
+                                : std::vector<float>(size_t{size.width} * size.height, size.initial)),
       tileRevisions_(tiles(), 0), mean_(static_cast<double>(size.initial)),
-      reached_(std::make_unique<TexelMap::Reached>()) {}
+      reached_(std::make_unique<TexelMap::Reached>()) {
+    if (start_ != nullptr)
+        settle();
+}
 
 double PersistentTexture::at(const glm::dvec2& uv, glm::dvec2* gradient) const noexcept {
     const double width = size_.width, height = size_.height;

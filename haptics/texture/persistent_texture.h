@@ -36,10 +36,13 @@ class PersistentTexture {
   public:
     static constexpr uint32_t kTile = 32; ///< texels along the side of a tile
 
-    PersistentTexture(std::shared_ptr<const TexelMap> map, const PersistentTextureSize& size);
+    /// `start`: the values that it begins with, as many as it has texels; null: the initial one.
+    PersistentTexture(std::shared_ptr<const TexelMap> map, const PersistentTextureSize& size,
+                      std::shared_ptr<const std::vector<float>> start = nullptr);
 
     [[nodiscard]] const std::shared_ptr<const TexelMap>& map() const { return map_; }
     [[nodiscard]] const PersistentTextureSize& size() const { return size_; }
+    [[nodiscard]] const std::shared_ptr<const std::vector<float>>& start() const { return start_; }
     /// Row by row.
     [[nodiscard]] std::span<const float> values() const noexcept { return values_; }
     /// Bilinear, repeating. `gradient` (may be null): by u and v.
@@ -65,7 +68,7 @@ class PersistentTexture {
     [[nodiscard]] std::vector<float> tileValues(uint32_t tile) const;
     /// False where there are not as many, or one is not finite.
     [[nodiscard]] bool setTile(uint32_t tile, std::span<const float> values);
-    /// Every texel has the initial value; every tile counts as changed.
+    /// Every texel has the initial value, whatever it began with; every tile counts as changed.
     void reset();
     /// After setTile and reset: the mean anew.
     void settle();
@@ -75,6 +78,7 @@ class PersistentTexture {
 
     std::shared_ptr<const TexelMap> map_;
     PersistentTextureSize size_;
+    std::shared_ptr<const std::vector<float>> start_;
     std::vector<float> values_;
     std::vector<uint64_t> tileRevisions_;
     uint64_t revision_ = 0;

@@ -15,6 +15,8 @@ void TextureCopy::follow(const std::shared_ptr<PersistentTextures>& servo) {
 std::span<const BrushStroke> TextureCopy::next(uint64_t tick) {
     if (servo_ == nullptr)
         return {};
+    if (!strokes_.empty())
+        copy_->takeTiles(*servo_, strokes_.front().tick);
     copy_->apply(strokes_);
     strokes_.clear();
     BrushStroke stroke;
@@ -27,12 +29,14 @@ std::span<const BrushStroke> TextureCopy::next(uint64_t tick) {
             waiting_ = stroke;
             break;
         }
+        copy_->takeTiles(*servo_, stroke.tick);
         if (stroke.tick == tick)
             strokes_.push_back(stroke);
         else
             copy_->apply({&stroke, 1});
     }
-    lost_ |= servo_->droppedStrokes() > 0;
+    copy_->takeTiles(*servo_, tick);
+    lost_ = copy_->lacks(*servo_);
     return strokes_;
 }
 

@@ -6,6 +6,7 @@
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/material_edits.h"
 #include "workbench/editor/presets.h"
+#include "workbench/editor/texture_fields.h"
 #include "workbench/options/commands.h"
 
 #include <algorithm>
@@ -64,13 +65,40 @@ HapticStatement edited(HapticStatement statement, const Scene& scene, const Edit
     if (const MaterialPreset* preset = findPreset(options.preset))
         statement = withPreset(std::move(statement), *preset);
     for (const std::string& name : options.resetFields)
-        if (!resetHapticField(statement, name))
-            throw Error("--reset-field", "", "'" + name + "' is no parameter of the material's program",
+        if (!isMappingField(name) && !resetHapticField(statement, name))
+            throw Error("--reset-field", "",
+                        isPersistentField(name)
+                            ? "'" + name + "' is nothing that the file says and could be without"
+                            : "'" + name + "' is no parameter of the material's program",
                         "touchstone inspect " + scene.path + " lists them");
     for (const auto& [name, value] : options.fields)
-        if (const std::string problem = setHapticField(statement, scene, name, value); !problem.empty())
+        if (isMappingField(name))
+            continue;
+        else if (const std::string problem = setHapticField(statement, scene, name, value); !problem.empty())
             throw Error("--field", "", problem, "touchstone edit --help");
     return statement;
+}
+
+/// Adds what the fields say of where the material's texture coordinates come from.
+void addMapping(const EditOptions& options, size_t material, MaterialPatches& patches) {
+    const bool any =
+        std::ranges::any_of(options.fields, [](const auto& f) { return isMappingField(f.first); });
+    const bool gone = std::ranges::find(options.resetFields, "textureMapping") != options.resetFields.end();
+    if (!any && !gone)
+        return;
+    const nlohmann::json before = mappingInFile(options.scene, material);
+    nlohmann::json mapping = gone ? nlohmann::json() : before;
+    for (const auto& [name, value] : options.fields)
+        if (isMappingField(name))
+            mapping = withMappingField(std::move(mapping), name, value);
+    if (mapping == before)
+        return;
+    nlohmann::ordered_json patch(mapping);
+    if (before.is_object() && mapping.is_object())
+        for (const auto& [name, value] : before.items())
+            if (!mapping.contains(name))
+                patch[name] = nullptr;
+    patches[material]["textureMapping"] = std::move(patch);
 }
 
 } // namespace
@@ -80,15 +108,19 @@ int editCommand(const EditOptions& options) {
     loading.images = {.visual = false, .haptic = false};
     const ScenePtr scene = loadScene(options.scene, loading);
     MaterialEdits edits(*scene);
-    for (const size_t m : chosenMaterials(*scene, edits.size(), options)) {
+    const std::vector<size_t> chosen = chosenMaterials(*scene, edits.size(), options);
+    for (const size_t m : chosen) {
         edits.change(m, edited(edits.now(m), *scene, options), "edit");
         edits.endGesture();
     }
     const std::filesystem::path target = options.out.empty() ? options.scene : options.out;
-    (void)saveMaterials(options.scene, scene->file, edits.patches(), target);
-    if (!edits.edited())
+    MaterialPatches patches = edits.patches();
+    for (const size_t m : chosen)
+        addMapping(options, m, patches);
+    (void)saveMaterials(options.scene, scene->file, patches, target);
+    if (patches.empty())
         std::printf("%s already says so\n", options.scene.c_str());
-    for (const auto& [index, patch] : edits.patches())
+    for (const auto& [index, patch] : patches)
         std::printf("materials[%zu] %s: %s\n", index, scene->materials[index].name.c_str(),
                     patch.dump().c_str());
     std::printf("saved to %s\n", target.c_str());

@@ -49,6 +49,9 @@ void printEffects(const Json& material) {
             std::printf("      persistent texture of %s x %s texels on %s objects, %s bytes\n",
                         text(texture["width"]).c_str(), text(texture["height"]).c_str(),
                         text(texture["objects"]).c_str(), text(texture["memory_bytes"]).c_str());
+            for (const Json& saved : texture.value("saved", Json::array()))
+                std::printf("        %s begins with %.1f %% left, as it was saved\n",
+                            saved["object"].get<std::string>().c_str(), saved["left_percent"].get<double>());
         }
         for (const auto& [name, value] : program["parameters"].items())
             print("      %s = %s\n", name, value.dump());

@@ -1,6 +1,7 @@
 #include "devices/stroke/stroke_library.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "haptics/scene/scene_programs.h"
 #include "haptics/tick/stepped_hand.h"
 #include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
@@ -121,13 +122,9 @@ int renderCommand(const RenderOptions& options) {
         drawTick(touched.record, {}, touched.look, overlay);
         view.probe = probeShadow(touched.record, {});
         ShownTextures().show(*model.haptic, touched.hand->world.textures().get(), renderer);
-        if (const nlohmann::ordered_json textures =
-                texturesJson(*model.haptic, touched.hand->world.textures().get());
-            !textures.is_null())
-            for (const auto& texture : textures)
-                std::printf("%s: %.1f %% of the texture is left\n",
-                            texture["object"].get<std::string>().c_str(),
-                            100.0 * texture["mean"].get<double>());
+        printCoverage(*model.haptic, touched.hand->world.textures().get());
+    } else {
+        ShownTextures().show(*model.haptic, persistentTextures(*model.haptic).get(), renderer);
     }
     PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);
     if (!label.empty())

@@ -16,6 +16,7 @@
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/stolen_time.h"
+#include "workbench/figures/texture_figures.h"
 #include "workbench/figures/tick_csv.h"
 #include "workbench/figures/tick_statistics.h"
 #include "workbench/files/recording_controller.h"
@@ -231,6 +232,7 @@ struct RunResult {
     RealtimeViolations violations;
     std::optional<double> stolen; // s
     nlohmann::ordered_json sculpt;
+    const PersistentTextures* textures = nullptr; ///< as the servo left them; null: none
 };
 
 nlohmann::ordered_json reportOf(const RunOptions& options, const RunResult& run) {
@@ -261,6 +263,8 @@ nlohmann::ordered_json reportOf(const RunOptions& options, const RunResult& run)
             json["hands"].push_back(handJson(run.hands, run.reader.statistics[hand], hand));
     if (!run.sculpt.is_null())
         json["sculpt"] = run.sculpt;
+    if (run.textures != nullptr)
+        json["persistent_textures"] = texturesJson(*run.model.haptic, run.textures);
     json.update({{"recording", run.controller.json()}, {"gpu", gpuJson(run.gpu)}});
     return json;
 }
@@ -287,6 +291,7 @@ void printResult(const RunResult& run) {
                 static_cast<unsigned long long>(counters.ticks),
                 static_cast<unsigned long long>(counters.missed), run.frames.seconds, contact.c_str(),
                 static_cast<unsigned long long>(run.frames.count));
+    printCoverage(*run.model.haptic, run.textures);
 }
 
 } // namespace
@@ -348,12 +353,17 @@ int runCommand(const RunOptions& options) {
     for (const std::string& message : gpu->validationMessages())
         std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
     reader.commit();
-    const RunResult run{
-        model,           hands,
-        session.servo(), reader,
-        controller,      *gpu,
-        frames,          violations,
-        stolen,          sculpt ? sculpt->json(session, frames.seconds) : nlohmann::ordered_json()};
+    const RunResult run{model,
+                        hands,
+                        session.servo(),
+                        reader,
+                        controller,
+                        *gpu,
+                        frames,
+                        violations,
+                        stolen,
+                        sculpt ? sculpt->json(session, frames.seconds) : nlohmann::ordered_json(),
+                        controller.recorder().textures()};
     if (report) {
         report->write(
             reportOf(options, run).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +

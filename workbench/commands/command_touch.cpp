@@ -20,6 +20,7 @@
 #include "study/timing/clock_cost.h"
 #include "workbench/commands/stroke_outcome.h"
 #include "workbench/commands/touch_sculpt.h"
+#include "workbench/editor/texture_saving.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/figures/texture_figures.h"
 #include "workbench/figures/tick_csv.h"
@@ -505,8 +506,13 @@ int touchCommand(const TouchOptions& options) {
     out.commit();
     if (sculpt)
         sculpt->finish(options.sculpted);
+    if (!options.brushed.empty())
+        (void)saveMaterials(options.scene, model.scene->file,
+                            withTextures({}, texturesToSave(*model.scene, touch.scene(), touch.textures())),
+                            options.brushed);
     std::printf("%zu ticks, %llu in contact, written to %s\n", planned.size(),
                 static_cast<unsigned long long>(statistics.contactTicks()), options.out.c_str());
+    printCoverage(touch.scene(), touch.textures());
     if (stroke) // a user's path may stay in the air
         requireTouch(options.scene, options.stroke, stroke->period(),
                      path->times.back() - path->times.front() + planned.front().dt,

@@ -1,6 +1,7 @@
 #include "workbench/editor/haptic_fields.h"
 
 #include "engine/core/error.h"
+#include "workbench/editor/texture_fields.h"
 
 #include <algorithm>
 #include <array>
@@ -334,6 +335,8 @@ std::string setHapticField(HapticStatement& statement, const Scene& scene, std::
         problem = choiceProblem(*choice, value);
         if (problem.empty())
             choice->set(statement, choiceOf(*choice, value));
+    } else if (isPersistentField(name)) {
+        problem = setPersistentField(statement, name, value);
     } else if (name.starts_with(kParameter)) {
         problem = setParameterField(statement, name.substr(kParameter.size()), value);
     } else {
@@ -343,6 +346,8 @@ std::string setHapticField(HapticStatement& statement, const Scene& scene, std::
 }
 
 bool resetHapticField(HapticStatement& statement, std::string_view name) {
+    if (isPersistentField(name))
+        return resetPersistentField(statement, name);
     if (name.starts_with(kParameter))
         return resetParameterField(statement, name.substr(kParameter.size()));
     if (name == kShader) {
@@ -372,6 +377,8 @@ std::string hapticValueProblem(std::string_view name, std::string_view value) {
         return ofField(name, readNumber(*number, value, ignored));
     if (const ChoiceField* choice = find(kChoices, name))
         return ofField(name, choiceProblem(*choice, value));
+    if (isMappingField(name))
+        return {}; // with what the file says of it
     if (name.starts_with(kParameter))
         return ofField(name, numbersOf(value).empty() ? kNumbersProblem : "");
     return hapticFieldProblem(name);
@@ -404,7 +411,7 @@ std::string hapticFieldHelp() {
         line(field.name, std::string(field.meaning) + ": " + joined(field.choices));
     line("shader.PARAMETER", "a parameter of the material's haptic program: a number, or several with commas "
                              "between them");
-    return text;
+    return text + textureFieldHelp();
 }
 
 } // namespace touchstone

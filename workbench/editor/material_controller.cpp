@@ -8,12 +8,21 @@
 
 namespace touchstone {
 
+void MaterialController::watch(const Model& shown, const PersistentTextures* textures) {
+    textures_.look(textures);
+    shown_ = shown;
+    shownTextures_ = textures;
+}
+
 void MaterialController::open(const Model& model, bool replaceable) {
     live_.discard();
     tell("", false);
     if (saving_.valid())
         finishSaving(); // keeps the notice of a failure
     wanted_.clear();
+    textures_ = {};
+    shown_ = {};
+    shownTextures_ = nullptr;
     edits_ = MaterialEdits(*model.scene);
     programs_.open(*model.scene);
     materials_ = model.scene->materials;
@@ -85,19 +94,29 @@ void MaterialController::startSaving(const std::filesystem::path& target) {
     savingTexts_ = programs_.texts();
     target_ = target;
     tell("", false);
+    TexturesToSave textures;
+    if (shownTextures_ != nullptr)
+        textures = texturesToSave(*shown_.scene, *shown_.haptic, shownTextures_);
+    savingTextures_ = textures_.revision();
+    const bool elsewhere = !inOneFolder(path_, target);
     saving_ = std::async(std::launch::async, [source = path_, stamp = stamp_, patches = edits_.patches(),
-                                              target, programs = programs_.unsavedFiles()] {
-        for (const ProgramEditor::Text& program : programs)
-            replaceFile(program.file,
-                        {reinterpret_cast<const uint8_t*>(program.text.data()), program.text.size()});
-        return saveMaterials(source, stamp, patches, target);
+                                              target, programs = programs_.unsavedFiles(),
+                                              textures = std::move(textures), elsewhere] {
+        if (!elsewhere)
+            for (const ProgramFile& program : programs)
+                replaceFile(program.file,
+                            {reinterpret_cast<const uint8_t*>(program.text.data()), program.text.size()});
+        return saveMaterials(source, stamp, withTextures(patches, textures), target, programs);
     });
 }
 
 void MaterialController::finishSaving() {
     try {
         stamp_ = saving_.get();
+        if (!inOneFolder(path_, target_))
+            programs_.moved(path_.parent_path(), target_.parent_path());
         path_ = target_;
+        textures_.saved(savingTextures_);
         replaceable_ = true;
         edits_.saved(std::move(savingStatements_));
         programs_.saved(savingTexts_);

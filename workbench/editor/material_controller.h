@@ -4,6 +4,7 @@
 #include "workbench/editor/live_materials.h"
 #include "workbench/editor/material_edits.h"
 #include "workbench/editor/program_editor.h"
+#include "workbench/editor/texture_saving.h"
 
 #include <filesystem>
 #include <future>
@@ -19,6 +20,9 @@ class MaterialController {
     /// scenes, nor a format that cannot hold what is felt).
     void open(const Model& model, bool replaceable);
 
+    /// Every frame, before `update`: what touch has made of the textures of `shown`; null: none.
+    void watch(const Model& shown, const PersistentTextures* textures);
+
     /// Every frame: the compiled materials that replace those of `model`, if ready.
     [[nodiscard]] std::optional<MadeMaterials> update(const Model& model);
 
@@ -27,8 +31,9 @@ class MaterialController {
     /// The haptic programs of the file; their edits are saved with those of the materials.
     [[nodiscard]] ProgramEditor& programs() { return programs_; }
     [[nodiscard]] const ProgramEditor& programs() const { return programs_; }
-    /// There are unsaved edits, of materials or programs.
-    [[nodiscard]] bool edited() const { return edits_.edited() || programs_.edited(); }
+    /// There are unsaved edits, of materials or programs, or touch has changed a persistent texture.
+    [[nodiscard]] bool edited() const { return edits_.edited() || programs_.edited() || textures_.changed(); }
+    [[nodiscard]] bool texturesEdited() const { return textures_.changed(); }
     /// Increases with every change of either.
     [[nodiscard]] uint64_t revision() const { return edits_.revision() + programs_.revision(); }
     /// The revision of `edits` that `materials` has.
@@ -65,6 +70,10 @@ class MaterialController {
     uint64_t touched_ = 0, seen_ = 0; // revisions of the haptic and of the rendered scene
     double seconds_ = 0.0;
 
+    TextureWatch textures_;
+    uint64_t savingTextures_ = 0; ///< TextureWatch::revision
+    Model shown_;                 ///< of `watch`, until `update`
+    const PersistentTextures* shownTextures_ = nullptr;
     std::filesystem::path path_, target_, wanted_; ///< wanted_: to be saved to as soon as possible
     FileStamp stamp_;
     bool replaceable_ = true;

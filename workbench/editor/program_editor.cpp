@@ -2,12 +2,11 @@
 
 #include "engine/core/error.h"
 #include "engine/import/file/gltf_uri.h"
+#include "engine/import/materials/gltf_shaders.h"
 #include "engine/time/seconds_now.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -47,16 +46,7 @@ json statedValues(const json& shader) {
 } // namespace
 
 std::string dataUriOf(std::string_view text) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string uri = "data:text/plain;base64,";
-    for (size_t i = 0; i < text.size(); i += 3) {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < text.size() ? static_cast<uint8_t>(text[i + k]) : 0u);
-        for (size_t k = 0; k < 4; ++k)
-            uri += i + k > text.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63u];
-    }
-    return uri;
+    return dataUriOf("text/plain", {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 HapticStatement withProgram(HapticStatement statement, const std::shared_ptr<const SurfaceProgram>& program,
@@ -113,20 +103,11 @@ void ProgramEditor::add(size_t material, const HapticStatement& says, const std:
                   .saved = says.program->text};
     } else {
         // It does not compile, which the import has reported; here it can be corrected.
-        const std::string uri = says.shader.value("source", "");
-        const LoadOptions options;
-        const ImportContext context(model.string(), options);
         try {
-            if (isDataUri(uri)) {
-                const std::vector<uint8_t> bytes = decodeDataUri(context, "source", uri).bytes;
-                source.text.assign(bytes.begin(), bytes.end());
-                source.name = says.shader.value("name", "program");
-            } else if (!uri.empty()) {
-                source.file = resolveUri(context, "source", model.parent_path(), uri);
-                source.name = uri;
-                std::ifstream file(source.file, std::ios::binary);
-                source.text.assign(std::istreambuf_iterator<char>(file), {});
-            }
+            ShaderText stated = readShaderText(model, says.shader);
+            source = {.name = std::move(stated.name),
+                      .file = std::move(stated.file),
+                      .text = std::move(stated.text)};
         } catch (const Error&) {
         }
         if (source.name.empty() || !canBeShown(source.text))
@@ -203,8 +184,8 @@ std::string ProgramEditor::saveProblem() const {
     return {};
 }
 
-std::vector<ProgramEditor::Text> ProgramEditor::unsavedFiles() const {
-    std::vector<Text> files;
+std::vector<ProgramFile> ProgramEditor::unsavedFiles() const {
+    std::vector<ProgramFile> files;
     for (const EditedProgram& each : sources_)
         if (each.edited() && !each.file.empty())
             files.push_back({each.file, each.text});
@@ -223,6 +204,19 @@ void ProgramEditor::saved(const std::vector<std::string>& texts) {
         sources_[s].saved = texts[s];
         sources_[s].overtaken = false;
     }
+}
+
+void ProgramEditor::moved(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::vector<ProgramWorker::Source> known;
+    for (EditedProgram& each : sources_) {
+        if (!each.file.empty())
+            each.file = to / each.file.lexically_relative(from);
+        known.push_back({each.name, each.file, each.saved});
+    }
+    worker_.begin(std::move(known));
+    for (size_t s = 0; s < sources_.size(); ++s)
+        if (sources_[s].compiling)
+            worker_.compile(s, sources_[s].text, secondsNow());
 }
 
 MaterialPatches ProgramEditor::withSources(MaterialPatches patches, const MaterialEdits& edits) const {

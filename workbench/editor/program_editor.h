@@ -65,14 +65,12 @@ class ProgramEditor {
     /// surface plain.
     [[nodiscard]] std::string saveProblem() const;
     /// Texts that are to be written to files of their own.
-    struct Text {
-        std::filesystem::path file{};
-        std::string text{};
-    };
-    [[nodiscard]] std::vector<Text> unsavedFiles() const;
+    [[nodiscard]] std::vector<ProgramFile> unsavedFiles() const;
     /// The files have these texts now.
     [[nodiscard]] std::vector<std::string> texts() const;
     void saved(const std::vector<std::string>& texts);
+    /// The model was saved into another folder, and the files of its programs beside it.
+    void moved(const std::filesystem::path& from, const std::filesystem::path& to);
     /// Increases with every text that is typed.
     [[nodiscard]] uint64_t revision() const { return revision_; }
 

@@ -1,6 +1,7 @@
 #include "workbench/editor/program_worker.h"
 
 #include "engine/core/error.h"
+#include "engine/program/program_compiler.h"
 #include "engine/time/seconds_now.h"
 #include "haptics/program/load_program.h"
 #include "workbench/figures/program_figures.h"
@@ -104,7 +105,9 @@ std::vector<ProgramReport> ProgramWorker::take() {
 }
 
 void ProgramWorker::run() {
+    WaitingCompiler compiler(installedProgramCompiler());
     while (!stop_) {
+        compiler.start(); // the next text is compiled the sooner
         std::optional<Job> job = next();
         if (!job)
             job = changedFile();

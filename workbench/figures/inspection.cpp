@@ -9,12 +9,14 @@
 #include "engine/time/samples.h"
 #include "engine/volume/volume.h"
 #include "haptics/program/felt_program.h"
+#include "haptics/scene/scene_programs.h"
 #include "haptics/servo/realtime_thread.h"
 #include "haptics/shape/field/field_error.h"
 #include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
 #include "workbench/figures/perception_figures.h"
 #include "workbench/figures/program_figures.h"
+#include "workbench/figures/texture_figures.h"
 
 #include <algorithm>
 #include <array>
@@ -103,6 +105,21 @@ Json persistentTextureJson(const HapticScene& haptic, const PersistentTextureSiz
             {"memory_bytes", bytes}};
 }
 
+/// What the file has of the textures of the material's objects.
+Json savedTexturesJson(const HapticScene& haptic, size_t material) {
+    Json saved = Json::array();
+    const std::shared_ptr<PersistentTextures> textures = persistentTextures(haptic);
+    for (const Coverage& coverage : coverageOf(haptic, textures.get())) {
+        const HapticObject& object = *haptic.objects[static_cast<size_t>(coverage.object)];
+        if (object.material == static_cast<int>(material) &&
+            textures->at(coverage.object)->start() != nullptr)
+            saved.push_back({{"object", object.name},
+                             {"left_percent", 100.0 * coverage.left},
+                             {"removed_percent", 100.0 * coverage.removed}});
+    }
+    return saved;
+}
+
 Json programJson(const program::FeltProgram& program, const MaterialProgram& material) {
     Json parameters = Json::object();
     const auto& declared = material.compiled->source.parameters;
@@ -146,6 +163,8 @@ Json materialsJson(const Model& model) {
             if (program->texture.width > 0)
                 json["program"]["persistentTexture"] =
                     persistentTextureJson(*model.haptic, program->texture, m);
+            if (program->start != nullptr)
+                json["program"]["persistentTexture"]["saved"] = savedTexturesJson(*model.haptic, m);
         }
         materials.push_back(std::move(json));
     }

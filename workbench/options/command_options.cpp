@@ -303,6 +303,9 @@ void defineTouch(CLI::App& app, TouchOptions& options) {
                        "Sculpt what is felt as a field: strokes before touch begins, or at their times")
             ->type_name("JOURNAL.json");
     addSculpted(app, options.sculpted)->needs(sculpt);
+    app.add_option("--brushed", options.brushed,
+                   "Save the model with its persistent textures as touch leaves them, as .glb or .gltf")
+        ->type_name("FILE");
     addSettings(app, options.settings);
     addRate(app, options.rateHz,
             "Resample the path at this rate; without it one tick a row (1000 for a stroke)");
@@ -367,7 +370,9 @@ void defineEdit(CLI::App& app, EditOptions& options) {
         ->expected(1)
         ->take_all()
         ->check([](const std::string& name) {
-            return name == "shader" || name.starts_with("shader.") ? std::string() : hapticFieldProblem(name);
+            return name == "shader" || name.starts_with("shader.") || name == "textureMapping"
+                       ? std::string()
+                       : hapticFieldProblem(name);
         });
     addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
                    [&options](std::string_view name, std::string_view value) {

@@ -110,6 +110,7 @@ struct TouchOptions {
     bool loose = false;                          ///< every object is a body (loosen)
     std::filesystem::path sculpt;                ///< a journal; empty: nothing is sculpted
     std::vector<std::filesystem::path> sculpted; ///< .glb and .vdb of the sculpted object, at the end
+    std::filesystem::path brushed; ///< the model with its persistent textures as touch left them; empty: not
 };
 int touchCommand(const TouchOptions& options);
 

@@ -51,7 +51,11 @@ void unsaved(const PanelInput& input, PanelState& state, const WidgetRect& pictu
     if (beginCard("unsaved", picture, 0.5f, 0.5f, widgets, kAnsweredCard)) {
         const float room = roomOf(picture, widgets);
         ImGui::TextUnformatted(
-            brokenLines("The changed materials of " + input.modelName + " are not saved.", room).c_str());
+            brokenLines(input.texturesEdited
+                            ? "What touch has changed on " + input.modelName + " is not saved."
+                            : "The changed materials of " + input.modelName + " are not saved.",
+                        room)
+                .c_str());
         float used = 0.0f;
         const auto answer = [&](const char* label, const char* name, PanelState::Leave choice) {
             const float width = Widgets::buttonWidth(label) + ImGui::GetStyle().ItemSpacing.x;

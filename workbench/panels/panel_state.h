@@ -29,6 +29,7 @@ namespace touchstone {
 
 class FileDialog;
 class HapticScene;
+class PersistentTextures; // haptics/texture/persistent_textures.h
 
 /// Input of the panels.
 struct PanelInput {
@@ -60,8 +61,11 @@ struct PanelInput {
     std::string loadName; ///< of the file
     double loadFraction = 0.0;
     std::string loadActivity;
-    bool canSimulate = false; ///< there is a path for the simulated hand
-    std::string strokeNotice; ///< the stroke is being laid, or why it cannot be; empty: no message
+    /// What touch has made of the persistent textures of `haptic`; null: none.
+    const PersistentTextures* textures = nullptr;
+    bool texturesEdited = false; ///< touch has changed some since they were saved
+    bool canSimulate = false;    ///< there is a path for the simulated hand
+    std::string strokeNotice;    ///< the stroke is being laid, or why it cannot be; empty: no message
     std::vector<DeviceOffer> devices;
     std::string deviceStatus; ///< where the chosen device is, or its problem
     SoundStatus sound;

@@ -18,6 +18,10 @@ namespace {
 
 constexpr ImU32 kWrongLine = IM_COL32(96, 38, 34, 255), kLineNumber = IM_COL32(120, 126, 133, 255);
 
+constexpr const char* kSpace =
+    "Space types a space and switches the force off (Force in the bar gives it back); "
+    "Tab leaves it on.";
+
 size_t linesOf(std::string_view text) {
     return static_cast<size_t>(std::ranges::count(text, '\n')) + 1;
 }
@@ -147,6 +151,8 @@ void drawProgramWindow(const WidgetRect& picture, ProgramEditor& programs, Progr
             widgets.wrapped(costText(program.cost), ImGui::GetColorU32(ImGuiCol_TextDisabled));
         }
         outcome(program, widgets);
+        widgets.wrapped(kSpace, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+        widgets.mark("program.space", kSpace);
         if (program.edited() || program.overtaken)
             if (widgets.button("program.revert", "Revert"))
                 programs.revert(state.source);

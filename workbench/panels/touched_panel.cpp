@@ -1,5 +1,6 @@
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
+#include "workbench/figures/texture_figures.h"
 #include "workbench/panels/panels.h"
 #include "workbench/readings/active_effects.h"
 
@@ -40,6 +41,19 @@ void figures(const HapticMaterialData& material, const Widgets& widgets) {
         row(widgets, "viscous", "%.2f N s/m", material.viscousFriction);
 }
 
+/// Of the touched object; in the air of each one of the material.
+void coverage(const PanelInput& input, int material, Widgets& widgets) {
+    const int touched = input.tick->output.object;
+    for (const Coverage& each : coverageOf(*input.haptic, input.textures)) {
+        const HapticObject& object = *input.haptic->objects[static_cast<size_t>(each.object)];
+        if (touched >= 0 ? each.object != touched : object.material != material)
+            continue;
+        const std::string text = coverageText(each);
+        widgets.wrapped(text, ImGui::GetColorU32(ImGuiCol_Text));
+        widgets.mark("coverage", text);
+    }
+}
+
 /// Effects with their reasons beneath; reasons of those that the scene does not call for as tooltips.
 void effects(const std::vector<ActiveEffect>& effects, Widgets& widgets) {
     using State = ActiveEffect::State;
@@ -74,6 +88,7 @@ void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets) {
     ImGui::TextUnformatted(name.empty() ? "without a name" : name.c_str());
     widgets.mark("material");
     figures(input.haptic->materials[at], widgets);
+    coverage(input, index, widgets);
     effects(activeEffects(input.haptic->plan, index, state.settings), widgets);
 }
 

@@ -152,6 +152,20 @@ DataUri decodeDataUri(const ImportContext& context, const std::string& place, st
     return data;
 }
 
+std::string dataUriOf(std::string_view mediaType, std::span<const uint8_t> bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string uri = "data:" + std::string(mediaType) + ";base64,";
+    uri.reserve(uri.size() + (bytes.size() + 2) / 3 * 4);
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (i + k < bytes.size() ? uint32_t{bytes[i + k]} : 0u);
+        for (size_t k = 0; k < 4; ++k)
+            uri += i + k > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63u];
+    }
+    return uri;
+}
+
 std::filesystem::path resolveUri(const ImportContext& context, const std::string& place,
                                  const std::filesystem::path& folder, std::string_view uri) {
     const auto refuse = [&](const std::string& why) {

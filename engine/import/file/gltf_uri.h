@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ struct DataUri {
 /// Decodes `data:[type][;parameter=value]*[;base64],payload`. Throws Error at `place` when malformed.
 [[nodiscard]] DataUri decodeDataUri(const ImportContext& context, const std::string& place,
                                     std::string_view uri);
+
+/// `data:` URI of bytes, base64.
+[[nodiscard]] std::string dataUriOf(std::string_view mediaType, std::span<const uint8_t> bytes);
 
 /// The file of a relative URI, inside `folder`. Percent-escapes are decoded first and the result is checked:
 /// absolute paths, `..`, schemes and NUL are refused with Error. `\` counts as a separator, because exporters

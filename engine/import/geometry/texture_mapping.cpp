@@ -141,6 +141,37 @@ glm::dquat rotationOf(const ImportContext& context, const json& object, const st
 
 } // namespace
 
+TextureMapping readTextureMapping(ImportContext& context, const json& stated, const std::string& place) {
+    if (!stated.is_object())
+        context.fail(place, "should be an object", "give its surface: plane, cylinder, sphere or box");
+    static constexpr std::array<std::pair<const char*, Surface>, 4> kSurfaces = {
+        {{"plane", Surface::Plane},
+         {"cylinder", Surface::Cylinder},
+         {"sphere", Surface::Sphere},
+         {"box", Surface::Box}}};
+    static constexpr std::array<std::pair<const char*, Ray>, 2> kRays = {
+        {{"position", Ray::Position}, {"normal", Ray::Normal}}};
+    TextureMapping mapping;
+    mapping.surface = choiceField(context, stated, "surface", place, kSurfaces).value_or(mapping.surface);
+    mapping.ray = choiceField(context, stated, "by", place, kRays).value_or(mapping.ray);
+    if (const std::optional<glm::vec2> repeat = pairField(context, stated, "repeat", place))
+        mapping.repeat = glm::dvec2(*repeat);
+    const bool round = mapping.surface == Surface::Cylinder || mapping.surface == Surface::Sphere;
+    if (!(glm::all(glm::greaterThan(glm::abs(mapping.repeat), glm::dvec2(1e-3))) &&
+          glm::all(glm::lessThan(glm::abs(mapping.repeat), glm::dvec2(1e4)))) ||
+        (round && mapping.repeat.x != std::round(mapping.repeat.x)))
+        context.fail(place + ".repeat",
+                     "cannot be: from 0.001 to 10000, around a cylinder or sphere a whole number",
+                     "[1, 1] shows the image once");
+    mapping.rotation = rotationOf(context, stated, place);
+    for (const auto& [name, value] : stated.items())
+        if (constexpr std::array<std::string_view, 6> kKnown{"surface", "by", "repeat", "rotation",
+                                                             "extensions", "extras"};
+            std::ranges::find(kKnown, std::string_view(name)) == kKnown.end())
+            context.warn(place + "." + name.substr(0, 40), "is not a known field; felt without it");
+    return mapping;
+}
+
 std::optional<TextureMapping> readTextureMapping(ImportContext& context, const GltfDocument& document,
                                                  int material, std::string& place) {
     constexpr const char* kOurs = "TOUCHSTONE_materials_haptic";
@@ -153,34 +184,7 @@ std::optional<TextureMapping> readTextureMapping(ImportContext& context, const G
     if (ours == nullptr || found == ours->end())
         return std::nullopt;
     place = owner + ".extensions." + kOurs + ".textureMapping";
-    if (!found->is_object())
-        context.fail(place, "should be an object", "give its surface: plane, cylinder, sphere or box");
-    static constexpr std::array<std::pair<const char*, Surface>, 4> kSurfaces = {
-        {{"plane", Surface::Plane},
-         {"cylinder", Surface::Cylinder},
-         {"sphere", Surface::Sphere},
-         {"box", Surface::Box}}};
-    static constexpr std::array<std::pair<const char*, Ray>, 2> kRays = {
-        {{"position", Ray::Position}, {"normal", Ray::Normal}}};
-    TextureMapping mapping;
-    mapping.surface = choiceField(context, *found, "surface", place, kSurfaces).value_or(mapping.surface);
-    mapping.ray = choiceField(context, *found, "by", place, kRays).value_or(mapping.ray);
-    if (const std::optional<glm::vec2> repeat = pairField(context, *found, "repeat", place))
-        mapping.repeat = glm::dvec2(*repeat);
-    const bool round = mapping.surface == Surface::Cylinder || mapping.surface == Surface::Sphere;
-    if (!(glm::all(glm::greaterThan(glm::abs(mapping.repeat), glm::dvec2(1e-3))) &&
-          glm::all(glm::lessThan(glm::abs(mapping.repeat), glm::dvec2(1e4)))) ||
-        (round && mapping.repeat.x != std::round(mapping.repeat.x)))
-        context.fail(place + ".repeat",
-                     "cannot be: from 0.001 to 10000, around a cylinder or sphere a whole number",
-                     "[1, 1] shows the image once");
-    mapping.rotation = rotationOf(context, *found, place);
-    for (const auto& [name, value] : found->items())
-        if (constexpr std::array<std::string_view, 6> kKnown{"surface", "by", "repeat", "rotation",
-                                                             "extensions", "extras"};
-            std::ranges::find(kKnown, std::string_view(name)) == kKnown.end())
-            context.warn(place + "." + name.substr(0, 40), "is not a known field; felt without it");
-    return mapping;
+    return readTextureMapping(context, *found, place);
 }
 
 size_t mapTexture(const TextureMapping& mapping, Mesh& mesh) {

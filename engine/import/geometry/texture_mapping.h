@@ -36,6 +36,10 @@ struct TextureMapping {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
 };
 
+/// `textureMapping` as `place` of a file states it. Throws ImportError where it is wrong.
+[[nodiscard]] TextureMapping readTextureMapping(ImportContext& context, const nlohmann::json& stated,
+                                                const std::string& place);
+
 /// That of a material; empty where it has none. Throws ImportError where it is wrong.
 [[nodiscard]] std::optional<TextureMapping>
 readTextureMapping(ImportContext& context, const GltfDocument& document, int material, std::string& place);

@@ -1,6 +1,8 @@
 #include "engine/import/materials/gltf_shaders.h"
 
+#include "engine/import/file/gltf_schema.h"
 #include "engine/import/file/gltf_uri.h"
+#include "engine/import/file/gltf_validation.h"
 #include "engine/import/file/json_fields.h"
 
 #include <system_error>
@@ -44,7 +46,7 @@ std::string message(const Error& error) {
 
 } // namespace
 
-ShaderReader::Text ShaderReader::textOf(const json& shader, const std::string& place) const {
+ShaderText ShaderReader::textOf(const json& shader, const std::string& place) const {
     std::string inside = shader.contains("name") && shader["name"].is_string()
                              ? shader["name"].get<std::string>().substr(0, 100)
                              : std::string("program of " + place.substr(0, place.find('.')));
@@ -83,7 +85,7 @@ const ShaderReader::Outcome& ShaderReader::compiled(const json& shader, const st
                     "share them between materials");
     Outcome outcome;
     try {
-        const Text text = textOf(shader, place);
+        const ShaderText text = textOf(shader, place);
         outcome.program = compileSurfaceProgram(text.name, text.text, text.file, [this] {
             const auto* cancel = context_.options().cancel;
             return cancel != nullptr && cancel->load();
@@ -93,6 +95,17 @@ const ShaderReader::Outcome& ShaderReader::compiled(const json& shader, const st
         outcome.flaw = message(error);
     }
     return outcomes_.emplace(key, std::move(outcome)).first->second;
+}
+
+ShaderText readShaderText(const std::filesystem::path& path, const json& shader) {
+    const LoadOptions options;
+    ImportContext context(path.string(), options);
+    checkShape(context, shader, "shader");
+    GltfFile file = readGltfFile(context, path);
+    checkSchema(context, file.json);
+    validateGltf(context, file.json);
+    const GltfDocument document = makeDocument(context, file);
+    return ShaderReader(context, document).textOf(shader, "shader");
 }
 
 void ShaderReader::read(const json& shader, const std::string& place, HapticStatement& ours) {

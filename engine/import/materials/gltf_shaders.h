@@ -16,6 +16,16 @@ namespace touchstone {
 /// Sources that one file may have: each takes a process of its own for 0.14 s.
 inline constexpr size_t kMaxFilePrograms = 64;
 
+/// A source as it is stated.
+struct ShaderText {
+    std::string name, text;
+    std::filesystem::path file; ///< empty: it is inside the model's file
+};
+
+/// The source of `shader` in the model at `path`, which is read again; not compiled. Throws Error where there
+/// is none.
+[[nodiscard]] ShaderText readShaderText(const std::filesystem::path& path, const nlohmann::json& shader);
+
 /// Reads and compiles them, each source once. One import, one thread.
 class ShaderReader {
   public:
@@ -27,12 +37,9 @@ class ShaderReader {
     /// parameters) costs a warning, and the surface is plain.
     void read(const nlohmann::json& shader, const std::string& place, HapticStatement& ours);
 
+    [[nodiscard]] ShaderText textOf(const nlohmann::json& shader, const std::string& place) const;
+
   private:
-    struct Text {
-        std::string name, text;
-        std::filesystem::path file;
-    };
-    [[nodiscard]] Text textOf(const nlohmann::json& shader, const std::string& place) const;
     struct Outcome {
         std::shared_ptr<const SurfaceProgram> program; ///< null: it has a flaw
         std::string flaw;

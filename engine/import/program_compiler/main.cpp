@@ -16,7 +16,9 @@
 #include <spirv-tools/optimizer.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <new>
 #include <span>
@@ -63,6 +65,14 @@ TBuiltInResource limits() {
     return resources;
 }
 
+constexpr auto kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgDebugInfo);
+
+void setTarget(glslang::TShader& shader) {
+    shader.setEnvInput(glslang::EShSourceGlsl, EShLangVertex, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_0);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+}
+
 std::vector<uint32_t> compile(const std::string& name, const std::string& parameters,
                               const std::string& source) {
     // Programs that do not name the persistent texture have no input and output for it.
@@ -80,15 +90,12 @@ std::vector<uint32_t> compile(const std::string& name, const std::string& parame
     const TBuiltInResource resources = limits();
     glslang::TShader shader(EShLangVertex);
     shader.setStringsWithLengthsAndNames(starts.data(), lengths.data(), names.data(), texts.size());
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangVertex, glslang::EShClientVulkan, 100);
-    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_0);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgDebugInfo);
-    if (!shader.parse(&resources, 450, ECoreProfile, false, true, messages))
+    setTarget(shader);
+    if (!shader.parse(&resources, 450, ECoreProfile, false, true, kMessages))
         throw std::runtime_error(shader.getInfoLog());
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(messages))
+    if (!program.link(kMessages))
         throw std::runtime_error(std::string(shader.getInfoLog()) + program.getInfoLog());
     glslang::SpvOptions options;
     options.generateDebugInfo = true;
@@ -132,11 +139,46 @@ std::vector<uint32_t> inlined(const std::vector<uint32_t>& words) {
     return result;
 }
 
-void work() {
-    std::span<const uint8_t> input = standardInput();
+/// What glslang makes once for all programs, nine tenths of the time.
+void prepare() {
+    const TBuiltInResource resources = limits();
+    glslang::TShader shader(EShLangVertex);
+    const char* const nothing = "#version 450\nvoid main() {}\n";
+    shader.setStrings(&nothing, 1);
+    setTarget(shader);
+    (void)shader.parse(&resources, 450, ECoreProfile, false, true, kMessages);
+}
+
+/// To its end: of a compiler that was started before there was anything to compile.
+std::vector<uint8_t> awaitedInput() {
+    std::vector<uint8_t> bytes;
+    for (;;) {
+        constexpr size_t kPart = 65536;
+        const size_t before = bytes.size();
+        bytes.resize(before + kPart);
+        const ssize_t got = read(STDIN_FILENO, bytes.data() + before, kPart);
+        if (got < 0 && errno != EINTR)
+            throw std::runtime_error("the input cannot be read");
+        bytes.resize(before + static_cast<size_t>(std::max<ssize_t>(got, 0)));
+        if (got == 0)
+            return bytes;
+    }
+}
+
+void work(bool waits) {
     glslang::InitializeProcess();
+    if (waits)
+        prepare();
+    std::vector<uint8_t> awaited;
+    std::span<const uint8_t> input;
+    if (!waits)
+        input = standardInput();
     if (!enterSandbox())
         throw std::runtime_error("this system offers no sandbox (seccomp) to compile in");
+    if (waits) {
+        awaited = awaitedInput();
+        input = awaited;
+    }
     const std::string name = take(input), parameters = take(input), source = take(input);
     const std::vector<uint32_t> words = inlined(compile(name, parameters, source));
     writeOutput(words.data(), 4 * words.size());
@@ -146,9 +188,10 @@ void work() {
 } // namespace
 } // namespace touchstone
 
-int main() {
+/// --wait: gets ready, and then waits for its input to end.
+int main(int count, char** words) {
     try {
-        touchstone::work();
+        touchstone::work(count > 1 && std::string_view(words[1]) == "--wait");
     } catch (const std::bad_alloc&) {
         touchstone::endWith(1, "ERROR: it needs more memory than it may have");
     } catch (const std::exception& error) {

@@ -165,7 +165,8 @@ constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retarda
     "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
     "representation": "implicit", "voxelSize": 0.001, "fieldError": 0.0001, "shader": {"source":
     "data:text/plain,parameter%20float%20a%20%3D%201%3B%20//%200..2%0Avoid%20touch(const%20in%20Touch%20before%2C%20inout%20Surface%20after)%20%7B%20after.damping%20%3D%20a%3B%20%7D%0A",
-    "parameters": {"a": 1}, "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5}},
+    "parameters": {"a": 1}, "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5,
+    "values": [{"node": 0, "surface": 0, "data": "data:application/zlib;base64,eJxjYGCwZ8CCARBWAXs="}]}},
     "textureMapping": {"surface": "cylinder", "by": "normal", "repeat": [2, 0.5], "rotation": [0, 0, 0, 1]},
     "sides": "front", "extras": 3})";
 constexpr const char* kWrong[] = {
@@ -208,6 +209,7 @@ constexpr const char* kWrong[] = {
     R"({"shader": {"bufferView": -1}})",
     R"({"shader": {"source": "a", "persistentTexture": {"width": 2}}})",
     R"({"shader": {"source": "a", "persistentTexture": {"width": 2, "height": 4096}}})",
+    R"({"shader": {"source": "a", "persistentTexture": {"width": 2, "height": 2, "values": [{"node": 0}]}}})",
     R"({"shader": {"source": "wood.glsl", "parameters": 3}})",
     R"({"shader": {"source": "wood.glsl", "language": "c"}})",
     R"({"friction": 0.5})",

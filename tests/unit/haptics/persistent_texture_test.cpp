@@ -1,7 +1,9 @@
 // Persistent textures [003]: where texels lie, what a brush changes, and the plaque of the paper in the tick.
 
+#include "engine/import/materials/texture_values.h"
 #include "engine/program/surface_program.h"
 #include "haptics/scene/scene_programs.h"
+#include "haptics/texture/texture_copy.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/test_shapes.h"
 #include "tests/support/touch_bench.h"
@@ -381,6 +383,109 @@ TEST(Plaque, StrokesOfTheServoMakeTheSameCopy) {
                  [&](const HapticOutput&) { copy->apply(bench.world.textures()->strokes()); });
     EXPECT_TRUE(std::ranges::equal(copy->at(0)->values(), bench.world.textures()->at(0)->values()));
     EXPECT_LT(copy->at(0)->mean(), 1.0);
+}
+
+TEST(TextureCopy, ReadersThatAreTooLateGetTheTextureAnewTileByTile) {
+    TouchBench bench(planeOf(kPlaque, sized(100, 70))); // 4 x 3 tiles, the outer ones smaller
+    const std::shared_ptr<PersistentTextures> servo = bench.world.textures();
+    servo->keepStrokes();
+    TextureCopy copy;
+    copy.follow(servo);
+    uint64_t tick = 0;
+    const auto touch = [&] {
+        const double turn = 1e-3 * static_cast<double>(tick);
+        servo->queue({.point = {0.03 * std::sin(turn), 0.03 * std::sin(1.7 * turn), 0.0},
+                      .radius = kBrush,
+                      .change = -1e-9 * (1.0 + static_cast<double>(tick % 7))});
+        const uint64_t allocations = allocationsOnThisThread();
+        servo->applyQueued();
+        servo->publishStrokes(++tick);
+        EXPECT_EQ(allocationsOnThisThread(), allocations);
+    };
+    for (int i = 0; i < 100; ++i)
+        touch();
+    (void)copy.next(tick + 1);
+    ASSERT_NE(copy.state(), nullptr);
+    // Nobody asks for longer than strokes are kept.
+    while (servo->droppedStrokes() == 0)
+        touch();
+    EXPECT_EQ(tick, 100u + (1u << 14) + 1u);
+    (void)copy.next(tick);
+    EXPECT_EQ(copy.state(), nullptr) << "what is lost is known to be lost";
+    const uint64_t asked = tick;
+    while (copy.state() == nullptr && tick < asked + 1000) {
+        touch();
+        (void)copy.next(tick);
+    }
+    ASSERT_NE(copy.state(), nullptr);
+    EXPECT_LE(tick - asked, 2u * 12u + 2u) << "one tile a tick";
+    for (int i = 0; i < 500; ++i) {
+        touch();
+        (void)copy.next(tick);
+    }
+    (void)copy.next(tick + 1);
+    EXPECT_TRUE(std::ranges::equal(copy.state()->at(0)->values(), servo->at(0)->values()));
+    EXPECT_NEAR(copy.state()->at(0)->mean(), servo->at(0)->mean(), 1e-9);
+    // A second time, and again while it is being made up for.
+    const uint64_t second = servo->droppedStrokes();
+    while (servo->droppedStrokes() == second)
+        touch();
+    for (int i = 0; i < 5; ++i)
+        touch();
+    (void)copy.next(tick);
+    EXPECT_EQ(copy.state(), nullptr);
+    for (int i = 0; i < 100; ++i) {
+        touch();
+        (void)copy.next(tick);
+    }
+    (void)copy.next(tick + 1);
+    ASSERT_NE(copy.state(), nullptr);
+    EXPECT_TRUE(std::ranges::equal(copy.state()->at(0)->values(), servo->at(0)->values()));
+}
+
+TEST(SavedTexture, TouchBeginsWithTheValuesOfTheFileAndASavedSessionGoesOn) {
+    const json texture = sized(64, 64);
+    TouchBench first(planeOf(kPlaque, texture));
+    first.step({-0.02, 0.0, 0.002});
+    first.moveTo({-0.02, 0.0, -kDepth}, 0.05);
+    first.moveTo({0.02, 0.01, -kDepth}, 0.05);
+    const PersistentTexture& left = *first.world.textures()->at(0);
+    ASSERT_LT(left.mean(), 1.0);
+    const TextureValues values[] = {{0, 0, {left.values().begin(), left.values().end()}}};
+
+    Scene scene = planeOf(kPlaque, texture);
+    scene.instances[0].node = 0;
+    json shader = static_cast<const json&>(scene.materials[0].says.ours.shader);
+    shader["persistentTexture"]["values"] = jsonOf(values);
+    scene.materials[0].says.ours.shader = KeptJson(shader);
+    TouchBench second(scene);
+    EXPECT_TRUE(second.scene->warnings.empty());
+    const PersistentTexture& begun = *second.world.textures()->at(0);
+    EXPECT_TRUE(std::ranges::equal(begun.values(), left.values())) << "bit for bit";
+    EXPECT_NEAR(begun.mean(), left.mean(), 1e-9);
+    const auto copy = second.world.textures()->fresh();
+    EXPECT_TRUE(std::ranges::equal(copy->at(0)->values(), left.values())) << "copies begin alike";
+    second.world.textures()->reset();
+    EXPECT_EQ(second.world.textures()->at(0)->mean(), 1.0) << "a replay knows how the recording began";
+    // Another size, or damaged: told, and even.
+    for (const char* wrong : {"size", "data", "uri", "shape"}) {
+        json bad = shader;
+        if (wrong == std::string("size"))
+            bad["persistentTexture"]["width"] = 32;
+        if (wrong == std::string("data"))
+            bad["persistentTexture"]["values"][0]["data"] = "data:application/zlib;base64,AAAA";
+        if (wrong == std::string("uri"))
+            bad["persistentTexture"]["values"][0]["data"] = "values.bin";
+        if (wrong == std::string("shape"))
+            bad["persistentTexture"]["values"] = 3;
+        scene.materials[0].says.ours.shader = KeptJson(bad);
+        scene.materials[0].haptic.program = materialProgram(scene.materials[0].says.ours.program, bad);
+        TouchBench bench(scene);
+        ASSERT_FALSE(bench.scene->warnings.empty()) << wrong;
+        EXPECT_NE(bench.scene->warnings[0].place.find("persistentTexture.values"), std::string::npos)
+            << bench.scene->warnings[0].place;
+        EXPECT_EQ(bench.world.textures()->at(0)->mean(), 1.0);
+    }
 }
 
 } // namespace

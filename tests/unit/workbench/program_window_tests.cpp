@@ -151,6 +151,8 @@ TEST_F(ProgramWindow, TextIsTypedParametersAreDraggedAndBothAreKeptOnSave) {
     const Json typed = untilFeltAndSeen(1);
     std::printf("last key to felt %.3f s, to seen %.3f s\n", programOf(typed)["felt_after_s"].get<double>(),
                 programOf(typed)["seen_after_s"].get<double>());
+    EXPECT_NE(typed["widgets"]["program.space"].dump().find("Space types a space"), std::string::npos)
+        << "the window says what Space does";
     // Space takes the force away wherever it is typed; it is given back by a click.
     until("no force", [](const Json& s) { return s["settings"]["forceEnabled"] == "off"; });
     later();
@@ -184,6 +186,29 @@ TEST_F(ProgramWindow, TextIsTypedParametersAreDraggedAndBothAreKeptOnSave) {
     EXPECT_NE(bytes.find(base64({text.begin(), text.end()})), std::string::npos)
         << "the text is in the model";
     EXPECT_NE(bytes.find("\"share\":"), std::string::npos) << "and the value";
+}
+
+TEST_F(ProgramWindow, CoverageIsSaidInPercentAndWhatIsWornOffIsSaved) {
+    const std::string text =
+        "void touch(const in Touch before, inout Surface after) {\n"
+        "    after.persistentChange = -1e-2 * length(before.force);\n"
+        "    after.brush = 0.05;\n    after.colour = vec3(before.persistent, 0.0, 0.0);\n}\n";
+    openSquare({{"source", "data:text/plain;base64," + base64({text.begin(), text.end()})},
+                {"name", "wear.glsl"},
+                {"persistentTexture", {{"width", 64}, {"height", 64}}}});
+    const Json worn = until("something to be worn off", [](const Json& s) {
+        const auto said = s["widgets"].find("coverage");
+        return said != s["widgets"].end() && said->dump().find("coverage") != std::string::npos &&
+               said->dump().find("100.0 %") == std::string::npos;
+    });
+    EXPECT_NE(worn["widgets"]["coverage"].dump().find("% removed"), std::string::npos);
+    EXPECT_TRUE(worn["materials"]["edited"].get<bool>()) << "it is not saved";
+    display_.key("ctrl+s");
+    until("it to be saved",
+          [&](const Json& s) { return s["materials"]["notice"] == "saved to " + model_.string(); });
+    const ProgramResult saved = runProgram({TOUCHSTONE_BINARY, "inspect", model_.string()});
+    EXPECT_EQ(saved.status, 0) << saved.err;
+    EXPECT_NE(saved.out.find("% left, as it was saved"), std::string::npos) << saved.out;
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "engine/time/seconds_now.h"
 #include "haptics/recording/scene_identity.h"
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/scene/scene_programs.h"
 #include "tests/support/gltf_maker.h"
 #include "tests/support/program.h"
 #include "workbench/editor/haptic_fields.h"
@@ -14,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -273,6 +275,114 @@ TEST_F(EditedPrograms, TheirCostIsMeasuredOnRequestAndAnewForEachProgram) {
         return program().cost.instructions > 0;
     });
     EXPECT_GT(program().cost.instructions, before);
+}
+
+TEST_F(EditedPrograms, AProgramInABufferViewThatDoesNotCompileCanBeCorrected) {
+    GltfMaker maker = GltfMaker::square();
+    const size_t begin = (maker.bytes.size() + 3) / 4 * 4;
+    maker.bytes.resize(begin);
+    maker.bytes.insert(maker.bytes.end(), kBroken.begin(), kBroken.end());
+    const size_t view =
+        maker.append("bufferViews", {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", kBroken.size()}});
+    maker.json["extensionsUsed"] = {"TOUCHSTONE_materials_haptic"};
+    nlohmann::json material = nlohmann::json::object();
+    material["extensions"]["TOUCHSTONE_materials_haptic"]["shader"] = {{"bufferView", view},
+                                                                       {"name", "inside.glsl"}};
+    maker.json["materials"] = {material};
+    maker.primitive()["material"] = 0;
+    writeFile(path_, maker.glb());
+    openAgain();
+    settle();
+    ASSERT_EQ(controller_.programs().sources().size(), 1u);
+    EXPECT_EQ(program().name, "inside.glsl");
+    EXPECT_EQ(program().text, kBroken);
+    EXPECT_EQ(program().line, 4u) << program().problem;
+    type(kSecond);
+    EXPECT_EQ(felt(), kSecond);
+    controller_.save();
+    settle();
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
+    const ScenePtr saved = loadScene(path_);
+    ASSERT_NE(saved->materials[0].says.ours.program, nullptr);
+    EXPECT_EQ(saved->materials[0].says.ours.program->text, kSecond);
+}
+
+TEST_F(EditedPrograms, AModelThatIsSavedElsewhereTakesItsProgramAlong) {
+    openFile(kFirst);
+    const std::filesystem::path other = folder_ / "other";
+    std::filesystem::create_directories(other);
+    type(kSecond);
+    controller_.saveAs(other / "copy.glb");
+    settle();
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
+    EXPECT_EQ(readFile(other / "p.glsl"), kSecond) << "as it is felt";
+    EXPECT_EQ(readFile(file_), kFirst) << "the first model's is what it was";
+    const ScenePtr copy = loadScene(other / "copy.glb");
+    ASSERT_NE(copy->materials[0].says.ours.program, nullptr);
+    EXPECT_EQ(copy->materials[0].says.ours.program->text, kSecond);
+    // From now on the editor is about the new file.
+    EXPECT_FALSE(controller_.edited());
+    type(source("0.9"));
+    controller_.save();
+    settle();
+    EXPECT_EQ(readFile(other / "p.glsl"), source("0.9"));
+    EXPECT_EQ(readFile(file_), kFirst);
+    writeTextFile(other / "p.glsl", source("0.8"));
+    until("the new file's", [&] { return felt() == source("0.8"); });
+    // Another program of that name is not replaced.
+    const std::filesystem::path third = folder_ / "third";
+    std::filesystem::create_directories(third);
+    writeTextFile(third / "p.glsl", "somebody's");
+    controller_.saveAs(third / "copy.glb");
+    settle();
+    EXPECT_TRUE(controller_.failed());
+    EXPECT_NE(controller_.notice().find("p.glsl"), std::string::npos) << controller_.notice();
+    EXPECT_EQ(readFile(third / "p.glsl"), "somebody's");
+    EXPECT_FALSE(std::filesystem::exists(third / "copy.glb"));
+}
+
+TEST_F(EditedPrograms, WhatTouchMadeOfATextureIsUnsavedUntilItIsSavedAndBeginsTheNextSession) {
+    std::string wear = kFirst;
+    wear.replace(wear.find("after.static"), 0, "after.persistentChange = -before.persistent; ");
+    open({{"source", dataUriOf(wear)},
+          {"name", "wear.glsl"},
+          {"persistentTexture", {{"width", 40}, {"height", 33}}}});
+    const std::shared_ptr<PersistentTextures> textures = persistentTextures(*model_.haptic);
+    ASSERT_NE(textures, nullptr);
+    const auto frame = [&] { controller_.watch(model_, textures.get()); };
+    frame();
+    EXPECT_FALSE(controller_.edited());
+    // As a contact near the first corner makes it, whatever its object's frame is.
+    const Mesh& mesh = model_.scene->meshes[0];
+    BrushStroke stroke;
+    stroke.point = glm::dvec3(mesh.positions[0]);
+    stroke.normal = glm::dvec3(mesh.normals[0]);
+    stroke.radius = 0.1;
+    stroke.change = -1e-3;
+    textures->queue(stroke);
+    textures->applyQueued();
+    ASSERT_LT(textures->at(0)->mean(), 1.0);
+    frame();
+    EXPECT_TRUE(controller_.edited());
+    EXPECT_TRUE(controller_.texturesEdited());
+    controller_.save();
+    settle();
+    EXPECT_FALSE(controller_.failed()) << controller_.notice();
+    frame();
+    EXPECT_FALSE(controller_.edited());
+    const auto textureNow = [&] {
+        const ScenePtr scene = loadScene(path_);
+        return persistentTextures(*compileHapticScene(*scene, workspaceFromScene(*scene, Fit::Workspace)));
+    };
+    EXPECT_TRUE(std::ranges::equal(textureNow()->at(0)->values(), textures->at(0)->values()));
+    // An edit of another field leaves them in the file.
+    openAgain();
+    HapticStatement next = controller_.edits().now(0);
+    ASSERT_EQ(setHapticField(next, *model_.scene, "shader.rings", "70"), "");
+    controller_.edits().change(0, next, "rings");
+    controller_.save();
+    settle();
+    EXPECT_TRUE(std::ranges::equal(textureNow()->at(0)->values(), textures->at(0)->values()));
 }
 
 } // namespace
