@@ -54,6 +54,13 @@ nlohmann::json vectorOf(const double (&v)[3]) {
     return {v[0], v[1], v[2]};
 }
 
+template <size_t Count>
+void numbersOf(const std::vector<double>& from, double (&to)[Count], const char* name) {
+    if (from.size() != Count)
+        throw Refusal(std::string("'") + name + "' is not " + (Count == 3 ? "three" : "four") + " numbers");
+    std::ranges::copy(from, to);
+}
+
 void append(std::string& bytes, const void* data, size_t size) {
     bytes.append(static_cast<const char*>(data), size);
 }
@@ -91,9 +98,10 @@ void TouchServer::leave(uint64_t client) {
         dismissDriver();
 }
 
-/// Nobody drives, and nobody's contact is followed.
+/// Nobody drives, nobody's contact is followed, and what moves stops.
 void TouchServer::dismissDriver() {
     driver_ = 0;
+    haltObjects();
     if (rendered_)
         render(false);
     tell({{"event", "driver"}, {"driver", nullptr}});
@@ -179,6 +187,8 @@ TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, c
     }
     if (verb == "materials")
         return materials();
+    if (verb == "objects")
+        return objects();
     if (verb == "drive") {
         if (driver_ != 0 && driver_ != client.number)
             throw Refusal("another client drives");
@@ -259,19 +269,62 @@ void TouchServer::setMaterial(const Json& message) {
     tell({{"event", "material"}, {"material", material}, {"name", name}, {"value", now}});
 }
 
+TouchServer::Json TouchServer::objects() const {
+    Json all = Json::array();
+    for (uint64_t i = 0, count = scene_ != nullptr ? scene_->info().objects : 0; i < count; ++i) {
+        ts_object_info info = TS_STRUCT(ts_object_info);
+        ts::check(ts_scene_object(scene_->get(), i, &info));
+        all.push_back({{"centre", vectorOf(info.centre)},
+                       {"first_triangle", info.first_triangle},
+                       {"triangles", info.triangles},
+                       {"movable", info.movable != 0}});
+    }
+    return {{"objects", all}};
+}
+
+/// A goal of an object's pose; it goes there no faster than the message and the library allow.
+void TouchServer::moveObject(const Json& message) {
+    const auto number = member<int64_t>(message, "object");
+    if (number < 0)
+        throw Refusal("'object' is negative");
+    const auto object = static_cast<uint64_t>(number);
+    ts_pose pose = TS_STRUCT(ts_pose);
+    numbersOf(member<std::vector<double>>(message, "position"), pose.position, "position");
+    if (message.contains("orientation"))
+        numbersOf(member<std::vector<double>>(message, "orientation"), pose.orientation, "orientation");
+    pose.speed = message.contains("speed") ? member<double>(message, "speed") : 0.0;
+    pose.turn = message.contains("turn") ? member<double>(message, "turn") : 0.0;
+    ts::check(ts_session_move(session_.get(), object, &pose));
+    moved_.insert(object);
+}
+
+void TouchServer::haltObjects() {
+    if (!moved_.empty())
+        ts::check(ts_session_halt(session_.get()));
+}
+
+/// Where the objects are that were moved.
+TouchServer::Json TouchServer::movedPoses() const {
+    Json all = Json::array();
+    for (const uint64_t object : moved_) {
+        ts_pose pose = TS_STRUCT(ts_pose);
+        ts::check(ts_session_pose(session_.get(), object, &pose));
+        const auto& q = pose.orientation;
+        all.push_back({{"object", object},
+                       {"position", vectorOf(pose.position)},
+                       {"orientation", {q[0], q[1], q[2], q[3]}}});
+    }
+    return all;
+}
+
 /// What a client sends that renders contact.
 void TouchServer::hearGoal(const Json& message) {
     if (!rendered_)
         throw Refusal("you do not render: send \"render\" first");
     ts_goal goal = TS_STRUCT(ts_goal);
     goal.touching = member<bool>(message, "touching") ? 1 : 0;
-    const auto vector = [](const std::vector<double>& from, double(&to)[3], const char* name) {
-        if (from.size() != 3)
-            throw Refusal(std::string("'") + name + "' is not three numbers");
-        std::ranges::copy(from, to);
-    };
     if (goal.touching != 0) {
-        vector(member<std::vector<double>>(message, "proxy"), goal.proxy, "proxy");
+        numbersOf(member<std::vector<double>>(message, "proxy"), goal.proxy, "proxy");
         goal.stiffness = message.contains("stiffness") ? member<double>(message, "stiffness") : 0.0;
         goal.damping = message.contains("damping") ? member<double>(message, "damping") : 0.0;
         if (message.contains("planes")) {
@@ -279,7 +332,7 @@ void TouchServer::hearGoal(const Json& message) {
             if (planes.size() > 3)
                 throw Refusal("'planes' has more than 3 normals");
             for (const std::vector<double>& plane : planes)
-                vector(plane, goal.planes[goal.plane_count++], "planes");
+                numbersOf(plane, goal.planes[goal.plane_count++], "planes");
         }
     }
     ts::check(ts_session_goal(session_.get(), &goal));
@@ -291,6 +344,10 @@ TouchServer::Json TouchServer::drive(Client& client, const std::string& verb, co
         dismissDriver();
     } else if (verb == "render") {
         render(member<bool>(message, "on"));
+    } else if (verb == "move") {
+        moveObject(message);
+    } else if (verb == "halt") {
+        haltObjects();
     } else if (verb == "contact") {
         hearGoal(message);
     } else if (verb == "force") {
@@ -373,6 +430,7 @@ void TouchServer::finishLoading() {
         const ts_scene_info info = loaded.scene->info();
         scene_ = std::move(loaded.scene);
         changedMaterials_ = Json::object();
+        moved_.clear();
         tell({{"event", "scene"},
               {"file", sceneFile_},
               {"triangles", info.triangles},
@@ -409,23 +467,28 @@ double TouchServer::pumpPeriod() const {
 
 /// To each client as often as it has asked for.
 void TouchServer::sendState(const ts_state& state) {
-    const Json event{{"event", "state"},
-                     {"tick", state.tick},
-                     {"time", state.time},
-                     {"hip", vectorOf(state.hip)},
-                     {"proxy", vectorOf(state.proxy)},
-                     {"normal", vectorOf(state.normal)},
-                     {"force", vectorOf(state.force)},
-                     {"command", vectorOf(state.command)},
-                     {"penetration", state.penetration},
-                     {"contacts", state.contacts},
-                     {"friction", state.friction},
-                     {"flags", state.flags},
-                     {"ticks", state.ticks},
-                     {"missed", state.missed},
-                     {"rendered", state.rendered != 0},
-                     {"force_on", forceOn_},
-                     {"driver", driver_ != 0 ? Json(driver_) : Json()}};
+    Json event{{"event", "state"},
+               {"tick", state.tick},
+               {"time", state.time},
+               {"hip", vectorOf(state.hip)},
+               {"proxy", vectorOf(state.proxy)},
+               {"normal", vectorOf(state.normal)},
+               {"force", vectorOf(state.force)},
+               {"command", vectorOf(state.command)},
+               {"penetration", state.penetration},
+               {"contacts", state.contacts},
+               {"friction", state.friction},
+               {"flags", state.flags},
+               {"ticks", state.ticks},
+               {"missed", state.missed},
+               {"started", state.started},
+               {"wake_us", 1e-3 * static_cast<double>(state.wake_ns)},
+               {"step_us", 1e-3 * static_cast<double>(state.step_ns)},
+               {"rendered", state.rendered != 0},
+               {"force_on", forceOn_},
+               {"driver", driver_ != 0 ? Json(driver_) : Json()}};
+    if (!moved_.empty())
+        event["moved"] = movedPoses();
     for (Client& client : clients_) {
         constexpr double kSlack = 0.1; // of a period: timers are late by some of one
         if (!client.known || client.sinceState * client.stateRate < 1.0 - kSlack)
@@ -462,6 +525,7 @@ void TouchServer::sendTicks() {
 
 void TouchServer::takeBack() {
     driver_ = 0;
+    haltObjects();
     forceOn_ = !forceOn_;
     if (rendered_)
         render(false);

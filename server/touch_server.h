@@ -12,6 +12,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,6 +87,10 @@ class TouchServer {
     [[nodiscard]] Json materials() const;
     void setMaterial(const Json& message);
     void hearGoal(const Json& message);
+    [[nodiscard]] Json objects() const;
+    void moveObject(const Json& message);
+    void haltObjects();
+    [[nodiscard]] Json movedPoses() const;
     void render(bool byClient);
     void dismissDriver();
     void tell(const Json& event, uint64_t client = 0);
@@ -102,6 +107,7 @@ class TouchServer {
     std::future<Loaded> loading_;
     std::unique_ptr<ts::Scene> scene_; ///< that is touched
     Json changedMaterials_;            ///< what clients have changed of it: {"0": {"stiffness": 900}}
+    std::set<uint64_t> moved_;         ///< objects of it that clients have moved
     Json changedSettings_;             ///< by name, since the start
     std::string loadingFile_, sceneFile_;
     uint64_t loader_ = 0, lastTick_ = ~uint64_t{0};

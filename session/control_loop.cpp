@@ -26,8 +26,8 @@ void ControlLoop::start() {
     if (thread_.joinable())
         return;
     // A stop sent zero: the force of before, its place and its goals are gone, and what comes fades in.
-    followed_ = follows();
-    spring_ = ProxySpring({.power = followed_ == GoalSource::Servo ? config_.contactPower : config_.goalPower,
+    followed_ = followed();
+    spring_ = ProxySpring({.power = follows() == GoalSource::Servo ? config_.contactPower : config_.goalPower,
                            .passivity = config_.passivity});
     (void)fromServo_.update();
     (void)fromCaller_.update();
@@ -46,8 +46,15 @@ void ControlLoop::stop() {
 const char* ControlLoop::hear(const ContactGoal& goal) noexcept {
     const char* problem = problemOf(goal);
     if (problem == nullptr)
-        fromCaller_.write(goal);
+        fromCaller_.write({goal, followed()});
     return problem;
+}
+
+void ControlLoop::follow(GoalSource source) noexcept {
+    if (source == follows())
+        return;
+    // One bit more than the last one: the source alternates.
+    follow_.store(followed() + 1, std::memory_order_relaxed);
 }
 
 const ControlLoop::State& ControlLoop::state() noexcept {
@@ -75,6 +82,22 @@ void ControlLoop::apply(const DeviceCommand& command) noexcept {
     fromServo_.write(goal);
 }
 
+/// Whom the spring follows, and its newest goal.
+void ControlLoop::hearNewest(const DeviceSample& sample) noexcept {
+    // The goal first: with it comes whatever `follow` said before it.
+    const bool fresh = fromCaller_.update();
+    if (const uint32_t now = followed(); now != followed_) {
+        followed_ = now;
+        spring_.forget(sourceOf(now) == GoalSource::Servo ? config_.contactPower : config_.goalPower);
+    }
+    const bool caller = sourceOf(followed_) == GoalSource::Caller;
+    if (caller ? !fresh || fromCaller_.value().followed != followed_ : !fromServo_.update())
+        return;
+    ContactGoal goal = caller ? fromCaller_.value().goal : fromServo_.value();
+    goal.stiffness = std::min(goal.stiffness, sample.limits.maxStiffness);
+    (void)spring_.hear(goal);
+}
+
 void ControlLoop::tick(uint64_t number, double dt) noexcept {
     DeviceSample sample = sampleWithLimits(device_, static_cast<double>(number) / config_.rateHz);
     now_.sample = sample;
@@ -82,18 +105,8 @@ void ControlLoop::tick(uint64_t number, double dt) noexcept {
     now_.begun += sample.begins ? 1 : 0;
     taken_.write(now_);
 
-    if (const GoalSource source = follows(); source != followed_) {
-        followed_ = source;
-        spring_.forget(source == GoalSource::Servo ? config_.contactPower : config_.goalPower);
-        (void)fromCaller_.update(); // of before
-    }
-    TripleBuffer<ContactGoal>& goals = followed_ == GoalSource::Servo ? fromServo_ : fromCaller_;
-    if (goals.update()) {
-        ContactGoal goal = goals.value();
-        goal.stiffness = std::min(goal.stiffness, sample.limits.maxStiffness);
-        (void)spring_.hear(goal);
-    }
-    if (followed_ == GoalSource::Servo)
+    hearNewest(sample);
+    if (sourceOf(followed_) == GoalSource::Servo)
         sample.mapping.coupling = 1.0; // the servo has weakened its force by it
     const DeviceCommand command = spring_.step(sample, dt, forceOn_.load(std::memory_order_relaxed), late_);
     device_.apply(command);
@@ -107,7 +120,7 @@ void ControlLoop::tick(uint64_t number, double dt) noexcept {
                    .force = map.rotation * spring_.force(),
                    .command = map.rotation * command.force(),
                    .flags = spring_.flags(),
-                   .source = static_cast<int>(followed_)});
+                   .source = static_cast<int>(sourceOf(followed_))});
 }
 
 void ControlLoop::run() noexcept {

@@ -54,8 +54,9 @@ class ControlLoop final : public Device {
     void start();
     /// The last command is zero.
     void stop();
-    void follow(GoalSource source) noexcept { source_.store(source, std::memory_order_relaxed); }
-    [[nodiscard]] GoalSource follows() const noexcept { return source_.load(std::memory_order_relaxed); }
+    /// Goals that were heard before are not followed; those from now on are, the first one, too.
+    void follow(GoalSource source) noexcept;
+    [[nodiscard]] GoalSource follows() const noexcept { return sourceOf(followed()); }
     /// N/m, the device's recommended one when this was made.
     [[nodiscard]] double stiffness() const noexcept { return stiffness_; }
     /// A goal of the caller's; what is wrong with it, or null.
@@ -76,25 +77,36 @@ class ControlLoop final : public Device {
         long long atNs = 0; ///< monotonicNs; 0: never
         uint32_t begun = 0; ///< samples so far with which touch begins
     };
+    /// What `follow` said last: its number, the source in the lowest bit.
+    [[nodiscard]] uint32_t followed() const noexcept { return follow_.load(std::memory_order_relaxed); }
+    [[nodiscard]] static GoalSource sourceOf(uint32_t followed) noexcept {
+        return (followed & 1) != 0 ? GoalSource::Caller : GoalSource::Servo;
+    }
+    /// A goal of the caller's, and `followed` when it came.
+    struct Heard {
+        ContactGoal goal;
+        uint32_t followed = 0;
+    };
+    void hearNewest(const DeviceSample& sample) noexcept;
     void run() noexcept;
     void tick(uint64_t number, double dt) noexcept;
 
     Device& device_;
     ControlConfig config_;
     double stiffness_;
-    std::atomic<GoalSource> source_{GoalSource::Servo};
+    std::atomic<uint32_t> follow_{0};
     std::atomic<bool> forceOn_{true}, stopping_{false};
     std::atomic<uint64_t> missed_{0};
-    TripleBuffer<Taken> taken_;            ///< to the servo
-    TripleBuffer<ContactGoal> fromServo_;  ///< to the loop
-    TripleBuffer<ContactGoal> fromCaller_; ///< to the loop
-    TripleBuffer<State> states_;           ///< to the owner
+    TripleBuffer<Taken> taken_;           ///< to the servo
+    TripleBuffer<ContactGoal> fromServo_; ///< to the loop
+    TripleBuffer<Heard> fromCaller_;      ///< to the loop
+    TripleBuffer<State> states_;          ///< to the owner
     // Servo thread:
     DeviceSample seen_;
     uint32_t begun_ = 0;
     // Loop's thread:
     ProxySpring spring_;
-    GoalSource followed_ = GoalSource::Servo;
+    uint32_t followed_ = 0;
     Taken now_;
     bool late_ = false; // the last tick ended more than a period late
     std::thread thread_;

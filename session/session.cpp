@@ -5,13 +5,13 @@
 namespace touchstone {
 
 uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
-                        SceneSwap swap, bool sculpted) {
+                        SceneSwap swap, bool sculpted, std::shared_ptr<DrivenObjects> driven) {
     std::optional<uint32_t> root;
     if (sculpted && scene != nullptr)
         root = sculptor_.carryOver(scene, source, swap);
     if (!root)
         sculptor_.begin(0, nullptr, nullptr); // its worker reads what offerScene replaces
-    const uint32_t number = root ? *root : servo_.offerScene(scene, source, swap);
+    const uint32_t number = root ? *root : servo_.offerScene(scene, source, swap, nullptr, std::move(driven));
     if (!root)
         sculptor_.begin(number, scene, source);
     begin({number, std::move(scene), std::move(source), std::move(identity)});

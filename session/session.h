@@ -26,9 +26,10 @@ class Session {
     /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number. Null: nothing can
     /// be touched, and the scene offered to the subscribers has the number 0.
     /// `sculpted`: where the present scene was sculpted, the new one has the same objects and takes their
-    /// fields over.
+    /// fields over. `driven`: as ServoLoop::offerScene's; such a scene is not sculpted.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
-                   SceneSwap swap = SceneSwap::Anew, bool sculpted = false);
+                   SceneSwap swap = SceneSwap::Anew, bool sculpted = false,
+                   std::shared_ptr<DrivenObjects> driven = nullptr);
     /// Touches a scene with settings of its own: no tick has the one without the other.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
                    const HapticSettings& settings);

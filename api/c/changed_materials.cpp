@@ -1,10 +1,13 @@
 #include "api/c/changed_materials.h"
 
 #include "engine/core/json_number.h"
+#include "engine/import/volume_file/volume_edits.h"
+#include "engine/load/surface_edits.h"
 #include "engine/save/material_patch.h"
 #include "engine/scene/haptic_layers.h"
 #include "engine/scene/haptic_numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -43,34 +46,41 @@ void ChangedMaterials::set(uint64_t material, std::string_view name, double valu
     requireMaterial(material, materials_.size());
     const Scene& source = *scene_->source();
     const auto index = static_cast<size_t>(material);
-    std::optional<float> stated = source.materials[index].says.ours.*number.stated;
-    if (!std::isnan(value)) {
+    if (!std::isnan(value))
         requireWithin(number, value);
-        stated = static_cast<float>(value);
-    }
     std::vector<Material> after = materials_;
-    after[index].says.ours.*number.stated = stated;
-    after[index].haptic = settledHaptics(after[index].says, source.images);
+    for (size_t i = 0; i < after.size(); ++i) {
+        if (std::max(after[i].fileIndex, -1) != std::max(after[index].fileIndex, -1))
+            continue;
+        after[i].says.ours.*number.stated = std::isnan(value) ? source.materials[i].says.ours.*number.stated
+                                                              : std::optional(static_cast<float>(value));
+        after[i].haptic = settledHaptics(after[i].says, source.images);
+    }
     haptic_ = withMaterials(*haptic_, source, materials_, after);
     materials_ = std::move(after);
+    auto& changes = changes_[std::max(materials_[index].fileIndex, -1)];
     if (std::isnan(value))
-        changes_[index].erase(std::string(name));
+        changes.erase(std::string(name));
     else
-        changes_[index][std::string(name)] = *stated;
+        changes[std::string(name)] = static_cast<float>(value);
 }
 
-SceneIdentity ChangedMaterials::identity() const {
+SceneIdentity ChangedMaterials::identity(bool felt) const {
     SceneIdentity identity = scene_->identity();
     MaterialPatches patches;
-    for (const auto& [material, values] : changes_) {
-        const int inFile = materials_[material].fileIndex;
+    SurfaceNumbers surface;
+    for (const auto& [inFile, values] : changes_) {
+        if (inFile < 0)
+            surface = values;
         for (const auto& [name, value] : values)
             if (inFile >= 0)
                 patches[static_cast<size_t>(inFile)][name] = jsonOf(value);
     }
-    if (!patches.empty())
-        identity.edits = touchstone::textOf(patches); // in a unit with calls.cpp its own would hide it
-    identity.feltHash = feltHash(*haptic_, *scene_->source());
+    identity.edits =
+        withChoices(withSurfaceNumbers(touchstone::textOf(patches), surface), // not textOf of calls.h
+                    *scene_->source());
+    if (felt)
+        identity.feltHash = feltHash(*haptic_, *scene_->source());
     return identity;
 }
 

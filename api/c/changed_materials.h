@@ -16,18 +16,19 @@ class ChangedMaterials {
   public:
     explicit ChangedMaterials(std::shared_ptr<TouchedScene> scene);
 
-    /// One of hapticNumbers(); NaN: what the file says. Throws Refused where there is no such material or
-    /// number, or the value is out of its range; nothing changes then.
+    /// One of hapticNumbers(); NaN: what the file says. Of all materials of the scene that are the same one
+    /// in the file, or none there: a recording knows no others. Throws Refused where there is no such
+    /// material or number, or the value is out of its range; nothing changes then.
     void set(uint64_t material, std::string_view name, double value);
 
     [[nodiscard]] const std::shared_ptr<const HapticScene>& haptic() const { return haptic_; }
-    /// Reads every vertex.
-    [[nodiscard]] SceneIdentity identity() const;
+    /// `felt`: with its hash, for which every vertex is read.
+    [[nodiscard]] SceneIdentity identity(bool felt) const;
 
   private:
     std::shared_ptr<TouchedScene> scene_;
     std::vector<Material> materials_;
-    std::map<size_t, std::map<std::string, float, std::less<>>> changes_; ///< by material
+    std::map<int, std::map<std::string, float, std::less<>>> changes_; ///< by Material::fileIndex; -1: none
     std::shared_ptr<const HapticScene> haptic_;
 };
 

@@ -51,6 +51,28 @@ ControlConfig controlOf(const ts_session_options& options) {
     return control;
 }
 
+/// What the caller asks for, within what an object may do.
+DrivenPose goalOf(const ts_pose& pose, const Similarity& rest) {
+    DrivenPose goal;
+    goal.goal = rest;
+    goal.speed = limitOr(pose.speed, 0.1, "speed", "pose.");
+    goal.turn = limitOr(pose.turn, 1.0, "turn", "pose.");
+    if (goal.speed > kMostDriveSpeed)
+        refuseArgument("pose.speed", "is above 0.5 m/s");
+    if (goal.turn > kMostDriveTurn)
+        refuseArgument("pose.turn", "is above 6.3 rad/s");
+    goal.goal.translation = {pose.position[0], pose.position[1], pose.position[2]};
+    if (!(glm::length(goal.goal.translation) <= 1.0))
+        refuseArgument("pose.position", "is not within 1 m of the origin");
+    const glm::dquat turn{pose.orientation[0], pose.orientation[1], pose.orientation[2], pose.orientation[3]};
+    const double length = glm::length(turn);
+    if (length != 0.0 && !(std::abs(length - 1.0) < 1e-3))
+        refuseArgument("pose.orientation", "is no unit quaternion");
+    if (length != 0.0)
+        goal.goal.rotation = glm::normalize(turn / length * rest.rotation);
+    return goal;
+}
+
 } // namespace
 
 CallersDevice::CallersDevice(const ts_device& device) : device_(device) {
@@ -156,6 +178,8 @@ void LiveSession::touch(std::shared_ptr<TouchedScene> scene) {
     scene->prepareFor(settings_);
     scene_ = std::move(scene);
     changed_.reset();
+    driven_.reset();
+    hashed_ = true;
     if (session_ == nullptr || (!running_ && !stroke_.empty())) {
         recorder_.reset();
         session_.reset();
@@ -188,21 +212,82 @@ void LiveSession::enableControl() {
 void LiveSession::material(uint64_t material, std::string_view name, double value) {
     const std::lock_guard lock(mutex_);
     requireOpen();
-    if (session_ == nullptr)
-        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    requireScene();
     if (!changed_)
         changed_.emplace(scene_);
     changed_->set(material, name, value);
     buildFor(*changed_->haptic(), settings_);
-    (void)session_->touch(changed_->haptic(), scene_->source(), changed_->identity(),
-                          SceneSwap::SameGeometry);
+    offerAgain();
+}
+
+void LiveSession::requireScene() const {
+    if (session_ == nullptr)
+        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+}
+
+/// The same geometry with what has been changed. Only recordings need its hash, for which every vertex is
+/// read.
+void LiveSession::offerAgain() {
+    hashed_ = !changed_ || recorder_->recording();
+    (void)session_->touch(changed_ ? changed_->haptic() : scene_->haptic(), scene_->source(),
+                          changed_ ? changed_->identity(hashed_) : scene_->identity(),
+                          SceneSwap::SameGeometry, false, driven_);
+}
+
+void LiveSession::move(uint64_t object, const ts_pose* pose) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    requireScene();
+    if (pose == nullptr) {
+        if (driven_ != nullptr)
+            driven_->halt();
+        return;
+    }
+    const HapticScene& haptic = *scene_->haptic();
+    if (const std::string problem = drivenProblem(*scene_->source(), haptic, object); !problem.empty())
+        refuseArgument("object", problem);
+    const Similarity& rest = haptic.restMotions[static_cast<size_t>(object)].workspaceFromObject;
+    const DrivenPose goal = goalOf(*pose, rest);
+    const bool first = driven_ == nullptr;
+    if (first)
+        driven_ = std::make_shared<DrivenObjects>();
+    if (!driven_->drive(static_cast<int>(object), rest, goal.goal, goal.speed, goal.turn))
+        throw Refused(TS_STATE, "object: " + std::to_string(kMostDriven) + " others are moved already");
+    if (first)
+        offerAgain();
+}
+
+ts_pose LiveSession::pose(uint64_t object) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    requireScene();
+    const HapticScene& haptic = *scene_->haptic();
+    if (object >= haptic.objects.size())
+        refuseArgument("object",
+                       std::to_string(object) + ", and there are " + std::to_string(haptic.objects.size()));
+    const Similarity& rest = haptic.restMotions[static_cast<size_t>(object)].workspaceFromObject;
+    DrivenPose now;
+    now.now = rest;
+    if (driven_ != nullptr)
+        for (const DrivenPose& pose : driven_->newest().poses())
+            if (static_cast<uint64_t>(pose.object) == object)
+                now = pose;
+    const glm::dquat turned = glm::normalize(now.now.rotation * glm::conjugate(rest.rotation));
+    ts_pose pose{};
+    setVector(pose.position, now.now.translation);
+    pose.orientation[0] = turned.w;
+    pose.orientation[1] = turned.x;
+    pose.orientation[2] = turned.y;
+    pose.orientation[3] = turned.z;
+    pose.speed = now.speed;
+    pose.turn = now.turn;
+    return pose;
 }
 
 void LiveSession::force(bool on) {
     const std::lock_guard lock(mutex_);
     requireOpen();
-    if (session_ == nullptr)
-        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    requireScene();
     forceOn_ = on;
     enableControl();
     ForceSwitch& force = session_->forceSwitch();
@@ -218,6 +303,7 @@ void LiveSession::record(const char* file) {
     if (!recorder_)
         throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
     if (file != nullptr) {
+        nameWholly();
         recorder_->start(file, "api");
         return;
     }
@@ -228,11 +314,23 @@ void LiveSession::record(const char* file) {
         throw Refused(TS_INPUT, problem);
 }
 
+/// The scene's identity with its hash, before the first tick that is recorded: those of the scene before it
+/// have none.
+void LiveSession::nameWholly() {
+    if (hashed_)
+        return;
+    for (int i = 0; i < 1000 && running_ && !session_->touching(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        session_->pump(secondsNow());
+    }
+    session_->identify(changed_->identity(true));
+    hashed_ = true;
+}
+
 void LiveSession::start() {
     const std::lock_guard lock(mutex_);
     requireOpen();
-    if (session_ == nullptr)
-        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    requireScene();
     if (!running_) {
         if (control_ != nullptr)
             control_->start();
@@ -316,6 +414,9 @@ ts_state LiveSession::state() {
     state.friction = static_cast<uint32_t>(tick.output.friction);
     state.flags = tick.output.flags;
     state.object = tick.output.object;
+    state.started = 1e-9 * static_cast<double>(session_->servo().startedNs());
+    state.wake_ns = tick.wakeLatencyNs;
+    state.step_ns = tick.stepNs;
     state.ticks = counters.ticks;
     state.missed = counters.missed;
     state.skipped = counters.skipped;
@@ -329,8 +430,7 @@ ts_state LiveSession::state() {
 ts_state LiveSession::pump() {
     const std::lock_guard lock(mutex_);
     requireOpen();
-    if (session_ == nullptr)
-        throw Refused(TS_STATE, "session: it has no scene; call ts_session_touch first");
+    requireScene();
     session_->pump(secondsNow());
     return state();
 }

@@ -46,6 +46,9 @@ class LiveSession final : public Object, private TickSubscriber {
     void touch(std::shared_ptr<TouchedScene> scene);
     void set(std::string_view name, std::string_view value);
     void material(uint64_t material, std::string_view name, double value);
+    /// Null: all objects that were moved stop where they are.
+    void move(uint64_t object, const ts_pose* pose);
+    [[nodiscard]] ts_pose pose(uint64_t object);
     void force(bool on);
     void render(bool byCaller);
     void goal(const ts_goal& goal);
@@ -64,6 +67,9 @@ class LiveSession final : public Object, private TickSubscriber {
     void flush(double now) override;
 
     void requireOpen() const;
+    void requireScene() const;
+    void offerAgain();
+    void nameWholly();
     void makeSession();
     void enableControl();
     [[nodiscard]] ControlLoop& controlLoop();
@@ -85,6 +91,8 @@ class LiveSession final : public Object, private TickSubscriber {
     std::optional<ServoRecorder> recorder_;
     std::shared_ptr<TouchedScene> scene_;
     std::optional<ChangedMaterials> changed_; // of scene_; none: as it says
+    bool hashed_ = true;                      // the scene that is touched was offered with its feltHash
+    std::shared_ptr<DrivenObjects> driven_;   // of scene_; null: no object was moved
     HapticSettings settings_;
     bool running_ = false, forceOn_ = true;
     std::atomic<bool> closed_{false};

@@ -8,6 +8,7 @@
 #include "devices/stroke/stroke_library.h"
 #include "engine/load/scene_loader.h"
 #include "engine/scene/haptic_numbers.h"
+#include "haptics/world/driven_objects.h"
 
 #include <cmath>
 
@@ -71,6 +72,26 @@ size_t trianglesOf(const TouchedScene& scene, float* corners, size_t capacity) {
         count += mesh.triangleCount();
     }
     return count;
+}
+
+ts_object_info objectInfo(const TouchedScene& scene, uint64_t object) {
+    const HapticScene& haptic = *scene.haptic();
+    if (object >= haptic.objects.size())
+        refuseArgument("object",
+                       std::to_string(object) + ", and there are " + std::to_string(haptic.objects.size()));
+    const auto index = static_cast<size_t>(object);
+    ts_object_info info{};
+    const glm::dvec3& centre = haptic.restMotions[index].workspaceFromObject.translation;
+    for (int axis = 0; axis < 3; ++axis)
+        info.centre[axis] = centre[axis];
+    info.movable = drivenProblem(*scene.source(), haptic, index).empty() ? 1 : 0;
+    const int instance = haptic.objects[index]->instance;
+    for (int i = 0; i <= instance; ++i) {
+        const Instance& placed = scene.source()->instances[static_cast<size_t>(i)];
+        info.first_triangle += info.triangles;
+        info.triangles = scene.source()->meshes[static_cast<size_t>(placed.mesh)].triangleCount();
+    }
+    return info;
 }
 
 /// Those that change no geometry.
@@ -225,6 +246,10 @@ ts_status ts_scene_material_number(ts_scene scene, uint64_t material, const char
         (void)given(value, "value");
         *value = feltNumber(*take<TouchedScene>(scene, kScene)->source(), material, textOf(name, "name"));
     });
+}
+
+ts_status ts_scene_object(ts_scene scene, uint64_t object, ts_object_info* info) {
+    return call([&] { giveStruct(objectInfo(*take<TouchedScene>(scene, kScene), object), info, "info"); });
 }
 
 ts_status ts_scene_triangles(ts_scene scene, float* corners, size_t capacity, size_t* triangles) {

@@ -46,6 +46,21 @@ ts_status ts_session_material(ts_session session, uint64_t material, const char*
     return call([&] { live(session)->material(material, textOf(name, "name"), value); });
 }
 
+ts_status ts_session_move(ts_session session, uint64_t object, const ts_pose* pose) {
+    return call([&] {
+        const ts_pose whole = structOf(&given(pose, "pose"), "pose");
+        live(session)->move(object, &whole);
+    });
+}
+
+ts_status ts_session_halt(ts_session session) {
+    return call([&] { live(session)->move(0, nullptr); });
+}
+
+ts_status ts_session_pose(ts_session session, uint64_t object, ts_pose* pose) {
+    return call([&] { giveStruct(live(session)->pose(object), pose, "pose"); });
+}
+
 ts_status ts_session_render(ts_session session, int by_caller) {
     return call([&] { live(session)->render(by_caller != 0); });
 }

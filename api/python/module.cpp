@@ -1,5 +1,6 @@
 // The part of the Python module that is compiled: NumPy arrays to and from libtouchstone's C interface.
 
+#include "api/python/python_device.h"
 #include "touchstone/touchstone.hpp"
 
 #include <pybind11/functional.h>
@@ -7,6 +8,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <optional>
 
 namespace py = pybind11;
@@ -276,13 +278,34 @@ class Hand {
 
 class Session {
   public:
-    Session(const std::string& device, double rate, size_t keep) {
+    Session(const std::string& device, double rate, size_t keep, double control) {
         ts_session_options options = TS_STRUCT(ts_session_options);
         options.device = device.c_str();
         options.rate = rate;
         options.keep = keep;
+        options.control = control;
         const py::gil_scoped_release released;
         ts::check(ts_session_create(&options, handle_.out()));
+    }
+    /// A device of two Python functions.
+    Session(const py::object& position, const py::object& force, double deviceRate, double maxForce,
+            double staleAge, double rate, size_t keep, double control)
+        : device_(std::make_unique<touchstone::python::PythonDevice>(position, force, deviceRate)) {
+        ts_device device = device_->device();
+        device.max_force = maxForce;
+        device.stale_age = staleAge;
+        ts_session_options options = TS_STRUCT(ts_session_options);
+        options.own = &device;
+        options.rate = rate;
+        options.keep = keep;
+        options.control = control;
+        ts::check(ts_session_create(&options, handle_.out()));
+        device_->start();
+    }
+    /// The servo ends before the device that it calls.
+    ~Session() {
+        const py::gil_scoped_release released;
+        handle_ = {};
     }
     template <class Call>
     void call(const Call& what) {
@@ -292,6 +315,7 @@ class Session {
     ts_state pump() {
         ts_state state = TS_STRUCT(ts_state);
         call([&](ts_session session) { return ts_session_pump(session, &state); });
+        rethrowDevice();
         return state;
     }
     void run(double seconds, const py::object& callback, double rate) {
@@ -303,7 +327,38 @@ class Session {
         }
         if (made.thrown)
             std::rethrow_exception(made.thrown);
+        rethrowDevice();
         ts::check(status);
+    }
+    void move(uint64_t object, const std::array<double, 3>& position,
+              const std::array<double, 4>& orientation, double speed, double turn) {
+        ts_pose pose = TS_STRUCT(ts_pose);
+        std::copy(position.begin(), position.end(), pose.position);
+        std::copy(orientation.begin(), orientation.end(), pose.orientation);
+        pose.speed = speed;
+        pose.turn = turn;
+        call([&](ts_session session) { return ts_session_move(session, object, &pose); });
+    }
+    /// Position and orientation.
+    py::tuple pose(uint64_t object) {
+        ts_pose pose = TS_STRUCT(ts_pose);
+        call([&](ts_session session) { return ts_session_pose(session, object, &pose); });
+        return py::make_tuple(py::array_t<double>(3, pose.position),
+                              py::array_t<double>(4, pose.orientation));
+    }
+    void goal(const std::optional<std::array<double, 3>>& proxy, double stiffness, double damping,
+              const std::vector<std::array<double, 3>>& planes) {
+        ts_goal goal = TS_STRUCT(ts_goal);
+        goal.touching = proxy ? 1 : 0;
+        if (proxy)
+            std::copy(proxy->begin(), proxy->end(), goal.proxy);
+        goal.stiffness = stiffness;
+        goal.damping = damping;
+        if (planes.size() > 3)
+            refuse("planes", "has " + std::to_string(planes.size()) + " normals, and not three at most");
+        for (const std::array<double, 3>& plane : planes)
+            std::copy(plane.begin(), plane.end(), goal.planes[goal.plane_count++]);
+        call([&](ts_session session) { return ts_session_goal(session, &goal); });
     }
     py::dict take(size_t most) {
         const Ticks ticks(most, false);
@@ -313,11 +368,20 @@ class Session {
     }
     [[nodiscard]] ts_session get() const { return handle_.get(); }
     void close() {
-        const py::gil_scoped_release released;
-        handle_.close();
+        {
+            const py::gil_scoped_release released;
+            handle_.close();
+        }
+        if (device_ != nullptr)
+            device_->stop();
+        rethrowDevice();
     }
 
   private:
+    void rethrowDevice() {
+        if (device_ != nullptr)
+            device_->rethrow();
+    }
     struct Callback {
         py::object function;
         std::exception_ptr thrown;
@@ -337,6 +401,7 @@ class Session {
             }
         }
     };
+    std::unique_ptr<touchstone::python::PythonDevice> device_;
     ts::Handle<ts_session, ts_session_close> handle_;
 };
 
@@ -397,7 +462,22 @@ void bindSession(py::module_& m) {
         .def_readonly("skipped", &ts_state::skipped)
         .def_readonly("dropped", &ts_state::dropped);
     py::class_<Session>(m, "Session")
-        .def(py::init<const std::string&, double, size_t>())
+        .def(py::init<const std::string&, double, size_t, double>())
+        .def(py::init<const py::object&, const py::object&, double, double, double, double, size_t, double>())
+        .def("material",
+             [](Session& s, uint64_t material, const std::string& name, double value) {
+                 s.call([&](ts_session session) {
+                     return ts_session_material(session, material, name.c_str(), value);
+                 });
+             })
+        .def("move", &Session::move)
+        .def("halt", [](Session& s) { s.call(ts_session_halt); })
+        .def("pose", &Session::pose)
+        .def("render",
+             [](Session& s, bool on) {
+                 s.call([&](ts_session session) { return ts_session_render(session, on ? 1 : 0); });
+             })
+        .def("goal", &Session::goal)
         .def("touch",
              [](Session& s, const Scene& scene) {
                  s.call([&](ts_session session) { return ts_session_touch(session, scene.get()); });

@@ -14,6 +14,7 @@
 #include "engine/import/volume_file/volume_import.h"
 #include "engine/import/volume_file/volume_scene.h"
 #include "engine/load/loose_bodies.h"
+#include "engine/load/surface_edits.h"
 #include "engine/save/material_patch.h"
 #include "engine/scene/haptic_layers.h"
 
@@ -83,6 +84,7 @@ ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
     std::string edits = context.options().edits;
     std::optional<std::string> animation = takeAnimation(edits);
     const bool loose = takeLoose(edits);
+    const SurfaceNumbers surface = takeSurfaceNumbers(edits);
     if (context.options().animation)
         animation = context.options().animation;
     if (!edits.empty())
@@ -91,6 +93,7 @@ ScenePtr importBytes(ImportContext& context, std::vector<uint8_t> bytes,
         importGltf(context, takeGltfApart(context, std::move(bytes), folder), stamp, animation);
     if (loose)
         loosen(*scene);
+    stateSurfaceNumbers(*scene, surface);
     return scene;
 }
 
@@ -106,6 +109,7 @@ ScenePtr importVolume(ImportContext& context, const std::filesystem::path& path,
     const std::optional<double> editedIso = takeIso(edits);
     const double iso = context.options().iso.value_or(editedIso.value_or(volume->defaultIso()));
     std::vector<uint8_t> glb = glbOfVolume(context, *volume, iso);
+    const SurfaceNumbers surface = takeSurfaceNumbers(edits);
     if (!edits.empty())
         glb = withMaterials(glb, patchesFrom(edits), context.file());
     for (const std::string& note : volume->facts().notes)
@@ -113,6 +117,7 @@ ScenePtr importVolume(ImportContext& context, const std::filesystem::path& path,
     context.countFileBytes(volume->memoryBytes());
     const auto scene = importGltf(context, takeGltfApart(context, std::move(glb), path.parent_path()),
                                   volume->facts().file, std::nullopt);
+    stateSurfaceNumbers(*scene, surface);
     scene->bounds = volume->bounds(); // whatever the value at the surface
     scene->volume = std::move(volume);
     scene->iso = iso;

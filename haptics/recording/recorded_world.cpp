@@ -242,4 +242,43 @@ void get(ByteReader& bytes, RecordedLocations& locations) {
     }
 }
 
+void put(ByteWriter& bytes, const RecordedDriven& driven) {
+    bytes.put(driven.state.tick);
+    bytes.put(driven.state.count);
+    for (const DrivenPose& pose : driven.state.poses()) {
+        bytes.put(pose.object);
+        for (const Similarity* const map : {&pose.now, &pose.goal}) {
+            bytes.put(map->scale);
+            bytes.put(map->rotation);
+            bytes.put(map->translation);
+        }
+        bytes.put(pose.speed);
+        bytes.put(pose.turn);
+    }
+}
+void get(ByteReader& bytes, RecordedDriven& driven) {
+    bytes.get(driven.state.tick);
+    bytes.get(driven.state.count);
+    if (driven.state.count > kMostDriven)
+        throw Error("", "", "moves more objects than can be moved", "");
+    for (uint32_t i = 0; i < driven.state.count; ++i) {
+        DrivenPose& pose = driven.state.objects[i];
+        bytes.get(pose.object);
+        for (Similarity* const map : {&pose.now, &pose.goal}) {
+            bytes.get(map->scale);
+            bytes.get(map->rotation);
+            bytes.get(map->translation);
+            const double turned = glm::length(map->rotation), far = glm::length(map->translation);
+            if (!(map->scale > 0.0) || !std::isfinite(map->scale) || !(std::abs(turned - 1.0) < 1e-6) ||
+                !std::isfinite(far))
+                throw Error("", "", "has a pose that cannot be", "");
+        }
+        bytes.get(pose.speed);
+        bytes.get(pose.turn);
+        if (pose.object < 0 || !(pose.speed >= 0.0 && pose.speed <= kMostDriveSpeed) ||
+            !(pose.turn >= 0.0 && pose.turn <= kMostDriveTurn))
+            throw Error("", "", "has a motion that cannot be", "");
+    }
+}
+
 } // namespace touchstone

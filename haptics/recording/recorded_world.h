@@ -1,7 +1,7 @@
 #pragma once
 // The payloads of what changes the world while it is touched (the tool, edits of fields, bodies, persistent
-// textures) and of contact locations. As recording_format.cpp's of the hands: `put` writes what `get` reads.
-// `get` throws Error for what cannot be. Any thread.
+// textures, objects that a caller moves) and of contact locations. As recording_format.cpp's of the hands:
+// `put` writes what `get` reads. `get` throws Error for what cannot be. Any thread.
 
 #include "haptics/recording/byte_stream.h"
 #include "haptics/recording/recording_format.h"
@@ -22,5 +22,7 @@ void put(ByteWriter& bytes, const RecordedStrokes& strokes);
 void get(ByteReader& bytes, RecordedStrokes& strokes);
 void put(ByteWriter& bytes, const RecordedLocations& locations);
 void get(ByteReader& bytes, RecordedLocations& locations);
+void put(ByteWriter& bytes, const RecordedDriven& driven);
+void get(ByteReader& bytes, RecordedDriven& driven);
 
 } // namespace touchstone

@@ -10,6 +10,7 @@
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/texture/persistent_texture.h"
 #include "haptics/tick/pad_step.h"
+#include "haptics/world/driven_objects.h"
 
 #include <array>
 #include <cstdint>
@@ -133,6 +134,10 @@ struct RecordedLocations {
     glm::dvec2 before{0.0}; ///< m, before the first of them
     std::vector<Shown> shown;
 };
+/// Objects that a caller moves, before a tick: at checkpoints and where goals came.
+struct RecordedDriven {
+    DrivenState state;
+};
 /// Ticks that were made but not recorded.
 struct RecordedLoss {
     uint64_t ticks = 0;
@@ -145,15 +150,16 @@ struct RecordedNote {
 struct RecordedEnd {
     uint64_t ticks = 0;
 };
-using RecordedItem = std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint,
-                                  RecordedTicks, RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks,
-                                  RecordedHandState, RecordedTool, RecordedSculpt, RecordedContacts,
-                                  RecordedBodies, RecordedTextures, RecordedStrokes, RecordedLocations>;
+using RecordedItem =
+    std::variant<RecordingOrigin, RecordedScene, RecordedSettings, TouchCheckpoint, RecordedTicks,
+                 RecordedLoss, RecordedNote, RecordedEnd, RecordedHandTicks, RecordedHandState, RecordedTool,
+                 RecordedSculpt, RecordedContacts, RecordedBodies, RecordedTextures, RecordedStrokes,
+                 RecordedLocations, RecordedDriven>;
 
 /// Four letters each, in the order of RecordedItem's alternatives.
-inline constexpr std::array<std::string_view, 17> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
+inline constexpr std::array<std::string_view, 18> kChunkNames{"MADE", "SCEN", "SETT", "STAT", "TICK", "LOST",
                                                               "NOTE", "DONE", "HTIC", "HSTA", "TOOL", "SCLP",
-                                                              "BCON", "BSTA", "PTEX", "PSTR", "LOCA"};
+                                                              "BCON", "BSTA", "PTEX", "PSTR", "LOCA", "OMOV"};
 
 /// The payload of an item's chunk.
 [[nodiscard]] std::vector<std::byte> encode(const RecordedItem& item);

@@ -92,6 +92,8 @@ void RecordingWriter::add(const TickToRecord& tick) {
         if (tick.textures != nullptr)
             addTextures(tick, root);
     }
+    if (tick.driven != nullptr)
+        file_.append(RecordedDriven{*tick.driven});
     if (newScene)
         scenes_[root] = true;
     settings_ = tick.tick.settings;

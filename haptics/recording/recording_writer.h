@@ -43,6 +43,7 @@ struct TickToRecord {
     const std::vector<std::byte>* bodies = nullptr; ///< of a scene with bodies, at a checkpoint
     const PersistentTextures* textures = nullptr;   ///< of a scene with some: before this tick
     std::span<const BrushStroke> strokes{};         ///< what this tick changes of them
+    const DrivenState* driven = nullptr;            ///< ServoLoop::drivenBefore
 };
 
 /// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are

@@ -78,6 +78,10 @@ void Replayer::take(const RecordedBodies& bodies) {
     bodies_ = bodies;
 }
 
+void Replayer::take(const RecordedDriven& driven) {
+    driven_[driven.state.tick] = driven.state;
+}
+
 void Replayer::take(const RecordedTextures& textures) {
     if (textures.part == 0) {
         textures_.clear();
@@ -145,6 +149,7 @@ void Replayer::take(const RecordedTicks& ticks) {
         found_.erase(found_.begin(), found_.upper_bound(tick.tick));
         for (auto& shown : shown_)
             shown.erase(shown.begin(), shown.upper_bound(tick.tick));
+        driven_.erase(driven_.begin(), driven_.upper_bound(tick.tick));
     }
 }
 
@@ -238,6 +243,7 @@ bool Replayer::takeUp(const RecordedTick& tick) {
     if (rootOf(tick.scene) != rootOf(scene_) || tick.scene == 0)
         return false;
     Touched* const touched = this->touched(tick.scene);
+    putDriven(tick, *touched);
     touched->world.forget();
     if (std::isfinite(previousTime_))
         touched->world.advance(previousTime_);
@@ -250,6 +256,23 @@ bool Replayer::takeUp(const RecordedTick& tick) {
         takeUpReshaped(scene, moved.empty() ? ObjectMotions(scene.restMotions) : moved, reshaped, device);
     scene_ = tick.scene;
     return true;
+}
+
+/// Where the recording says what a caller moved before `tick`, the objects are there.
+void Replayer::putDriven(const RecordedTick& tick, Touched& touched) const {
+    const auto state = driven_.find(tick.tick);
+    if (state == driven_.end())
+        return;
+    const size_t objects = touched.scene.haptic->objects.size();
+    for (const DrivenPose& pose : state->second.poses())
+        if (static_cast<size_t>(pose.object) >= objects)
+            throw Error("recording", "", "moves an object that its scene does not have",
+                        "the file is damaged, or its scene is another one now");
+    if (touched.world.driven() == nullptr)
+        touched.world =
+            WorldState(touched.scene.source, *touched.scene.haptic, WorldBodies::Simulated,
+                       touched.world.bodies(), touched.world.textures(), std::make_shared<DrivenObjects>());
+    touched.world.driven()->restore(state->second);
 }
 
 /// Restores the state of every hand at the checkpoint before `tick`.
@@ -292,6 +315,7 @@ void Replayer::resume(const RecordedTick& tick) {
                    scene->objects[static_cast<size_t>(device.reference)]->shape == nullptr;
         }))
         scene->buildNeighbourhoods();
+    putDriven(tick, *touched);
     if (!goesOn) {
         touched->world.forget();
         if (std::isfinite(came))
@@ -381,6 +405,9 @@ void Replayer::step(const RecordedTick& tick) {
         if (touched->world.bodies() != nullptr)
             if (const auto found = found_.find(tick.tick); found != found_.end())
                 touched->world.bodies()->repeat(found->second);
+        putDriven(tick, *touched);
+        if (touched->world.driven() != nullptr)
+            touched->world.driven()->setStep(tick.dt);
         animated = animationTime(settings->second, tick.time);
         // A replay has its vertices in time: it stands still where the servo did.
         touched->world.advance(animated, has(tick.flags, TickFlag::DeformationHeld));

@@ -108,6 +108,7 @@ class Replayer {
     void take(const RecordedTextures& textures);
     void take(const RecordedStrokes& strokes);
     void take(const RecordedLocations& locations);
+    void take(const RecordedDriven& driven);
 
     void lose();
     void resume(const RecordedTick& tick);
@@ -120,6 +121,7 @@ class Replayer {
     [[nodiscard]] Touched* sculpted(uint32_t number);
     [[nodiscard]] uint32_t rootOf(uint32_t scene) const;
     bool takeUp(const RecordedTick& tick);
+    void putDriven(const RecordedTick& tick, Touched& touched) const;
     [[nodiscard]] bool restoreTextures(const RecordedTick& tick, PersistentTextures& textures) const;
     [[nodiscard]] bool sameStrokes(const RecordedTick& tick, const PersistentTextures* textures);
 
@@ -150,6 +152,7 @@ class Replayer {
     std::vector<RecordedTextures> textures_;                   // the last whole state, in its parts
     std::vector<BrushStroke> strokes_;                         // since
     size_t nextStroke_ = 0;                                    // in `strokes_`: of the next tick
+    std::map<uint64_t, DrivenState> driven_;                   // what callers move, before the next ticks
     // Present state of the replay.
     bool known_ = false; // the state is that of the recording's last tick
     uint32_t scene_ = 0;

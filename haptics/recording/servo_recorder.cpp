@@ -63,6 +63,7 @@ void ServoRecorder::take(const TickRecord& record) {
     textures_.follow(textures);
     const std::span<const BrushStroke> strokes = textures_.next(record.tick);
     found &= textures == nullptr || textures_.state() != nullptr; // no replay begins where they are lost
+    const DrivenState* const driven = servo_.drivenBefore(record);
     const std::vector<HandToRecord> others = std::exchange(others_, {});
     const uint64_t lost = record.step - nextStep_;
     nextStep_ = record.step + 1;
@@ -87,7 +88,8 @@ void ServoRecorder::take(const TickRecord& record) {
                             .tool = servo_.toolOf(record.tool),
                             .bodies = bodies ? &bodies_ : nullptr,
                             .textures = textures_.state(),
-                            .strokes = strokes};
+                            .strokes = strokes,
+                            .driven = driven};
     if (writer_)
         guarded([&] { writer_->add(tick); }, false);
     if (flight_)

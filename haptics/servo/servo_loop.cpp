@@ -126,7 +126,7 @@ void ServoLoop::stop() {
 }
 
 uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneSwap swap,
-                               const HapticSettings* settings) {
+                               const HapticSettings* settings, std::shared_ptr<DrivenObjects> driven) {
     const NumberedSettings with = settings != nullptr ? number(*settings) : NumberedSettings{};
     if (swap == SceneSwap::Anew)
         ++offeredGeometry_;
@@ -138,12 +138,14 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     }
     const bool goesOn = swap == SceneSwap::SameGeometry;
     WorldState world(std::move(source), *scene, WorldBodies::Simulated, goesOn ? bodies_ : nullptr,
-                     goesOn ? newestTextures() : nullptr);
+                     goesOn ? newestTextures() : nullptr, driven);
     if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
         world.bodies()->setFinding(body::BodyWorld::Finding::Apart);
     bodies_ = world.bodies();
     const uint32_t number = nextSceneNumber();
     holdTextures(number, world);
+    if (driven != nullptr)
+        driven_.emplace_back(number, std::move(driven));
     auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_,
                                                number, std::vector<int>(), uint64_t{0}, with);
     // A stepped loop computes the vertices itself, so that it is deterministic.
@@ -197,6 +199,12 @@ std::shared_ptr<PersistentTextures> ServoLoop::texturesOf(uint32_t scene) const 
     return found != textures_.end() ? found->second : nullptr;
 }
 
+const DrivenState* ServoLoop::drivenBefore(const TickRecord& record) const {
+    const auto found =
+        std::ranges::find(driven_, record.root, &std::pair<uint32_t, std::shared_ptr<DrivenObjects>>::first);
+    return found != driven_.end() ? found->second->before(record.tick) : nullptr;
+}
+
 void ServoLoop::setTool(const LiveTool& tool) {
     offeredTools_.push_back({offeredTools_.back().number + 1, tool});
     tools_.write(offeredTools_.back());
@@ -235,6 +243,8 @@ bool ServoLoop::popRecord(TickRecord& record) {
         offeredTools_.pop_front();
     while (textures_.size() > 1 && textures_[1].first <= record.root)
         textures_.pop_front();
+    while (driven_.size() > 1 && driven_[1].first <= record.root)
+        driven_.pop_front();
     return true;
 }
 
@@ -334,6 +344,8 @@ void ServoLoop::prepare(Touch& touch) noexcept {
     record.checkpoint = due || checkpointWanted_.load(std::memory_order_relaxed);
     if (record.checkpoint)
         takeCheckpoints(touch);
+    if (offer != nullptr && offer->world.driven() != nullptr) [[unlikely]]
+        offer->world.driven()->begin(record.tick, record.dt, record.checkpoint);
 }
 
 /// One of every hand, that of hand 0 the last.

@@ -12,6 +12,7 @@
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/tick/haptic_step.h"
 #include "haptics/tick/pad_step.h"
+#include "haptics/world/driven_objects.h"
 #include "haptics/world/world_state.h"
 
 #include <array>
@@ -125,8 +126,10 @@ class ServoLoop {
     /// present touch continues: the force changes to that of the new materials, within the limits of force
     /// and slew and without fading, as when a setting changes. `settings`: as setSettings, but from the
     /// scene's first tick on, so that no tick has the one without the other. Null: the present ones.
+    /// `driven`: objects that the caller moves; the same ones as long as the geometry stays.
     uint32_t offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source = nullptr,
-                        SceneSwap swap = SceneSwap::Anew, const HapticSettings* settings = nullptr);
+                        SceneSwap swap = SceneSwap::Anew, const HapticSettings* settings = nullptr,
+                        std::shared_ptr<DrivenObjects> driven = nullptr);
     /// The same for a scene that was sculpted, such as one with other materials: `scene` has the numbers of
     /// an edited scene and of its root, both new.
     void offerSculpted(ReshapedScene scene, SceneSwap swap);
@@ -174,6 +177,9 @@ class ServoLoop {
     /// Owner thread: the persistent textures of a scene offered under this number, whose strokes can be
     /// popped (TextureCopy); null: it has none, or records of later scenes have been popped.
     [[nodiscard]] std::shared_ptr<PersistentTextures> texturesOf(uint32_t scene) const;
+    /// Owner thread: what a caller moves in the scene of a record, before its tick; null: nothing, or nothing
+    /// that a recording needs (DrivenObjects::before).
+    [[nodiscard]] const DrivenState* drivenBefore(const TickRecord& record) const;
     /// Owner thread: where the bodies of the newest scene are; null: it has none.
     [[nodiscard]] const body::BodyPoses* bodyPoses();
     /// Any thread: N s, BodyWorld::impact of the newest tick.
@@ -260,6 +266,7 @@ class ServoLoop {
     std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
     bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart
     std::deque<std::pair<uint32_t, std::shared_ptr<PersistentTextures>>> textures_; // by scene offered
+    std::deque<std::pair<uint32_t, std::shared_ptr<DrivenObjects>>> driven_;        // the same
     std::mutex newestMutex_;
     std::shared_ptr<PersistentTextures> newestTextures_; // also of the thread that edits
     std::atomic<bool> stopping_{false};

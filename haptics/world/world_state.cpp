@@ -5,6 +5,7 @@
 #include "haptics/body/body_world.h"
 #include "haptics/scene/scene_programs.h"
 #include "haptics/texture/persistent_textures.h"
+#include "haptics/world/driven_objects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,11 +55,14 @@ WorldState::WorldState(WorldState&&) noexcept = default;
 WorldState& WorldState::operator=(WorldState&&) noexcept = default;
 
 WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies,
-                       std::shared_ptr<body::BodyWorld> goOn, std::shared_ptr<PersistentTextures> textures)
+                       std::shared_ptr<body::BodyWorld> goOn, std::shared_ptr<PersistentTextures> textures,
+                       std::shared_ptr<DrivenObjects> driven)
     : scene_(std::move(source)), animation_(scene_ != nullptr ? playedAnimation(*scene_) : nullptr),
-      workspaceFromScene_(haptic.workspaceFromScene) {
+      workspaceFromScene_(haptic.workspaceFromScene), driven_(std::move(driven)) {
     if (animation_ != nullptr)
         findMovers(haptic);
+    if (driven_ != nullptr)
+        motions_ = haptic.restMotions;
     if (bodies == WorldBodies::Simulated)
         textures_ = persistentTextures(haptic, std::move(textures));
     if (scene_ == nullptr || scene_->physics == nullptr)
@@ -123,6 +127,8 @@ ObjectMotions WorldState::advance(double time, bool hold) noexcept {
             motion.jumped = false; // also of objects that deform and do not move
     if (!movers_.empty())
         movePoses(time);
+    if (driven_ != nullptr) [[unlikely]]
+        driven_->advance(motions_, !sampled_);
     if (deforming_ != nullptr) [[unlikely]]
         deforming_->advance(time, !sampled_, hold, motions_);
     if (bodies_ != nullptr)
@@ -233,6 +239,8 @@ uint32_t WorldState::poseHash() const noexcept {
             hash.add(number);
         hash.add(motion.jumped);
     }
+    if (driven_ != nullptr)
+        driven_->addTo(hash);
     if (bodies_ != nullptr)
         bodies_->addTo(hash);
     return hash.folded();

@@ -25,6 +25,7 @@ class BodyWorld;
 struct BodyPoses;
 } // namespace body
 class PersistentTextures; // haptics/texture/persistent_textures.h
+class DrivenObjects;      // haptics/world/driven_objects.h
 
 /// Warnings where the playing animation is felt differently from what is seen.
 [[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
@@ -53,9 +54,11 @@ class WorldState {
     /// The animation that plays in `source` moves the objects of `haptic`, which was compiled from it, and so
     /// do its bodies. A null source: nothing moves. `goOn`: the bodies of a world of the same geometry, which
     /// go on here, as do its `textures` where they fit. WorldBodies::Shown: without persistent textures.
+    /// `driven`: objects that a caller moves besides (drivenProblem).
     WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies = WorldBodies::Simulated,
                std::shared_ptr<body::BodyWorld> goOn = nullptr,
-               std::shared_ptr<PersistentTextures> textures = nullptr);
+               std::shared_ptr<PersistentTextures> textures = nullptr,
+               std::shared_ptr<DrivenObjects> driven = nullptr);
     ~WorldState();
     WorldState(WorldState&&) noexcept;
     WorldState& operator=(WorldState&&) noexcept;
@@ -127,6 +130,8 @@ class WorldState {
     }
     /// Of the scene's objects; null where none has one.
     [[nodiscard]] const std::shared_ptr<PersistentTextures>& textures() const noexcept { return textures_; }
+    /// Null where no caller moves objects.
+    [[nodiscard]] const std::shared_ptr<DrivenObjects>& driven() const noexcept { return driven_; }
     /// Those of another world, of the same scene, which this one then reads and changes.
     void shareTextures(std::shared_ptr<PersistentTextures> textures) noexcept;
     /// WorldBodies::Shown: the next `advance` puts the bodies there.
@@ -166,6 +171,7 @@ class WorldState {
     std::shared_ptr<body::BodyWorld> bodies_;
     std::unique_ptr<body::BodyPoses> shown_; // WorldBodies::Shown
     std::shared_ptr<PersistentTextures> textures_;
+    std::shared_ptr<DrivenObjects> driven_;
     std::vector<uint8_t> animated_;          // by object: a mover
     std::vector<glm::dmat4> objectFromMesh_; // by object
     std::vector<int> instanceOf_;            // by object

@@ -2,7 +2,7 @@
 'use strict';
 const token = location.hash.slice(1);
 const $ = id => document.getElementById(id);
-let socket, me = 0, asked = 0, state = null, model = null, forceOn = true;
+let socket, me = 0, asked = 0, state = null, model = null, objects = [], forceOn = true;
 const waiting = new Map(), history_ = [];
 
 function ask(verb, members = {}) {
@@ -145,6 +145,7 @@ async function showScene(file) {
         const n = normalize(cross(minus(b, a), minus(c, a)));
         for (let k = 0; k < 9; ++k) normals[t + k] = n[k % 3];
     }
+    objects = (await ask('objects')).objects;
     model = upload(positions, normals);
     $('scene').textContent += `, ${model.count / 3} triangles`;
     await showMaterials();
@@ -166,8 +167,9 @@ function upload(positions, normals) {
 function prepare() {
     const shader = (type, source) => { const s = gl.createShader(type); gl.shaderSource(s, source); gl.compileShader(s); return s; };
     program = gl.createProgram();
-    gl.attachShader(program, shader(gl.VERTEX_SHADER, `attribute vec3 p, n; uniform mat4 clipFromWorld; uniform vec3 offset, scale; varying vec3 normal;
-        void main() { normal = n; gl_Position = clipFromWorld * vec4(p * scale + offset, 1.0); }`));
+    gl.attachShader(program, shader(gl.VERTEX_SHADER, `attribute vec3 p, n; uniform mat4 clipFromWorld; uniform vec3 offset, scale, rest; uniform vec4 turn; varying vec3 normal;
+        vec3 turned(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }
+        void main() { normal = turned(n); gl_Position = clipFromWorld * vec4(turned(p * scale - rest) + offset, 1.0); }`));
     gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `precision mediump float; uniform vec3 color; varying vec3 normal;
         void main() { float l = 0.35 + 0.65 * abs(dot(normalize(normal), normalize(vec3(0.4, 0.8, 0.5)))); gl_FragColor = vec4(color * l, 1.0); }`));
     gl.linkProgram(program);
@@ -177,13 +179,25 @@ function prepare() {
         corners.push(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i, k + 1));
     ball = upload(corners.flat(), corners.flat());
 }
-function draw(shape, color, offset = [0, 0, 0], scale = [1, 1, 1]) {
+/// `turn` (x, y, z, w) about `rest`, which goes to `offset`.
+function draw(shape, color, offset = [0, 0, 0], scale = [1, 1, 1], rest = [0, 0, 0], turn = [0, 0, 0, 1], first = 0, count = shape.count) {
     const set = (name, buffer) => { const a = gl.getAttribLocation(program, name); gl.bindBuffer(gl.ARRAY_BUFFER, buffer); gl.enableVertexAttribArray(a); gl.vertexAttribPointer(a, 3, gl.FLOAT, false, 0, 0); };
     set('p', shape.positions); set('n', shape.normals);
     gl.uniform3fv(gl.getUniformLocation(program, 'color'), color);
     gl.uniform3fv(gl.getUniformLocation(program, 'offset'), offset);
     gl.uniform3fv(gl.getUniformLocation(program, 'scale'), scale);
-    gl.drawArrays(gl.TRIANGLES, 0, shape.count);
+    gl.uniform3fv(gl.getUniformLocation(program, 'rest'), rest);
+    gl.uniform4fv(gl.getUniformLocation(program, 'turn'), turn);
+    gl.drawArrays(gl.TRIANGLES, first, count);
+}
+/// Each object where it is: those that clients have moved are in the states.
+function drawModel() {
+    const color = [0.55, 0.68, 0.75], moved = new Map((state?.moved ?? []).map(pose => [pose.object, pose]));
+    if (!moved.size) { draw(model, color); return; }
+    objects.forEach((object, i) => {
+        const pose = moved.get(i), [w, x, y, z] = pose?.orientation ?? [1, 0, 0, 0];
+        draw(model, color, pose?.position ?? object.centre, [1, 1, 1], object.centre, [x, y, z, w], 3 * object.first_triangle, 3 * object.triangles);
+    });
 }
 function clipFromWorld() {
     const {yaw, pitch, distance} = camera, aspect = canvas.width / canvas.height, f = 1 / Math.tan(0.3), near = 0.01, far = 5;
@@ -199,7 +213,7 @@ function frame() {
     gl.enable(gl.DEPTH_TEST);
     gl.useProgram(program);
     gl.uniformMatrix4fv(gl.getUniformLocation(program, 'clipFromWorld'), false, clipFromWorld());
-    if (model) draw(model, [0.55, 0.68, 0.75]);
+    if (model) drawModel();
     if (!state) return;
     draw(ball, [1, 1, 1], state.proxy, [0.003, 0.003, 0.003]);
     draw(ball, [1, 0.42, 0.37], state.hip, [0.002, 0.002, 0.002]);

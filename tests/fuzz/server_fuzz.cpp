@@ -157,9 +157,9 @@ class Fuzz {
             "stiffness", "damping", "staticFriction", "dynamicFriction", "viscousFriction", "voxelSize", "x"};
         static const char* const kScenes[]{"box.glb", "plane.glb", "../box.glb", "/etc/passwd",
                                            "",        ".",         "none.glb"};
-        static const char* const kPlain[]{"ping",  "settings", "materials",
-                                          "drive", "release",  "authenticate"};
-        switch (below(below(50) == 0 ? 12 : 10)) {
+        static const char* const kPlain[]{"ping",    "settings",     "materials", "drive",
+                                          "release", "authenticate", "objects",   "halt"};
+        switch (below(below(50) == 0 ? 13 : 11)) {
         case 0:
             return {{"do", oneOf(kPlain)}, {"token", kToken}};
         case 1:
@@ -187,6 +187,14 @@ class Fuzz {
         case 9:
             return {{"do", "drive"}};
         case 10:
+            return {{"do", "move"},
+                    {"object", below(3)},
+                    {"position", anyVector()},
+                    {"orientation", below(3) == 0 ? Json::array({anyNumber(), 0.0, 1.0, 0.0})
+                                                  : Json::array({0.0, 0.6, 0.8, 0.0})},
+                    {"speed", std::abs(anyNumber())},
+                    {"turn", std::abs(anyNumber())}};
+        case 11:
             return below(4) == 0 ? Json{{"do", "load"}, {"bytes", std::string(below(60), 'A')}}
                                  : Json{{"do", "load"}, {"scene", oneOf(kScenes)}};
         default:

@@ -75,6 +75,7 @@ class TimelineMaker {
     void take(const RecordedContacts&) {}
     void take(const RecordedLocations&) {}
     void take(const RecordedBodies&) {}
+    void take(const RecordedDriven&) {}
     void take(const RecordedTextures& textures) { line_.textures_.push_back({offset_, textures.part == 0}); }
     void take(const RecordedStrokes&) { line_.textures_.push_back({offset_, false}); }
     void take(const RecordedTicks& ticks);

@@ -126,6 +126,14 @@ TS_API ts_status ts_scene_get_info(ts_scene scene, ts_scene_info* info);
  * the bytes that it needs with it. */
 TS_API ts_status ts_scene_warning(ts_scene scene, uint64_t index, char* text, size_t capacity,
                                   size_t* needed);
+/* An object: one mesh at one place of the file. */
+typedef struct ts_object_info {
+    size_t size;
+    double centre[3];                   /* m, workspace, at rest */
+    uint64_t first_triangle, triangles; /* in ts_scene_triangles; none of an object that no file has */
+    int movable;                        /* 1: ts_session_move may move it */
+} ts_object_info;
+TS_API ts_status ts_scene_object(ts_scene scene, uint64_t object, ts_object_info* info);
 /* The numbers of a material that may change while it is touched (docs/materials.md). */
 typedef struct ts_number_info {
     size_t size;
@@ -263,6 +271,15 @@ typedef struct ts_session_options {
     double goal_power;    /* W that ts_session_goal may */
 } ts_session_options;
 
+/* Where an object is to go, or is. Workspace. */
+typedef struct ts_pose {
+    size_t size;
+    double position[3];    /* m, of the object's centre (ts_object_info), within 1 m of the origin */
+    double orientation[4]; /* w, x, y, z: its turn from how it stands at rest; zeros: as at rest */
+    double speed;          /* m/s, of the centre, at most 0.5; 0: 0.1 */
+    double turn;           /* rad/s, at most 6.3; 0: 1 */
+} ts_pose;
+
 /* Contact that the caller renders: what the control loop's spring pulls the hand to. Workspace. */
 typedef struct ts_goal {
     size_t size;
@@ -292,6 +309,9 @@ typedef struct ts_state {
      * and `contacts` (0 or 1) are. */
     uint64_t control_ticks, control_missed;
     int rendered;
+    double started;  /* s on CLOCK_MONOTONIC at which `time` is 0; 0: it was never started */
+    int64_t wake_ns; /* ns from the tick's deadline to its begin */
+    int64_t step_ns; /* ns that the tick took */
 } ts_state;
 
 typedef struct ts_session_s* ts_session;
@@ -302,6 +322,15 @@ TS_API ts_status ts_session_set(ts_session session, const char* name, const char
 /* A number of a material of the touched scene, from the next tick on; touch goes on. NaN: what the file says
  * again. The next ts_session_touch begins with what the scene says. A recording has it. */
 TS_API ts_status ts_session_material(ts_session session, uint64_t material, const char* name, double value);
+/* From the next tick on the object goes to the pose on the straight way, no faster than the pose says. The
+ * hand is pushed along as by an animated object, within the limits of the device. Up to 16 objects of a
+ * scene, none that its animation or physics moves. The next ts_session_touch begins with the scene at rest. A
+ * recording has the motion. */
+TS_API ts_status ts_session_move(ts_session session, uint64_t object, const ts_pose* pose);
+/* All objects that were moved stop where they are. */
+TS_API ts_status ts_session_halt(ts_session session);
+/* Where the object was in the newest tick; its speeds are those of the last ts_session_move. */
+TS_API ts_status ts_session_pose(ts_session session, uint64_t object, ts_pose* pose);
 /* Other than 0: on. Any thread, also while another one is in ts_session_run. */
 TS_API ts_status ts_session_force(ts_session session, int on);
 /* Other than 0: the control loop follows ts_session_goal from now on; 0: the servo's contact. TS_STATE

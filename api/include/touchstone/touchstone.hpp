@@ -1,5 +1,5 @@
-// A C++ layer over touchstone.h: handles that close themselves, exceptions in place of status codes. Header only, C++17, so that
-// nothing of a compiler's ABI crosses the library.
+// A C++ layer over touchstone.h: handles that close themselves, exceptions in place of status codes. Header
+// only, C++17, so that nothing of a compiler's ABI crosses the library.
 #ifndef TOUCHSTONE_TOUCHSTONE_HPP
 #define TOUCHSTONE_TOUCHSTONE_HPP
 
@@ -236,6 +236,8 @@ class Session {
         options.rate = rate;
         check(ts_session_create(&options, handle_.out()));
     }
+    /// All options: ticks to keep, a control loop.
+    explicit Session(const ts_session_options& options) { check(ts_session_create(&options, handle_.out())); }
     /// A device of the caller's; what its context names outlives the session.
     explicit Session(const ts_device& device, double rate = 1000.0) {
         ts_session_options options = TS_STRUCT(ts_session_options);
@@ -248,6 +250,23 @@ class Session {
         check(ts_session_set(handle_.get(), name.c_str(), value.c_str()));
     }
     void force(bool on) { check(ts_session_force(handle_.get(), on ? 1 : 0)); }
+    /// A number of a material; NaN: as in the file.
+    void material(std::uint64_t material, const std::string& name, double value) {
+        check(ts_session_material(handle_.get(), material, name.c_str(), value));
+    }
+    /// An object to a pose, with its bounded speeds (ts_session_move); all of them stop (halt).
+    void move(std::uint64_t object, const ts_pose& pose) {
+        check(ts_session_move(handle_.get(), object, &pose));
+    }
+    void halt() { check(ts_session_halt(handle_.get())); }
+    [[nodiscard]] ts_pose pose(std::uint64_t object) const {
+        ts_pose pose = TS_STRUCT(ts_pose);
+        check(ts_session_pose(handle_.get(), object, &pose));
+        return pose;
+    }
+    /// The caller renders contact, for a session with a control loop.
+    void render(bool byCaller) { check(ts_session_render(handle_.get(), byCaller ? 1 : 0)); }
+    void goal(const ts_goal& goal) { check(ts_session_goal(handle_.get(), &goal)); }
     void record(const std::string& file) { check(ts_session_record(handle_.get(), file.c_str())); }
     void endRecording() { check(ts_session_record(handle_.get(), nullptr)); }
     void start() { check(ts_session_start(handle_.get())); }

@@ -173,10 +173,25 @@ def touch(scene, positions, times=None, *, rate=1000.0, settings=None):
 
 class Session:
     """Touch in real time, by a servo of the library's own. `device`: "stroke", "stroke:NAME" (a simulated hand), or what
-    `touchstone run --device` takes. `keep`: ticks kept for `take`."""
+    `touchstone run --device` takes. `keep`: ticks kept for `take`. `control`: Hz of a control loop apart from contact, 100 to 4000.
 
-    def __init__(self, device="stroke", *, rate=1000.0, keep=0):
-        self._session = _touchstone.Session(device, rate, keep)
+    A device of your own is two functions: `position()` returns three numbers (m, device frame) or None where it is unknown,
+    `force(newtons)` gets an array of 3. A thread calls them `device_rate` times a second; the servo waits for neither, and where no
+    position comes for `stale_age` s (0: the device's usual one) the force fades. `max_force`: N, 0 for the usual one. What they throw
+    ends them and comes out of `pump`, `run` or `close`."""
+
+    def __init__(self, device=None, *, position=None, force=None, device_rate=1000.0, max_force=0.0, stale_age=0.0, rate=1000.0, keep=0,
+                 control=0.0):
+        if (position is None) != (force is None) or (position is not None and device is not None):
+            raise ArgumentError("device: give either a device, or both `position` and `force`")
+        if position is None:
+            self._session = _touchstone.Session("stroke" if device is None else device, rate, keep, control)
+            return
+        if not (callable(position) and callable(force)):
+            raise ArgumentError("position: it and `force` have to be functions")
+        if not 1.0 <= device_rate <= 10_000.0:
+            raise ArgumentError("device_rate: is not within 1 .. 10000 Hz")
+        self._session = _touchstone.Session(position, force, device_rate, max_force, stale_age, rate, keep, control)
 
     def __enter__(self):
         return self
@@ -194,6 +209,32 @@ class Session:
     def force(self, on):
         """Takes the force away, or gives it back."""
         self._session.force(on)
+
+    def material(self, material, name, value):
+        """A number of a material of the scene from the next tick on (docs/materials.md); None: as in the file."""
+        self._session.material(material, name, float("nan") if value is None else value)
+
+    def move(self, object, position, orientation=(1.0, 0.0, 0.0, 0.0), *, speed=0.1, turn=1.0):
+        """From the next tick on an object goes to a pose: `position` of its centre (m, workspace), `orientation` (w, x, y, z) its turn from
+        how it stands at rest; at most `speed` (m/s, to 0.5) and `turn` (rad/s, to 6.3) fast. The hand is pushed along."""
+        self._session.move(object, position, orientation, speed, turn)
+
+    def halt(self):
+        """All objects that were moved stop where they are."""
+        self._session.halt()
+
+    def pose(self, object):
+        """(position, orientation) of an object in the newest tick."""
+        return self._session.pose(object)
+
+    def render(self, on):
+        """The control loop follows `goal` from now on, or the servo's contact again (docs/control.md)."""
+        self._session.render(on)
+
+    def goal(self, proxy, *, stiffness=0.0, damping=0.0, planes=()):
+        """The newest contact that you render: where the proxy is (m, workspace; None: no contact), the spring (N/m, 0: the device's) and the
+        damping (N s/m) to it, and up to three unit normals of planes along which it slides."""
+        self._session.goal(proxy, stiffness, damping, list(planes))
 
     def record(self, file):
         """From the next tick on to `file`, for `touchstone replay`; None ends the recording."""

@@ -5,9 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace touchstone::test {
 namespace {
@@ -180,6 +187,210 @@ TEST(LiveSession, ChangesAMaterialWhileItIsTouched) {
     size_t needed = 0;
     ts::check(ts_scene_material_name(scene.get(), 0, nullptr, 0, &needed));
     EXPECT_GT(needed, 1u);
+}
+
+// The goal may come before the loop has heard that it is to follow goals.
+TEST(LiveSession, TheFirstGoalAfterRenderIsFollowed) {
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.own = &device;
+    options.control = 100.0; // 10 ms for the two calls
+    options.goal_power = 10.0;
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts::check(ts_session_create(&options, handle.out()));
+    ts_session session = handle.get();
+    ts::check(ts_session_touch(session, ts::Scene({floorMesh()}).get()));
+    ts::check(ts_session_start(session));
+    ts_state state = TS_STRUCT(ts_state);
+    for (int i = 0; i < 6000 && state.control_ticks < 100; ++i) {
+        ts::check(ts_session_pump(session, &state));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const ts_goal far = floorGoal(900.0);
+    for (int turn = 0; turn < 3; ++turn) {
+        ts::check(ts_session_render(session, 1));
+        ts::check(ts_session_goal(session, &far));
+        bool followed = false;
+        for (int i = 0; i < 100 && !followed; ++i) { // 0.25 s of silence let it go
+            ts::check(ts_session_pump(session, &state));
+            followed = state.rendered == 1 && state.contacts == 1;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        EXPECT_TRUE(followed) << turn;
+        ts::check(ts_session_render(session, 0));
+        for (int i = 0; i < 6000 && state.rendered == 1; ++i) {
+            ts::check(ts_session_pump(session, &state));
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+}
+
+/// Three squares side by side as a .gltf: the first one has material 0, the others, the middle one of which
+/// the hand touches, have none.
+std::filesystem::path threeSquares(const ScratchFolder& folder) {
+    std::vector<float> corners;
+    for (const float x : {-0.075f, -0.025f, 0.025f})
+        for (const auto& [dx, z] : {std::pair{0.0f, -0.05f}, {0.0f, 0.05f}, {0.05f, 0.05f}, {0.05f, -0.05f}})
+            corners.insert(corners.end(), {x + dx, 0.0f, z});
+    const std::vector<uint16_t> indices{0, 1, 2, 0, 2, 3};
+    std::ofstream data(folder / "squares.bin", std::ios::binary);
+    data.write(reinterpret_cast<const char*>(corners.data()),
+               static_cast<std::streamsize>(4 * corners.size()));
+    data.write(reinterpret_cast<const char*>(indices.data()),
+               static_cast<std::streamsize>(2 * indices.size()));
+    data.close();
+    std::ofstream text(folder / "squares.gltf");
+    text << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"materials":[{"name":"one"}],"buffers":[{"uri":"squares.bin","byteLength":156}],
+"bufferViews":[{"buffer":0,"byteLength":144},{"buffer":0,"byteOffset":144,"byteLength":12}],
+"meshes":[{"primitives":[)";
+    for (int i = 0; i < 3; ++i)
+        text << (i > 0 ? "," : "") << R"({"attributes":{"POSITION":)" << i << R"(},"indices":3)"
+             << (i == 0 ? R"(,"material":0})" : "}");
+    text << R"(]}],"accessors":[)";
+    for (int i = 0; i < 3; ++i)
+        text << R"({"bufferView":0,"byteOffset":)" << 48 * i
+             << R"(,"componentType":5126,"count":4,"type":"VEC3","min":[)" << corners[12 * i]
+             << ",0,-0.05],\"max\":[" << corners[12 * i] + 0.05f << ",0,0.05]},";
+    text << R"({"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}]})";
+    return folder / "squares.gltf";
+}
+
+TEST(LiveSession, ARecordingHasChangesOfSurfacesThatTheFileHasNoMaterialFor) {
+    const ScratchFolder folder;
+    const std::string model = threeSquares(folder).string(), file = (folder / "changed.tsrec").string();
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.own = &device;
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts::check(ts_session_create(&options, handle.out()));
+    ts_session session = handle.get();
+    const ts::Scene scene(model, TS_FIT_NONE);
+    ASSERT_EQ(scene.info().materials, 2u);
+    ts::check(ts_session_touch(session, scene.get()));
+    ts::check(ts_session_start(session));
+    ts_state state = TS_STRUCT(ts_state);
+    const auto touches = [&](double newtons) {
+        for (int i = 0; i < 6000; ++i) {
+            ts::check(ts_session_pump(session, &state));
+            if (state.contacts > 0 && std::abs(state.force[1] - newtons) < 1e-3)
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    };
+    EXPECT_TRUE(touches(1.2));
+    ts::check(ts_session_material(session, 0, "stiffness", 400.0)); // before the recording
+    ts::check(ts_session_material(session, 1, "stiffness", 100.0));
+    ts::check(ts_session_record(session, file.c_str()));
+    EXPECT_TRUE(touches(0.2));
+    ts::check(ts_session_material(session, 1, "stiffness", 300.0)); // and in it
+    EXPECT_TRUE(touches(0.6));
+    ts::check(ts_session_record(session, nullptr));
+    ts::check(ts_session_stop(session));
+    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+}
+
+TEST(LiveSession, MovesAnObjectUnderTheHandAndRecordsIt) {
+    const ScratchFolder folder;
+    const std::string model = threeSquares(folder).string(), file = (folder / "moved.tsrec").string();
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.own = &device;
+    options.keep = 1'000'000;
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts::check(ts_session_create(&options, handle.out()));
+    ts_session session = handle.get();
+    ts_pose pose = TS_STRUCT(ts_pose);
+    EXPECT_EQ(ts_session_move(session, 0, &pose), TS_STATE);
+    EXPECT_EQ(ts_session_halt(session), TS_STATE);
+    const ts::Scene scene(model, TS_FIT_NONE);
+    const uint64_t objects = scene.info().objects;
+    ts::check(ts_session_touch(session, scene.get()));
+    ts::check(ts_session_record(session, file.c_str()));
+    ts::check(ts_session_start(session));
+    ts_state state = TS_STRUCT(ts_state);
+    const auto until = [&](const auto& done) {
+        for (int i = 0; i < 6000; ++i) {
+            ts::check(ts_session_pump(session, &state));
+            if (done())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return false;
+    };
+    EXPECT_TRUE(until([&] { return state.contacts > 0 && state.force[1] > 1.1; }));
+    const auto object = static_cast<uint64_t>(state.object); // the hand's
+    ts_object_info info = TS_STRUCT(ts_object_info);
+    ts::check(ts_scene_object(scene.get(), object, &info));
+    EXPECT_EQ(info.movable, 1);
+    EXPECT_EQ(ts_scene_object(scene.get(), objects, &info), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_move(session, objects, &pose), TS_ARGUMENT);
+    EXPECT_EQ(ts_session_move(session, object, nullptr), TS_ARGUMENT);
+    for (const auto& wrong : {std::pair{&ts_pose::speed, 0.6},
+                              {&ts_pose::speed, -0.1},
+                              {&ts_pose::turn, 7.0},
+                              {&ts_pose::turn, std::nan("")}}) {
+        ts_pose bad = pose;
+        bad.*wrong.first = wrong.second;
+        EXPECT_EQ(ts_session_move(session, object, &bad), TS_ARGUMENT);
+    }
+    for (const double wrong : {1.5, double{INFINITY}, std::nan("")}) {
+        ts_pose bad = pose;
+        bad.position[1] = wrong;
+        EXPECT_EQ(ts_session_move(session, object, &bad), TS_ARGUMENT) << wrong;
+        bad = pose;
+        bad.orientation[2] = wrong;
+        EXPECT_EQ(ts_session_move(session, object, &bad), TS_ARGUMENT) << wrong;
+    }
+    // Up by 1 mm: the hand stays where it is and is pressed 3 mm deep, the device's limit aside; down by 5 mm
+    // it is free.
+    std::copy(info.centre, info.centre + 3, pose.position);
+    pose.position[1] += 0.001;
+    pose.speed = 0.01;
+    ts::check(ts_session_move(session, object, &pose));
+    EXPECT_TRUE(until([&] { return state.force[1] > 1.75; }));
+    EXPECT_NEAR(state.proxy[1], info.centre[1] + 0.001, 1e-4);
+    pose.position[1] -= 0.006;
+    ts::check(ts_session_move(session, object, &pose));
+    EXPECT_TRUE(until([&] { return state.contacts == 0 && state.force[1] == 0.0; }));
+    ts_pose now = TS_STRUCT(ts_pose);
+    EXPECT_TRUE(until([&] {
+        ts::check(ts_session_pose(session, object, &now));
+        return now.position[1] == pose.position[1];
+    }));
+    EXPECT_EQ(now.orientation[0], 1.0);
+    // Halted on its way it stays there.
+    pose.position[1] = 0.2;
+    ts::check(ts_session_move(session, object, &pose));
+    EXPECT_TRUE(until([&] {
+        ts::check(ts_session_pose(session, object, &now));
+        return now.position[1] > info.centre[1] - 0.0045;
+    }));
+    ts::check(ts_session_halt(session));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ts::check(ts_session_pump(session, &state));
+    ts::check(ts_session_pose(session, object, &now));
+    ts_pose later = TS_STRUCT(ts_pose);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ts::check(ts_session_pose(session, object, &later));
+    EXPECT_EQ(later.position[1], now.position[1]);
+    EXPECT_LT(now.position[1], 0.1);
+    ts::check(
+        ts_session_material(session, 0, "stiffness", 400.0)); // its motion outlives a change of materials
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ts::check(ts_session_pump(session, &state));
+    ts::check(ts_session_pose(session, object, &later));
+    EXPECT_EQ(later.position[1], now.position[1]);
+    ts::check(ts_session_record(session, nullptr));
+    ts::check(ts_session_stop(session));
+    EXPECT_LE(pressing.largest, 1.0 + 1e-12);
+    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }
 
 TEST(LiveSession, RefusesGoalsThatAreNone) {

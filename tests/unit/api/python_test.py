@@ -161,6 +161,84 @@ class Live(unittest.TestCase):
             touchstone.Session().start()
 
 
+    def test_a_device_is_two_functions(self):
+        felt, calls = [], []
+
+        def position():  # begins far above the floor, and presses 2 mm into it
+            calls.append(threading.get_ident())
+            return numpy.array([0.01, max(0.1 - 0.001 * len(calls), -0.002), 0.003])
+
+        session = touchstone.Session(position=position, force=lambda force: felt.append(force[1]), device_rate=200, max_force=1, stale_age=10)
+        with session:
+            session.touch(floor())
+            session.run(60, lambda state: bool(max(felt, default=0) < 0.99))
+            self.assertGreater(session.pump().force[1], 1.5)  # 800 N/m, 2 mm; no command is above the limit
+        self.assertEqual(len(set(calls)), 1)
+        self.assertNotEqual(calls[0], threading.get_ident())
+        self.assertLessEqual(max(felt), 1 + 1e-12)
+        self.assertEqual(felt[-1], 0)
+        for wrong, error, part in ((lambda: [1, 2], touchstone.ArgumentError, "2 numbers"), (lambda: "here", touchstone.ArgumentError, "three numbers"),
+                                   (lambda: 1 / 0, ZeroDivisionError, "division")):
+            session = touchstone.Session(position=wrong, force=felt.append)
+            session.touch(floor())
+            with self.assertRaisesRegex(error, part):
+                session.run(60, lambda state: None)
+            session.close()
+        for arguments in (dict(position=position), dict(force=felt.append), dict(position=3, force=felt.append), dict(position=position, force=felt.append, device_rate=0),
+                          dict(device="stroke", position=position, force=felt.append)):
+            with self.assertRaises(touchstone.ArgumentError):
+                touchstone.Session(**arguments)
+        nowhere = touchstone.Session(position=lambda: None, force=felt.append)  # and closed by nobody
+        nowhere.touch(floor())
+        nowhere.run(0.2)
+        self.assertEqual(nowhere.pump().contacts, 0)
+        del nowhere
+
+    def test_moves_objects_and_materials(self):
+        heights = [0.1] * 20  # far above the floor, and then 1 cm
+
+        def position():
+            return [0.01, heights.pop() if heights else 0.01, 0.003]
+
+        with touchstone.Session(position=position, force=lambda force: None, device_rate=200, stale_age=10) as session:
+            with self.assertRaises(touchstone.StateError):
+                session.move(0, [0, 0, 0])
+            session.touch(floor())
+            session.start()
+            session.run(60, lambda state: not state.touching)
+            rest, turned = session.pose(0)
+            self.assertTrue(numpy.array_equal(turned, [1, 0, 0, 0]))
+            with self.assertRaisesRegex(touchstone.ArgumentError, "speed"):
+                session.move(0, [0, 0, 0], speed=1)
+            with self.assertRaisesRegex(touchstone.ArgumentError, "object"):
+                session.move(1, [0, 0, 0])
+            session.move(0, rest + [0, 0.012, 0], speed=0.05)  # lifts the hand by 2 mm: 1.6 N
+            session.run(60, lambda state: bool(state.force[1] < 1.59))
+            self.assertGreater(session.pump().force[1], 1.5)
+            session.material(0, "stiffness", 400)
+            session.run(60, lambda state: bool(state.force[1] > 0.81))
+            self.assertLess(session.pump().force[1], 0.85)
+            session.halt()
+            self.assertAlmostEqual(session.pose(0)[0][1], rest[1] + 0.012, places=12)
+
+    def test_renders_contact(self):
+        felt = []
+        with touchstone.Session(position=lambda: [0.01, 0.01, 0.003], force=lambda force: felt.append(force[1]), control=1000, device_rate=200, stale_age=10) as session:
+            session.touch(floor())
+            session.start()
+            session.render(True)
+            with self.assertRaisesRegex(touchstone.ArgumentError, "planes"):
+                session.goal([0, 0, 0], planes=[[0, 1, 0]] * 4)
+
+            def push(state):
+                session.goal([0.01, 0.011, 0.003], stiffness=300)
+                return bool(max(felt, default=0) < 0.001)  # without energy of its own it takes what its damper lends
+
+            session.run(2, push)
+            self.assertEqual(session.pump().object, -1)
+            session.goal(None)
+
+
 def floor():
     return touchstone.Scene.from_arrays([[-.1, 0, -.1], [-.1, 0, .1], [.1, 0, .1], [.1, 0, -.1]], [[0, 1, 2], [0, 2, 3]],
                                         material=touchstone.Material(stiffness=800))

@@ -105,6 +105,16 @@ TEST(RecordingFormat, RefusesMappingsThatCannotBe) {
     EXPECT_THROW((void)decode(4, std::span(whole).first(whole.size() - 1)), Error);
 }
 
+DrivenState someDriven() {
+    DrivenState state{.tick = 12, .count = 1};
+    state.objects[0] = {.object = 2,
+                        .now = {0.5, glm::dquat(0.6, 0.0, 0.8, 0.0), {0.1, -0.2, 0.3}},
+                        .goal = {0.5, glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.25, 0.0}},
+                        .speed = 0.125,
+                        .turn = 2.0};
+    return state;
+}
+
 std::vector<RecordedItem> oneOfEach() {
     RecordedScene scene{3, {}};
     scene.identity.path = "a b/ü.glb";
@@ -163,7 +173,8 @@ std::vector<RecordedItem> oneOfEach() {
                               .radius = 0.07,
                               .change = -1e-6,
                               .most = 4096}}},
-            RecordedLocations{2, {1e-3, -2e-3}, {{80, {0.008, 0.1}, {3e-3, 4e-3}}, {81, {0.008, 0.1}, {}}}}};
+            RecordedLocations{2, {1e-3, -2e-3}, {{80, {0.008, 0.1}, {3e-3, 4e-3}}, {81, {0.008, 0.1}, {}}}},
+            RecordedDriven{someDriven()}};
 }
 
 /// Bytes of one change of limits and their count.

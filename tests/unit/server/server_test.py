@@ -418,6 +418,65 @@ class Materials(Server):
         self.assertNotEqual(watcher.ask("materials")["materials"][0]["values"].get("staticFriction"), 0)
 
 
+class Moving(Server):
+    options = ("--allow-write",)
+
+    def test_clients_move_objects_under_the_hand(self):
+        driver, watcher = self.client(), self.client(self.path)
+        self.touching(driver)
+        (rest,) = driver.ask("objects")["objects"]
+        self.assertEqual((rest["first_triangle"], rest["triangles"], rest["movable"]), (0, 64800, True))
+        self.refused(watcher, "you do not drive", "move", object=0, position=[0, 0, 0])
+        driver.ask("drive")
+        here = dict(object=0, position=[0, 0, 0])
+        for part, wrong in (("'object' is missing", dict(position=[0, 0, 0])), ("'object' is negative", {**here, "object": -1}),
+                            ("1, and there are 1", {**here, "object": 1}), ("wrong type", {**here, "object": "0"}),
+                            ("'position' is missing", dict(object=0)), ("three numbers", {**here, "position": [0, 0]}),
+                            ("wrong type", {**here, "position": [0, 0, None]}), ("within 1 m", {**here, "position": [0, 0, 1e9]}),
+                            ("four numbers", {**here, "orientation": [1, 0, 0]}), ("unit quaternion", {**here, "orientation": [1, 1, 0, 0]}),
+                            ("0.5 m/s", {**here, "speed": 1}), ("speed", {**here, "speed": -1}), ("6.3 rad/s", {**here, "turn": 7})):
+            self.refused(driver, part, "move", **wrong)
+        self.assertNotIn("moved", driver.state())
+        driver.ask("record", file="moved.tsrec")
+        # Up and down through the hand for some seconds: never faster than asked, never a force beyond the limit.
+        driver.ask("subscribe", states=200)
+        seen = []
+        for i in range(6):
+            height = 0.02 * (1 if i % 2 == 0 else -1)
+            driver.ask("move", object=0, position=[0, height, 0], orientation=[numpy.cos(0.1 * i), 0, numpy.sin(0.1 * i), 0], speed=0.2, turn=1)
+            end = time.monotonic() + 30
+            while time.monotonic() < end:
+                state = driver.event("state")
+                if "moved" in state:
+                    seen.append((state["time"], *state["moved"][0]["position"], state["contacts"], *state["command"]))
+                    if abs(state["moved"][0]["position"][1] - height) < 1e-12:
+                        break
+            else:
+                self.fail("it does not arrive")
+        seen = numpy.array(seen)
+        steps, ways = numpy.diff(seen[:, 0]), numpy.linalg.norm(numpy.diff(seen[:, 1:4], axis=0), axis=1)
+        self.assertTrue((ways <= 0.2 * (steps + 0.002) + 1e-12).all(), (ways - 0.2 * steps).max())
+        self.assertGreater((seen[:, 4] > 0).sum(), 10)  # it was touched while it moved
+        self.assertLessEqual(numpy.linalg.norm(seen[:, 5:8], axis=1).max(), 8.5 + 1e-9)
+        # Halted on its way, by who drives or because nobody does: it stays where it is.
+        for stop in (lambda: driver.ask("halt"), driver.close):
+            driver.ask("move", object=0, position=[0.5, 0, 0], speed=0.05)
+            while watcher.state()["moved"][0]["position"][0] < 0.002:
+                pass
+            stop()
+            time.sleep(0.2)
+            before = watcher.state()["moved"]
+            time.sleep(0.3)
+            self.assertEqual(watcher.state()["moved"], before)
+        watcher.ask("drive")
+        watcher.ask("record", file="")
+        replay = subprocess.run([PROGRAM, "replay", str(self.folder / "root" / "moved.tsrec")], capture_output=True, text=True, timeout=120)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+        watcher.ask("load", scene="box.glb")
+        watcher.event("scene")
+        self.assertNotIn("moved", watcher.state())
+
+
 class Browser(Client):
     """The DevTools of a page, over the client's own frames."""
 
