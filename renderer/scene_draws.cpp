@@ -1,5 +1,6 @@
 // Selects and orders the instances to draw.
 
+#include "engine/scene/filled_instance.h"
 #include "renderer/scene_renderer_impl.h"
 
 #include <algorithm>
@@ -125,15 +126,19 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
         item.bothSides = material.doubleSided && !strokes;
         if (!setConstants(linear, origin, item))
             continue;
-        if (view.part.clip && isClipped(scene, scene.instances[i])) {
+        if (view.part.clip) {
             const std::optional<glm::vec4> clip = clipInEye(*view.part.clip, scene.instances[i].sceneFromMesh,
                                                             poses[i], view.workspaceFromScene, eye);
             if (!clip)
                 continue;
             item.constants.clip = *clip;
             item.features |= shared::kIsClipped;
-            // A cut shows the insides, which are felt unless the material is felt from outside only.
-            item.bothSides = !strokes && (material.doubleSided || material.haptic.sides != SideChoice::Front);
+            // A cut shows the insides, which are felt unless the material is felt from outside only, or the
+            // face that is in their place.
+            const bool filled = !strokes && isFilled(scene, scene.instances[i]);
+            item.constants.normalFromMesh[2].w = filled ? 1.0f : 0.0f;
+            item.bothSides =
+                !strokes && (filled || material.doubleSided || material.haptic.sides != SideChoice::Front);
         }
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));

@@ -146,6 +146,12 @@ void writeOver(vec3 color, vec3 through, float alpha) {
 #endif
 }
 
+/// An inner side of a body that is filled (object.normalFromMesh[2].w) is seen through the face that cuts it: the line
+/// of sight enters the body there, since it leaves it here and meets nothing between.
+bool showsFace() {
+    return has(kIsClipped) && !gl_FrontFacing && object.normalFromMesh[2].w > 0.5;
+}
+
 void main() {
 #ifdef POINTS
     if (dot(sprite, sprite) > 1.0) discard;
@@ -180,7 +186,7 @@ void main() {
         occlusion = 1.0 + material.factors.w * (texture(occlusionMap, uvOf(kOcclusionSlot)).r - 1.0);
 
     const vec3 v = normalize(frame.toEye.xyz - frame.toEye.w * eyePosition);
-    vec3 n = normalize(eyeNormal);
+    vec3 n = normalize(eyeNormal), place = eyePosition;
     vec3 smoothNormal = n;
     if (has(kHasNormalTexture)) {
         const vec2 uv = uvOf(kNormalSlot);
@@ -194,6 +200,12 @@ void main() {
         n = -n;
         smoothNormal = -smoothNormal;
     }
+    if (showsFace()) { // before this inner side, where the line of sight meets the plane
+        n = normalize(object.clip.xyz);
+        n = dot(n, v) < 0.0 ? -n : n;
+        smoothNormal = n;
+        place -= v * (dot(object.clip, vec4(place, 1.0)) / dot(object.clip.xyz, v));
+    }
     const float nv = clamp(abs(dot(n, v)), 1e-3, 1.0);
 
     vec3 through = vec3(0.0);
@@ -205,7 +217,7 @@ void main() {
     }
 
     vec2 left = vec2(1.0);
-    if (has(kHasProbeShadow)) left = leftByProbe(eyePosition, n, frame.toLight0.xyz);
+    if (has(kHasProbeShadow)) left = leftByProbe(place, n, frame.toLight0.xyz);
     const vec3 specular = specularShare(s, nv);
     vec3 scattered = vec3(0.0);
     if (has(kIsTransmissive)) {

@@ -40,7 +40,9 @@ void WorkbenchWindow::draw() {
         showMaterials();
         touch_.sculpt().update(state_.sculpt, !timeline_.looking());
         touch_.sculpt().draw(screen_.renderer());
-        touch_.pose(animationTime(shownSettings(), shownTick().time), screen_.renderer());
+        const bool recorded = timeline_.looking() && timeline_.modelIsOpen() && !timeline_.again().running();
+        touch_.pose(animationTime(shownSettings(), shownTick().time), screen_.renderer(),
+                    recorded ? timeline_.bodies() : std::span<const body::Pose>());
     }
     const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/scene/clip_mesh.h"
+#include "engine/scene/filled_instance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,10 +130,10 @@ glm::dvec4 planeInMesh(const ClipPlane& plane, const glm::dmat4& sceneFromMesh) 
     return glm::transpose(sceneFromMesh) * glm::dvec4(plane.normal, -plane.offset);
 }
 
-bool isClipped(const Scene& scene, const Instance& instance) {
+bool isFilled(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    return scene.volume == nullptr && // which is felt itself, whatever the material of its mesh states
-           !scene.materials[static_cast<size_t>(mesh.material)].haptic.implicit;
+    return scene.volume != nullptr || // which is felt itself, whatever the material of its mesh states
+           scene.materials[static_cast<size_t>(mesh.material)].haptic.implicit;
 }
 
 ScenePtr sceneOf(const ScenePtr& whole, const ScenePart& part) {
@@ -155,7 +156,7 @@ ScenePtr sceneOf(const ScenePtr& whole, const ScenePart& part) {
         const Mesh& mesh = whole->meshes[static_cast<size_t>(kept.mesh)];
         const int next = static_cast<int>(scene->meshes.size());
         std::optional<Mesh> cut;
-        if (part.clip && isClipped(*whole, kept))
+        if (part.clip)
             cut = clippedMesh(mesh, planeInMesh(*part.clip, kept.sceneFromMesh),
                               clipTolerance(mesh, kept.sceneFromMesh));
         if (cut) {

@@ -68,6 +68,8 @@ bool isBarred(const HapticScene& scene, ObjectMotions motions, const glm::dvec3&
     return false;
 }
 
+} // namespace
+
 bool isEnclosed(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
     int barred = 0, left = 2 * static_cast<int>(kAxes);
     for (const glm::dvec3& direction : kDirections)
@@ -80,8 +82,6 @@ bool isEnclosed(const HapticScene& scene, ObjectMotions motions, const glm::dvec
         }
     return false;
 }
-
-} // namespace
 
 bool clearOfModel(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
     for (size_t k = 0; k < scene.objects.size(); ++k)

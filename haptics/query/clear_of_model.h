@@ -21,4 +21,8 @@ inline constexpr double kModelReach = 5e-3;
 [[nodiscard]] bool clearOfModel(const HapticScene& scene, ObjectMotions motions,
                                 const glm::dvec3& hip) noexcept;
 
+/// The second half of that: two-sided surfaces are met in 10 of 14 directions from `point` (workspace).
+[[nodiscard]] bool isEnclosed(const HapticScene& scene, ObjectMotions motions,
+                              const glm::dvec3& point) noexcept;
+
 } // namespace touchstone

@@ -330,6 +330,11 @@ void Replayer::resume(const RecordedTick& tick) {
         known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
 }
 
+const body::BodyWorld* Replayer::bodies() const {
+    const auto scene = loaded_.find(rootOf(scene_));
+    return scene != loaded_.end() && scene->second != nullptr ? scene->second->world.bodies().get() : nullptr;
+}
+
 /// The state before `tick`: the last whole one and the strokes since. False where that does not fit.
 bool Replayer::restoreTextures(const RecordedTick& tick, PersistentTextures& textures) const {
     if (textures_.empty() || textures_[0].tick > tick.tick)

@@ -85,6 +85,8 @@ class Replayer {
     void begin(const Each& each);
     void take(const RecordingReader::Item& item);
     [[nodiscard]] const ReplayReport& report() const { return report_; }
+    /// In `each`: the bodies after that tick; null where the scene has none.
+    [[nodiscard]] const body::BodyWorld* bodies() const;
 
   private:
     struct Touched {

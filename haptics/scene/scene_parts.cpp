@@ -3,6 +3,8 @@
 #include "engine/scene/clip_mesh.h"
 #include "haptics/program/felt_program.h"
 #include "haptics/scene/scene_programs.h"
+#include "haptics/shape/field/cut_field.h"
+#include "haptics/shape/mesh/cut_object.h"
 
 #include <optional>
 #include <utility>
@@ -11,8 +13,8 @@ namespace touchstone {
 
 namespace {
 
-/// Keeps name, material, pose and size, for what names the object.
-std::shared_ptr<const HapticObject> emptied(const HapticObject& object) {
+/// Name, material, pose and size, for what names the object, without geometry.
+std::shared_ptr<HapticObject> bareCopyOf(const HapticObject& object) {
     auto empty = std::make_shared<HapticObject>();
     empty->name = object.name;
     empty->instance = object.instance;
@@ -21,6 +23,11 @@ std::shared_ptr<const HapticObject> emptied(const HapticObject& object) {
     empty->objectFromMesh = object.objectFromMesh;
     empty->diagonal = object.diagonal;
     empty->oneSided = object.oneSided;
+    return empty;
+}
+
+std::shared_ptr<const HapticObject> emptied(const HapticObject& object) {
+    const std::shared_ptr<HapticObject> empty = bareCopyOf(object);
     empty->vertices.emplace_back(0.0f); // spare, as in every object
     return empty;
 }
@@ -44,6 +51,8 @@ class ObjectCutter {
             return object;
         if (distance > sphere.w)
             return emptied(*object);
+        if (object->shape != nullptr)
+            return cutShape(*object);
         const auto i = static_cast<size_t>(object->instance);
         Instance& instance = cut_.instances[i];
         const Mesh& mesh = source_.meshes[static_cast<size_t>(source_.instances[i].mesh)];
@@ -56,11 +65,25 @@ class ObjectCutter {
             return emptied(*object);
         cut_.meshes[0] = *std::move(left);
         const auto& material = whole_.materials[static_cast<size_t>(object->material)];
-        return buildHapticObject(cut_, object->instance, whole_.workspaceFromScene,
-                                 meshUse(material, object->oneSided), progress);
+        return buildCutObject(cut_, object->instance, mesh, whole_.workspaceFromScene,
+                              meshUse(material, object->oneSided), progress);
     }
 
   private:
+    /// The field's part as a body with a face; every shape that a file names is a field.
+    [[nodiscard]] std::shared_ptr<const HapticObject> cutShape(const HapticObject& object) const {
+        const auto field = std::dynamic_pointer_cast<const FieldShape>(object.shape);
+        const Similarity place = whole_.workspaceFromScene.inverseTimes(object.workspaceFromObject);
+        const glm::dvec3 normal = glm::conjugate(place.rotation) * plane_.normal;
+        const double offset = -plane_.distance(place.translation) / place.scale;
+        std::shared_ptr<HapticObject> cut = bareCopyOf(object);
+        cut->closed = true;
+        cut->anySmooth = object.anySmooth;
+        cut->boundingRadius = object.boundingRadius;
+        cut->shape = std::make_shared<CutField>(field, normal, offset);
+        return cut;
+    }
+
     const HapticScene& whole_;
     const Scene& source_;
     const ClipPlane& plane_;
@@ -101,9 +124,6 @@ std::shared_ptr<HapticScene> partOf(const HapticScene& whole, const Scene& sourc
         const auto i = static_cast<size_t>(object->instance);
         if (hidden[i])
             object = emptied(*object);
-        else if (cutter && object->shape != nullptr)
-            felt->warnings.push_back({object->name, "is felt as a distance field, which the clipping "
-                                                    "plane does not cut: it is whole for eye and hand"});
         else if (cutter)
             object =
                 cutter->cut(object, progress.part(static_cast<double>(k) / static_cast<double>(count),

@@ -2,8 +2,8 @@
 
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
+#include "haptics/shape/field/cut_field.h"
 #include "haptics/shape/field/field_colors.h"
-#include "haptics/shape/field/field_shape.h"
 #include "haptics/shape/field/mesh_to_field.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 }
 
 const FieldShape* fieldOf(const HapticObject& object) {
-    return dynamic_cast<const FieldShape*>(object.shape.get());
+    return wholeField(object.shape.get());
 }
 
 } // namespace
@@ -274,9 +274,12 @@ void SceneSculptor::renew(size_t object) {
     reshaped->closed = true;
     reshaped->anySmooth = old.anySmooth;
     reshaped->oneSided = old.oneSided;
-    const auto shape = std::make_shared<FieldShape>(sculptorOf(object).grid());
-    shape->setColors(sculptorOf(object).colors());
-    reshaped->shape = shape;
+    const auto field = std::make_shared<FieldShape>(sculptorOf(object).grid());
+    field->setColors(sculptorOf(object).colors());
+    if (const auto* const cut = dynamic_cast<const CutField*>(old.shape.get()))
+        reshaped->shape = cut->of(field);
+    else
+        reshaped->shape = field;
     reshaped->boundingRadius = reshaped->shape->boundingRadius();
     reshaped->diagonal = 2.0 * reshaped->boundingRadius;
     scene->boundingRadii[object] = reshaped->boundingRadius;

@@ -5,6 +5,7 @@
 #include "engine/core/realtime_guard.h"
 #include "haptics/body/body_world.h"
 #include "haptics/proxy/place_proxy.h"
+#include "haptics/proxy/take_up_part.h"
 #include "haptics/texture/persistent_textures.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ struct ServoLoop::Touch {
           paths(hands), pads(hands), shown(hands), checkpoints(hands) {}
 
     const Offer* offer = nullptr;
-    uint32_t geometry = 0;                    // of the offer; 0: none
+    uint32_t geometry = 0, part = 0;          // of the offer; geometry 0: none
     uint32_t scene = 0, root = 0;             // numbers of the offer and of what it is an edit of
     const HapticSettings* settings = nullptr; // of this tick
     const LiveTool* tool = nullptr;           // of this tick; null: none is active
@@ -128,15 +129,17 @@ void ServoLoop::stop() {
 uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneSwap swap,
                                const HapticSettings* settings, std::shared_ptr<DrivenObjects> driven) {
     const NumberedSettings with = settings != nullptr ? number(*settings) : NumberedSettings{};
-    if (swap == SceneSwap::Anew)
-        ++offeredGeometry_;
     if (scene == nullptr) {
+        ++offeredGeometry_;
         scene_.offer(nullptr);
         waiting_.reset();
+        lastScene_.reset();
         bodies_ = nullptr;
         return 0;
     }
-    const bool goesOn = swap == SceneSwap::SameGeometry;
+    if (swap == SceneSwap::OtherPart && !canTakeUpPart(source.get(), *scene))
+        swap = SceneSwap::Anew;
+    const bool goesOn = swap != SceneSwap::Anew;
     WorldState world(std::move(source), *scene, WorldBodies::Simulated, goesOn ? bodies_ : nullptr,
                      goesOn ? newestTextures() : nullptr, driven);
     if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
@@ -146,8 +149,9 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     holdTextures(number, world);
     if (driven != nullptr)
         driven_.emplace_back(number, std::move(driven));
-    auto offer = std::make_shared<const Offer>(std::move(scene), std::move(world), number, offeredGeometry_,
-                                               number, std::vector<int>(), uint64_t{0}, with);
+    Offer made = offerOf(std::move(scene), std::move(world), number, swap);
+    made.settings = with;
+    auto offer = std::make_shared<const Offer>(std::move(made));
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
         offer->world.publishAhead(animationTime(
@@ -159,14 +163,39 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     return number;
 }
 
-void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
+/// Owner thread: the offer of a scene that is its own root.
+ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, WorldState world, uint32_t number,
+                                    SceneSwap swap) {
     if (swap == SceneSwap::Anew)
         ++offeredGeometry_;
+    const bool otherPart = swap == SceneSwap::OtherPart;
+    if (otherPart)
+        ++offeredPart_;
+    Offer offer{.scene = std::move(scene),
+                .world = std::move(world),
+                .number = number,
+                .geometry = offeredGeometry_,
+                .root = number,
+                .part = offeredPart_};
+    if (otherPart) {
+        offer.before = offeredLast_;
+        offer.partBefore = std::move(lastScene_);
+    }
+    offeredLast_ = number;
+    lastScene_ = offer.scene;
+    return offer;
+}
+
+void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
+    if (swap == SceneSwap::OtherPart && !canTakeUpPart(scene.source.get(), *scene.scene))
+        swap = SceneSwap::Anew;
     WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, bodies_,
                      newestTextures());
     holdTextures(scene.root, world);
-    scene_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number,
-                                               offeredGeometry_, scene.root, std::move(scene.reshaped)));
+    Offer offer = offerOf(std::move(scene.scene), std::move(world), scene.number, swap);
+    offeredLast_ = offer.root = scene.root;
+    offer.reshaped = std::move(scene.reshaped);
+    scene_.offer(std::make_shared<const Offer>(std::move(offer)));
 }
 
 void ServoLoop::offerEdited(ReshapedScene scene) {
@@ -274,8 +303,11 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     const bool edited = offer != nullptr && offer->geometry == 0; // of the present root (prepare)
     const uint32_t geometry = offer == nullptr ? 0 : edited ? touch.geometry : offer->geometry;
     const bool goesOn = geometry != 0 && geometry == touch.geometry;
+    const uint32_t part = offer == nullptr ? 0 : edited ? touch.part : offer->part;
+    const bool otherPart = part != touch.part;
     touch.offer = offer;
     touch.geometry = geometry;
+    touch.part = part;
     if (offer != nullptr)
         offer->world.forget();
     if (goesOn) {
@@ -285,7 +317,11 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
         const ObjectMotions moved = offer->world.poses();
         const ObjectMotions motions = moved.empty() ? ObjectMotions(offer->scene->restMotions) : moved;
         for (DeviceState& device : touch.devices) {
-            letGoOfEmptied(*offer->scene, motions, device);
+            if (otherPart)
+                takeUpPart(*offer->scene, offer->before == touch.root ? offer->partBefore.get() : nullptr,
+                           motions, touch.settings->proxyRadius, device);
+            else
+                letGoOfEmptied(*offer->scene, motions, device);
             if (!offer->reshaped.empty())
                 takeUpReshaped(*offer->scene, motions, offer->reshaped, device);
         }

@@ -87,6 +87,9 @@ enum class SceneSwap : uint8_t {
     Anew,         ///< another world: touch begins again, and its force fades in
     SameGeometry, ///< the scene offered last, with other materials (withMaterials) or with more hidden
                   ///< objects (partOf): touch continues
+    OtherPart,    ///< another part of that scene (partOf): touch continues where nothing that comes to be
+                  ///< felt meets or encloses the hand (takeUpPart), but in a scene with bodies, deforming
+                  ///< meshes or persistent textures, which begins anew
 };
 
 /// A scene whose fields were edited, from the thread that edits.
@@ -220,6 +223,10 @@ class ServoLoop {
         std::vector<int> reshaped{};
         uint64_t oldestEdit = 0;
         NumberedSettings settings{}; // that came with it, until newer ones come
+        uint32_t part = 0;           // of the root: equal numbers, the same part of the scene
+        // With SceneSwap::OtherPart what was offered before, by its number, which may be what is felt.
+        uint32_t before = 0;
+        std::shared_ptr<const HapticScene> partBefore{};
     };
     struct NumberedTool {
         uint32_t number = 0;
@@ -231,6 +238,8 @@ class ServoLoop {
 
     void run() noexcept;
     static void adopt(Touch& touch, const Offer* offer) noexcept;
+    [[nodiscard]] Offer offerOf(std::shared_ptr<const HapticScene> scene, WorldState world, uint32_t number,
+                                SceneSwap swap);
     void holdTextures(uint32_t number, const WorldState& world);
     [[nodiscard]] std::shared_ptr<PersistentTextures> newestTextures();
     void prepare(Touch& touch) noexcept;
@@ -261,7 +270,8 @@ class ServoLoop {
     // Owner thread:
     std::deque<NumberedSettings> offeredSettings_{NumberedSettings{}}; // that a record may still name
     std::deque<NumberedTool> offeredTools_{NumberedTool{}};
-    uint32_t offeredGeometry_ = 0;
+    uint32_t offeredGeometry_ = 0, offeredPart_ = 0, offeredLast_ = 0;
+    std::shared_ptr<const HapticScene> lastScene_; // of offeredLast_
     std::shared_ptr<const Offer> waiting_;    // the scene that was offered before `start`
     std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
     bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart

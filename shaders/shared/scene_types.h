@@ -99,7 +99,7 @@ struct ProgramObjectUniforms {
 
 /// Push constants, once an object: the rows of the affine map eyeFromMesh, and those of its cofactor matrix,
 /// which takes normals (its w of the first row: -1 where the object is mirrored, else 1; of the second: scene metres of a
-/// mesh metre).
+/// mesh metre; of the third with kIsClipped: 1 where the object is filled).
 struct ObjectConstants {
     vec4 eyeFromMesh[3];
     vec4 normalFromMesh[3];

@@ -11,6 +11,7 @@
 #include "haptics/program/felt_program.h"
 #include "haptics/scene/scene_programs.h"
 #include "haptics/servo/realtime_thread.h"
+#include "haptics/shape/field/cut_field.h"
 #include "haptics/shape/field/field_error.h"
 #include "haptics/tick/stepped_hand.h"
 #include "workbench/figures/effect_cost.h"
@@ -318,7 +319,7 @@ Json volumeJson(const Model& model) {
     const VolumeFacts& facts = volume.facts();
     uint64_t field = 0;
     for (const auto& object : model.haptic->objects)
-        if (const auto* shape = dynamic_cast<const FieldShape*>(object->shape.get()))
+        if (const FieldShape* const shape = wholeField(object->shape.get()))
             field += shape->grid().memoryBytes();
     return {
         {"format", facts.format},

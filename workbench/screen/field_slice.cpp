@@ -2,7 +2,7 @@
 
 #include "engine/math/similarity.h"
 #include "haptics/scene/haptic_scene.h"
-#include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/cut_field.h"
 #include "renderer/overlay.h"
 #include "workbench/figures/quantity.h"
 
@@ -26,7 +26,7 @@ struct SlicedField {
 std::vector<SlicedField> fieldsOf(const HapticScene& scene) {
     std::vector<SlicedField> fields;
     for (const auto& object : scene.objects)
-        if (const auto* const shape = dynamic_cast<const FieldShape*>(object->shape.get()))
+        if (const FieldShape* const shape = wholeField(object->shape.get()))
             fields.push_back({shape, scene.workspaceFromScene.inverseTimes(object->workspaceFromObject)});
     return fields;
 }

@@ -1,7 +1,7 @@
 #include "workbench/sculpt/sculpted_surface.h"
 
 #include "engine/math/similarity.h"
-#include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/cut_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ void SculptedSurface::changed(const HapticScene& scene, int object, const Scene*
 void SculptedSurface::add(const HapticScene& scene, int object, const Scene* drawn,
                           std::span<const uint32_t> bricks, bool shown) {
     const HapticObject& own = *scene.objects[static_cast<size_t>(object)];
-    const auto* const shape = dynamic_cast<const FieldShape*>(own.shape.get());
+    const FieldShape* const shape = wholeField(own.shape.get());
     if (shape == nullptr || drawn == nullptr || own.instance < 0)
         return;
     {

@@ -1,6 +1,7 @@
 #include "workbench/timeline/replay_cache.h"
 
 #include "engine/core/error.h"
+#include "haptics/body/body_world.h"
 
 #include <algorithm>
 #include <exception>
@@ -58,13 +59,19 @@ class SegmentReader {
         result_->equal.resize(result_->ticks.size());
         size_t begin = 0; // of the block being recomputed
         const RecordedTicks* block = nullptr;
+        Replayer replayer([&](const RecordedScene& scene) { return scenes_.at(scene.number).scene; });
         const Replayer::Each each = [&](const RecordedTick& tick, const HapticOutput& output, int64_t,
                                         bool equal) {
             const size_t at = begin + static_cast<size_t>(&tick - block->ticks.data());
             result_->outputs[at] = output;
             result_->equal[at] = equal ? 1 : 0;
+            const body::BodyWorld* const bodies = replayer.bodies();
+            if (bodies == nullptr)
+                return;
+            result_->bodies.resize(result_->ticks.size());
+            for (const body::BodyState& state : bodies->states())
+                result_->bodies[at].push_back(state.pose);
         };
-        Replayer replayer([&](const RecordedScene& scene) { return scenes_.at(scene.number).scene; });
         replayer.begin(each);
         for (const auto& [number, scene] : timeline_.scenes())
             replayer.take(RecordingReader::Item{.item = scene});
@@ -196,6 +203,14 @@ bool ReplayCache::show(size_t index, TickRecord& record) const {
     if (complete(index))
         record.output = segment->outputs[at];
     return true;
+}
+
+const std::vector<body::Pose>* ReplayCache::bodies(size_t index) const {
+    const LensSegment* const segment = segmentWith(index);
+    if (segment == nullptr || segment->bodies.empty())
+        return nullptr;
+    const std::vector<body::Pose>& bodies = segment->bodies[index - segment->first];
+    return bodies.empty() ? nullptr : &bodies;
 }
 
 bool ReplayCache::complete(size_t index) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "haptics/body/rigid_body.h"
 #include "haptics/servo/servo_loop.h"
 #include "haptics/tick/haptic_step.h"
 #include "workbench/timeline/background_job.h"
@@ -22,6 +23,8 @@ struct LensSegment {
     std::vector<RecordedTick> ticks;
     std::vector<HapticOutput> outputs; ///< as many, or none
     std::vector<uint8_t> equal;        ///< 1: recomputed, and bitwise equal in every stage
+    /// After each recomputed tick, of a scene with bodies, in the recorded workspace; else empty.
+    std::vector<std::vector<body::Pose>> bodies;
     bool tried = false;                ///< with the scenes of its ticks
 };
 
@@ -38,6 +41,8 @@ class ReplayCache {
 
     /// The data of a tick; false while it is being read: then `record` is unchanged.
     bool show(size_t index, TickRecord& record) const;
+    /// The bodies after a tick that was recomputed, in the recorded workspace; null: it was not, or has none.
+    [[nodiscard]] const std::vector<body::Pose>* bodies(size_t index) const;
     /// It was recomputed, with the recorded result.
     [[nodiscard]] bool complete(size_t index) const;
     /// Why its ticks cannot be recomputed; empty: no problem, or not tried.

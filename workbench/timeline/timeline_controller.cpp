@@ -184,6 +184,10 @@ void TimelineController::showTick() {
     HapticOutput& output = tick_.output;
     for (glm::dvec3* place : {&output.hip, &output.proxy, &output.stictionPoint})
         *place = openFromRecorded_.point(*place);
+    const std::vector<body::Pose>* const bodies = replayCache_->bodies(cursor);
+    bodies_ = bodies != nullptr ? *bodies : std::vector<body::Pose>();
+    for (body::Pose& body : bodies_)
+        body = {openFromRecorded_.rotation * body.rotation, openFromRecorded_.point(body.position)};
 }
 
 TimelineController::ModelFit TimelineController::fitOf(const RecordedScene& scene,
@@ -296,6 +300,9 @@ nlohmann::ordered_json TimelineController::json() const {
                     {"planes", shown.planeCount},
                     {"proxy", {shown.proxy.x, shown.proxy.y, shown.proxy.z}},
                     {"force", {shown.force.x, shown.force.y, shown.force.z}}};
+    json["bodies"] = nlohmann::ordered_json::array();
+    for (const body::Pose& body : bodies_)
+        json["bodies"].push_back({body.position.x, body.position.y, body.position.z});
     json["force_n"] = timeline_->force()[at.cursor()];
     json["marks"] = timeline_->marks().size();
     json["notes"] = notes_;

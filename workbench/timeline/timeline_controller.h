@@ -68,6 +68,9 @@ class TimelineController {
     /// The tick under the cursor, in the workspace of the open model; while it is being read, the last known
     /// one.
     [[nodiscard]] const TickRecord& tick() const { return tick_; }
+    /// The bodies after that tick, in the workspace of the open model; empty where the recording has none,
+    /// or they are not known yet.
+    [[nodiscard]] const std::vector<body::Pose>& bodies() const { return bodies_; }
     /// It is the cursor's tick, with the recomputed data.
     [[nodiscard]] bool tickComplete() const { return complete_ == playback_->cursor(); }
     [[nodiscard]] const HapticSettings& settings() const {
@@ -136,6 +139,7 @@ class TimelineController {
     std::vector<std::unique_ptr<ReplayCache>> retired_; // still working
     std::string lensProblem_;
     TickRecord tick_;
+    std::vector<body::Pose> bodies_;
     std::optional<size_t> complete_; // the tick in tick_, if complete
     ModelFit fit_ = ModelFit::None;
     Similarity openFromRecorded_; // workspaces

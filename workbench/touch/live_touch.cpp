@@ -2,6 +2,7 @@
 
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/time/seconds_now.h"
+#include "haptics/proxy/take_up_part.h"
 #include "session/device_port.h"
 #include "workbench/model/animate.h"
 
@@ -73,7 +74,9 @@ void LiveTouch::takePart(const FeltPart& made) {
     const ScenePart& before = shown_.model.part;
     const bool onlyLess =
         made.part.clip == before.clip && std::ranges::includes(made.part.hidden, before.hidden);
-    const SceneSwap swap = onlyLess ? partBuild_.swap() : SceneSwap::Anew;
+    SceneSwap swap = partBuild_.swap();
+    if (swap != SceneSwap::Anew && !onlyLess)
+        swap = canTakeUpPart(shown_.model.scene.get(), *made.haptic) ? SceneSwap::OtherPart : SceneSwap::Anew;
     const bool same = made.part == before;
     felt_ = made.whole;
     shown_.model.part = shown_.identity.part = made.part;
@@ -112,8 +115,13 @@ void LiveTouch::operate(HapticSettings& settings) {
         (void)controls_.apply(poses->workspaceFromBody, settings);
 }
 
-void LiveTouch::pose(double time, SceneRenderer& renderer) {
-    if (const body::BodyPoses* poses = session_.servo().bodyPoses())
+void LiveTouch::pose(double time, SceneRenderer& renderer, std::span<const body::Pose> recorded) {
+    const body::BodyPoses* const poses = session_.servo().bodyPoses();
+    if (poses != nullptr && poses->workspaceFromBody.size() == recorded.size()) {
+        body::BodyPoses then(*poses);
+        then.workspaceFromBody.assign(recorded.begin(), recorded.end());
+        poseBodies(then, time, picker_.world(), renderer);
+    } else if (poses != nullptr)
         poseBodies(*poses, time, picker_.world(), renderer);
     else
         poseAt(time, *shown_.model.scene, renderer);

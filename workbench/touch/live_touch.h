@@ -23,6 +23,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -52,8 +53,9 @@ class LiveTouch {
     /// The open model with all its parts, for what changes it; `shown` has the part that is seen and felt.
     [[nodiscard]] const Model& whole() const { return whole_; }
     /// Every frame: the part of the model that is to be seen and felt. It is compiled on a worker, and comes
-    /// into effect in `update`. Where something is hidden touch continues; where something comes back, or a
-    /// plane cuts anew, nothing is felt before the hand is clear of it. Throws Error of the worker once.
+    /// into effect in `update`. Touch continues, unless what it holds on to goes, or what comes back meets or
+    /// encloses the hand: then nothing is felt before the hand is clear of it. Throws Error of the worker
+    /// once.
     void showPart(const ScenePart& part);
     /// True if touch was reset since the last call: a model was opened, or its geometry was rebuilt.
     [[nodiscard]] bool takeBuiltAgain() { return std::exchange(builtAgain_, false); }
@@ -79,8 +81,9 @@ class LiveTouch {
     [[nodiscard]] std::optional<PointedSurface> look(const Ray& ray, const HapticSettings& settings) {
         return picker_.look(ray, animationTime(settings, tick().time), settings, tick().sample.limits);
     }
-    /// Draws what moves where it is at `time` (s, of the servo).
-    void pose(double time, SceneRenderer& renderer);
+    /// Draws what moves where it is at `time` (s, of the servo); bodies where they are now, or where a
+    /// recording of this model has them.
+    void pose(double time, SceneRenderer& renderer, std::span<const body::Pose> recorded = {});
     /// The scene has bodies; they go back to where the file puts them, and touch begins anew.
     [[nodiscard]] bool hasBodies() const { return hasModel() && shown_.model.scene->physics != nullptr; }
     void resetBodies() { offerScene(SceneSwap::Anew, false); }

@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/scene/mesh_deformation.h"
 #include "engine/scene/mesh_vertices.h"
+#include "haptics/shape/mesh/cut_object.h"
 #include "haptics/shape/mesh/weld.h"
 
 #include <algorithm>
@@ -162,21 +163,21 @@ void weldGeometry(const Mesh& mesh, std::vector<glm::vec3> local, HapticObject& 
     object.vertices.emplace_back(0.0f); // spare, for Embree's 16-byte reads
 }
 
-/// Chooses the object's frame; returns the vertices in it.
-std::vector<glm::vec3> placeVertices(const Mesh& mesh, const glm::dmat4& sceneFromMesh,
+/// Chooses the object's frame by the vertices of `whole`; returns those of `mesh` in it.
+std::vector<glm::vec3> placeVertices(const Mesh& mesh, const Mesh& whole, const glm::dmat4& sceneFromMesh,
                                      const Similarity& workspaceFromScene, HapticObject& object,
                                      const Progress& progress) {
     // Scene positions in double, then one centre and one scale for the float frame. They are computed twice:
     // stored, they would be the largest array of all.
-    const auto inScene = [&](size_t v) {
-        return glm::dvec3(sceneFromMesh * glm::dvec4(glm::dvec3(mesh.positions[v]), 1.0));
+    const auto inScene = [&](const Mesh& from, size_t v) {
+        return glm::dvec3(sceneFromMesh * glm::dvec4(glm::dvec3(from.positions[v]), 1.0));
     };
-    const size_t count = mesh.positions.size(), blocks = count / kProgressWork + 1;
-    std::vector<Bounds> boxes(blocks);
-    inParallel(count, progress.part(0.0, 0.4), kPlacing, [&](size_t begin, size_t end) {
+    const size_t framed = whole.positions.size();
+    std::vector<Bounds> boxes(framed / kProgressWork + 1);
+    inParallel(framed, progress.part(0.0, 0.4), kPlacing, [&](size_t begin, size_t end) {
         Bounds box;
         for (size_t v = begin; v < end; ++v)
-            box.include(inScene(v));
+            box.include(inScene(whole, v));
         boxes[begin / kProgressWork] = box;
     });
     Bounds bounds;
@@ -197,12 +198,13 @@ std::vector<glm::vec3> placeVertices(const Mesh& mesh, const glm::dmat4& sceneFr
     scaling[3] = glm::dvec4(objectFromScene.translation, 1.0);
     object.objectFromMesh = scaling * sceneFromMesh;
 
+    const size_t count = mesh.positions.size();
     std::vector<glm::vec3> local(count);
-    std::vector<double> radii(blocks, 0.0);
+    std::vector<double> radii(count / kProgressWork + 1, 0.0);
     inParallel(count, progress.part(0.4, 1.0), kPlacing, [&](size_t begin, size_t end) {
         double radius = 0.0;
         for (size_t v = begin; v < end; ++v) {
-            local[v] = glm::vec3((inScene(v) - sceneFromObject.translation) / sceneFromObject.scale);
+            local[v] = glm::vec3((inScene(mesh, v) - sceneFromObject.translation) / sceneFromObject.scale);
             radius = std::max(radius, glm::length(glm::dvec3(local[v])));
         }
         radii[begin / kProgressWork] = radius;
@@ -243,6 +245,14 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
                                                       const Similarity& workspaceFromScene,
                                                       const ObjectUse& use, const Progress& progress) {
     const Instance& instance = scene.instances[static_cast<size_t>(instanceIndex)];
+    return buildCutObject(scene, instanceIndex, scene.meshes[static_cast<size_t>(instance.mesh)],
+                          workspaceFromScene, use, progress);
+}
+
+std::unique_ptr<const HapticObject> buildCutObject(const Scene& scene, int instanceIndex, const Mesh& whole,
+                                                   const Similarity& workspaceFromScene, const ObjectUse& use,
+                                                   const Progress& progress) {
+    const Instance& instance = scene.instances[static_cast<size_t>(instanceIndex)];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     checkMesh(mesh, scene.path, mesh.name);
     auto object = std::make_unique<HapticObject>();
@@ -252,7 +262,7 @@ std::unique_ptr<const HapticObject> buildHapticObject(const Scene& scene, int in
     object->oneSided = use.oneSided && mesh.deformation == nullptr;
 
     std::vector<glm::vec3> local =
-        placeVertices(mesh, instance.sceneFromMesh, workspaceFromScene, *object, progress.part(0.0, 0.05));
+        placeVertices(mesh, whole, instance.sceneFromMesh, workspaceFromScene, *object, progress.part(0.0, 0.05));
     const glm::dmat3 linear(object->objectFromMesh);
     const bool mirrored = glm::determinant(linear) < 0.0;
     object->sourceIndices = mesh.indices;

@@ -6,6 +6,8 @@
 #include "haptics/query/clear_of_model.h"
 #include "haptics/query/surface_pick.h"
 #include "haptics/scene/scene_parts.h"
+#include "haptics/scene/scene_sculptor.h"
+#include "haptics/shape/field/cut_field.h"
 #include "haptics/tick/stepped_hand.h"
 #include "tests/support/touch_bench.h"
 
@@ -256,6 +258,133 @@ TEST(SceneParts, TheCutMovesWithItsObject) {
     bench.moveTo({0.5, -0.03, 0.0}, 0.3, [](const HapticOutput& output) { ASSERT_EQ(output.contacts, 0u); });
     bench.moveTo({0.5, -0.052, 0.0}, 0.3);
     EXPECT_NEAR(bench.output.force.y, 500.0 * 0.0025, 1e-6);
+}
+
+constexpr double kBall = 0.05;
+
+Scene fieldOfABall() {
+    Scene scene = sceneOf(assets::sphere(kBall, 64, 128));
+    scene.materials[0].haptic.implicit = true;
+    return scene;
+}
+
+/// From the face of a cut field over its edge and down the ball, 1 mm below: on the face the proxy stands
+/// over the hand to rounding, and beside it in the closed form of the ball, up to the field's error.
+TEST(SceneParts, ACutFieldIsABallWithAFace) {
+    const double face = 0.02, depth = 0.001;
+    HapticSettings settings = plainSettings();
+    for (const double radius : {0.0005, 0.003}) {
+        settings.proxyRadius = radius;
+        PartBench bench(fieldOfABall(), clipped({0, 1, 0}, face), settings);
+        ASSERT_NE(bench.scene->objects[0]->shape, nullptr) << "it stays a field";
+        EXPECT_TRUE(bench.scene->warnings.empty());
+        const double rim = std::sqrt((kBall + radius) * (kBall + radius) - (face + radius) * (face + radius));
+        bench.moveTo({0.0, 0.06, 0.001}, 0.3);
+        bench.moveTo({0.0, face - depth, 0.001}, 0.3);
+        size_t above = 0, beside = 0;
+        bench.moveTo({0.06, face - depth, 0.001}, 0.05, [&](const HapticOutput& output) {
+            const glm::dvec3 hip = output.hip;
+            ASSERT_FALSE(has(output.flags, TickFlag::BudgetReached)) << hip.x;
+            const double out = std::hypot(hip.x, hip.z);
+            if (out < rim - 2e-4) {
+                ASSERT_LT(glm::distance(output.proxy, glm::dvec3(hip.x, face + radius, hip.z)), 1e-12) << hip.x;
+                ASSERT_NEAR(output.force.y, settings.stiffness * (radius + depth), 1e-9);
+                ++above;
+            } else if (out > rim + 2e-4) {
+                const double inside = kBall + radius - glm::length(hip);
+                ASSERT_NEAR(glm::length(output.force), settings.stiffness * std::max(0.0, inside),
+                            settings.stiffness * 1.5e-4)
+                    << hip.x;
+                ++beside;
+            }
+        });
+        EXPECT_GT(above, 500u);
+        EXPECT_GT(beside, 100u);
+        // Deep inside from above: the face holds it.
+        bench.moveTo({0.0, 0.06, 0.001}, 0.3);
+        bench.moveTo({0.0, 0.0, 0.001}, 0.3);
+        EXPECT_NEAR(bench.output.proxy.y, face + radius, 1e-12);
+    }
+}
+
+/// Away from the cut a hand feels the whole field to the last bit; where the plane has taken all, nothing.
+TEST(SceneParts, BesideItsFaceAFieldIsUnchanged) {
+    const Scene scene = fieldOfABall();
+    TouchBench whole(scene, plainSettings());
+    PartBench cut(scene, clipped({0, 1, 0}, 0.02), plainSettings());
+    EXPECT_EQ(partOf(*whole.scene, scene, clipped({0, 1, 0}, 0.2))->objects[0], whole.scene->objects[0]);
+    EXPECT_TRUE(partOf(*whole.scene, scene, clipped({0, 1, 0}, -0.2))->objects[0]->empty());
+    const auto go = [&](const glm::dvec3& place) {
+        for (TouchBench* bench : {static_cast<TouchBench*>(&cut), &whole})
+            bench->moveTo(place, 0.2);
+        EXPECT_EQ(cut.output.proxy, whole.output.proxy);
+        EXPECT_EQ(cut.output.force, whole.output.force);
+    };
+    go({0.08, -0.02, 0.0});
+    go({0.04, -0.01, 0.01});
+    EXPECT_GT(whole.output.contacts, 0u);
+    go({0.03, -0.03, -0.01});
+    go({-0.01, -0.046, 0.0});
+    EXPECT_GT(whole.output.contacts, 0u);
+}
+
+/// Against max(f, d) along random lines: free up to the impact, touched there; and the features that are
+/// found hold with the distance of the place.
+TEST(SceneParts, ACutFieldIsSweptAsItsPotentialSays) {
+    const auto compiled = compileHapticScene(fieldOfABall(), Similarity{});
+    const auto field = std::dynamic_pointer_cast<const FieldShape>(compiled->objects[0]->shape);
+    ASSERT_NE(field, nullptr);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    const auto vector = [&] {
+        return glm::dvec3(number(random), number(random), number(random));
+    };
+    size_t hits = 0, faces = 0, misses = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+        const CutField cut(field, glm::normalize(vector()), 0.4 * number(random));
+        const glm::dvec3 from = vector(), motion = vector();
+        const double radius = 0.03 * (1.0 + number(random));
+        if (cut.value(from) <= radius)
+            continue;
+        const double time = cut.sweep(from, radius, motion, 1.0);
+        constexpr int kParts = 200;
+        for (int i = 0; i <= kParts; ++i)
+            ASSERT_GE(cut.value(from + (time * i / kParts) * motion), radius - 1e-12) << trial;
+        if (time == 1.0) {
+            ++misses;
+            continue;
+        }
+        ++hits;
+        const glm::dvec3 end = from + time * motion;
+        ASSERT_NEAR(cut.value(end), radius, 1e-11) << trial;
+        std::array<FeatureDistance, 8> found;
+        ASSERT_GT(cut.near(end, radius + 1e-10, found), 0u);
+        ASSERT_NEAR(found[0].distance, cut.value(end), 1e-12);
+        faces += found[0].feature == CutField::kFace ? 1 : 0;
+    }
+    EXPECT_GT(hits, 150u);
+    EXPECT_GT(faces, 50u);
+    EXPECT_GT(misses, 300u);
+}
+
+/// A field that is sculpted keeps its cut.
+TEST(SceneParts, ACutFieldIsSculptedAndStaysCut) {
+    const Scene scene = fieldOfABall();
+    const auto whole = compileHapticScene(scene, Similarity{});
+    SceneSculptor sculptor(partOf(*whole, scene, clipped({0, 1, 0}, 0.02)));
+    SculptStep step;
+    step.tool = SculptTool::Carve;
+    step.radius = 0.01;
+    step.points = {{0.0, 0.02, 0.0}};
+    (void)sculptor.apply(step);
+    PartBench bench(scene, {}, plainSettings());
+    bench.scene = sculptor.scene();
+    bench.moveTo({0.03, 0.06, 0.0}, 0.3);
+    bench.moveTo({0.03, 0.018, 0.0}, 0.3);
+    EXPECT_NEAR(bench.output.proxy.y, 0.0205, 1e-12) << "the face";
+    bench.moveTo({0.0, 0.06, 0.0}, 0.3);
+    bench.moveTo({0.0, 0.005, 0.0}, 0.3);
+    EXPECT_LT(bench.output.proxy.y, 0.017) << "the hollow";
 }
 
 } // namespace

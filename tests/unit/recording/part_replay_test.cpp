@@ -4,6 +4,7 @@
 #include "haptics/scene/scene_parts.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"
+#include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
 
@@ -118,15 +119,15 @@ struct PressingHand {
     }
     [[nodiscard]] double force() const { return glm::length(rig.records.back().output.force); }
     /// Every tick from here touches, and the force stays.
-    void expectHeldOn(const TouchedScene& offered) {
+    void expectHeldOn(const TouchedScene& offered, SceneSwap swap = SceneSwap::SameGeometry) {
         const double before = force();
         ASSERT_GT(before, 1.0);
         const size_t first = rig.records.size();
-        rig.offer(offered, SceneSwap::SameGeometry);
+        rig.offer(offered, swap);
         rig.ticks(500);
         for (size_t i = first; i < rig.records.size(); ++i)
             ASSERT_GT(rig.records[i].output.contacts, 0u) << i - first;
-        EXPECT_NEAR(force(), before, 1e-9 * before);
+        EXPECT_NEAR(force(), before, (swap == SceneSwap::OtherPart ? 1e-6 : 1e-9) * before);
     }
     void expectReplay() {
         rig.finish();
@@ -199,6 +200,102 @@ TEST(PartReplay, TheRecordingKnowsThePart) {
     }
     scene.identity.part.clip = ClipPlane{glm::dvec3(1, 0, 0), std::nan("")};
     EXPECT_THROW((void)decode(1, encode(scene)), Error);
+}
+
+TouchedScene cutAt(const TouchedScene& whole, const glm::dvec3& normal, double offset) {
+    TouchedScene part = whole;
+    part.identity.part.clip = clipPlane(normal, offset);
+    part.haptic = partOf(*whole.haptic, *whole.source, part.identity.part);
+    part.identity.feltHash = feltHash(*part.haptic, *part.source);
+    return part;
+}
+
+/// Along the floor a plane comes nearer to the hand, which feels nothing of it until the floor under it is
+/// gone; where the floor comes back through the hand it has to leave first.
+TEST(PartReplay, AHandHoldsOnWhileAPlaneMovesBesideIt) {
+    const TouchedScene whole = twoFloors();
+    PressingHand hand(whole, 0.01, 0.01);
+    const double before = hand.force();
+    for (const double offset : {0.23, 0.2, 0.04, 0.03, 0.0301, 0.02, 0.011})
+        hand.expectHeldOn(cutAt(whole, {1, 0, 0}, offset), SceneSwap::OtherPart);
+    hand.expectHeldOn(whole, SceneSwap::OtherPart);
+    EXPECT_NEAR(hand.force(), before, 1e-9 * before);
+    const auto expectNone = [&](const TouchedScene& offered) {
+        hand.rig.offer(offered, SceneSwap::OtherPart);
+        hand.rig.ticks(1000);
+        EXPECT_EQ(hand.rig.records.back().output.contacts, 0u);
+        EXPECT_EQ(glm::length(hand.rig.records.back().output.command.force()), 0.0);
+    };
+    expectNone(cutAt(whole, {1, 0, 0}, 0.0)); // the floor under the hand is gone
+    hand.height = 0.0;
+    hand.rig.ticks(500);
+    expectNone(whole); // it comes back through the hand
+    hand.height = 0.01;
+    hand.rig.ticks(500);
+    hand.height = -0.004;
+    hand.rig.ticks(2000);
+    EXPECT_NEAR(hand.force(), before, 1e-6 * before);
+    hand.expectReplay();
+}
+
+/// Through its cut a hand is in a ball and presses on its wall. It holds on while the cut changes, and is let
+/// go where the ball closes around it; outside it holds on in either case.
+TEST(PartReplay, ABallThatClosesAroundTheHandLetsItGo) {
+    auto source = std::make_shared<Scene>(sceneOf(assets::sphere(0.05, 32, 64)));
+    TouchedScene whole;
+    whole.haptic = compileHapticScene(*source, Similarity{});
+    whole.source = std::move(source);
+    whole.identity = identify(*whole.haptic, *whole.source, Fit::None);
+    const TouchedScene half = cutAt(whole, {0, 1, 0}, 0.0);
+
+    PressingHand inside(half, 0.0, 0.0);
+    const auto goTo = [](PressingHand& hand, double x, double height) {
+        const double fromX = hand.x, fromHeight = hand.height;
+        for (int i = 1; i <= 50; ++i) {
+            hand.x = fromX + (x - fromX) * i / 50.0;
+            hand.height = fromHeight + (height - fromHeight) * i / 50.0;
+            hand.rig.ticks(10);
+        }
+        hand.rig.ticks(200);
+    };
+    inside.height = 0.08;
+    inside.rig.offer(half); // the hand is out of it
+    inside.rig.ticks(500);
+    goTo(inside, 0.0, -0.02);
+    EXPECT_EQ(inside.rig.records.back().output.contacts, 0u);
+    goTo(inside, 0.0, -0.05); // the wall at z = 0.02 is 46 mm below the middle
+    for (const double offset : {0.005, -0.005, 0.03, 0.0})
+        inside.expectHeldOn(cutAt(whole, {0, 1, 0}, offset), SceneSwap::OtherPart);
+    inside.rig.offer(whole, SceneSwap::OtherPart);
+    inside.rig.ticks(1000);
+    EXPECT_EQ(inside.rig.records.back().output.contacts, 0u) << "it has closed around the hand";
+    EXPECT_EQ(glm::length(inside.rig.records.back().output.command.force()), 0.0);
+    inside.expectReplay();
+
+    PressingHand outside(half, 0.0, 0.0);
+    outside.height = 0.08;
+    outside.rig.offer(half);
+    outside.rig.ticks(500);
+    goTo(outside, 0.08, 0.08);
+    goTo(outside, 0.08, -0.08);
+    goTo(outside, 0.0, -0.08);
+    goTo(outside, 0.0, -0.043); // 3 mm deep
+    for (const double offset : {0.005, -0.005, 0.03})
+        outside.expectHeldOn(cutAt(whole, {0, 1, 0}, offset), SceneSwap::OtherPart);
+    outside.expectHeldOn(whole, SceneSwap::OtherPart);
+    outside.expectReplay();
+}
+
+/// Where the next offer comes before its tick the servo never sees a part: the one after it has other
+/// materials, and no floor under the hand either.
+TEST(PartReplay, APartThatWasNeverFeltIsNotMissed) {
+    const TouchedScene whole = twoFloors();
+    PressingHand hand(whole, 0.01, 0.01);
+    const TouchedScene cut = cutAt(whole, {1, 0, 0}, 0.0);
+    hand.rig.offer(cut, SceneSwap::OtherPart);
+    hand.rig.offer(withChanged(cut, [](HapticMaterial&) {}), SceneSwap::SameGeometry);
+    hand.rig.ticks(1000);
+    EXPECT_EQ(hand.rig.records.back().output.contacts, 0u);
 }
 
 } // namespace

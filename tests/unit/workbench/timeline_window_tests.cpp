@@ -321,5 +321,35 @@ TEST_F(TimelineWindow, IsOpenedFromTheCommandLine) {
     EXPECT_NE(bad.err.find("bad.tsrec: is no recording"), std::string::npos) << bad.err;
 }
 
+/// The balls of a cradle swing while the hand is far: they are shown where they were at the cursor's time, and at
+/// its beginning again where they began.
+TEST_F(TimelineWindow, ShowsTheBodiesOfTheTimeUnderTheCursor) {
+    touchOffline(TOUCHSTONE_ASSETS "/cradle.glb", scratch_ / "r.tsrec");
+    open((scratch_ / "r.tsrec").string());
+    const auto known = [](const Json& s) {
+        return looking(s) && timeline(s)["tick_complete"] == true && !timeline(s)["bodies"].empty();
+    };
+    until("recording, model and bodies", known);
+    const auto lookAt = [&](double share) {
+        display_.click(onTimeline(share));
+        later();
+        return timeline(until("the bodies there", known));
+    };
+    const auto farthest = [](const Json& a, const Json& b) {
+        double most = 0.0;
+        EXPECT_EQ(a["bodies"].size(), b["bodies"].size());
+        for (size_t body = 0; body < a["bodies"].size(); ++body)
+            for (size_t axis = 0; axis < 3; ++axis)
+                most = std::max(most, std::abs(a["bodies"][body][axis].get<double>() -
+                                               b["bodies"][body][axis].get<double>()));
+        return most;
+    };
+    const Json begin = lookAt(0.02), after = lookAt(0.6), again = lookAt(0.02);
+    EXPECT_GT(farthest(begin, after), 2e-3);
+    EXPECT_EQ(begin["cursor_tick"], again["cursor_tick"]);
+    EXPECT_EQ(farthest(begin, again), 0.0);
+    expectCleanEnd();
+}
+
 } // namespace
 } // namespace touchstone::test
