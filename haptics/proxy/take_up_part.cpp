@@ -46,8 +46,7 @@ bool mayGoOn(const HapticScene& scene, ObjectMotions motions, double workspaceRa
     for (size_t k = 0; k < scene.objects.size(); ++k) {
         const HapticObject& object = *scene.objects[k];
         const Similarity& pose = motions[k].workspaceFromObject;
-        const double radius =
-            std::max(workspaceRadius / pose.scale, 0.5 * kWeldTolerance * object.diagonal);
+        const double radius = std::max(workspaceRadius / pose.scale, 0.5 * kWeldTolerance * object.diagonal);
         const Nearness nearness = nearnessOf(object, pose.inversePoint(proxy), radius);
         if (nearness == Nearness::Met)
             return false;

@@ -164,8 +164,8 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
 }
 
 /// Owner thread: the offer of a scene that is its own root.
-ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, WorldState world, uint32_t number,
-                                    SceneSwap swap) {
+ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, WorldState world,
+                                    uint32_t number, SceneSwap swap) {
     if (swap == SceneSwap::Anew)
         ++offeredGeometry_;
     const bool otherPart = swap == SceneSwap::OtherPart;

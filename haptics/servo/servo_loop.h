@@ -272,7 +272,7 @@ class ServoLoop {
     std::deque<NumberedTool> offeredTools_{NumberedTool{}};
     uint32_t offeredGeometry_ = 0, offeredPart_ = 0, offeredLast_ = 0;
     std::shared_ptr<const HapticScene> lastScene_; // of offeredLast_
-    std::shared_ptr<const Offer> waiting_;    // the scene that was offered before `start`
+    std::shared_ptr<const Offer> waiting_;         // the scene that was offered before `start`
     std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
     bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart
     std::deque<std::pair<uint32_t, std::shared_ptr<PersistentTextures>>> textures_; // by scene offered

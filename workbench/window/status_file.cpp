@@ -2,8 +2,8 @@
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
-#include "engine/scene/scene.h"
 #include "engine/scene/animation.h"
+#include "engine/scene/scene.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/panels/error_panel.h"
 #include "workbench/panels/panels.h"

@@ -261,8 +261,8 @@ std::unique_ptr<const HapticObject> buildCutObject(const Scene& scene, int insta
     object->material = mesh.material;
     object->oneSided = use.oneSided && mesh.deformation == nullptr;
 
-    std::vector<glm::vec3> local =
-        placeVertices(mesh, whole, instance.sceneFromMesh, workspaceFromScene, *object, progress.part(0.0, 0.05));
+    std::vector<glm::vec3> local = placeVertices(mesh, whole, instance.sceneFromMesh, workspaceFromScene,
+                                                 *object, progress.part(0.0, 0.05));
     const glm::dmat3 linear(object->objectFromMesh);
     const bool mirrored = glm::determinant(linear) < 0.0;
     object->sourceIndices = mesh.indices;

@@ -265,6 +265,7 @@ constexpr double kBall = 0.05;
 Scene fieldOfABall() {
     Scene scene = sceneOf(assets::sphere(kBall, 64, 128));
     scene.materials[0].haptic.implicit = true;
+    scene.materials[0].haptic.voxelSize = 0.002f; // 50 to the ball: 0.01 mm off it
     return scene;
 }
 
