@@ -2,7 +2,6 @@
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
-#include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/panels/error_panel.h"
@@ -95,18 +94,6 @@ nlohmann::ordered_json chartsJson(const PanelInput& input, const PanelState& sta
             {"problem", input.savedCharts.problem}};
 }
 
-/// What plays, by number, and where in it the servo is, s; null: nothing does.
-nlohmann::ordered_json animationJson(const PanelInput& input, const PanelState& state) {
-    const Animation* const animation = input.scene != nullptr ? playedAnimation(*input.scene) : nullptr;
-    if (animation == nullptr)
-        return {};
-    const double time = input.servo->last.time;
-    return {{"playing", animation - input.scene->animations.data()},
-            {"at", loopedTime(*animation, animationTime(state.settings, time))},
-            {"duration", animation->duration},
-            {"speed", state.settings.animationSpeed}};
-}
-
 } // namespace
 
 void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
@@ -178,7 +165,6 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"left_out", input.sound.leftOut}}},
         {"device", state.device},
         {"device_status", input.deviceStatus},
-        {"animation", animationJson(input, state)},
         {"settings", settingsJson(state.settings)},
         {"force_presses", input.forcePresses},
         {"typing", input.typing},
