@@ -42,6 +42,11 @@ ViewMode viewModeOf(const std::string& name) {
     return static_cast<ViewMode>(found - kViewModeNames.begin()); // the command line admits only these
 }
 
+bool hasPersistentTexture(const Scene& scene) {
+    return std::ranges::any_of(
+        scene.materials, [](const Material& material) { return material.haptic.program.texture.width > 0; });
+}
+
 /// The hand where a stroke over the model ends, and what it has made of the textures.
 struct Touched {
     Touched(const RenderOptions& options, Model& model) {
@@ -80,6 +85,8 @@ int renderCommand(const RenderOptions& options) {
                       ? loadModel(options.scene, Fit::Workspace, loading)
                       : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso,
                                        options.animation);
+    if (model.haptic == nullptr && hasPersistentTexture(*model.scene)) // its saved values are seen
+        model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
@@ -123,7 +130,7 @@ int renderCommand(const RenderOptions& options) {
         view.probe = probeShadow(touched.record, {});
         ShownTextures().show(*model.haptic, touched.hand->world.textures().get(), renderer);
         printCoverage(*model.haptic, touched.hand->world.textures().get());
-    } else {
+    } else if (model.haptic != nullptr) {
         ShownTextures().show(*model.haptic, persistentTextures(*model.haptic).get(), renderer);
     }
     PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);

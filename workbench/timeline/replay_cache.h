@@ -25,7 +25,7 @@ struct LensSegment {
     std::vector<uint8_t> equal;        ///< 1: recomputed, and bitwise equal in every stage
     /// After each recomputed tick, of a scene with bodies, in the recorded workspace; else empty.
     std::vector<std::vector<body::Pose>> bodies;
-    bool tried = false;                ///< with the scenes of its ticks
+    bool tried = false; ///< with the scenes of its ticks
 };
 
 /// Reads the segments around the cursor on a worker, one (usually a second) at a time, and recomputes them

@@ -172,7 +172,8 @@ PadCommand padCommand(const glm::dvec2& wanted, const PadLimits& limits) {
     LocationLimiterState state;
     PadCommand command;
     for (int i = 0; i < 1000; ++i)
-        command = LocationLimiter::limit(wanted, true, limits, 1e-3, state);
+        command = LocationLimiter::limit(
+            {.wanted = wanted, .touching = true, .forceFelt = true, .limits = limits, .dt = 1e-3}, state);
     return command;
 }
 

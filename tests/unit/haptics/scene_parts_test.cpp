@@ -288,7 +288,8 @@ TEST(SceneParts, ACutFieldIsABallWithAFace) {
             ASSERT_FALSE(has(output.flags, TickFlag::BudgetReached)) << hip.x;
             const double out = std::hypot(hip.x, hip.z);
             if (out < rim - 2e-4) {
-                ASSERT_LT(glm::distance(output.proxy, glm::dvec3(hip.x, face + radius, hip.z)), 1e-12) << hip.x;
+                ASSERT_LT(glm::distance(output.proxy, glm::dvec3(hip.x, face + radius, hip.z)), 1e-12)
+                    << hip.x;
                 ASSERT_NEAR(output.force.y, settings.stiffness * (radius + depth), 1e-9);
                 ++above;
             } else if (out > rim + 2e-4) {
@@ -337,9 +338,7 @@ TEST(SceneParts, ACutFieldIsSweptAsItsPotentialSays) {
     ASSERT_NE(field, nullptr);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> number(-1.0, 1.0);
-    const auto vector = [&] {
-        return glm::dvec3(number(random), number(random), number(random));
-    };
+    const auto vector = [&] { return glm::dvec3(number(random), number(random), number(random)); };
     size_t hits = 0, faces = 0, misses = 0;
     for (int trial = 0; trial < 4000; ++trial) {
         const CutField cut(field, glm::normalize(vector()), 0.4 * number(random));

@@ -321,8 +321,8 @@ TEST_F(TimelineWindow, IsOpenedFromTheCommandLine) {
     EXPECT_NE(bad.err.find("bad.tsrec: is no recording"), std::string::npos) << bad.err;
 }
 
-/// The balls of a cradle swing while the hand is far: they are shown where they were at the cursor's time, and at
-/// its beginning again where they began.
+/// The balls of a cradle swing while the hand is far: they are shown where they were at the cursor's time,
+/// and at its beginning again where they began.
 TEST_F(TimelineWindow, ShowsTheBodiesOfTheTimeUnderTheCursor) {
     touchOffline(TOUCHSTONE_ASSETS "/cradle.glb", scratch_ / "r.tsrec");
     open((scratch_ / "r.tsrec").string());
