@@ -79,6 +79,11 @@ std::optional<uint32_t> LiveSculptor::carryOver(std::shared_ptr<const HapticScen
     source_ = std::move(source);
     root_ = servo_.nextSceneNumber();
     servo_.offerSculpted(published(true), swap);
+    // What was published before is of a root that nobody shows any more, but its bricks have changed.
+    const std::scoped_lock lock(mutex_);
+    auto& now = published_.back().changed;
+    for (size_t i = 0; i + 1 < published_.size(); ++i)
+        now.insert(now.end(), published_[i].changed.begin(), published_[i].changed.end());
     return root_;
 }
 
@@ -206,7 +211,9 @@ void LiveSculptor::apply(const SculptEntry& entry) {
     std::string problem;
     try {
         report = sculptor_->apply(entry);
-        journal_.push_back(entry);
+        if (entry.kind != SculptEntryKind::Dab ||
+            report.dabs > 0) // else the object is hidden: it may come back
+            journal_.push_back(entry);
     } catch (const std::exception& error) {
         problem = error.what();
     }
@@ -237,7 +244,8 @@ ReshapedScene LiveSculptor::published(bool whole) {
     offered.oldestEdit = made != journal_.end() ? made->tick : 0;
     sent_ = journal_.size();
     for (const int object : offered.reshaped)
-        scene.changed.push_back({object, sculptor_->takeChangedBricks(object)});
+        if (!scene.haptic->objects[static_cast<size_t>(object)]->empty()) // hidden: when it is shown again
+            scene.changed.push_back({object, sculptor_->takeChangedBricks(object)});
     // It visits the whole history.
     constexpr double kMemoryEvery = 0.5; // s
     const double now = secondsNow();

@@ -47,10 +47,12 @@ void WorkbenchWindow::takeModel() {
     } catch (const Error& error) {
         if (!hasModel())
             throw;
+        unsavedChanges_.begin(); // what was to be discarded is still there
         problem_ = error.what();
     } catch (const std::bad_alloc&) {
         if (!hasModel())
             throw;
+        unsavedChanges_.begin();
         problem_ = opening_.path().filename().string() + ": there is not enough memory for it";
     }
 }

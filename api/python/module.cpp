@@ -319,7 +319,7 @@ class Session {
         return state;
     }
     void run(double seconds, const py::object& callback, double rate) {
-        Callback made{callback, {}};
+        Callback made{callback, device_.get(), {}};
         ts_status status;
         {
             const py::gil_scoped_release released;
@@ -384,6 +384,7 @@ class Session {
     }
     struct Callback {
         py::object function;
+        const touchstone::python::PythonDevice* device; ///< or null
         std::exception_ptr thrown;
         static int call(void* context, const ts_state* state) noexcept {
             const py::gil_scoped_acquire gil;
@@ -391,6 +392,8 @@ class Session {
             try {
                 if (PyErr_CheckSignals() != 0)
                     throw py::error_already_set();
+                if (self.device != nullptr && self.device->failed())
+                    return 1; // run throws what it threw
                 if (self.function.is_none())
                     return 0;
                 const py::object answer = self.function(*state);

@@ -73,6 +73,8 @@ class PythonDevice {
         return device;
     }
     void start() {
+        // Fills pybind11's table of NumPy: a thread that waited for that with the GIL would never end.
+        (void)pybind11::array_t<double>(1);
         thread_ = std::thread([this] { run(); });
     }
     /// The last force that the function gets is the last command. With the GIL.
@@ -83,6 +85,7 @@ class PythonDevice {
         const pybind11::gil_scoped_release released;
         thread_.join();
     }
+    [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
     /// What a function threw, once. With the GIL.
     void rethrow() {
         if (failed_.exchange(false, std::memory_order_acquire))

@@ -64,6 +64,7 @@ void ServoRecorder::take(const TickRecord& record) {
     const std::span<const BrushStroke> strokes = textures_.next(record.tick);
     found &= textures == nullptr || textures_.state() != nullptr; // no replay begins where they are lost
     const DrivenState* const driven = servo_.drivenBefore(record);
+    found &= driven != nullptr || !record.checkpoint || !servo_.drives(record.root); // as of the textures
     const std::vector<HandToRecord> others = std::exchange(others_, {});
     const uint64_t lost = record.step - nextStep_;
     nextStep_ = record.step + 1;

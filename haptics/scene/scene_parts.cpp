@@ -51,14 +51,15 @@ class ObjectCutter {
             return object;
         if (distance > sphere.w)
             return emptied(*object);
-        if (object->shape != nullptr)
-            return cutShape(*object);
         const auto i = static_cast<size_t>(object->instance);
         Instance& instance = cut_.instances[i];
         const Mesh& mesh = source_.meshes[static_cast<size_t>(source_.instances[i].mesh)];
         instance.mesh = 0;
         std::optional<Mesh> left = clippedMesh(mesh, planeInMesh(plane_, instance.sceneFromMesh),
                                                clipTolerance(mesh, instance.sceneFromMesh));
+        if (object->shape !=
+            nullptr) // a plane beside the body would have a cap of it within the proxy's radius
+            return left && left->indices.empty() ? emptied(*object) : cutShape(*object);
         if (!left)
             return object; // its sphere crosses the plane, but no triangle does
         if (left->indices.empty())

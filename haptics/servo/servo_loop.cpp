@@ -115,6 +115,8 @@ void ServoLoop::start() {
     if (waiting_ != nullptr)
         waiting_->world.publishAhead(animationTime(offeredSettings_.back().settings, 0.0));
     waiting_.reset();
+    for (auto& [scene, driven] : driven_)
+        driven->forgetKept();
     thread_ = std::thread([this] { run(); });
     scheduled_.wait(false, std::memory_order_acquire);
 }
@@ -128,8 +130,11 @@ void ServoLoop::stop() {
 
 uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneSwap swap,
                                const HapticSettings* settings, std::shared_ptr<DrivenObjects> driven) {
-    const NumberedSettings with = settings != nullptr ? number(*settings) : NumberedSettings{};
+    if (settings != nullptr)
+        (void)number(*settings);
     if (scene == nullptr) {
+        if (settings != nullptr)
+            settings_.write(offeredSettings_.back());
         ++offeredGeometry_;
         scene_.offer(nullptr);
         waiting_.reset();
@@ -150,7 +155,6 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     if (driven != nullptr)
         driven_.emplace_back(number, std::move(driven));
     Offer made = offerOf(std::move(scene), std::move(world), number, swap);
-    made.settings = with;
     auto offer = std::make_shared<const Offer>(std::move(made));
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
@@ -177,6 +181,7 @@ ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, Wo
                 .geometry = offeredGeometry_,
                 .root = number,
                 .part = offeredPart_};
+    offer.settings = offeredSettings_.back(); // a scene before it may have brought them
     if (otherPart) {
         offer.before = offeredLast_;
         offer.partBefore = std::move(lastScene_);
@@ -232,6 +237,11 @@ const DrivenState* ServoLoop::drivenBefore(const TickRecord& record) const {
     const auto found =
         std::ranges::find(driven_, record.root, &std::pair<uint32_t, std::shared_ptr<DrivenObjects>>::first);
     return found != driven_.end() ? found->second->before(record.tick) : nullptr;
+}
+
+bool ServoLoop::drives(uint32_t root) const {
+    return std::ranges::find(driven_, root, &std::pair<uint32_t, std::shared_ptr<DrivenObjects>>::first) !=
+           driven_.end();
 }
 
 void ServoLoop::setTool(const LiveTool& tool) {
@@ -319,7 +329,7 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
         for (DeviceState& device : touch.devices) {
             if (otherPart)
                 takeUpPart(*offer->scene, offer->before == touch.root ? offer->partBefore.get() : nullptr,
-                           motions, touch.settings->proxyRadius, device);
+                           motions, feltRadius(*touch.settings), device);
             else
                 letGoOfEmptied(*offer->scene, motions, device);
             if (!offer->reshaped.empty())

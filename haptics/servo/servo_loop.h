@@ -183,6 +183,8 @@ class ServoLoop {
     /// Owner thread: what a caller moves in the scene of a record, before its tick; null: nothing, or nothing
     /// that a recording needs (DrivenObjects::before).
     [[nodiscard]] const DrivenState* drivenBefore(const TickRecord& record) const;
+    /// Owner thread: callers may move objects of the root scene `root`.
+    [[nodiscard]] bool drives(uint32_t root) const;
     /// Owner thread: where the bodies of the newest scene are; null: it has none.
     [[nodiscard]] const body::BodyPoses* bodyPoses();
     /// Any thread: N s, BodyWorld::impact of the newest tick.

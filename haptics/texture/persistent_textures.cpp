@@ -56,7 +56,9 @@ void PersistentTextures::sendTile(uint64_t tick) noexcept {
             sendTile_ = 0;
         }
     };
-    const bool first = sendObject_ == 0 && sendTile_ == 0;
+    const size_t object = sendObject_;
+    const uint32_t tile = sendTile_;
+    const bool first = object == 0 && tile == 0;
     next();
     if (sendObject_ >= textures_.size()) {
         sending_ = false;
@@ -73,8 +75,7 @@ void PersistentTextures::sendTile(uint64_t tick) noexcept {
     sent_->object = static_cast<uint32_t>(sendObject_);
     sent_->tile = sendTile_;
     sent_->first = first;
-    const size_t object = sendObject_;
-    const uint32_t tile = sendTile_++;
+    ++sendTile_;
     next();
     sent_->last = sendObject_ >= textures_.size();
     const uint64_t dropped = tiles_->dropped();

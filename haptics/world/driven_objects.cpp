@@ -80,6 +80,13 @@ const DrivenState* DrivenObjects::before(uint64_t tick) noexcept {
     return popped_->tick == tick ? &*popped_ : nullptr;
 }
 
+void DrivenObjects::forgetKept() noexcept {
+    DrivenState old;
+    while (kept_.pop(old))
+        continue;
+    popped_.reset();
+}
+
 void DrivenObjects::begin(uint64_t tick, double dt, bool keep) noexcept {
     dt_ = dt;
     state_.tick = tick;

@@ -64,6 +64,9 @@ class DrivenObjects {
     /// checkpoint was taken. Ticks in increasing order; null: none, or it was lost.
     [[nodiscard]] const DrivenState* before(uint64_t tick) noexcept;
 
+    /// While no ticks are made: ticks are counted from 0 again.
+    void forgetKept() noexcept;
+
     // Servo thread, or whoever makes the ticks. No allocation, no lock.
     /// A tick begins: takes new goals. `keep`: its state goes to `before`.
     void begin(uint64_t tick, double dt, bool keep) noexcept;
@@ -89,7 +92,7 @@ class DrivenObjects {
     Goals wanted_; // owner's
     TripleBuffer<Goals> goals_;
     TripleBuffer<DrivenState> shown_;
-    RecordRing<DrivenState> kept_{256};
+    RecordRing<DrivenState> kept_{2048};
     std::optional<DrivenState> popped_; // owner's: of this tick or a later one
     DrivenState state_;                 // of whoever makes the ticks
     double dt_ = 0.0;

@@ -47,6 +47,9 @@ void weldFlat(Mesh& mesh) {
 std::shared_ptr<Scene> atRest(const Scene& scene) {
     auto copy = std::make_shared<Scene>(scene);
     copy->animations.clear();
+    copy->volume.reset(); // as triangles, as is what is felt as a field
+    for (Material& material : copy->materials)
+        material.haptic.implicit = false;
     for (Mesh& mesh : copy->meshes) {
         mesh.deformation.reset();
         mesh.sources.clear();

@@ -1,8 +1,25 @@
 #include "workbench/editor/texture_saving.h"
 
+#include "haptics/program/felt_program.h"
+
+#include <span>
 #include <utility>
 
 namespace touchstone {
+
+namespace {
+
+/// What the file has of an object that is hidden or cut away now, and so has no texture; empty: nothing.
+std::span<const float> keptValues(const HapticScene& haptic, const HapticObject& object) {
+    const auto& felt = haptic.materials[static_cast<size_t>(object.material)].program;
+    if (!object.empty() || felt == nullptr || felt->start == nullptr)
+        return {};
+    const auto found = felt->start->values.find(object.instance);
+    return found != felt->start->values.end() ? std::span<const float>(*found->second)
+                                              : std::span<const float>();
+}
+
+} // namespace
 
 TexturesToSave texturesToSave(const Scene& source, const HapticScene& haptic,
                               const PersistentTextures* textures) {
@@ -10,8 +27,11 @@ TexturesToSave texturesToSave(const Scene& source, const HapticScene& haptic,
     for (size_t k = 0; textures != nullptr && k < haptic.objects.size(); ++k) {
         const PersistentTexture* const texture = textures->at(static_cast<int>(k));
         const HapticObject& object = *haptic.objects[k];
-        if (texture == nullptr || object.instance < 0 || object.material < 0 ||
-            (texture->revision() == 0 && texture->start() == nullptr))
+        if (object.instance < 0 || object.material < 0)
+            continue;
+        const bool felt = texture != nullptr && (texture->revision() != 0 || texture->start() != nullptr);
+        const std::span<const float> values = felt ? texture->values() : keptValues(haptic, object);
+        if (values.empty())
             continue;
         const int file = source.materials[static_cast<size_t>(object.material)].fileIndex;
         const int node = source.instances[static_cast<size_t>(object.instance)].node;
@@ -20,8 +40,7 @@ TexturesToSave texturesToSave(const Scene& source, const HapticScene& haptic,
         int surface = 0;
         for (int i = 0; i < object.instance; ++i)
             surface += source.instances[static_cast<size_t>(i)].node == node ? 1 : 0;
-        all[static_cast<size_t>(file)].push_back(
-            {node, surface, {texture->values().begin(), texture->values().end()}});
+        all[static_cast<size_t>(file)].push_back({node, surface, {values.begin(), values.end()}});
     }
     return all;
 }

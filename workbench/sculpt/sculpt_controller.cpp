@@ -88,6 +88,10 @@ void SculptController::draw(SceneRenderer& renderer) {
 void SculptController::saveAs(const std::filesystem::path& file) {
     if (felt_ == nullptr || object_ < 0)
         return;
+    if (felt_->objects[static_cast<size_t>(object_)]->empty()) {
+        notice_ = "the sculpted object is hidden: show it, then save it";
+        return;
+    }
     try {
         (void)writeSculpted(file, *felt_, static_cast<size_t>(object_));
         notice_ = "saved as " + file.filename().string();

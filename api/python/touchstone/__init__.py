@@ -12,7 +12,9 @@ program.
 
 from __future__ import annotations
 
+import atexit
 import os
+import weakref
 
 from . import _touchstone
 from ._touchstone import Material, SceneInfo, State
@@ -171,6 +173,19 @@ def touch(scene, positions, times=None, *, rate=1000.0, settings=None):
     return Hand(scene, settings).touch(positions, times, rate=rate)
 
 
+_own_devices = weakref.WeakSet()
+
+
+@atexit.register
+def _close_own_devices():
+    """Before the interpreter ends: their threads call into it."""
+    for session in list(_own_devices):
+        try:
+            session.close()
+        except Exception:
+            pass
+
+
 class Session:
     """Touch in real time, by a servo of the library's own. `device`: "stroke", "stroke:NAME" (a simulated hand), or what
     `touchstone run --device` takes. `keep`: ticks kept for `take`. `control`: Hz of a control loop apart from contact, 100 to 4000.
@@ -192,6 +207,7 @@ class Session:
         if not 1.0 <= device_rate <= 10_000.0:
             raise ArgumentError("device_rate: is not within 1 .. 10000 Hz")
         self._session = _touchstone.Session(position, force, device_rate, max_force, stale_age, rate, keep, control)
+        _own_devices.add(self)
 
     def __enter__(self):
         return self

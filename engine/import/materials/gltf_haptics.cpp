@@ -68,8 +68,6 @@ void tellMeaningless(ImportContext& context, const HapticStatement& ours, const 
          {std::pair(ours.voxelSize, ".voxelSize"), {ours.fieldError, ".fieldError"}})
         if (stated && !implicit)
             context.warn(place + name, "has no meaning without representation \"implicit\"");
-    if (implicit && ours.voxelSize && ours.fieldError)
-        context.warn(place + ".fieldError", "has no meaning beside voxelSize");
 }
 
 void readChoices(ImportContext& context, const json& object, const std::string& place,

@@ -22,6 +22,8 @@ static_assert(std::endian::native == std::endian::little, "floats are stored as 
 
 constexpr const char* kType = "application/zlib";
 constexpr size_t kMostObjects = 4096;
+/// Of all values of a material together: a few bytes of zlib may stand for each thousand.
+constexpr size_t kMostBytes = size_t{512} << 20;
 constexpr const char* kRemedy = "save the model again, or take the values out with touchstone edit "
                                 "--reset-field shader.persistentTexture.values";
 
@@ -56,6 +58,11 @@ std::vector<TextureValues> readTextureValues(const ImportContext& context, const
                                              const PersistentTextureSize& size, const std::string& place) {
     if (!stated.is_array() || stated.size() > kMostObjects)
         context.fail(place, "should be an array of at most " + std::to_string(kMostObjects) + " objects",
+                     kRemedy);
+    if (stated.size() * size.width * size.height > kMostBytes / sizeof(float))
+        context.fail(place,
+                     "are more than " + std::to_string(kMostBytes >> 20) + " MiB, for " +
+                         std::to_string(stated.size()) + " objects",
                      kRemedy);
     std::vector<TextureValues> all;
     for (size_t i = 0; i < stated.size(); ++i) {

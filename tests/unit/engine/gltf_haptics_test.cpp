@@ -198,7 +198,6 @@ TEST(GltfHaptics, LaterWorkIsKeptAndReported) {
     EXPECT_TRUE(haptic.implicit);
     EXPECT_EQ(haptic.voxelSize, 0.001f);
     EXPECT_EQ(haptic.fieldError, 0.0001f);
-    EXPECT_TRUE(warns(*scene, ".fieldError", "beside voxelSize"));
     EXPECT_TRUE(warns(*load(withOurs({{"fieldError", 0.001}})), ".fieldError", "without representation"));
     EXPECT_EQ(haptic.forceShading, ShadingChoice::Bezier);
     EXPECT_FALSE(warns(*scene, ".representation", ""));

@@ -139,7 +139,7 @@ TEST(PlanarServo, ADisplayGetsTheContactLocationWithinItsLimits) {
     EXPECT_GT(worst, 0.04e-3) << "faster than the display";
     servo.forceSwitch().takeAway(true);
     for (int i = 0; i < 100; ++i) {
-        hand.sample.position.x += 1e-4;
+        hand.sample.position.x += 1e-5;
         ASSERT_TRUE(servo.step().felt.touching);
         ASSERT_EQ(display.location, before) << "nothing moves on the skin without force";
     }

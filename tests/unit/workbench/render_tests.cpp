@@ -182,8 +182,8 @@ TEST_F(Render, ShowsTheModelAfterAStroke) {
     };
     EXPECT_EQ(drawn("covered.png", {}).find("texture"), std::string::npos);
     const std::string brushed = drawn("brushed.png", {"--stroke", "tour", "--seconds", "3"});
-    EXPECT_NE(brushed.find("tooth: 9"), std::string::npos) << brushed;
-    EXPECT_NE(brushed.find("% of the texture is left"), std::string::npos) << brushed;
+    EXPECT_NE(brushed.find("tooth: coverage 9"), std::string::npos) << brushed;
+    EXPECT_NE(brushed.find(" % removed"), std::string::npos) << brushed;
     EXPECT_NE(readFile(scratch_ / "covered.png"), readFile(scratch_ / "brushed.png"));
     EXPECT_EQ(
         runProgram({kProgram, "render", tooth, "--seconds", "3", "--out", (scratch_ / "x.png").string()})

@@ -199,14 +199,14 @@ TEST_F(WindowTest, EveryViewCanBeSavedWithMagnifierAndLegend) {
     until("the magnifier", [](const Json& s) { return s["view"]["magnifier"] == true; });
     std::string last = "shaded";
     std::set<std::string> seen{last};
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < 10; ++i) {
         display_.key("v");
         const Json now = until("another view", [&](const Json& s) { return s["view"]["mode"] != last; });
         last = now["view"]["mode"];
         seen.insert(last);
     }
-    EXPECT_EQ(seen.size(), 10u);
-    for (const char* name : {"doughnut-effects-1.png", "doughnut-effects-2.png"}) {
+    EXPECT_EQ(seen.size(), 11u);
+    for (const char* name : {"doughnut-perception-1.png", "doughnut-perception-2.png"}) {
         display_.key("F12");
         const Json saved = until("the picture", [&](const Json& s) {
             return s["view"]["picture"].get<std::string>().ends_with(name);
