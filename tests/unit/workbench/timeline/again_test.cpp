@@ -158,10 +158,8 @@ TEST_F(AgainTest, VerifyingNamesTheTickThatDiffersAndItsStage) {
     writeItems(file_, items);
     const Verdict bad = verify(*timelineOf(file_), shelf, progress);
     EXPECT_FALSE(bad.equal());
-    EXPECT_NE(bad.text().find("tick " + std::to_string(changed) +
-                              " (0.010 s) differs first, in the stage 'force'; 1 of"),
-              std::string::npos)
-        << bad.text();
+    EXPECT_TRUE(bad.text().starts_with("tick " + std::to_string(changed) + " (")) << bad.text();
+    EXPECT_NE(bad.text().find("differs first, in the stage 'force'; 1 of"), std::string::npos) << bad.text();
 }
 
 TEST_F(AgainTest, TheHandGlidesInAndOut) {
